@@ -1,0 +1,1 @@
+//! The core of fluoropose for a page.

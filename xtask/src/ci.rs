@@ -1,0 +1,12 @@
+//! Verb `ci`.
+
+use anyhow::Result;
+
+/// Options of `ci`.
+#[derive(clap::Args)]
+pub struct Args {}
+
+/// Runs the verb.
+pub fn run(_args: Args) -> Result<()> {
+    anyhow::bail!("not built yet")
+}

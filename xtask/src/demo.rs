@@ -1,0 +1,12 @@
+//! Verb `demo`.
+
+use anyhow::Result;
+
+/// Options of `demo`.
+#[derive(clap::Args)]
+pub struct Args {}
+
+/// Runs the verb.
+pub fn run(_args: Args) -> Result<()> {
+    anyhow::bail!("not built yet")
+}

@@ -1,0 +1,12 @@
+//! Verb `library`.
+
+use anyhow::Result;
+
+/// Options of `library`.
+#[derive(clap::Args)]
+pub struct Args {}
+
+/// Runs the verb.
+pub fn run(_args: Args) -> Result<()> {
+    anyhow::bail!("not built yet")
+}

@@ -1,0 +1,50 @@
+//! `cargo xtask`: every job of the project, one file a verb.
+
+use clap::{Parser, Subcommand};
+
+/// Offline jobs of fluoropose: models, libraries, poses, measurements, the page and its tests.
+#[derive(Parser)]
+#[command(name = "cargo xtask", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Write the built-in implants as STL files
+    Models(xtask::models::Args),
+    /// Render the views of a model into a library file
+    Library(xtask::library::Args),
+    /// Write a synthetic fluoroscopy sequence with known poses
+    Demo(xtask::demo::Args),
+    /// Find the pose of an implant in each mask of a folder
+    Pose(xtask::pose::Args),
+    /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
+    Synthetic(xtask::synthetic::Args),
+    /// Compare poses from a study's masks with its reference poses
+    Evaluate(xtask::evaluate::Args),
+    /// Turn femoral and tibial poses into joint kinematics
+    Kinematics(xtask::kinematics::Args),
+    /// Build the page and serve it on this machine
+    Serve(xtask::serve::Args),
+    /// Set up what is missing and run the tests
+    Test(xtask::test::Args),
+    /// What continuous integration runs
+    Ci(xtask::ci::Args),
+}
+
+fn main() -> anyhow::Result<()> {
+    match Cli::parse().verb {
+        Verb::Models(args) => xtask::models::run(args),
+        Verb::Library(args) => xtask::library::run(args),
+        Verb::Demo(args) => xtask::demo::run(args),
+        Verb::Pose(args) => xtask::pose::run(args),
+        Verb::Synthetic(args) => xtask::synthetic::run(args),
+        Verb::Evaluate(args) => xtask::evaluate::run(args),
+        Verb::Kinematics(args) => xtask::kinematics::run(args),
+        Verb::Serve(args) => xtask::serve::run(args),
+        Verb::Test(args) => xtask::test::run(args),
+        Verb::Ci(args) => xtask::ci::run(args),
+    }
+}
