@@ -1,12 +1,45 @@
-//! Verb `serve`.
+//! Verb `serve`: builds the page and serves it on this machine.
+
+use std::io::IsTerminal;
 
 use anyhow::Result;
 
+use crate::page;
+use crate::static_server::Server;
+
 /// Options of `serve`.
+///
+/// Gets what is missing (the WASM target, npm packages), builds the page with the demonstration data, serves
+/// it on 127.0.0.1 and opens the browser where there is a display. Ctrl-C ends it.
 #[derive(clap::Args)]
-pub struct Args {}
+pub struct Args {
+    /// Port to listen on; 0 takes a free one
+    #[arg(long, default_value_t = 8080)]
+    port: u16,
+    /// Build the page into web/dist and stop
+    #[arg(long)]
+    build_only: bool,
+}
 
 /// Runs the verb.
-pub fn run(_args: Args) -> Result<()> {
-    anyhow::bail!("not built yet")
+pub fn run(args: Args) -> Result<()> {
+    let dist = page::build()?;
+    if args.build_only {
+        println!("The page is in {}", dist.display());
+        return Ok(());
+    }
+    let server = Server::start(&dist, args.port)?;
+    println!("The page is at {} (Ctrl-C ends it)", server.url());
+    if has_display() {
+        // Without a browser the line above is enough.
+        let _ = open::that_detached(server.url());
+    }
+    server.wait()
+}
+
+/// Whether somebody sits before this machine: a terminal, and a desktop to open a browser on.
+fn has_display() -> bool {
+    let desktop = cfg!(any(windows, target_os = "macos"))
+        || ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some());
+    desktop && std::io::stdout().is_terminal()
 }

@@ -1,0 +1,106 @@
+//! Other programs: found on the PATH, run, and their failures told in words.
+
+use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail};
+
+/// The first of these names that is an executable file on the PATH.
+pub fn find(names: &[&str]) -> Option<PathBuf> {
+    find_in(&std::env::var_os("PATH")?, names)
+}
+
+/// As [`find`], over a given PATH value.
+pub fn find_in(path: &std::ffi::OsStr, names: &[&str]) -> Option<PathBuf> {
+    let folders: Vec<PathBuf> = std::env::split_paths(path).collect();
+    names.iter().find_map(|name| {
+        let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+        folders.iter().map(|folder| folder.join(&file)).find(|candidate| is_executable(candidate))
+    })
+}
+
+#[cfg(unix)]
+fn is_executable(file: &std::path::Path) -> bool {
+    use std::os::unix::fs::PermissionsExt;
+    file.metadata().is_ok_and(|meta| meta.is_file() && meta.permissions().mode() & 0o111 != 0)
+}
+
+#[cfg(not(unix))]
+fn is_executable(file: &std::path::Path) -> bool {
+    file.is_file()
+}
+
+/// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
+pub fn run(command: &mut Command) -> Result<()> {
+    let status = command.status().with_context(|| format!("cannot start {}", shown(command)))?;
+    if !status.success() {
+        bail!("{} failed ({status})", shown(command));
+    }
+    Ok(())
+}
+
+/// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
+pub fn output(command: &mut Command) -> Result<String> {
+    let output = command.output().with_context(|| format!("cannot start {}", shown(command)))?;
+    if !output.status.success() {
+        let errors = String::from_utf8_lossy(&output.stderr);
+        bail!("{} failed ({}): {}", shown(command), output.status, last_lines(&errors, 5));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// Runs a command, shows its standard output line by line and keeps it too.
+///
+/// Returns whether it succeeded and what it wrote there.
+pub fn tee(command: &mut Command) -> Result<(bool, String)> {
+    let mut child = command
+        .stdout(Stdio::piped())
+        .spawn()
+        .with_context(|| format!("cannot start {}", shown(command)))?;
+    let mut kept = String::new();
+    if let Some(stdout) = child.stdout.take() {
+        for line in BufReader::new(stdout).split(b'\n') {
+            let line = line?;
+            let line = String::from_utf8_lossy(&line);
+            println!("{line}");
+            kept.push_str(&line);
+            kept.push('\n');
+        }
+    }
+    Ok((child.wait()?.success(), kept))
+}
+
+fn shown(command: &Command) -> String {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
+    format!("`{}`", words.join(" "))
+}
+
+fn last_lines(text: &str, count: usize) -> String {
+    let lines: Vec<&str> = text.trim_end().lines().collect();
+    lines[lines.len().saturating_sub(count)..].join(" | ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_program_that_is_nowhere_is_not_found() {
+        assert_eq!(find(&["fluoropose-no-such-program"]), None);
+        assert_eq!(find_in(std::ffi::OsStr::new(""), &["cargo"]), None);
+    }
+
+    #[test]
+    fn a_failure_names_the_command() {
+        let error = output(Command::new("cargo").arg("--no-such-option")).unwrap_err().to_string();
+        assert!(error.starts_with("`cargo --no-such-option` failed"), "{error}");
+    }
+
+    #[test]
+    fn the_end_of_a_long_error_is_kept() {
+        assert_eq!(last_lines("a\nb\nc\n", 2), "b | c");
+        assert_eq!(last_lines("a", 2), "a");
+    }
+}

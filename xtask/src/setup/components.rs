@@ -1,0 +1,40 @@
+//! Components of the Rust toolchain that only the tests want: the formatter and the linter.
+
+use std::process::Command;
+
+use super::rust_target::own_cargo;
+use super::{Missing, announce, command};
+
+/// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
+pub fn ensure(subcommand: &str) -> Result<(), Missing> {
+    if works(subcommand) {
+        return Ok(());
+    }
+    let component = if subcommand == "fmt" { "rustfmt" } else { subcommand };
+    let missing = |why: String, tried: bool| Missing {
+        what: format!("cargo {subcommand}"),
+        why,
+        remedy: format!("run `rustup component add {component}`"),
+        tried,
+    };
+    let rustup = command::find(&["rustup"])
+        .ok_or_else(|| missing("there is no rustup to add it with".into(), false))?;
+    announce(&format!("adding the Rust component {component} (rustup component add)"));
+    command::output(Command::new(rustup).args(["component", "add", component]))
+        .map_err(|error| missing(format!("{error:#}"), true))?;
+    Ok(())
+}
+
+fn works(subcommand: &str) -> bool {
+    command::output(own_cargo().args([subcommand, "--version"])).is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_subcommand_does_not_work() {
+        assert!(!works("no-such-subcommand"));
+    }
+}

@@ -1,0 +1,79 @@
+//! Programs that tests drive: Chromium and QEMU.
+
+use std::path::PathBuf;
+
+use super::{Missing, command, debian};
+
+/// A program a suite needs, under the names it goes by.
+struct Program {
+    what: &'static str,
+    names: &'static [&'static str],
+    packages: &'static [&'static str],
+    /// Environment variable that names the program, for those kept off the PATH.
+    variable: &'static str,
+}
+
+const CHROMIUM: Program = Program {
+    what: "Chromium",
+    names: &["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"],
+    packages: &["chromium"],
+    variable: "FLUOROPOSE_CHROMIUM",
+};
+
+const QEMU_ARM: Program = Program {
+    what: "QEMU for Arm (qemu-system-arm)",
+    names: &["qemu-system-arm"],
+    packages: &["qemu-system-arm"],
+    variable: "FLUOROPOSE_QEMU_ARM",
+};
+
+/// A Chromium, installed if need be. `FLUOROPOSE_CHROMIUM` names another one.
+pub fn chromium() -> Result<PathBuf, Missing> {
+    CHROMIUM.ensure()
+}
+
+/// QEMU's Arm machine emulator, installed if need be. `FLUOROPOSE_QEMU_ARM` names another one.
+pub fn qemu_arm() -> Result<PathBuf, Missing> {
+    QEMU_ARM.ensure()
+}
+
+impl Program {
+    fn ensure(&self) -> Result<PathBuf, Missing> {
+        if let Some(named) = std::env::var_os(self.variable) {
+            return self.check_named(PathBuf::from(named));
+        }
+        if let Some(found) = command::find(self.names) {
+            return Ok(found);
+        }
+        debian::install(self.what, self.packages)?;
+        command::find(self.names).ok_or_else(|| Missing {
+            what: self.what.into(),
+            why: "its package is installed but the program is not on the PATH".into(),
+            remedy: format!("name the program in {}", self.variable),
+            tried: true,
+        })
+    }
+
+    fn check_named(&self, named: PathBuf) -> Result<PathBuf, Missing> {
+        if named.is_file() {
+            return Ok(named);
+        }
+        Err(Missing {
+            what: self.what.into(),
+            why: format!("{} names {}, which is no file", self.variable, named.display()),
+            remedy: format!("correct or unset {}", self.variable),
+            tried: false,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrongly_named_program_is_told() {
+        let said = CHROMIUM.check_named("no/such/browser".into()).unwrap_err().to_string();
+        assert!(said.contains("FLUOROPOSE_CHROMIUM names no/such/browser"), "{said}");
+    }
+}
