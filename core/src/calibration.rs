@@ -1,0 +1,280 @@
+//! Calibration files: `JT_INTCALIB` and the camera matrix of MayaCam 2.0.
+
+use core::fmt;
+
+use thiserror::Error;
+
+use crate::camera::{Camera, CameraError};
+use crate::math::Matrix3;
+use crate::pose::Pose;
+
+/// First line of a `JT_INTCALIB` file.
+pub const JT_INTCALIB: &str = "JT_INTCALIB";
+
+/// Why a text is not a calibration.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum CalibrationError {
+    /// Neither heading was found.
+    #[error(
+        "this is not a calibration: it begins neither with JT_INTCALIB nor with the line 'image size' of a camera-matrix file"
+    )]
+    UnknownKind,
+    /// A line is missing.
+    #[error("the calibration ends before its {0}")]
+    Missing(&'static str),
+    /// A number cannot be read.
+    #[error("line {line} of the calibration, the {name}, does not hold the numbers expected there")]
+    Number {
+        /// Line, from 1.
+        line: usize,
+        /// What was expected.
+        name: &'static str,
+    },
+    /// The camera matrix has a skew, or its last row is not 0, 0, 1.
+    #[error(
+        "the camera matrix is not of the form fx,0,cx / 0,fy,cy / 0,0,1; skewed pixels are not supported"
+    )]
+    Matrix,
+    /// The rotation is not one.
+    #[error("the calibration's rotation is not a rotation matrix")]
+    Rotation,
+    /// The frame has another size than the calibration names.
+    #[error(
+        "the calibration is for frames of {calibration:?} pixels, but the frame has {frame:?}"
+    )]
+    FrameSize {
+        /// Width and height in the file.
+        calibration: (usize, usize),
+        /// Width and height of the frame.
+        frame: (usize, usize),
+    },
+    /// A value is impossible.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+}
+
+/// What a calibration file says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Calibration {
+    /// `JT_INTCALIB`: lengths in mm at the detector. It names no frame size.
+    PrincipalDistance {
+        /// Focus to detector, mm.
+        distance: f64,
+        /// Principal point from the frame's centre, mm: x right, y up.
+        offset: [f64; 2],
+        /// Between pixels, mm.
+        pitch: f64,
+    },
+    /// A camera matrix in the computer-vision convention, for one frame size.
+    CameraMatrix {
+        /// Width and height, pixels.
+        size: (usize, usize),
+        /// Focal lengths, pixels.
+        focal: [f64; 2],
+        /// Principal point: pixel indices, whole numbers at pixel centres.
+        centre: [f64; 2],
+        /// From laboratory to camera coordinates, in the file's own convention (camera along
+        /// +z, y down); the identity where the file has none.
+        laboratory: Pose,
+    },
+}
+
+impl Calibration {
+    /// Reads either kind; which one, the first line tells.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] says which line or value is wrong.
+    pub fn parse(text: &str) -> Result<Self, CalibrationError> {
+        let text = text.trim_start_matches('\u{feff}');
+        let mut lines = text
+            .lines()
+            .enumerate()
+            .map(|(index, line)| (index + 1, line.trim()))
+            .filter(|(_, line)| !line.is_empty());
+        match lines.next() {
+            Some((_, first)) if first.starts_with(JT_INTCALIB) => parse_principal(lines),
+            Some((_, first)) if first.eq_ignore_ascii_case("image size") => parse_matrix(lines),
+            _ => Err(CalibrationError::UnknownKind),
+        }
+    }
+
+    /// The camera for frames of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// [`CalibrationError::FrameSize`] when the file is for another size, or
+    /// [`CalibrationError::Camera`] for an impossible value.
+    pub fn camera(&self, width: usize, height: usize) -> Result<Camera, CalibrationError> {
+        match *self {
+            Self::PrincipalDistance {
+                distance,
+                offset,
+                pitch,
+            } => Ok(Camera::from_principal_distance(
+                width, height, distance, pitch, offset,
+            )?),
+            Self::CameraMatrix {
+                size,
+                focal,
+                centre,
+                ..
+            } => {
+                if size != (width, height) {
+                    return Err(CalibrationError::FrameSize {
+                        calibration: size,
+                        frame: (width, height),
+                    });
+                }
+                Ok(Camera::new(width, height, focal, centre.map(|c| c + 0.5))?)
+            }
+        }
+    }
+
+    /// Distance from focus to detector in mm, where the file tells it.
+    #[must_use]
+    pub fn principal_distance(&self) -> Option<f64> {
+        match *self {
+            Self::PrincipalDistance { distance, .. } => Some(distance),
+            Self::CameraMatrix { .. } => None,
+        }
+    }
+}
+
+/// Writes the file back: every number comes out as it went in.
+impl fmt::Display for Calibration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PrincipalDistance {
+                distance,
+                offset: [x, y],
+                pitch,
+            } => write!(f, "{JT_INTCALIB}\n{distance}\n{x}\n{y}\n{pitch}\n"),
+            Self::CameraMatrix {
+                size: (width, height),
+                focal: [fx, fy],
+                centre: [cx, cy],
+                laboratory,
+            } => {
+                writeln!(f, "image size\n{width},{height}\n")?;
+                writeln!(f, "camera matrix\n{fx},0,{cx}\n0,{fy},{cy}\n0,0,1\n")?;
+                writeln!(f, "rotation")?;
+                for [a, b, c] in laboratory.rotation {
+                    writeln!(f, "{a},{b},{c}")?;
+                }
+                writeln!(f, "\ntranslation")?;
+                laboratory
+                    .translation
+                    .iter()
+                    .try_for_each(|value| writeln!(f, "{value}"))
+            }
+        }
+    }
+}
+
+fn numbers<const N: usize>(
+    (line, text): (usize, &str),
+    name: &'static str,
+) -> Result<[f64; N], CalibrationError> {
+    let mut values = [0.0; N];
+    let mut fields = text
+        .split([',', ';', ' ', '\t'])
+        .filter(|field| !field.is_empty());
+    for value in &mut values {
+        *value = fields
+            .next()
+            .and_then(|field| field.parse().ok())
+            .ok_or(CalibrationError::Number { line, name })?;
+    }
+    match fields.next() {
+        Some(_) => Err(CalibrationError::Number { line, name }),
+        None => Ok(values),
+    }
+}
+
+fn next_numbers<'a, const N: usize>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+    name: &'static str,
+) -> Result<[f64; N], CalibrationError> {
+    numbers(lines.next().ok_or(CalibrationError::Missing(name))?, name)
+}
+
+fn parse_principal<'a>(
+    mut lines: impl Iterator<Item = (usize, &'a str)>,
+) -> Result<Calibration, CalibrationError> {
+    let [distance] = next_numbers(&mut lines, "principal distance")?;
+    let [x] = next_numbers(&mut lines, "principal point x")?;
+    let [y] = next_numbers(&mut lines, "principal point y")?;
+    let [pitch] = next_numbers(&mut lines, "pixel pitch")?;
+    // The values are checked now, against a frame of any size, so that a bad file is refused
+    // when it is opened and not when the first frame is.
+    Camera::from_principal_distance(1024, 1024, distance, pitch, [x, y])?;
+    Ok(Calibration::PrincipalDistance {
+        distance,
+        offset: [x, y],
+        pitch,
+    })
+}
+
+fn parse_matrix<'a>(
+    mut lines: impl Iterator<Item = (usize, &'a str)>,
+) -> Result<Calibration, CalibrationError> {
+    let size: [f64; 2] = next_numbers(&mut lines, "image size")?;
+    heading(&mut lines, "camera matrix")?;
+    let k = next_matrix(&mut lines, "camera matrix")?;
+    if k[0][1] != 0.0 || k[1][0] != 0.0 || k[2] != [0.0, 0.0, 1.0] {
+        return Err(CalibrationError::Matrix);
+    }
+    let mut laboratory = Pose::IDENTITY;
+    if heading(&mut lines, "rotation").is_ok() {
+        laboratory.rotation = next_matrix(&mut lines, "rotation")?;
+        if !laboratory.is_rigid(1e-3) {
+            return Err(CalibrationError::Rotation);
+        }
+        heading(&mut lines, "translation")?;
+        laboratory.translation = next_translation(&mut lines)?;
+    }
+    let calibration = Calibration::CameraMatrix {
+        size: (size[0] as usize, size[1] as usize),
+        focal: [k[0][0], k[1][1]],
+        centre: [k[0][2], k[1][2]],
+        laboratory,
+    };
+    calibration.camera(size[0] as usize, size[1] as usize)?;
+    Ok(calibration)
+}
+
+fn heading<'a>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+    name: &'static str,
+) -> Result<(), CalibrationError> {
+    match lines.next() {
+        Some((_, text)) if text.eq_ignore_ascii_case(name) => Ok(()),
+        Some((line, _)) => Err(CalibrationError::Number { line, name }),
+        None => Err(CalibrationError::Missing(name)),
+    }
+}
+
+fn next_matrix<'a>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+    name: &'static str,
+) -> Result<Matrix3, CalibrationError> {
+    Ok([
+        next_numbers(lines, name)?,
+        next_numbers(lines, name)?,
+        next_numbers(lines, name)?,
+    ])
+}
+
+/// Three numbers on one line or on a line each: both occur.
+fn next_translation<'a>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+) -> Result<[f64; 3], CalibrationError> {
+    let name = "translation";
+    let first = lines.next().ok_or(CalibrationError::Missing(name))?;
+    if let Ok(all) = numbers::<3>(first, name) {
+        return Ok(all);
+    }
+    let [x] = numbers(first, name)?;
+    let [y] = next_numbers(lines, name)?;
+    let [z] = next_numbers(lines, name)?;
+    Ok([x, y, z])
+}

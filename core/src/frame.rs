@@ -1,0 +1,287 @@
+//! Grey frames: borrowed 8- and 16-bit pixels with a stride, regions of interest, and the
+//! stretch that makes pixels square.
+
+use thiserror::Error;
+
+/// A grey value: `u8` or `u16`.
+pub trait Pixel: Copy + Ord + Default + Into<u32> {
+    /// The value nearest to `value`, clamped to what the type holds.
+    fn from_u32(value: u32) -> Self;
+}
+
+impl Pixel for u8 {
+    fn from_u32(value: u32) -> Self {
+        u8::try_from(value).unwrap_or(u8::MAX)
+    }
+}
+
+impl Pixel for u16 {
+    fn from_u32(value: u32) -> Self {
+        u16::try_from(value).unwrap_or(u16::MAX)
+    }
+}
+
+/// Why a frame or a region is not one.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum FrameError {
+    /// Width or height is zero.
+    #[error("the frame is {width} x {height} pixels; both must be at least 1")]
+    Empty {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// Rows would overlap.
+    #[error("the stride of {stride} pixels is shorter than a row of {width}")]
+    StrideTooShort {
+        /// Pixels from one row's start to the next.
+        stride: usize,
+        /// Columns.
+        width: usize,
+    },
+    /// The buffer ends before the last row does.
+    #[error("the frame needs {needed} pixels but the buffer holds {given}")]
+    BufferTooShort {
+        /// Pixels that the shape takes.
+        needed: usize,
+        /// Pixels that were lent.
+        given: usize,
+    },
+    /// A region of interest leaves the frame.
+    #[error(
+        "the region from column {column}, row {row}, {width} x {height} pixels, leaves the frame of {frame_width} x {frame_height}"
+    )]
+    RegionOutside {
+        /// First column.
+        column: usize,
+        /// First row.
+        row: usize,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Columns of the frame.
+        frame_width: usize,
+        /// Rows of the frame.
+        frame_height: usize,
+    },
+    /// The pixel aspect ratio is not a usable number.
+    #[error("the pixel aspect ratio is {0}; it must be between 0.1 and 10")]
+    Aspect(f64),
+}
+
+/// A rectangle of whole pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// First column.
+    pub column: usize,
+    /// First row.
+    pub row: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+/// A borrowed grey frame. Rows may be longer in memory than in the picture (`stride`).
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a, P> {
+    pixels: &'a [P],
+    width: usize,
+    height: usize,
+    stride: usize,
+}
+
+impl<'a, P: Pixel> Frame<'a, P> {
+    /// A frame of `width` x `height` pixels whose rows begin `stride` pixels apart.
+    ///
+    /// # Errors
+    /// [`FrameError`] when the shape is empty, overlaps itself or does not fit the buffer.
+    pub fn new(
+        pixels: &'a [P],
+        width: usize,
+        height: usize,
+        stride: usize,
+    ) -> Result<Self, FrameError> {
+        if width == 0 || height == 0 {
+            return Err(FrameError::Empty { width, height });
+        }
+        if stride < width {
+            return Err(FrameError::StrideTooShort { stride, width });
+        }
+        let needed = (height - 1).saturating_mul(stride).saturating_add(width);
+        if pixels.len() < needed {
+            return Err(FrameError::BufferTooShort {
+                needed,
+                given: pixels.len(),
+            });
+        }
+        Ok(Self {
+            pixels,
+            width,
+            height,
+            stride,
+        })
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The pixels of one row; empty below the frame.
+    #[must_use]
+    pub fn row(&self, row: usize) -> &'a [P] {
+        if row >= self.height {
+            return &[];
+        }
+        let start = row * self.stride;
+        self.pixels
+            .get(start..start + self.width)
+            .unwrap_or_default()
+    }
+
+    /// The pixel at a column and row; beyond the border, the nearest pixel of it.
+    #[must_use]
+    pub fn nearest(&self, column: isize, row: isize) -> P {
+        let row = row.clamp(0, self.height as isize - 1) as usize;
+        let column = column.clamp(0, self.width as isize - 1) as usize;
+        self.row(row).get(column).copied().unwrap_or_default()
+    }
+
+    /// The part of the frame inside `region`, without copying.
+    ///
+    /// # Errors
+    /// [`FrameError::RegionOutside`] when it leaves the frame, [`FrameError::Empty`] when it
+    /// has no pixel.
+    pub fn region(&self, region: Region) -> Result<Self, FrameError> {
+        let fits = |from: usize, length: usize, whole: usize| {
+            from.checked_add(length).is_some_and(|end| end <= whole)
+        };
+        if !fits(region.column, region.width, self.width)
+            || !fits(region.row, region.height, self.height)
+        {
+            return Err(FrameError::RegionOutside {
+                column: region.column,
+                row: region.row,
+                width: region.width,
+                height: region.height,
+                frame_width: self.width,
+                frame_height: self.height,
+            });
+        }
+        let start = region.row * self.stride + region.column;
+        let pixels = self.pixels.get(start..).unwrap_or_default();
+        Self::new(pixels, region.width, region.height, self.stride)
+    }
+
+    /// Rows of this frame once its pixels are square, for a pixel that is `aspect` times as
+    /// high as it is wide.
+    ///
+    /// # Errors
+    /// [`FrameError::Aspect`] for a ratio outside 0.1 to 10 or not finite.
+    pub fn square_height(&self, aspect: f64) -> Result<usize, FrameError> {
+        if !(0.1..=10.0).contains(&aspect) {
+            return Err(FrameError::Aspect(aspect));
+        }
+        Ok((crate::math::round(self.height as f64 * aspect) as usize).max(1))
+    }
+
+    /// Stretches the frame along its rows' direction so that pixels are square (Walker et al.
+    /// 1996 stretch their frames so that the horizontal and vertical scale agree), by linear
+    /// interpolation between the two nearest rows. `out` holds `width * square_height` pixels,
+    /// without gaps between rows.
+    ///
+    /// # Errors
+    /// [`FrameError::Aspect`] or [`FrameError::BufferTooShort`].
+    pub fn make_square(&self, aspect: f64, out: &mut [P]) -> Result<(), FrameError> {
+        let height = self.square_height(aspect)?;
+        let needed = self.width * height;
+        if out.len() < needed {
+            return Err(FrameError::BufferTooShort {
+                needed,
+                given: out.len(),
+            });
+        }
+        // Row centres keep their relative place: (r + 0.5) / new = (s + 0.5) / old.
+        let step = self.height as f64 / height as f64;
+        for (index, target) in out.chunks_exact_mut(self.width).take(height).enumerate() {
+            let source = (index as f64 + 0.5) * step - 0.5;
+            let above = crate::math::floor(source);
+            let weight = (256.0 * (source - above)) as u32;
+            let rows = [above as isize, above as isize + 1];
+            for (column, pixel) in target.iter_mut().enumerate() {
+                let [a, b]: [u32; 2] = rows.map(|row| self.nearest(column as isize, row).into());
+                *pixel = P::from_u32((a * (256 - weight) + b * weight + 128) / 256);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_shows_the_same_pixels() {
+        let pixels: [u8; 24] = core::array::from_fn(|k| k as u8);
+        let frame = Frame::new(&pixels, 5, 4, 6).expect("fits");
+        let region = Region {
+            column: 2,
+            row: 1,
+            width: 3,
+            height: 2,
+        };
+        let part = frame.region(region).expect("inside");
+        assert_eq!(part.row(0), [8, 9, 10]);
+        assert_eq!(part.row(1), [14, 15, 16]);
+        assert_eq!(part.row(2), []);
+        assert!(frame.region(Region { width: 4, ..region }).is_err());
+        assert!(
+            frame
+                .region(Region {
+                    column: usize::MAX,
+                    ..region
+                })
+                .is_err()
+        );
+    }
+
+    #[test]
+    fn shapes_that_do_not_fit_are_named() {
+        assert_eq!(
+            Frame::<u8>::new(&[], 0, 1, 1).err(),
+            Some(FrameError::Empty {
+                width: 0,
+                height: 1
+            })
+        );
+        assert!(Frame::<u16>::new(&[0; 10], 4, 3, 3).is_err());
+        assert!(Frame::<u16>::new(&[0; 11], 4, 3, 4).is_err());
+        assert!(Frame::<u16>::new(&[0; 11], 4, 3, usize::MAX).is_err());
+    }
+
+    #[test]
+    fn stretching_keeps_a_ramp_a_ramp() {
+        // Grey value 100 * (row + 0.5): twice as many rows sample the same ramp between.
+        let pixels: [u16; 12] = core::array::from_fn(|k| 100 * (k as u16 / 2) + 50);
+        let frame = Frame::new(&pixels, 2, 6, 2).expect("fits");
+        assert_eq!(frame.square_height(2.0), Ok(12));
+        let mut out = [0u16; 24];
+        frame.make_square(2.0, &mut out).expect("fits");
+        for row in 1..11 {
+            assert_eq!(out[2 * row], 50 * row as u16 + 25);
+        }
+        assert!(frame.make_square(f64::NAN, &mut out).is_err());
+        assert!(frame.make_square(3.0, &mut out).is_err());
+    }
+}

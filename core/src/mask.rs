@@ -1,0 +1,514 @@
+//! Silhouettes as bits: one bit a pixel, rows on word borders, moments in whole numbers.
+
+use bitvec::{order::Lsb0, slice::BitSlice};
+use thiserror::Error;
+
+use crate::contour::Outline;
+use crate::scan::{Edge, FixedPoint};
+
+/// The unit of storage. Bit 0 is the leftmost pixel of its word.
+pub type Word = u32;
+/// Pixels in a word.
+pub const WORD_BITS: usize = Word::BITS as usize;
+/// Largest width and height, in pixels: keeps fixed-point positions in 32 bits and moments in 64.
+pub const MAX_SIDE: usize = 16_384;
+
+/// Why a buffer is not a mask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum MaskError {
+    /// The shape is empty or larger than [`MAX_SIDE`].
+    #[error("a mask of {width} x {height} pixels is not possible; each side must be 1 to {MAX_SIDE}")]
+    Shape {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// The buffer has the wrong number of words.
+    #[error("the mask needs exactly {needed} words but {given} were lent")]
+    Words {
+        /// Words that the shape takes.
+        needed: usize,
+        /// Words that were lent.
+        given: usize,
+    },
+    /// Bits are set beyond a row's last pixel.
+    #[error("row {0} of the mask has bits set beyond its last pixel")]
+    Padding(usize),
+    /// No pixel is set.
+    #[error("the mask is empty: no pixel belongs to the silhouette")]
+    Empty,
+}
+
+/// Words of one row of `width` pixels.
+#[must_use]
+pub const fn row_words(width: usize) -> usize {
+    width.div_ceil(WORD_BITS)
+}
+
+/// Words of a mask of `width` x `height` pixels: what the caller lends.
+#[must_use]
+pub const fn words_needed(width: usize, height: usize) -> usize {
+    row_words(width) * height
+}
+
+/// A borrowed silhouette. Bits beyond a row's last pixel are zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mask<'a> {
+    words: &'a [Word],
+    width: usize,
+    height: usize,
+}
+
+/// Sums over the pixels of a silhouette, exact. Coordinates are pixel indices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Moments {
+    /// Number of pixels.
+    pub area: u64,
+    /// Sum of columns.
+    pub column: u64,
+    /// Sum of rows.
+    pub row: u64,
+    /// Sum of squared columns.
+    pub column_column: u64,
+    /// Sum of column times row.
+    pub column_row: u64,
+    /// Sum of squared rows.
+    pub row_row: u64,
+}
+
+impl Moments {
+    /// Centroid in continuous image coordinates (a pixel's centre is its index + 0.5).
+    #[must_use]
+    pub fn centroid(&self) -> crate::contour::Point {
+        let area = self.area.max(1) as f64;
+        crate::contour::Point {
+            column: self.column as f64 / area + 0.5,
+            row: self.row as f64 / area + 0.5,
+        }
+    }
+
+    /// Central second moments divided by the area (column-column, column-row, row-row), in
+    /// square pixels. The difference is taken in integers; only its result is rounded.
+    #[must_use]
+    pub fn covariance(&self) -> [f64; 3] {
+        let area = i128::from(self.area.max(1));
+        let central = |second: u64, a: u64, b: u64| {
+            let scaled = i128::from(second) * area - i128::from(a) * i128::from(b);
+            scaled as f64 / (area as f64 * area as f64)
+        };
+        [
+            central(self.column_column, self.column, self.column),
+            central(self.column_row, self.column, self.row),
+            central(self.row_row, self.row, self.row),
+        ]
+    }
+}
+
+fn check_shape(given: usize, width: usize, height: usize) -> Result<(), MaskError> {
+    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+        return Err(MaskError::Shape { width, height });
+    }
+    let needed = words_needed(width, height);
+    if given != needed {
+        return Err(MaskError::Words { needed, given });
+    }
+    Ok(())
+}
+
+impl<'a> Mask<'a> {
+    /// A mask over `words`, row by row.
+    ///
+    /// # Errors
+    /// [`MaskError`] for an impossible shape, a wrong length, or bits beyond the last column.
+    pub fn new(words: &'a [Word], width: usize, height: usize) -> Result<Self, MaskError> {
+        check_shape(words.len(), width, height)?;
+        let tail = tail_mask(width);
+        let padded = words
+            .chunks_exact(row_words(width))
+            .position(|row| row.last().is_some_and(|word| word & !tail != 0));
+        match padded {
+            Some(row) => Err(MaskError::Padding(row)),
+            None => Ok(Self {
+                words,
+                width,
+                height,
+            }),
+        }
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All words, row by row.
+    #[must_use]
+    pub fn words(&self) -> &'a [Word] {
+        self.words
+    }
+
+    /// The words of one row; empty below the mask.
+    #[must_use]
+    pub fn row(&self, row: usize) -> &'a [Word] {
+        let length = row_words(self.width);
+        self.words
+            .get(row * length..(row + 1) * length)
+            .unwrap_or_default()
+    }
+
+    /// One row as a slice of bits, for reading; loops that must be fast run on words.
+    #[must_use]
+    pub fn row_bits(&self, row: usize) -> &'a BitSlice<Word, Lsb0> {
+        let bits = BitSlice::from_slice(self.row(row));
+        bits.get(..self.width).unwrap_or_default()
+    }
+
+    /// Whether a pixel is set; outside the mask none is.
+    #[must_use]
+    pub fn get(&self, column: usize, row: usize) -> bool {
+        column < self.width
+            && self
+                .row(row)
+                .get(column / WORD_BITS)
+                .is_some_and(|word| word >> (column % WORD_BITS) & 1 == 1)
+    }
+
+    /// Number of pixels set.
+    #[must_use]
+    pub fn area(&self) -> u64 {
+        self.words.iter().map(|w| u64::from(w.count_ones())).sum()
+    }
+
+    /// Number of pixels set in one of two masks and not in the other; `None` where their shapes
+    /// differ.
+    #[must_use]
+    pub fn unmatched(&self, other: &Mask<'_>) -> Option<u64> {
+        ((self.width, self.height) == (other.width, other.height)).then(|| {
+            let pairs = self.words.iter().zip(other.words);
+            pairs.map(|(a, b)| u64::from((a ^ b).count_ones())).sum()
+        })
+    }
+
+    /// The runs of set pixels of one row, as half-open ranges of columns, left to right.
+    pub fn runs(&self, row: usize) -> impl Iterator<Item = core::ops::Range<usize>> + use<'a> {
+        let words = self.row(row);
+        let end = words.len() * WORD_BITS;
+        let mut at = 0;
+        core::iter::from_fn(move || {
+            let start = next_bit(words, at, true);
+            if start >= end {
+                return None;
+            }
+            at = next_bit(words, start, false);
+            Some(start..at)
+        })
+    }
+
+    /// Area and first and second moments, exact: each run of pixels adds closed-form sums.
+    #[must_use]
+    pub fn moments(&self) -> Moments {
+        let mut sum = Moments::default();
+        for row in 0..self.height {
+            let y = row as u64;
+            for run in self.runs(row) {
+                let (n, columns, squares) = run_sums(run.start as u64, run.end as u64);
+                sum.area += n;
+                sum.column += columns;
+                sum.row += y * n;
+                sum.column_column += squares;
+                sum.column_row += y * columns;
+                sum.row_row += y * y * n;
+            }
+        }
+        sum
+    }
+}
+
+/// Number, sum and sum of squares of the integers from `a` up to and without `b`.
+fn run_sums(a: u64, b: u64) -> (u64, u64, u64) {
+    let below = |n: u64| n * n.saturating_sub(1) / 2;
+    let squares_below = |n: u64| n * n.saturating_sub(1) / 2 * (2 * n).saturating_sub(1) / 3;
+    (
+        b - a,
+        below(b) - below(a),
+        squares_below(b) - squares_below(a),
+    )
+}
+
+/// Index of the first bit at or after `from` that equals `wanted`; the number of bits if none.
+fn next_bit(words: &[Word], from: usize, wanted: bool) -> usize {
+    let flip = if wanted { 0 } else { Word::MAX };
+    let mut skip = from % WORD_BITS;
+    for (index, word) in words.iter().enumerate().skip(from / WORD_BITS) {
+        let left = (word ^ flip) >> skip << skip;
+        if left != 0 {
+            return index * WORD_BITS + left.trailing_zeros() as usize;
+        }
+        skip = 0;
+    }
+    words.len() * WORD_BITS
+}
+
+/// The bits of a row's last word that are pixels.
+const fn tail_mask(width: usize) -> Word {
+    match width % WORD_BITS {
+        0 => Word::MAX,
+        used => (1 << used) - 1,
+    }
+}
+
+/// A silhouette being drawn into memory that the caller lends.
+#[derive(Debug)]
+pub struct MaskMut<'a> {
+    words: &'a mut [Word],
+    width: usize,
+    height: usize,
+}
+
+impl<'a> MaskMut<'a> {
+    /// An empty mask over `words`, which are cleared.
+    ///
+    /// # Errors
+    /// [`MaskError`] for an impossible shape or a wrong length.
+    pub fn new(words: &'a mut [Word], width: usize, height: usize) -> Result<Self, MaskError> {
+        check_shape(words.len(), width, height)?;
+        words.fill(0);
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
+    /// What has been drawn.
+    #[must_use]
+    pub fn as_mask(&self) -> Mask<'_> {
+        Mask {
+            words: self.words,
+            width: self.width,
+            height: self.height,
+        }
+    }
+
+    /// What has been drawn, for as long as the memory is lent.
+    #[must_use]
+    pub fn into_mask(self) -> Mask<'a> {
+        Mask {
+            words: self.words,
+            width: self.width,
+            height: self.height,
+        }
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Clears every pixel.
+    pub fn clear(&mut self) {
+        self.words.fill(0);
+    }
+
+    /// Sets or clears one pixel; outside the mask nothing happens.
+    pub fn set(&mut self, column: usize, row: usize, value: bool) {
+        if column >= self.width {
+            return;
+        }
+        if let Some(word) = self.row_mut(row).get_mut(column / WORD_BITS) {
+            let bit = 1 << (column % WORD_BITS);
+            *word = if value { *word | bit } else { *word & !bit };
+        }
+    }
+
+    pub(crate) fn row_mut(&mut self, row: usize) -> &mut [Word] {
+        let length = row_words(self.width);
+        self.words
+            .get_mut(row * length..(row + 1) * length)
+            .unwrap_or_default()
+    }
+
+    /// Sets the columns `from..to` of a row, cut to the mask.
+    pub(crate) fn fill_span(&mut self, row: usize, from: i64, to: i64) {
+        let cut = |column: i64| column.clamp(0, self.width as i64) as usize;
+        let (from, to) = (cut(from), cut(to));
+        if from >= to {
+            return;
+        }
+        let (first, last) = (from / WORD_BITS, (to - 1) / WORD_BITS);
+        let head = Word::MAX << (from % WORD_BITS);
+        let tail = tail_mask(to);
+        match self.row_mut(row).get_mut(first..=last) {
+            Some([only]) => *only |= head & tail,
+            Some([start, middle @ .., end]) => {
+                *start |= head;
+                middle.fill(Word::MAX);
+                *end |= tail;
+            }
+            _ => {}
+        }
+    }
+
+    /// Replaces the mask by the pixels whose centre is inside `outline`, exactly.
+    ///
+    /// Each side toggles the first pixel to its right on every row it crosses; a running XOR
+    /// along the row then gives even-odd parity without any list of crossings (Ackland and
+    /// Weste, *The edge flag algorithm*, IEEE Trans. Computers C-30, 1981).
+    pub fn fill_outline(&mut self, outline: &Outline<'_>) {
+        self.clear();
+        for (a, b) in outline.sides() {
+            let ends = (FixedPoint::from_point(a), FixedPoint::from_point(b));
+            if let (Some(a), Some(b)) = ends {
+                self.toggle_edge(Edge::new(a, b));
+            }
+        }
+        let tail = tail_mask(self.width);
+        for row in 0..self.height {
+            prefix_parity(self.row_mut(row), tail);
+        }
+    }
+
+    fn toggle_edge(&mut self, edge: Edge) {
+        for row in edge.rows(self.height) {
+            let column = edge.column_at(row).max(0) as usize;
+            if column < self.width
+                && let Some(word) = self.row_mut(row).get_mut(column / WORD_BITS)
+            {
+                *word ^= 1 << (column % WORD_BITS);
+            }
+        }
+    }
+}
+
+/// Replaces each bit by the XOR of all bits up to and including it.
+fn prefix_parity(row: &mut [Word], tail: Word) {
+    let mut carry = 0;
+    for word in row.iter_mut() {
+        let mut parity = *word;
+        for shift in [1, 2, 4, 8, 16] {
+            parity ^= parity << shift;
+        }
+        *word = parity ^ carry;
+        carry = if *word >> (WORD_BITS - 1) == 1 {
+            Word::MAX
+        } else {
+            0
+        };
+    }
+    if let Some(last) = row.last_mut() {
+        *last &= tail;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contour::Point;
+
+    const W: usize = 70;
+    const H: usize = 40;
+
+    fn speckled(words: &mut [Word]) -> Mask<'_> {
+        let mut mask = MaskMut::new(words, W, H).expect("fits");
+        let mut seed = 7u32;
+        for row in 0..H {
+            for column in 0..W {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                mask.set(column, row, seed >> 30 == 0);
+            }
+        }
+        mask.into_mask()
+    }
+
+    #[test]
+    fn moments_equal_sums_over_readable_bits() {
+        let mut words = [0; words_needed(W, H)];
+        let mask = speckled(&mut words);
+        let mut sum = Moments::default();
+        for row in 0..H {
+            for column in mask.row_bits(row).iter_ones() {
+                let (x, y) = (column as u64, row as u64);
+                sum.area += 1;
+                sum.column += x;
+                sum.row += y;
+                sum.column_column += x * x;
+                sum.column_row += x * y;
+                sum.row_row += y * y;
+            }
+        }
+        assert_eq!(mask.moments(), sum);
+        assert_eq!(mask.area(), sum.area);
+    }
+
+    #[test]
+    fn spans_set_exactly_their_columns() {
+        for (from, to) in [(0, 1), (31, 33), (3, 69), (-5, 90), (64, 64), (68, 200)] {
+            let mut words = [0; words_needed(W, H)];
+            let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
+            mask.fill_span(3, from, to);
+            for column in 0..W {
+                let inside = (from..to).contains(&(column as i64));
+                assert_eq!(mask.as_mask().get(column, 3), inside, "{from}..{to}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_outline_fills_the_centres_inside_it() {
+        let points = [(3.2, 2.1), (60.7, 8.4), (69.9, 39.0), (30.0, 20.3), (5.5, 35.5)]
+            .map(|(column, row)| Point::new(column, row));
+        let outline = Outline::new(&points, W, H).expect("simple");
+        let mut words = [0; words_needed(W, H)];
+        let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
+        mask.fill_outline(&outline);
+        for row in 0..H {
+            for column in 0..W {
+                // Oracle: parity of crossings of a ray to the left (W. R. Franklin's test).
+                let (x, y) = (column as f64 + 0.5, row as f64 + 0.5);
+                let inside = outline.sides().fold(false, |inside, (a, b)| {
+                    let crosses = (a.row > y) != (b.row > y);
+                    let at = a.column + (y - a.row) / (b.row - a.row) * (b.column - a.column);
+                    inside ^ (crosses && at < x)
+                });
+                assert_eq!(mask.as_mask().get(column, row), inside, "{column}, {row}");
+            }
+        }
+    }
+
+    #[test]
+    fn whole_pixels_are_filled_whole() {
+        let points = [(2.0, 1.0), (66.0, 1.0), (66.0, 5.0), (2.0, 5.0)]
+            .map(|(column, row)| Point::new(column, row));
+        let mut words = [0; words_needed(W, H)];
+        let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
+        mask.fill_outline(&Outline::new(&points, W, H).expect("simple"));
+        assert_eq!(mask.as_mask().area(), 64 * 4);
+        assert!(mask.as_mask().get(2, 1) && mask.as_mask().get(65, 4));
+    }
+
+    #[test]
+    fn wrong_buffers_are_refused() {
+        assert!(matches!(
+            Mask::new(&[0; 3], 33, 1),
+            Err(MaskError::Words { needed: 2, .. })
+        ));
+        assert_eq!(Mask::new(&[0, 2], 33, 1), Err(MaskError::Padding(0)));
+        assert!(Mask::new(&[0, 1], 33, 1).is_ok());
+        assert!(Mask::new(&[], 0, 0).is_err());
+    }
+}

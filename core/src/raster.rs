@@ -1,0 +1,206 @@
+//! The only rasteriser: a mesh in perspective to a mask.
+
+use thiserror::Error;
+
+use crate::camera::Camera;
+use crate::mask::MaskMut;
+use crate::math::{Vector3, dot};
+use crate::mesh::Mesh;
+use crate::pose::Pose;
+use crate::scan::{FixedPoint, triangle_spans};
+
+/// Why a mesh cannot be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum RenderError {
+    /// A vertex is on or behind the focus, or so near it that its image has no bounds.
+    #[error(
+        "vertex {0} of the model lies at or behind the X-ray focus, or its image is more than 131 072 pixels away; check the pose's z (negative, mm)"
+    )]
+    BehindCamera(usize),
+    /// The working memory is too short.
+    #[error("drawing needs room for {needed} projected vertices but {given} were lent")]
+    Scratch {
+        /// Vertices of the mesh.
+        needed: usize,
+        /// Room that was lent.
+        given: usize,
+    },
+    /// The mask has another size than the camera's frame.
+    #[error("the mask and the camera's frame differ in size")]
+    Size,
+}
+
+/// Working memory of [`render`]: one projected vertex.
+pub type Projected = FixedPoint;
+
+/// Projected vertices that [`render`] needs for `mesh`.
+#[must_use]
+pub fn scratch_needed(mesh: &Mesh<'_>) -> usize {
+    mesh.vertices().len()
+}
+
+/// Adds the silhouette of `mesh` at `pose` to `out`: every pixel whose centre lies in the
+/// projection of any triangle, whatever the winding. What is beyond the frame is cut off.
+///
+/// # Errors
+/// [`RenderError`]; nothing has been drawn then.
+pub fn render(
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    scratch: &mut [Projected],
+    out: &mut MaskMut<'_>,
+) -> Result<(), RenderError> {
+    if (out.width(), out.height()) != (camera.width(), camera.height()) {
+        return Err(RenderError::Size);
+    }
+    let projected = project_all(mesh, camera, pose, scratch)?;
+    let height = out.height();
+    for triangle in mesh.triangles() {
+        // Indices were checked when the mesh was made.
+        let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
+        triangle_spans(corners, height, |row, from, to| {
+            out.fill_span(row, from, to);
+        });
+    }
+    Ok(())
+}
+
+fn project_all<'s>(
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    scratch: &'s mut [Projected],
+) -> Result<&'s [Projected], RenderError> {
+    let (needed, given) = (scratch_needed(mesh), scratch.len());
+    let scratch = scratch
+        .get_mut(..needed)
+        .ok_or(RenderError::Scratch { needed, given })?;
+    for (index, (vertex, image)) in mesh.vertices().iter().zip(&mut *scratch).enumerate() {
+        let model: Vector3 = vertex.map(f64::from);
+        let point: Vector3 =
+            core::array::from_fn(|k| dot(&pose.rotation[k], &model) + pose.translation[k]);
+        *image = camera
+            .project(&point)
+            .and_then(FixedPoint::from_point)
+            .ok_or(RenderError::BehindCamera(index))?;
+    }
+    Ok(scratch)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contour::Point;
+    use crate::mask::words_needed;
+    use crate::pose::EulerPose;
+    use proptest::prelude::*;
+
+    const SIDE: usize = 64;
+
+    fn camera() -> Camera {
+        Camera::new(SIDE, SIDE, [400.0, 380.0], [31.0, 33.5]).expect("valid")
+    }
+
+    /// Oracle: a pixel is drawn when its centre is on the same side of all three edges.
+    fn covered(corners: [Point; 3], x: f64, y: f64) -> bool {
+        let side = |a: Point, b: Point| {
+            (b.column - a.column) * (y - a.row) - (b.row - a.row) * (x - a.column)
+        };
+        let [a, b, c] = corners;
+        let sides = [side(a, b), side(b, c), side(c, a)];
+        sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0)
+    }
+
+    proptest! {
+        #[test]
+        fn a_triangle_covers_the_centres_inside_it(
+            corners in proptest::array::uniform3((-60.0..60.0f32, -60.0..60.0f32, -40.0..40.0f32)),
+            z_rot in -180.0..180.0f64
+        ) {
+            let vertices = corners.map(|(x, y, z)| [x, y, z]);
+            let Ok(mesh) = Mesh::new(&vertices, &[[0, 1, 2]]) else { return Ok(()) };
+            let pose = Pose::from(EulerPose {
+                z_mm: -600.0, z_rot_deg: z_rot, ..EulerPose::default()
+            });
+            let mut words = [0; words_needed(SIDE, SIDE)];
+            let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            render(&mesh, &camera(), &pose, &mut [Projected::default(); 3], &mut mask)
+                .expect("in front");
+            let images = vertices.map(|v| {
+                camera().project(&pose.transform(&v.map(f64::from))).expect("in front")
+            });
+            let mut differ = 0;
+            for row in 0..SIDE {
+                for column in 0..SIDE {
+                    let inside = covered(images, column as f64 + 0.5, row as f64 + 0.5);
+                    differ += usize::from(inside != mask.as_mask().get(column, row));
+                }
+            }
+            // Vertices are rounded to 1/4096 pixel: a centre that near an edge may differ.
+            prop_assert!(differ <= 1, "{} pixels differ", differ);
+        }
+
+        #[test]
+        fn winding_and_order_do_not_matter(swap in 0usize..6) {
+            let vertices = [[-20.0, -20.0, 5.0], [30.0, -10.0, 0.0], [5.0, 25.0, -9.0], [-30.0, 20.0, 3.0]];
+            let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+            let draw = |triangles: &[[u32; 3]]| {
+                let mesh = Mesh::new(&vertices, triangles).expect("valid");
+                let mut words = [0; words_needed(SIDE, SIDE)];
+                let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+                let pose = Pose { translation: [0.0, 0.0, -500.0], ..Pose::IDENTITY };
+                render(&mesh, &camera(), &pose, &mut [Projected::default(); 4], &mut mask)
+                    .expect("in front");
+                words
+            };
+            prop_assert_eq!(draw(&[[0, 1, 2], [0, 2, 3]]), draw(&[[3, 2, 0], orders[swap]]));
+        }
+    }
+
+    #[test]
+    fn triangles_that_share_an_edge_leave_no_gap_and_no_overlap() {
+        // A fan round a point inside the frame: the areas of its parts add up to the whole.
+        let rim: [[f32; 3]; 7] = core::array::from_fn(|k| {
+            let (s, c) = libm::sincosf(k as f32 * 0.897_598);
+            [40.0 * c, 35.0 * s, 0.0]
+        });
+        let mut vertices = [[0.0; 3]; 8];
+        vertices[1..].copy_from_slice(&rim);
+        vertices[0] = [3.3, -2.7, 0.0];
+        let triangles: [[u32; 3]; 7] = core::array::from_fn(|k| {
+            [0, k as u32 + 1, (k as u32 + 1) % 7 + 1]
+        });
+        let pose = Pose {
+            translation: [0.0, 0.0, -500.0],
+            ..Pose::IDENTITY
+        };
+        let area = |triangles: &[[u32; 3]]| {
+            let mesh = Mesh::new(&vertices, triangles).expect("valid");
+            let mut words = [0; words_needed(SIDE, SIDE)];
+            let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            render(&mesh, &camera(), &pose, &mut [Projected::default(); 8], &mut mask)
+                .expect("in front");
+            mask.as_mask().area()
+        };
+        let parts: u64 = triangles.iter().map(|t| area(core::slice::from_ref(t))).sum();
+        assert_eq!(parts, area(&triangles));
+    }
+
+    #[test]
+    fn behind_the_camera_is_an_error() {
+        let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mesh = Mesh::new(&vertices, &[[0, 1, 2]]).expect("valid");
+        let mut words = [0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        let mut scratch = [Projected::default(); 3];
+        for z in [0.0, 10.0, f64::NAN, -1e-9] {
+            let pose = Pose {
+                translation: [0.0, 0.0, z],
+                ..Pose::IDENTITY
+            };
+            let result = render(&mesh, &camera(), &pose, &mut scratch, &mut mask);
+            assert!(matches!(result, Err(RenderError::BehindCamera(_))), "{z}");
+        }
+    }
+}
