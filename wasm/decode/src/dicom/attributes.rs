@@ -1,0 +1,294 @@
+//! The attributes of an image that are needed, with their checks.
+
+use dicom_object::{InMemDicomObject, Tag};
+
+use super::syntax::{Coding, Syntax};
+use super::{FORMAT, damaged};
+use crate::error::Problem;
+use crate::frame::{Geometry, checked_area};
+use crate::limits::MAX_FRAMES;
+
+const SAMPLES_PER_PIXEL: u32 = 0x0028_0002;
+const PHOTOMETRIC: u32 = 0x0028_0004;
+const PLANAR: u32 = 0x0028_0006;
+const FRAMES: u32 = 0x0028_0008;
+const ROWS: u32 = 0x0028_0010;
+const COLUMNS: u32 = 0x0028_0011;
+const PIXEL_ASPECT: u32 = 0x0028_0034;
+const BITS_ALLOCATED: u32 = 0x0028_0100;
+const BITS_STORED: u32 = 0x0028_0101;
+const HIGH_BIT: u32 = 0x0028_0102;
+const SIGNED: u32 = 0x0028_0103;
+const WINDOW_CENTRE: u32 = 0x0028_1050;
+const WINDOW_WIDTH: u32 = 0x0028_1051;
+const INTERCEPT: u32 = 0x0028_1052;
+const SLOPE: u32 = 0x0028_1053;
+const WINDOW_FUNCTION: u32 = 0x0028_1056;
+const SOURCE_TO_DETECTOR: u32 = 0x0018_1110;
+const SOURCE_TO_PATIENT: u32 = 0x0018_1111;
+const DETECTOR_SPACING: u32 = 0x0018_1164;
+
+const WANTED: [u32; 19] = [
+    SAMPLES_PER_PIXEL,
+    PHOTOMETRIC,
+    PLANAR,
+    FRAMES,
+    ROWS,
+    COLUMNS,
+    PIXEL_ASPECT,
+    BITS_ALLOCATED,
+    BITS_STORED,
+    HIGH_BIT,
+    SIGNED,
+    WINDOW_CENTRE,
+    WINDOW_WIDTH,
+    INTERCEPT,
+    SLOPE,
+    WINDOW_FUNCTION,
+    SOURCE_TO_DETECTOR,
+    SOURCE_TO_PATIENT,
+    DETECTOR_SPACING,
+];
+
+/// Whether an element is one that [`Attributes::read`] looks at.
+pub(super) fn is_wanted(tag: u32) -> bool {
+    WANTED.contains(&tag)
+}
+
+/// What the numbers of a pixel mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Photometric {
+    /// High is dark.
+    Monochrome1,
+    /// High is bright.
+    Monochrome2,
+    /// Red, green, blue.
+    Rgb,
+    /// Luminance first, then two colour differences.
+    YbrFull,
+    /// As before, with the differences shared by two pixels: Y Y Cb Cr.
+    YbrFull422,
+    /// Whatever a JPEG image makes of its own colours.
+    InsideJpeg,
+}
+
+/// The window as the file states it, in rescaled units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct StatedWindow {
+    pub centre: f64,
+    pub width: f64,
+    /// The function is LINEAR, for which the standard takes half a unit and one unit off.
+    pub half_unit: bool,
+}
+
+/// The attributes of an image.
+#[derive(Debug, Clone)]
+pub(super) struct Attributes {
+    pub width: u32,
+    pub height: u32,
+    pub frames: usize,
+    pub samples: u16,
+    pub photometric: Photometric,
+    pub planar: bool,
+    pub bits_allocated: u16,
+    pub bits_stored: u16,
+    pub high_bit: u16,
+    pub signed: bool,
+    pub slope: f64,
+    pub intercept: f64,
+    pub window: Option<StatedWindow>,
+    pub geometry: Geometry,
+}
+
+/// Typed access to the library's object.
+struct Values(InMemDicomObject);
+
+impl Values {
+    fn numbers(&self, tag: u32) -> Option<Vec<f64>> {
+        let element = self
+            .0
+            .element_opt(Tag((tag >> 16) as u16, tag as u16))
+            .ok()??;
+        element.to_multi_float64().ok()
+    }
+
+    fn finite(&self, tag: u32) -> Option<f64> {
+        let first = self.numbers(tag)?.first().copied();
+        first.filter(|v| v.is_finite())
+    }
+
+    /// A distance: finite and above zero.
+    fn positive(&self, tag: u32) -> Option<f64> {
+        self.finite(tag).filter(|&v| v > 0.0)
+    }
+
+    /// Two distances, both finite and above zero.
+    fn positive_pair(&self, tag: u32) -> Option<[f64; 2]> {
+        let pair: [f64; 2] = self.numbers(tag)?.try_into().ok()?;
+        pair.iter()
+            .all(|v| v.is_finite() && *v > 0.0)
+            .then_some(pair)
+    }
+
+    fn text(&self, tag: u32) -> Option<String> {
+        let element = self
+            .0
+            .element_opt(Tag((tag >> 16) as u16, tag as u16))
+            .ok()??;
+        let text = element.to_str().ok()?;
+        Some(
+            text.trim_matches(|c: char| c == '\0' || c.is_whitespace())
+                .to_owned(),
+        )
+    }
+
+    fn whole(&self, tag: u32, name: &str) -> Result<u16, Problem> {
+        self.whole_or_absent(tag, name)?
+            .ok_or_else(|| damaged(format!("it does not say its {name}")))
+    }
+
+    fn whole_or_absent(&self, tag: u32, name: &str) -> Result<Option<u16>, Problem> {
+        let Some(value) = self.numbers(tag).and_then(|v| v.first().copied()) else {
+            return Ok(None);
+        };
+        match value.fract() == 0.0 && (0.0..=65535.0).contains(&value) {
+            true => Ok(Some(value as u16)),
+            false => Err(damaged(format!("its {name} is {value}"))),
+        }
+    }
+}
+
+impl Attributes {
+    /// Reads the small elements that the walk kept.
+    pub(super) fn read(wanted: &[u8], syntax: &Syntax) -> Result<Self, Problem> {
+        let object = InMemDicomObject::read_dataset_with_ts(wanted, &syntax.of_elements())
+            .map_err(|e| damaged(format!("its attributes cannot be read ({e})")))?;
+        let values = Values(object);
+        let bits_stored = values.whole(BITS_STORED, "number of bits stored")?;
+        let high_bit = values.whole_or_absent(HIGH_BIT, "high bit")?;
+        let frames = values.whole_or_absent(FRAMES, "number of frames")?;
+        Ok(Self {
+            width: values.whole(COLUMNS, "number of columns")?.into(),
+            height: values.whole(ROWS, "number of rows")?.into(),
+            frames: frames.unwrap_or(1).into(),
+            samples: values
+                .whole_or_absent(SAMPLES_PER_PIXEL, "samples per pixel")?
+                .unwrap_or(1),
+            photometric: photometric(&values, syntax.coding)?,
+            planar: values.whole_or_absent(PLANAR, "planar configuration")? == Some(1),
+            bits_allocated: values.whole(BITS_ALLOCATED, "number of bits allocated")?,
+            bits_stored,
+            high_bit: high_bit.unwrap_or(bits_stored.saturating_sub(1)),
+            signed: values.whole_or_absent(SIGNED, "pixel representation")? == Some(1),
+            slope: values.finite(SLOPE).filter(|&v| v != 0.0).unwrap_or(1.0),
+            intercept: values.finite(INTERCEPT).unwrap_or(0.0),
+            window: window(&values),
+            geometry: geometry(&values),
+        })
+    }
+
+    /// Refuses what is inconsistent or not read.
+    pub(super) fn check(&self, coding: Coding) -> Result<(), Problem> {
+        checked_area(self.width.into(), self.height.into())?;
+        if !(1..=MAX_FRAMES).contains(&self.frames) {
+            let detail = format!(
+                "it states {} frames and 1 to {MAX_FRAMES} are possible",
+                self.frames
+            );
+            return Err(damaged(detail));
+        }
+        let colour = !matches!(
+            self.photometric,
+            Photometric::Monochrome1 | Photometric::Monochrome2
+        );
+        let depths: &[u16] = if colour { &[8] } else { &[8, 16] };
+        let bits = self.bits_allocated;
+        if !depths.contains(&bits) {
+            let what = format!(
+                "{bits}-bit {} pixels",
+                if colour { "colour" } else { "grey" }
+            );
+            return Err(Problem::unsupported(
+                FORMAT,
+                what,
+                "Export it with 8 or 16 bits",
+            ));
+        }
+        let bits_fit = (1..=bits).contains(&self.bits_stored)
+            && (self.bits_stored - 1..bits).contains(&self.high_bit);
+        if !bits_fit {
+            return Err(damaged(format!(
+                "{} bits stored with high bit {} do not fit {bits} bits allocated",
+                self.bits_stored, self.high_bit
+            )));
+        }
+        let samples = if colour { 3 } else { 1 };
+        if self.samples != samples && self.photometric != Photometric::InsideJpeg {
+            return Err(damaged(format!(
+                "it states {} samples a pixel where {samples} are due",
+                self.samples
+            )));
+        }
+        if self.photometric == Photometric::YbrFull422
+            && (coding != Coding::Native || self.planar || self.width % 2 == 1)
+        {
+            return Err(damaged("its colours cannot be shared by pairs of pixels"));
+        }
+        Ok(())
+    }
+
+    /// Bytes of one uncompressed frame. At most 8192 x 8192 x 6, which fits 32 bits.
+    pub(super) fn native_frame_bytes(&self) -> usize {
+        let samples = match self.photometric {
+            Photometric::YbrFull422 => 2,
+            _ => usize::from(self.samples),
+        };
+        self.width as usize * self.height as usize * samples * usize::from(self.bits_allocated / 8)
+    }
+}
+
+fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> {
+    let stated = values.text(PHOTOMETRIC).unwrap_or_default();
+    Ok(match (stated.as_str(), coding) {
+        ("MONOCHROME1", _) => Photometric::Monochrome1,
+        ("MONOCHROME2", _) => Photometric::Monochrome2,
+        ("RGB", Coding::Jpeg) => Photometric::InsideJpeg,
+        (other, Coding::Jpeg) if other.starts_with("YBR_") => Photometric::InsideJpeg,
+        ("RGB", _) => Photometric::Rgb,
+        ("YBR_FULL", _) => Photometric::YbrFull,
+        ("YBR_FULL_422", _) => Photometric::YbrFull422,
+        ("", _) => return Err(damaged("it does not say its photometric interpretation")),
+        (other, _) => {
+            let shown: String = other.chars().take(32).collect();
+            let what = format!("pixels of the kind {shown}");
+            return Err(Problem::unsupported(
+                FORMAT,
+                what,
+                "Export it as MONOCHROME2 or RGB",
+            ));
+        }
+    })
+}
+
+fn window(values: &Values) -> Option<StatedWindow> {
+    let function = values.text(WINDOW_FUNCTION).unwrap_or_default();
+    Some(StatedWindow {
+        centre: values.finite(WINDOW_CENTRE)?,
+        width: values.positive(WINDOW_WIDTH)?,
+        half_unit: function.is_empty() || function == "LINEAR",
+    })
+}
+
+fn geometry(values: &Values) -> Geometry {
+    // Both pairs are stated vertical first.
+    Geometry {
+        detector_spacing_mm: values
+            .positive_pair(DETECTOR_SPACING)
+            .map(|[rows, columns]| [columns, rows]),
+        source_to_detector_mm: values.positive(SOURCE_TO_DETECTOR),
+        source_to_patient_mm: values.positive(SOURCE_TO_PATIENT),
+        pixel_aspect: values
+            .positive_pair(PIXEL_ASPECT)
+            .map(|[vertical, horizontal]| vertical / horizontal),
+    }
+}

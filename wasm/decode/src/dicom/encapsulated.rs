@@ -1,0 +1,84 @@
+//! Compressed pixels: which fragments make a frame, and their decoding.
+
+use std::ops::Range;
+
+use super::attributes::Attributes;
+use super::syntax::Coding;
+use super::{damaged, pixels, rle};
+use crate::error::Problem;
+use crate::frame::GreyFrame;
+use crate::jpeg;
+
+/// The fragments of each frame: one each; or all for a single frame; or as the basic offset table says; or, for
+/// JPEG without a table, from each fragment that begins an image to the next.
+pub(super) fn frames(
+    bytes: &[u8],
+    offsets: &[u32],
+    fragments: Vec<Range<usize>>,
+    attributes: &Attributes,
+    coding: Coding,
+) -> Result<Vec<Vec<Range<usize>>>, Problem> {
+    let count = attributes.frames;
+    if fragments.len() < count {
+        return Err(damaged(format!(
+            "it states {count} frames and holds {} fragments of pixels",
+            fragments.len()
+        )));
+    }
+    if fragments.len() == count {
+        return Ok(fragments
+            .into_iter()
+            .map(|fragment| vec![fragment])
+            .collect());
+    }
+    if count == 1 {
+        return Ok(vec![fragments]);
+    }
+    let first = fragments.first().map_or(0, |fragment| fragment.start);
+    let begins = |fragment: &Range<usize>| {
+        if offsets.len() == count {
+            return u32::try_from(fragment.start - first).is_ok_and(|at| offsets.contains(&at));
+        }
+        coding == Coding::Jpeg && bytes[fragment.clone()].starts_with(&[0xFF, 0xD8])
+    };
+    let mut frames: Vec<Vec<_>> = Vec::new();
+    for fragment in fragments {
+        match frames.last_mut() {
+            Some(frame) if !begins(&fragment) => frame.push(fragment),
+            _ => frames.push(vec![fragment]),
+        }
+    }
+    match frames.len() == count {
+        true => Ok(frames),
+        false => Err(damaged(format!(
+            "it states {count} frames and its fragments of pixels make {}",
+            frames.len()
+        ))),
+    }
+}
+
+/// Decodes the joined fragments of one frame.
+pub(super) fn decode(
+    coded: &[u8],
+    attributes: &Attributes,
+    coding: Coding,
+) -> Result<GreyFrame, Problem> {
+    match coding {
+        Coding::Jpeg => pixels::frame_from_jpeg(jpeg::decode(coded)?, attributes),
+        Coding::Rle => {
+            let area = attributes.width as usize * attributes.height as usize;
+            let bytes_per_sample = usize::from(attributes.bits_allocated / 8);
+            let samples = usize::from(attributes.samples);
+            let stored = rle::decode(coded, area, samples, bytes_per_sample)?;
+            // Run lengths give interleaved samples whatever the file says of its planes.
+            let interleaved = Attributes {
+                planar: false,
+                ..attributes.clone()
+            };
+            pixels::frame_from_stored(&stored, &interleaved)
+        }
+        Coding::Native => Err(damaged(
+            "its pixels are in fragments though it says they are not compressed",
+        )),
+    }
+}

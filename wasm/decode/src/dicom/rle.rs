@@ -1,0 +1,90 @@
+//! DICOM run-length coding (PS3.5 annex G).
+//!
+//! A frame is up to 15 segments, one a byte plane, high bytes first, each in PackBits. The library's own reader
+//! indexes past short segments and headers (a panic, which ends a WASM module), so the format's thirty lines are
+//! here, with every access checked.
+
+use super::damaged;
+use crate::error::Problem;
+
+const HEADER: usize = 64;
+const MAX_SEGMENTS: usize = 15;
+
+/// Decodes one frame into interleaved little endian samples.
+///
+/// `area` pixels of `samples` samples of `bytes_per_sample` bytes; the result has exactly their product.
+pub(super) fn decode(
+    coded: &[u8],
+    area: usize,
+    samples: usize,
+    bytes_per_sample: usize,
+) -> Result<Vec<u8>, Problem> {
+    let planes = samples * bytes_per_sample;
+    let bounds = segment_bounds(coded, planes)?;
+    let mut frame = vec![0; area * planes];
+    for (plane, pair) in bounds.windows(2).enumerate() {
+        let segment = coded.get(pair[0]..pair[1]).ok_or_else(|| {
+            damaged(format!(
+                "run-length segment {} lies outside its frame",
+                plane + 1
+            ))
+        })?;
+        // Segments come with a sample's high byte first, memory has it last.
+        let (sample, byte) = (plane / bytes_per_sample, plane % bytes_per_sample);
+        let first = sample * bytes_per_sample + bytes_per_sample - 1 - byte;
+        let target = frame.iter_mut().skip(first).step_by(planes);
+        if unpack(segment, target) < area {
+            return Err(damaged(format!(
+                "run-length segment {} ends too early",
+                plane + 1
+            )));
+        }
+    }
+    Ok(frame)
+}
+
+/// Where the segments begin, and where the last ends.
+fn segment_bounds(coded: &[u8], planes: usize) -> Result<Vec<usize>, Problem> {
+    let header = coded
+        .get(..HEADER)
+        .ok_or_else(|| damaged("a run-length header is cut"))?;
+    let mut words = header
+        .as_chunks::<4>()
+        .0
+        .iter()
+        .map(|w| u32::from_le_bytes(*w) as usize);
+    let count = words.next().unwrap_or(0);
+    if count != planes || planes > MAX_SEGMENTS {
+        return Err(damaged(format!(
+            "a frame has {count} run-length segments where {planes} are due"
+        )));
+    }
+    Ok(words.take(planes).chain([coded.len()]).collect())
+}
+
+/// Unpacks until the target is full or the segment ends; gives the number of bytes written.
+fn unpack<'a>(segment: &[u8], mut target: impl Iterator<Item = &'a mut u8>) -> usize {
+    let (mut written, mut rest) = (0, segment);
+    while let [control, tail @ ..] = rest {
+        let control = control.cast_signed();
+        let (run, after) = if control >= 0 {
+            tail.split_at(tail.len().min(control as usize + 1))
+        } else {
+            tail.split_at(tail.len().min(usize::from(control != i8::MIN)))
+        };
+        let repeats = if control < 0 {
+            1 - isize::from(control)
+        } else {
+            1
+        } as usize;
+        for value in run.iter().flat_map(|v| std::iter::repeat_n(*v, repeats)) {
+            let Some(place) = target.next() else {
+                return written;
+            };
+            *place = value;
+            written += 1;
+        }
+        rest = after;
+    }
+    written
+}

@@ -1,0 +1,143 @@
+//! A file of frames, opened once and decoded a frame at a time.
+
+use std::borrow::Cow;
+
+use crate::dicom::Dicom;
+use crate::error::{DecodeError, Problem};
+use crate::frame::GreyFrame;
+use crate::limits::MAX_PIXEL_BYTES_AT_ONCE;
+use crate::sniff::{Kind, sniff};
+use crate::{jpeg, png, tiff};
+
+/// A PNG, JPEG, TIFF or DICOM file whose structure has been checked and whose frames are decoded when asked for.
+///
+/// ```no_run
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let bytes = std::fs::read("run.dcm")?;
+/// let file = fluoropose_decode::FrameFile::open(bytes, "run.dcm")?;
+/// for index in 0..file.count() {
+///     let frame = file.frame(index)?;
+///     println!("{} x {}", frame.width, frame.height);
+/// }
+/// # Ok(())
+/// # }
+/// ```
+pub struct FrameFile<'a> {
+    name: String,
+    kind: Kind,
+    bytes: Cow<'a, [u8]>,
+    content: Content,
+}
+
+/// What the kinds need to find a frame.
+enum Content {
+    Png,
+    Jpeg,
+    Tiff { pages: Vec<usize> },
+    Dicom(Box<Dicom>),
+}
+
+impl<'a> FrameFile<'a> {
+    /// Opens a file from its bytes, borrowed or owned. `name` is used in errors, and its extension only where the
+    /// content alone does not tell the format. No pixels are decoded yet.
+    ///
+    /// # Errors
+    /// [`DecodeError`] if the content is not a frame of a known format, is damaged, is of a kind that is not read
+    /// (JPEG 2000, JPEG-LS, ...), or larger than the [limits](crate::limits).
+    pub fn open(bytes: impl Into<Cow<'a, [u8]>>, name: &str) -> Result<Self, DecodeError> {
+        let mut bytes = bytes.into();
+        let kind = sniff(&bytes, name);
+        let content = Content::of(kind, &mut bytes).map_err(|problem| problem.of(name))?;
+        Ok(Self {
+            name: name.to_owned(),
+            kind,
+            bytes,
+            content,
+        })
+    }
+
+    /// The name it was opened with.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Which format it is.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// How many frames it holds, at least 1.
+    pub fn count(&self) -> usize {
+        match &self.content {
+            Content::Png | Content::Jpeg => 1,
+            Content::Tiff { pages } => pages.len(),
+            Content::Dicom(dicom) => dicom.count(),
+        }
+    }
+
+    /// Decodes frame `index`, counted from 0.
+    ///
+    /// # Errors
+    /// [`DecodeError`] if there is no such frame or its pixels are damaged; the other frames stay readable.
+    pub fn frame(&self, index: usize) -> Result<GreyFrame, DecodeError> {
+        self.decode(index).map_err(|problem| problem.of(&self.name))
+    }
+
+    fn decode(&self, index: usize) -> Result<GreyFrame, Problem> {
+        let count = self.count();
+        if index >= count {
+            return Err(Problem::NoSuchFrame { index, count });
+        }
+        match &self.content {
+            Content::Png => png::decode(&self.bytes),
+            Content::Jpeg => jpeg::decode(&self.bytes),
+            Content::Tiff { pages } => tiff::decode(&self.bytes, pages[index]),
+            Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
+        }
+    }
+}
+
+impl Content {
+    fn of(kind: Kind, bytes: &mut Cow<'_, [u8]>) -> Result<Self, Problem> {
+        Ok(match kind {
+            Kind::Png => {
+                png::check(bytes)?;
+                Self::Png
+            }
+            Kind::Jpeg => {
+                jpeg::check(bytes)?;
+                Self::Jpeg
+            }
+            Kind::Tiff => Self::Tiff {
+                pages: tiff::pages(bytes)?,
+            },
+            Kind::Dicom => Self::Dicom(Box::new(Dicom::open(bytes)?)),
+            _ if bytes.is_empty() => return Err(Problem::Empty),
+            other => {
+                return Err(Problem::NotAFrame {
+                    found: other.noun(),
+                });
+            }
+        })
+    }
+}
+
+/// Decodes every frame of a file.
+///
+/// # Errors
+/// Those of [`FrameFile::open`] and [`FrameFile::frame`], and if all pixels together take more than
+/// [`MAX_PIXEL_BYTES_AT_ONCE`].
+pub fn decode_frames(bytes: &[u8], name: &str) -> Result<Vec<GreyFrame>, DecodeError> {
+    let file = FrameFile::open(bytes, name)?;
+    let (mut frames, mut held) = (Vec::new(), 0);
+    for index in 0..file.count() {
+        let frame = file.frame(index)?;
+        held += frame.pixels.byte_len();
+        if held > MAX_PIXEL_BYTES_AT_ONCE {
+            let frames = file.count();
+            return Err(Problem::TooManyPixels { frames }.of(name));
+        }
+        frames.push(frame);
+    }
+    Ok(frames)
+}

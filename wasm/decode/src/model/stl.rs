@@ -1,0 +1,119 @@
+//! STL, binary and ASCII.
+//!
+//! Which of the two is told by length, not by the first word: a binary header may begin with `solid`.
+
+use std::borrow::Cow;
+use std::io::Cursor;
+
+use stl_io::{Triangle, create_stl_reader};
+
+use super::{Raw, check_triangles};
+use crate::error::Problem;
+
+const FORMAT: &str = "STL";
+const HEADER: usize = 80;
+const PREFIX: usize = HEADER + 4;
+const PER_TRIANGLE: u64 = 50;
+
+/// The number of triangles that a binary file states.
+fn stated_triangles(bytes: &[u8]) -> Option<u32> {
+    let field = bytes.get(HEADER..PREFIX)?;
+    Some(u32::from_le_bytes(field.try_into().ok()?))
+}
+
+/// Whether the length is exactly that of a binary file of the stated number of triangles.
+pub(crate) fn is_binary(bytes: &[u8]) -> bool {
+    stated_triangles(bytes).is_some_and(|count| binary_length(count) == bytes.len() as u64)
+}
+
+/// Whether the content reads like the ASCII form: the word `solid`, then text with `facet` or `endsolid`.
+pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]).to_ascii_lowercase();
+    let text = text.trim_start();
+    text.starts_with("solid") && (text.contains("facet") || text.contains("endsolid"))
+}
+
+fn binary_length(triangles: u32) -> u64 {
+    PREFIX as u64 + PER_TRIANGLE * u64::from(triangles)
+}
+
+/// Reads the triangles.
+pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
+    match is_ascii(bytes) && !is_binary(bytes) {
+        true => read_ascii(bytes),
+        false => read_binary(bytes),
+    }
+}
+
+fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
+    let count = stated_triangles(bytes)
+        .ok_or_else(|| Problem::damaged(FORMAT, "it is shorter than its header"))?;
+    check_triangles(count as usize)?;
+    let needed = binary_length(count);
+    if needed != bytes.len() as u64 {
+        let found = bytes.len();
+        return Err(Problem::damaged(
+            FORMAT,
+            format!(
+                "it states {count} triangles, which take {needed} bytes, and has {found} bytes"
+            ),
+        ));
+    }
+    // An empty line as header: the library takes `solid ` there for the ASCII form.
+    let mut content = bytes.to_vec();
+    content[..HEADER].fill(b'\n');
+    let mut raw = Raw::default();
+    push_solid(content, &mut raw)?;
+    Ok(raw)
+}
+
+/// Reads every solid of an ASCII file; keywords may be in capitals.
+fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
+    let text = as_text(bytes);
+    let mut raw = Raw::default();
+    let mut solid: Option<String> = None;
+    for line in text.lines() {
+        let line = line.trim().to_ascii_lowercase();
+        match (line.split_ascii_whitespace().next(), &mut solid) {
+            (None, _) => {}
+            // The library wants a name; names are of no use here and may be in any encoding.
+            (Some("solid"), None) => solid = Some("solid model\n".to_owned()),
+            (Some("endsolid"), Some(_)) => {
+                let mut whole = solid.take().unwrap_or_default();
+                whole.push_str("endsolid model\n");
+                push_solid(whole.into_bytes(), &mut raw)?;
+            }
+            (Some(_), Some(body)) => {
+                body.push_str(&line);
+                body.push('\n');
+            }
+            (Some(_), None) => {
+                let shown: String = line.chars().take(40).collect();
+                let detail = format!("there is '{shown}' outside of any solid");
+                return Err(Problem::damaged(FORMAT, detail));
+            }
+        }
+    }
+    match solid {
+        Some(_) => Err(Problem::damaged(FORMAT, "it ends before the word endsolid")),
+        None => Ok(raw),
+    }
+}
+
+fn as_text(bytes: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(bytes)
+}
+
+/// Lets the library read one solid.
+fn push_solid(content: Vec<u8>, raw: &mut Raw) -> Result<(), Problem> {
+    let mut cursor = Cursor::new(content);
+    let failed = |e: std::io::Error| Problem::damaged(FORMAT, e.to_string());
+    for triangle in create_stl_reader(&mut cursor).map_err(failed)? {
+        let Triangle { vertices, .. } = triangle.map_err(failed)?;
+        // Within u32: the number of triangles is bounded before and after.
+        let first = raw.vertices.len() as u32;
+        raw.vertices.extend(vertices.map(|v| v.0));
+        raw.push_face(&[first, first + 1, first + 2])?;
+    }
+    Ok(())
+}

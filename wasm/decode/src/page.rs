@@ -1,0 +1,162 @@
+//! What a page's worker calls. Errors arrive as a JavaScript `Error` whose message is the sentence.
+
+use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
+use wasm_bindgen::prelude::*;
+
+use crate::{DecodeError, FrameFile, GreyFrame, Model, Pixels};
+
+fn thrown(error: DecodeError) -> Error {
+    Error::new(&error.to_string())
+}
+
+/// Tells what a file is: one of `png`, `jpeg`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
+/// `mayacam`, `library`, `session`, `unknown`.
+#[wasm_bindgen]
+pub fn sniff(bytes: &[u8], name: &str) -> String {
+    crate::sniff(bytes, name).word().to_owned()
+}
+
+/// A file of frames, kept in the module's memory until it is freed.
+#[wasm_bindgen(js_name = FrameFile)]
+pub struct PageFrameFile(FrameFile<'static>);
+
+#[wasm_bindgen(js_class = FrameFile)]
+impl PageFrameFile {
+    /// Opens a file from its bytes.
+    ///
+    /// # Errors
+    /// Throws if the file is not one of frames or is damaged.
+    #[wasm_bindgen(constructor)]
+    pub fn new(bytes: Vec<u8>, name: &str) -> Result<PageFrameFile, Error> {
+        FrameFile::open(bytes, name).map(Self).map_err(thrown)
+    }
+
+    /// How many frames there are.
+    #[wasm_bindgen(getter)]
+    pub fn count(&self) -> usize {
+        self.0.count()
+    }
+
+    /// The format: `png`, `jpeg`, `tiff` or `dicom`.
+    #[wasm_bindgen(getter)]
+    pub fn kind(&self) -> String {
+        self.0.kind().word().to_owned()
+    }
+
+    /// Decodes frame `index`, counted from 0.
+    ///
+    /// # Errors
+    /// Throws if there is no such frame or its pixels are damaged.
+    pub fn frame(&self, index: usize) -> Result<PageFrame, Error> {
+        self.0.frame(index).map(PageFrame).map_err(thrown)
+    }
+}
+
+/// One decoded frame.
+#[wasm_bindgen(js_name = DecodedFrame)]
+pub struct PageFrame(GreyFrame);
+
+#[wasm_bindgen(js_class = DecodedFrame)]
+impl PageFrame {
+    /// Pixels in a row.
+    #[wasm_bindgen(getter)]
+    pub fn width(&self) -> u32 {
+        self.0.width
+    }
+
+    /// Rows.
+    #[wasm_bindgen(getter)]
+    pub fn height(&self) -> u32 {
+        self.0.height
+    }
+
+    /// Significant bits of a pixel: up to 8 for bytes, 9 to 16 for words.
+    #[wasm_bindgen(getter)]
+    pub fn bits(&self) -> u8 {
+        self.0.bits
+    }
+
+    /// A copy of the pixels, row by row: `Uint8Array` up to 8 bits, `Uint16Array` above.
+    #[wasm_bindgen(getter, unchecked_return_type = "Uint8Array | Uint16Array")]
+    pub fn pixels(&self) -> JsValue {
+        match &self.0.pixels {
+            Pixels::U8(pixels) => Uint8Array::from(pixels.as_slice()).into(),
+            Pixels::U16(pixels) => Uint16Array::from(pixels.as_slice()).into(),
+        }
+    }
+
+    /// Middle of the range that is shown, pixel values, if the file states one.
+    #[wasm_bindgen(getter, js_name = windowCentre)]
+    pub fn window_centre(&self) -> Option<f64> {
+        self.0.window.map(|window| window.centre)
+    }
+
+    /// Extent of the range that is shown, pixel values, if the file states one.
+    #[wasm_bindgen(getter, js_name = windowWidth)]
+    pub fn window_width(&self) -> Option<f64> {
+        self.0.window.map(|window| window.width)
+    }
+
+    /// Distance between pixels along a row at the detector, mm, if stated.
+    #[wasm_bindgen(getter, js_name = columnSpacingMm)]
+    pub fn column_spacing_mm(&self) -> Option<f64> {
+        self.0
+            .geometry
+            .detector_spacing_mm
+            .map(|[column, _]| column)
+    }
+
+    /// Distance between rows at the detector, mm, if stated.
+    #[wasm_bindgen(getter, js_name = rowSpacingMm)]
+    pub fn row_spacing_mm(&self) -> Option<f64> {
+        self.0.geometry.detector_spacing_mm.map(|[_, row]| row)
+    }
+
+    /// Distance from the X-ray focus to the detector, mm, if stated.
+    #[wasm_bindgen(getter, js_name = sourceToDetectorMm)]
+    pub fn source_to_detector_mm(&self) -> Option<f64> {
+        self.0.geometry.source_to_detector_mm
+    }
+
+    /// Height of a pixel over its width, if stated.
+    #[wasm_bindgen(getter, js_name = pixelAspect)]
+    pub fn pixel_aspect(&self) -> Option<f64> {
+        self.0.geometry.pixel_aspect
+    }
+
+    /// What was done to the pixels, a sentence each.
+    #[wasm_bindgen(getter)]
+    pub fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
+    }
+}
+
+/// A decoded model.
+#[wasm_bindgen(js_name = ModelData)]
+pub struct PageModel(Model);
+
+#[wasm_bindgen(js_class = ModelData)]
+impl PageModel {
+    /// A copy of the coordinates, x, y, z of each vertex.
+    #[wasm_bindgen(getter)]
+    pub fn vertices(&self) -> Float32Array {
+        Float32Array::from(self.0.vertices.as_flattened())
+    }
+
+    /// A copy of the vertex indices, three of each triangle.
+    #[wasm_bindgen(getter)]
+    pub fn triangles(&self) -> Uint32Array {
+        Uint32Array::from(self.0.triangles.as_flattened())
+    }
+}
+
+/// Decodes a model file.
+///
+/// # Errors
+/// Throws if the file is not a model or is damaged.
+#[wasm_bindgen]
+pub fn decode_model(bytes: &[u8], name: &str) -> Result<PageModel, Error> {
+    crate::decode_model(bytes, name)
+        .map(PageModel)
+        .map_err(thrown)
+}
