@@ -1,1 +1,17 @@
-//! The core of fluoropose for a page.
+//! The core of fluoropose for a page: owns pixels, meshes, libraries and masks, and paints them through web-sys.
+//!
+//! Every class owns its memory and lends it to the core. Whatever goes wrong is thrown as a JavaScript `Error` whose
+//! message is the core's sentence. Nothing here hands out a view of WASM memory: what leaves is copied.
+
+mod calibration;
+mod error;
+mod film;
+mod jts;
+mod model;
+mod paint;
+mod pose_numbers;
+
+pub use calibration::{CalibrationText, jt_intcalib_text};
+pub use film::Film;
+pub use jts::{read_jts, write_jts};
+pub use model::Model;

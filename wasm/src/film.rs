@@ -1,0 +1,185 @@
+//! Frames held and painted with window and level.
+
+use fluoropose::frame::{Frame, Pixel};
+use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
+
+use crate::error::sentence;
+use crate::paint::put;
+
+/// One frame's pixels.
+#[wasm_bindgen]
+pub struct Film {
+    pixels: Pixels,
+    width: usize,
+    height: usize,
+}
+
+enum Pixels {
+    Eight(Vec<u8>),
+    Sixteen(Vec<u16>),
+}
+
+/// The share of pixels that a suggested window leaves out at either end.
+const CLIPPED: f64 = 0.005;
+
+#[wasm_bindgen]
+impl Film {
+    /// Takes 8-bit pixels, row by row.
+    ///
+    /// # Errors
+    /// The core's sentence when the shape does not fit the pixels.
+    #[wasm_bindgen(js_name = fromEightBit)]
+    pub fn from_eight_bit(pixels: Vec<u8>, width: u32, height: u32) -> Result<Film, JsError> {
+        check(&pixels, width, height)?;
+        Ok(Self {
+            pixels: Pixels::Eight(pixels),
+            width: width as usize,
+            height: height as usize,
+        })
+    }
+
+    /// Takes 16-bit pixels, row by row.
+    ///
+    /// # Errors
+    /// The core's sentence when the shape does not fit the pixels.
+    #[wasm_bindgen(js_name = fromSixteenBit)]
+    pub fn from_sixteen_bit(pixels: Vec<u16>, width: u32, height: u32) -> Result<Film, JsError> {
+        check(&pixels, width, height)?;
+        Ok(Self {
+            pixels: Pixels::Sixteen(pixels),
+            width: width as usize,
+            height: height as usize,
+        })
+    }
+
+    /// Least and greatest grey value, then the centre and width of a window that leaves out half a percent at either end.
+    #[wasm_bindgen(js_name = greyRange)]
+    pub fn grey_range(&self) -> Vec<f64> {
+        match &self.pixels {
+            Pixels::Eight(pixels) => grey_range(pixels),
+            Pixels::Sixteen(pixels) => grey_range(pixels),
+        }
+    }
+
+    /// Paints the frame at the canvas's upper left corner, one canvas pixel a pixel. Grey values up to
+    /// `centre - width / 2` are black, from `centre + width / 2` white.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    pub fn paint(
+        &self,
+        context: &CanvasRenderingContext2d,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        let shades = shades(centre, width, self.levels());
+        let rgba: Vec<u32> = match &self.pixels {
+            Pixels::Eight(pixels) => developed(pixels, &shades),
+            Pixels::Sixteen(pixels) => developed(pixels, &shades),
+        };
+        put(context, &rgba[..self.width * self.height], self.width, 0, 0)
+    }
+
+    /// The grey value of the pixel at a column and row; nothing outside the frame.
+    #[wasm_bindgen(js_name = greyAt)]
+    pub fn grey_at(&self, column: u32, row: u32) -> Option<u32> {
+        let (column, row) = (column as usize, row as usize);
+        if column >= self.width || row >= self.height {
+            return None;
+        }
+        let index = row * self.width + column;
+        match &self.pixels {
+            Pixels::Eight(pixels) => pixels.get(index).map(|&grey| grey.into()),
+            Pixels::Sixteen(pixels) => pixels.get(index).map(|&grey| grey.into()),
+        }
+    }
+
+    fn levels(&self) -> usize {
+        match self.pixels {
+            Pixels::Eight(_) => 1 << 8,
+            Pixels::Sixteen(_) => 1 << 16,
+        }
+    }
+}
+
+fn check<P: Pixel>(pixels: &[P], width: u32, height: u32) -> Result<(), JsError> {
+    let (width, height) = (width as usize, height as usize);
+    Frame::new(pixels, width, height, width)
+        .map(|_| ())
+        .map_err(sentence)
+}
+
+/// The RGBA word of every grey value.
+fn shades(centre: f64, width: f64, levels: usize) -> Vec<u32> {
+    let width = width.max(1.0);
+    let black = centre - width / 2.0;
+    (0..levels)
+        .map(|grey| {
+            let shade = ((grey as f64 - black) / width * 255.0)
+                .round()
+                .clamp(0.0, 255.0) as u8;
+            u32::from_le_bytes([shade, shade, shade, 255])
+        })
+        .collect()
+}
+
+fn developed<P: Pixel>(pixels: &[P], shades: &[u32]) -> Vec<u32> {
+    // There is a shade for every value of the type.
+    pixels
+        .iter()
+        .map(|&grey| {
+            shades
+                .get(grey.into() as usize)
+                .copied()
+                .unwrap_or_default()
+        })
+        .collect()
+}
+
+fn grey_range<P: Pixel>(pixels: &[P]) -> Vec<f64> {
+    let mut counts = vec![0usize; 1 << 16];
+    for &grey in pixels {
+        if let Some(count) = counts.get_mut(grey.into() as usize) {
+            *count += 1;
+        }
+    }
+    let all = pixels.len() as f64;
+    let low = level_below(&counts, 0.0);
+    let high = level_below(&counts, all - 1.0);
+    let dark = level_below(&counts, all * CLIPPED);
+    let bright = level_below(&counts, all * (1.0 - CLIPPED));
+    vec![low, high, (dark + bright) / 2.0, (bright - dark).max(1.0)]
+}
+
+/// The least grey value that more than `rank` pixels do not exceed.
+fn level_below(counts: &[usize], rank: f64) -> f64 {
+    let mut sum = 0;
+    let level = counts.iter().position(|count| {
+        sum += count;
+        sum as f64 > rank
+    });
+    level.unwrap_or(counts.len() - 1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_maps_its_ends_to_black_and_white() {
+        let shades = shades(100.0, 50.0, 256);
+        assert_eq!(shades[75], 0xFF00_0000);
+        assert_eq!(shades[74], 0xFF00_0000);
+        assert_eq!(shades[125], 0xFFFF_FFFF);
+        assert_eq!(shades[100].to_le_bytes()[0], 128);
+    }
+
+    #[test]
+    fn the_suggested_window_ignores_a_few_extreme_pixels() {
+        let mut pixels: Vec<u16> = (0..10_000).map(|i| 1000 + (i % 101) as u16).collect();
+        pixels[0] = 0;
+        pixels[1] = 65_535;
+        assert_eq!(grey_range(&pixels), vec![0.0, 65_535.0, 1050.0, 100.0]);
+    }
+}

@@ -1,0 +1,34 @@
+//! `.jts` texts read and written for the page.
+
+use fluoropose::jts;
+use wasm_bindgen::prelude::*;
+
+use crate::error::sentence;
+use crate::pose_numbers::{from_numbers, to_numbers};
+
+/// The poses of a `.jts` text, six numbers a row: x, y, z (mm), z, x and y rotation (degrees).
+///
+/// # Errors
+/// The core's sentence about the heading or the row at fault.
+#[wasm_bindgen(js_name = readJts)]
+pub fn read_jts(text: &str) -> Result<Vec<f64>, JsError> {
+    let mut numbers = Vec::new();
+    for row in jts::read(text).map_err(sentence)? {
+        numbers.extend(to_numbers(&row.map_err(sentence)?));
+    }
+    Ok(numbers)
+}
+
+/// A `.jts` text of rows of six numbers.
+///
+/// # Errors
+/// When a row is short or a number is not finite.
+#[wasm_bindgen(js_name = writeJts)]
+pub fn write_jts(numbers: &[f64]) -> Result<String, JsError> {
+    let mut text = String::new();
+    jts::write_heading(&mut text).map_err(sentence)?;
+    for row in numbers.chunks(6) {
+        jts::write_row(&mut text, &from_numbers(row)?).map_err(sentence)?;
+    }
+    Ok(text)
+}

@@ -1,0 +1,177 @@
+//! A component's model: its projected silhouette, painted and as an outline.
+
+use fluoropose::border::follow_border;
+use fluoropose::camera::Camera;
+use fluoropose::contour::{Contour, Point};
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::Pose;
+use fluoropose::raster::{Projected, render};
+use fluoropose::region::largest_region;
+use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
+
+use crate::calibration::camera;
+use crate::error::sentence;
+use crate::paint::{opaque, put};
+use crate::pose_numbers::from_numbers;
+
+/// Corners of a silhouette's border that the page draws.
+const BORDER_CORNERS: usize = 16_384;
+
+/// A mesh with the working memory to draw it.
+#[wasm_bindgen]
+pub struct Model {
+    pub(crate) vertices: Vec<[f32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    projected: Vec<Projected>,
+    /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
+    masks: [Vec<Word>; 4],
+    border: Box<Contour<BORDER_CORNERS>>,
+}
+
+#[wasm_bindgen]
+impl Model {
+    /// Takes vertices (x, y, z by turns, mm) and triangles (three vertex indices each).
+    ///
+    /// # Errors
+    /// The core's sentence about the vertex or triangle at fault.
+    #[wasm_bindgen(constructor)]
+    pub fn new(vertices: &[f32], triangles: &[u32]) -> Result<Model, JsError> {
+        let model = Self {
+            projected: vec![Projected::default(); vertices.len() / 3],
+            vertices: vertices.as_chunks().0.to_vec(),
+            triangles: triangles.as_chunks().0.to_vec(),
+            masks: Default::default(),
+            border: Box::default(),
+        };
+        Mesh::new(&model.vertices, &model.triangles).map_err(sentence)?;
+        Ok(model)
+    }
+
+    /// Number of triangles.
+    #[wasm_bindgen(getter, js_name = triangleCount)]
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Draws the silhouette at a pose (x, y, z in mm, z, x, y rotation in degrees) as `calibration` projects it; what is
+    /// drawn stays until the next call, for `paint` and `border`.
+    ///
+    /// # Errors
+    /// The core's sentence: a bad calibration, or a pose behind the focus.
+    pub fn project(
+        &mut self,
+        calibration: &str,
+        width: u32,
+        height: u32,
+        pose: &[f64],
+    ) -> Result<(), JsError> {
+        let camera = camera(calibration, width, height)?;
+        let pose = Pose::from(from_numbers(pose)?);
+        self.render(&camera, &pose)
+    }
+
+    /// Paints the silhouette in one opaque colour (`0xRRGGBB`), one canvas pixel a pixel. The canvas is not cleared.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    pub fn paint(
+        &self,
+        context: &CanvasRenderingContext2d,
+        width: u32,
+        height: u32,
+        rgb: u32,
+    ) -> Result<(), JsValue> {
+        let Ok(mask) = Mask::new(&self.masks[0], width as usize, height as usize) else {
+            return Ok(());
+        };
+        let Some((column, row, box_width, rgba)) = cut_out(&mask, opaque(rgb)) else {
+            return Ok(());
+        };
+        put(context, &rgba, box_width, column, row)
+    }
+
+    /// The border of the silhouette's largest region, columns and rows by turns, along the cracks between pixels; empty
+    /// when nothing of the model is in the frame.
+    ///
+    /// # Errors
+    /// The core's sentence for a border with more corners than the page draws.
+    pub fn border(&mut self, width: u32, height: u32) -> Result<Vec<f64>, JsError> {
+        let (width, height) = (width as usize, height as usize);
+        let [drawn, rest, current, largest] = &mut self.masks;
+        let Ok(drawn) = Mask::new(drawn, width, height) else {
+            return Ok(Vec::new());
+        };
+        if drawn.area() == 0 {
+            return Ok(Vec::new());
+        }
+        let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
+        let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
+        let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
+        largest_region(&drawn, &mut rest, &mut current, &mut largest);
+        follow_border(&largest.as_mask(), self.border.as_mut()).map_err(sentence)?;
+        Ok(self
+            .border
+            .iter()
+            .flat_map(|&Point { column, row }| [column, row])
+            .collect())
+    }
+}
+
+impl Model {
+    fn render(&mut self, camera: &Camera, pose: &Pose) -> Result<(), JsError> {
+        let words = words_needed(camera.width(), camera.height());
+        for mask in &mut self.masks {
+            mask.resize(words, 0);
+        }
+        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
+        let mut mask =
+            MaskMut::new(&mut self.masks[0], camera.width(), camera.height()).map_err(sentence)?;
+        render(&mesh, camera, pose, &mut self.projected, &mut mask).map_err(sentence)
+    }
+}
+
+/// The smallest box round the mask's pixels: its first column and row, its width, and its pixels, transparent where the
+/// mask is not set. Nothing for an empty mask.
+fn cut_out(mask: &Mask<'_>, colour: u32) -> Option<(usize, usize, usize, Vec<u32>)> {
+    let rows = 0..mask.height();
+    let runs = || {
+        rows.clone()
+            .flat_map(|row| mask.runs(row).map(move |run| (row, run)))
+    };
+    let left = runs().map(|(_, run)| run.start).min()?;
+    let right = runs().map(|(_, run)| run.end).max()?;
+    let top = runs().next()?.0;
+    let bottom = runs().last()?.0;
+    let width = right - left;
+    let mut rgba = vec![0; width * (bottom - top + 1)];
+    for (row, run) in runs() {
+        let start = (row - top) * width;
+        rgba[start + run.start - left..start + run.end - left].fill(colour);
+    }
+    Some((left, top, width, rgba))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cut_out_is_the_smallest_box_round_the_mask() {
+        let mut words = vec![0; words_needed(100, 8)];
+        let mut mask = MaskMut::new(&mut words, 100, 8).unwrap();
+        mask.set(70, 2, true);
+        mask.set(72, 5, true);
+        let (column, row, width, rgba) = cut_out(&mask.as_mask(), 7).unwrap();
+        assert_eq!((column, row, width, rgba.len()), (70, 2, 3, 12));
+        assert_eq!((rgba[0], rgba[11]), (7, 7));
+        assert_eq!(rgba.iter().filter(|&&word| word == 7).count(), 2);
+    }
+
+    #[test]
+    fn an_empty_mask_has_no_cut_out() {
+        let words = vec![0; words_needed(10, 10)];
+        assert!(cut_out(&Mask::new(&words, 10, 10).unwrap(), 7).is_none());
+    }
+}

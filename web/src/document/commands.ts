@@ -1,0 +1,174 @@
+import type { FramePoint } from '../geometry/points';
+import {
+  cellKey,
+  cellOf,
+  type Calibration,
+  type Cell,
+  type Component,
+  type ComponentName,
+  type Doc,
+  type FileReference,
+  type FrameEntry,
+  type LibrarySpec,
+  type Outline,
+  type PoseNumbers,
+  type GreyWindow,
+} from './types';
+
+/** A change to the document that undo takes back as one. */
+export interface Command {
+  /** Completes "Undo ...". */
+  readonly label: string;
+  /** Where it happened, so that undo can show it. */
+  readonly place?: Place | null;
+  /** Commands that follow each other with the same key are one undo unit. */
+  readonly mergeKey?: string;
+  readonly apply: (doc: Doc) => Doc;
+}
+
+export interface Place {
+  readonly frameId: string;
+  readonly component: ComponentName;
+}
+
+// --- Outlines ---------------------------------------------------------------------------------------------------
+
+export function addPoint(place: Place, point: FramePoint): Command {
+  return onOutline('add a point', place, (outline) => ({
+    points: [...(outline?.points ?? []), point],
+    closed: false,
+  }));
+}
+
+export function closeOutline(place: Place): Command {
+  return onOutline('close the outline', place, (outline) => outline && { ...outline, closed: true });
+}
+
+export function movePoint(place: Place, index: number, to: FramePoint): Command {
+  return onOutline('move a point', place, (outline) => outline && { ...outline, points: outline.points.with(index, to) });
+}
+
+/** Inserts before `index`; an index past the end appends. */
+export function insertPoint(place: Place, index: number, point: FramePoint): Command {
+  return onOutline(
+    'insert a point',
+    place,
+    (outline) => outline && { ...outline, points: outline.points.toSpliced(index, 0, point) },
+  );
+}
+
+/** Deleting the last point deletes the outline. */
+export function deletePoint(place: Place, index: number): Command {
+  return onOutline('delete a point', place, (outline) => {
+    if (!outline || outline.points.length <= 1) return null;
+    return { ...outline, points: outline.points.toSpliced(index, 1) };
+  });
+}
+
+export function deleteOutline(place: Place): Command {
+  return onOutline('delete the outline', place, () => null);
+}
+
+function onOutline(label: string, place: Place, change: (outline: Outline | null) => Outline | null): Command {
+  return {
+    label,
+    place,
+    apply: (doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      const outline = change(cell.outline);
+      return outline === cell.outline ? doc : withCell(doc, place, keepWhileFollowing(cell, outline));
+    },
+  };
+}
+
+/** While a closed outline changes, the last result stays on view until the new one is there. */
+function keepWhileFollowing(cell: Cell, outline: Outline | null): Cell {
+  return { outline, result: outline?.closed ? cell.result : null };
+}
+
+export function withCell(doc: Doc, place: Place, cell: Cell): Doc {
+  return { ...doc, cells: { ...doc.cells, [cellKey(place.frameId, place.component)]: cell } };
+}
+
+// --- Poses ------------------------------------------------------------------------------------------------------
+
+export function chooseCandidate(place: Place, chosen: number): Command {
+  return {
+    label: 'choose the other candidate',
+    place,
+    apply: (doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      if (cell.result?.kind !== 'posed' || !cell.result.candidates[chosen]) return doc;
+      return withCell(doc, place, { ...cell, result: { ...cell.result, chosen } });
+    },
+  };
+}
+
+/** Poses by frame, in frame order; null leaves a frame as it is. */
+export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers | null)[], fileName: string): Command {
+  return {
+    label: `load poses of the ${component}`,
+    apply: (doc) =>
+      doc.frames.reduce((changed, frame, index) => {
+        const pose = poses[index];
+        if (!pose) return changed;
+        const place = { frameId: frame.id, component };
+        const { outline } = cellOf(changed, frame.id, component);
+        const candidates = [{ pose, unmatched: null }];
+        const result = { kind: 'posed', from: 'file', origin: fileName, candidates, chosen: 0 } as const;
+        return withCell(changed, place, { outline, result });
+      }, doc),
+  };
+}
+
+// --- What is opened ---------------------------------------------------------------------------------------------
+
+export function addFrames(frames: readonly FrameEntry[]): Command {
+  return {
+    label: frames.length === 1 ? 'open a frame' : `open ${frames.length} frames`,
+    apply: (doc) => {
+      const known = new Set(doc.frames.map((frame) => frame.id));
+      const fresh = frames.filter((frame) => !known.has(frame.id));
+      return fresh.length === 0 ? doc : { ...doc, frames: [...doc.frames, ...fresh] };
+    },
+  };
+}
+
+export function setCalibration(calibration: Calibration | null): Command {
+  return { label: 'change the calibration', apply: (doc) => ({ ...doc, calibration }) };
+}
+
+export function setModel(name: ComponentName, model: FileReference): Command {
+  return onComponent(`open a model of the ${name}`, name, (component) => ({ ...component, model, libraryFile: null }));
+}
+
+export function setLibraryFile(name: ComponentName, libraryFile: FileReference | null): Command {
+  return onComponent(`open a library of the ${name}`, name, (component) => ({ ...component, libraryFile }));
+}
+
+export function setLibrarySpec(name: ComponentName, librarySpec: LibrarySpec): Command {
+  return onComponent(`change the library of the ${name}`, name, (component) => ({
+    ...component,
+    librarySpec,
+    libraryFile: null,
+  }));
+}
+
+function onComponent(label: string, name: ComponentName, change: (component: Component) => Component): Command {
+  return {
+    label,
+    apply: (doc) => ({ ...doc, components: { ...doc.components, [name]: change(doc.components[name]) } }),
+  };
+}
+
+export function setWindow(window: GreyWindow | null): Command {
+  return { label: 'change window and level', mergeKey: 'window', apply: (doc) => ({ ...doc, window }) };
+}
+
+export function rename(name: string): Command {
+  return { label: 'rename the study', mergeKey: 'name', apply: (doc) => ({ ...doc, name }) };
+}
+
+export function setSide(side: Doc['side']): Command {
+  return { label: 'change the side', apply: (doc) => ({ ...doc, side }) };
+}

@@ -1,0 +1,112 @@
+import type { Doc } from './types';
+import type { Command, Place } from './commands';
+
+/**
+ * Undo and redo over immutable documents. A command is one undo unit; a gesture previews as often as it likes and
+ * becomes one unit when it ends; what the machine works out (a pose) amends the present and is no unit at all.
+ */
+export interface History {
+  readonly past: readonly Step[];
+  readonly present: Doc;
+  readonly future: readonly Step[];
+  /** The document before a gesture that is under way. */
+  readonly gestureStart: Doc | null;
+  /** The document that was last written to a file or opened from one. */
+  readonly saved: Doc;
+}
+
+interface Step {
+  readonly label: string;
+  readonly place: Place | null;
+  readonly mergeKey: string | null;
+  /** The document on the step's other side: before it in `past`, after it in `future`. */
+  readonly doc: Doc;
+}
+
+const DEPTH = 2000;
+
+export function startHistory(doc: Doc): History {
+  return { past: [], present: doc, future: [], gestureStart: null, saved: doc };
+}
+
+export function perform(history: History, command: Command): History {
+  const before = history.gestureStart ?? history.present;
+  const after = command.apply(history.present);
+  if (after === before) return { ...history, present: before, gestureStart: null };
+  return { ...history, past: pushed(history.past, command, before), present: after, future: [], gestureStart: null };
+}
+
+/** Shows a gesture's effect without making it an undo unit; always applied to the document before the gesture. */
+export function preview(history: History, command: Command): History {
+  const start = history.gestureStart ?? history.present;
+  return { ...history, gestureStart: start, present: command.apply(start) };
+}
+
+/** Ends a gesture: what is on view becomes one undo unit. */
+export function commitPreview(history: History, command: Omit<Command, 'apply'>): History {
+  const start = history.gestureStart;
+  if (start === null) return history;
+  const shown = history.present;
+  return perform({ ...history, present: start, gestureStart: null }, { ...command, apply: () => shown });
+}
+
+export function cancelPreview(history: History): History {
+  return history.gestureStart === null ? history : { ...history, present: history.gestureStart, gestureStart: null };
+}
+
+/** Takes in what the machine worked out. No undo unit, and no unsaved work by itself. */
+export function amend(history: History, change: (doc: Doc) => Doc): History {
+  const present = change(history.present);
+  if (present === history.present) return history;
+  const saved = history.saved === history.present ? present : history.saved;
+  return { ...history, present, saved };
+}
+
+export function undo(history: History): History {
+  const quiet = cancelPreview(history);
+  const step = quiet.past.at(-1);
+  if (!step) return quiet;
+  return {
+    ...quiet,
+    past: quiet.past.slice(0, -1),
+    present: step.doc,
+    future: [...quiet.future, { ...step, mergeKey: null, doc: quiet.present }],
+  };
+}
+
+export function redo(history: History): History {
+  const quiet = cancelPreview(history);
+  const step = quiet.future.at(-1);
+  if (!step) return quiet;
+  return {
+    ...quiet,
+    past: [...quiet.past, { ...step, doc: quiet.present }],
+    present: step.doc,
+    future: quiet.future.slice(0, -1),
+  };
+}
+
+/** What undo and redo would touch, for their buttons and so that the page can show that place. */
+export function nextUndo(history: History): Pick<Step, 'label' | 'place'> | null {
+  return history.past.at(-1) ?? null;
+}
+
+export function nextRedo(history: History): Pick<Step, 'label' | 'place'> | null {
+  return history.future.at(-1) ?? null;
+}
+
+export function markSaved(history: History, doc: Doc): History {
+  return { ...history, saved: doc };
+}
+
+export function hasUnsavedWork(history: History): boolean {
+  return history.present !== history.saved;
+}
+
+function pushed(past: readonly Step[], command: Omit<Command, 'apply'>, before: Doc): readonly Step[] {
+  const last = past.at(-1);
+  const mergeKey = command.mergeKey ?? null;
+  if (last && mergeKey !== null && last.mergeKey === mergeKey) return past;
+  const step: Step = { label: command.label, place: command.place ?? null, mergeKey, doc: before };
+  return [...past.slice(-(DEPTH - 1)), step];
+}

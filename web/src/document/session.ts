@@ -1,0 +1,204 @@
+import { framePoint, type FramePoint } from '../geometry/points';
+import { count, dictionary, flag, list, nullable, number, object, oneOf, ReadError, text, type Reader } from './reader';
+import type {
+  Calibration,
+  Candidate,
+  Cell,
+  Component,
+  Doc,
+  Failed,
+  FileReference,
+  FrameEntry,
+  GreyWindow,
+  LibrarySpec,
+  Outline,
+  PoseNumbers,
+  Posed,
+  Result,
+} from './types';
+
+/**
+ * A session file: the whole document as JSON, every file it needs named by its SHA-256 and, unless the person chose
+ * otherwise, included.
+ */
+export interface Session {
+  readonly doc: Doc;
+  readonly view: SessionView;
+  readonly files: readonly SessionFile[];
+}
+
+export interface SessionView {
+  readonly frameIndex: number;
+  readonly component: 'femur' | 'tibia';
+  readonly overlayOpacity: number;
+}
+
+/** `bytes` is null for a file that is only referenced. */
+export interface SessionFile {
+  readonly name: string;
+  readonly sha256: string;
+  readonly bytes: Uint8Array<ArrayBuffer> | null;
+}
+
+export const SESSION_KIND = 'fluoropose-session';
+export const SESSION_VERSION = 1;
+
+/** Parts of a blob: one long text may be more than a text can hold. */
+export function writeSession(session: Session, program: string, savedAt: Date): string[] {
+  const head = {
+    kind: SESSION_KIND,
+    version: SESSION_VERSION,
+    program,
+    savedAt: savedAt.toISOString(),
+    view: session.view,
+    document: plain(session.doc),
+  };
+  const opening = `${JSON.stringify(head).slice(0, -1)},\n"files":[`;
+  const files = session.files.map((file, index) => `${index === 0 ? '' : ','}\n${writeFile(file)}`);
+  return [opening, ...files, '\n]}\n'];
+}
+
+export function readSession(json: string): Session {
+  const value = parse(json);
+  if (value['kind'] !== SESSION_KIND) throw new ReadError('this JSON is not a fluoropose session (no "kind")');
+  const version = number(value['version'], 'version');
+  if (version !== SESSION_VERSION) {
+    throw new ReadError(`this session has version ${version}; this page reads version ${SESSION_VERSION}`);
+  }
+  return {
+    doc: readDoc(value['document'], 'document'),
+    view: readView(value['view'], 'view'),
+    files: list(readFile)(value['files'], 'files'),
+  };
+}
+
+function parse(json: string): Record<string, unknown> {
+  try {
+    const value: unknown = JSON.parse(json);
+    if (typeof value === 'object' && value !== null) return value as Record<string, unknown>;
+  } catch (error) {
+    throw new ReadError(`the session is cut short or damaged (${(error as Error).message})`);
+  }
+  throw new ReadError('the session is not a JSON object');
+}
+
+// --- Points are written as pairs: shorter, and easy to read elsewhere ----------------------------------------------
+
+function plain(doc: Doc): unknown {
+  const cells = Object.entries(doc.cells).map(([key, cell]) => [key, { ...cell, outline: plainOutline(cell.outline) }]);
+  return { ...doc, cells: Object.fromEntries(cells) };
+}
+
+function plainOutline(outline: Outline | null): unknown {
+  return outline && { ...outline, points: outline.points.map((point) => [point.column, point.row]) };
+}
+
+const readPoint: Reader<FramePoint> = (value, path) => {
+  const [column, row, ...rest] = list(number)(value, path);
+  if (column === undefined || row === undefined || rest.length > 0) {
+    throw new ReadError(`${path} should be a pair of numbers, column and row`);
+  }
+  return framePoint(column, row);
+};
+
+// --- The document --------------------------------------------------------------------------------------------------
+
+const readOutline = object<Outline>({ points: list(readPoint), closed: flag });
+
+const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
+
+const readCandidate = object<Candidate>({ pose: readPose, unmatched: nullable(number) });
+
+const readPosed = object<Posed>({
+  kind: oneOf('posed'),
+  from: oneOf('outline', 'file'),
+  origin: text,
+  candidates: list(readCandidate),
+  chosen: count,
+});
+
+const readFailed = object<Failed>({ kind: oneOf('failed'), origin: text, sentence: text });
+
+const readResult: Reader<Result> = (value, path) => {
+  const kind = object({ kind: oneOf('posed', 'failed') })(value, path).kind;
+  return kind === 'posed' ? readPosed(value, path) : readFailed(value, path);
+};
+
+const readCell = object<Cell>({ outline: nullable(readOutline), result: nullable(readResult) });
+
+const readFrame = object<FrameEntry>({
+  id: text,
+  name: text,
+  source: text,
+  indexInSource: count,
+  width: count,
+  height: count,
+});
+
+const readReference = object<FileReference>({ name: text, sha256: text });
+
+const readSpec = object<LibrarySpec>({
+  nominalX: number,
+  nominalY: number,
+  xFrom: number,
+  xTo: number,
+  xStep: number,
+  yFrom: number,
+  yTo: number,
+  yStep: number,
+  distance: nullable(number),
+  area: count,
+});
+
+const readComponent = object<Component>({
+  model: nullable(readReference),
+  libraryFile: nullable(readReference),
+  librarySpec: readSpec,
+});
+
+const readDoc = object<Doc>({
+  name: text,
+  side: oneOf('left', 'right', 'unknown'),
+  frames: list(readFrame),
+  calibration: nullable(object<Calibration>({ name: text, text })),
+  components: object({ femur: readComponent, tibia: readComponent }),
+  cells: dictionary(readCell),
+  window: nullable(object<GreyWindow>({ centre: number, width: number })),
+});
+
+const readView = object<SessionView>({
+  frameIndex: count,
+  component: oneOf('femur', 'tibia'),
+  overlayOpacity: number,
+});
+
+// --- Files ---------------------------------------------------------------------------------------------------------
+
+function writeFile(file: SessionFile): string {
+  const base64 = file.bytes && encodeBase64(file.bytes);
+  return JSON.stringify({ name: file.name, sha256: file.sha256, base64 });
+}
+
+const readFile: Reader<SessionFile> = (value, path) => {
+  const { name, sha256, base64 } = object({ name: text, sha256: text, base64: nullable(text) })(value, path);
+  return { name, sha256, bytes: base64 === null ? null : decodeBase64(base64, `${path} (${name})`) };
+};
+
+/** Pieces whose length is a multiple of three can be encoded apart. */
+const PIECE = 3 * 8192;
+
+export function encodeBase64(bytes: Uint8Array): string {
+  const pieces: string[] = [];
+  for (let start = 0; start < bytes.length; start += PIECE) {
+    pieces.push(btoa(String.fromCharCode(...bytes.subarray(start, start + PIECE))));
+  }
+  return pieces.join('');
+}
+
+export function decodeBase64(base64: string, path: string): Uint8Array<ArrayBuffer> {
+  try {
+    return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  } catch {
+    throw new ReadError(`${path}: the included file is damaged (not base64)`);
+  }
+}

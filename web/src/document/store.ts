@@ -1,0 +1,210 @@
+import type { Viewport } from '../geometry/viewport';
+import type { ToolName } from '../interaction/tools';
+import type { Command, Place } from './commands';
+import * as history from './history';
+import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
+
+/** Everything the page shows: the document with its history, and what is not worth undoing. */
+export interface State {
+  readonly history: history.History;
+  readonly ui: Ui;
+}
+
+export interface Ui {
+  readonly frameIndex: number;
+  readonly component: ComponentName;
+  readonly tool: ToolName;
+  /** Null: the whole frame, fitted to the canvas. */
+  readonly viewport: Viewport | null;
+  readonly selectedPoint: number | null;
+  readonly overlayOpacity: number;
+  /** Space is held: outlines and overlays step aside. */
+  readonly overlaysHidden: boolean;
+  readonly popover: Popover | null;
+  readonly notice: Notice | null;
+  readonly log: readonly Notice[];
+  readonly jobs: readonly Job[];
+  readonly savedAt: number | null;
+  /** Libraries that are open in the pose worker, by component: their key. */
+  readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
+}
+
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session';
+
+export interface Notice {
+  readonly kind: 'info' | 'error';
+  readonly text: string;
+  readonly at: number;
+}
+
+/** Long work, with a count and a time, that can be called off. */
+export interface Job {
+  readonly id: number;
+  readonly title: string;
+  readonly done: number;
+  readonly total: number;
+  readonly unit: string;
+  readonly startedAt: number;
+  readonly cancel: () => void;
+}
+
+export type LibraryState =
+  | { readonly state: 'none' }
+  | { readonly state: 'building'; readonly key: string; readonly job: number }
+  | { readonly state: 'stopped'; readonly key: string; readonly reason: string }
+  | { readonly state: 'ready'; readonly key: string; readonly views: number; readonly bytes: number; readonly seconds: number | null };
+
+const EMPTY_UI: Ui = {
+  frameIndex: 0,
+  component: 'femur',
+  tool: 'trace',
+  viewport: null,
+  selectedPoint: null,
+  overlayOpacity: 0.35,
+  overlaysHidden: false,
+  popover: null,
+  notice: null,
+  log: [],
+  jobs: [],
+  savedAt: null,
+  libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
+};
+
+const LOG_LENGTH = 200;
+
+/** The one store. Listeners are told after every change, synchronously. */
+export class Store {
+  #state: State = { history: history.startHistory(EMPTY_DOC), ui: EMPTY_UI };
+  readonly #listeners = new Set<() => void>();
+
+  get state(): State {
+    return this.#state;
+  }
+
+  get doc(): Doc {
+    return this.#state.history.present;
+  }
+
+  get ui(): Ui {
+    return this.#state.ui;
+  }
+
+  subscribe(listener: () => void): () => void {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
+  }
+
+  // --- Document -----------------------------------------------------------------------------------------------
+
+  perform(command: Command): void {
+    this.#toHistory(history.perform(this.#state.history, command));
+  }
+
+  preview(command: Command): void {
+    this.#toHistory(history.preview(this.#state.history, command));
+  }
+
+  /** Ends a gesture with its last command. */
+  commit(command: Command): void {
+    this.#toHistory(history.commitPreview(history.preview(this.#state.history, command), command));
+  }
+
+  cancelPreview(): void {
+    this.#toHistory(history.cancelPreview(this.#state.history));
+  }
+
+  amend(change: (doc: Doc) => Doc): void {
+    this.#toHistory(history.amend(this.#state.history, change));
+  }
+
+  undo(): void {
+    const step = history.nextUndo(this.#state.history);
+    this.#toHistory(history.undo(this.#state.history));
+    this.#show(step?.place ?? null);
+  }
+
+  redo(): void {
+    const step = history.nextRedo(this.#state.history);
+    this.#toHistory(history.redo(this.#state.history));
+    this.#show(step?.place ?? null);
+  }
+
+  /** Another document takes the place of this one; nothing of the old is undone into. */
+  replace(doc: Doc): void {
+    this.#set({ history: history.startHistory(doc), ui: { ...this.ui, frameIndex: 0, viewport: null, selectedPoint: null } });
+  }
+
+  markSaved(doc: Doc): void {
+    this.#toHistory(history.markSaved(this.#state.history, doc));
+  }
+
+  // --- What is not undone ---------------------------------------------------------------------------------------
+
+  show(change: Partial<Ui>): void {
+    this.#set({ ...this.#state, ui: { ...this.ui, ...change } });
+  }
+
+  goTo(frameIndex: number): void {
+    const last = Math.max(0, this.doc.frames.length - 1);
+    const index = Math.min(last, Math.max(0, frameIndex));
+    if (index !== this.ui.frameIndex) this.show({ frameIndex: index, selectedPoint: null });
+  }
+
+  selectComponent(component: ComponentName): void {
+    if (component !== this.ui.component) this.show({ component, selectedPoint: null });
+  }
+
+  say(kind: Notice['kind'], text: string): void {
+    const notice: Notice = { kind, text, at: Date.now() };
+    this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
+  }
+
+  quiet(): void {
+    if (this.ui.notice) this.show({ notice: null });
+  }
+
+  setJob(job: Job): void {
+    const others = this.ui.jobs.filter((other) => other.id !== job.id);
+    this.show({ jobs: [...others, job].sort((a, b) => a.id - b.id) });
+  }
+
+  endJob(id: number): void {
+    this.show({ jobs: this.ui.jobs.filter((job) => job.id !== id) });
+  }
+
+  setLibrary(component: ComponentName, library: LibraryState): void {
+    this.show({ libraries: { ...this.ui.libraries, [component]: library } });
+  }
+
+  #show(place: Place | null): void {
+    const frameIndex = place ? this.doc.frames.findIndex((frame) => frame.id === place.frameId) : -1;
+    if (place && frameIndex >= 0) this.show({ frameIndex, component: place.component, selectedPoint: null });
+  }
+
+  #toHistory(next: history.History): void {
+    const { frameIndex } = this.ui;
+    const last = Math.max(0, next.present.frames.length - 1);
+    this.#set({ history: next, ui: frameIndex > last ? { ...this.ui, frameIndex: last } : this.ui });
+  }
+
+  #set(state: State): void {
+    if (state.history === this.#state.history && state.ui === this.#state.ui) return;
+    this.#state = state;
+    for (const listener of this.#listeners) listener();
+  }
+}
+
+// --- What views ask of a state ------------------------------------------------------------------------------------
+
+export function currentFrame(state: State): FrameEntry | null {
+  return state.history.present.frames[state.ui.frameIndex] ?? null;
+}
+
+export function currentPlace(state: State): Place | null {
+  const frame = currentFrame(state);
+  return frame && { frameId: frame.id, component: state.ui.component };
+}
+
+export function currentCell(state: State): Cell {
+  return cellOf(state.history.present, currentFrame(state)?.id, state.ui.component);
+}

@@ -1,0 +1,163 @@
+import type { FramePoint } from '../geometry/points';
+
+/**
+ * The document: everything a person made or opened, as one immutable value. Bytes (files, pixels, libraries) live in
+ * the asset store and in WASM memory; the document names them by their SHA-256.
+ */
+export interface Doc {
+  readonly name: string;
+  readonly side: Side;
+  readonly frames: readonly FrameEntry[];
+  readonly calibration: Calibration | null;
+  readonly components: Readonly<Record<ComponentName, Component>>;
+  /** One cell a frame and component, by `cellKey`. */
+  readonly cells: Readonly<Record<string, Cell>>;
+  /** Null until a frame is opened: its own suggestion is used. */
+  readonly window: GreyWindow | null;
+}
+
+export type Side = 'left' | 'right' | 'unknown';
+
+export const COMPONENT_NAMES = ['femur', 'tibia'] as const;
+export type ComponentName = (typeof COMPONENT_NAMES)[number];
+
+/** One image; a file may hold many. */
+export interface FrameEntry {
+  /** Stable for the life of the document: `sha256:index`. */
+  readonly id: string;
+  readonly name: string;
+  /** SHA-256 of the file that holds it. */
+  readonly source: string;
+  readonly indexInSource: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** Text in one of the two formats that the core reads; typed values are written as such a text first. */
+export interface Calibration {
+  readonly name: string;
+  readonly text: string;
+}
+
+export interface Component {
+  readonly model: FileReference | null;
+  readonly libraryFile: FileReference | null;
+  readonly librarySpec: LibrarySpec;
+}
+
+export interface FileReference {
+  readonly name: string;
+  /** SHA-256 of the bytes, hexadecimal. */
+  readonly sha256: string;
+}
+
+/** Which views a library holds: degrees round the nominal view, millimetres to the focus, canonical pixels. */
+export interface LibrarySpec {
+  readonly nominalX: number;
+  readonly nominalY: number;
+  readonly xFrom: number;
+  readonly xTo: number;
+  readonly xStep: number;
+  readonly yFrom: number;
+  readonly yTo: number;
+  readonly yStep: number;
+  /** Null: nine tenths of the principal distance. */
+  readonly distance: number | null;
+  readonly area: number;
+}
+
+/** What is known of one component in one frame. */
+export interface Cell {
+  readonly outline: Outline | null;
+  readonly result: Result | null;
+}
+
+/** An open outline is a draft. */
+export interface Outline {
+  readonly points: readonly FramePoint[];
+  readonly closed: boolean;
+}
+
+export type Result = Posed | Failed;
+
+export interface Posed {
+  readonly kind: 'posed';
+  /** What the pose was found from: a library match of the cell's outline, or a file. */
+  readonly from: 'outline' | 'file';
+  /** Library and camera that found it (`libraryKey`), or the file's name. */
+  readonly origin: string;
+  readonly candidates: readonly Candidate[];
+  readonly chosen: number;
+}
+
+export interface Failed {
+  readonly kind: 'failed';
+  readonly origin: string;
+  readonly sentence: string;
+}
+
+/** One pose with its score. Millimetres and degrees, the field's Z-X-Y order. */
+export interface Candidate {
+  readonly pose: PoseNumbers;
+  /** Unmatched pixels in the canonical frame; null for a pose read from a file. */
+  readonly unmatched: number | null;
+}
+
+export interface PoseNumbers {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  readonly zRot: number;
+  readonly xRot: number;
+  readonly yRot: number;
+}
+
+/** Grey values shown from black to white: centre -+ width / 2. */
+export interface GreyWindow {
+  readonly centre: number;
+  readonly width: number;
+}
+
+export const EMPTY_CELL: Cell = { outline: null, result: null };
+
+export const DEFAULT_LIBRARY: LibrarySpec = {
+  nominalX: 0,
+  nominalY: 0,
+  xFrom: -15,
+  xTo: 15,
+  xStep: 1,
+  yFrom: -20,
+  yTo: 20,
+  yStep: 1,
+  distance: null,
+  area: 15000,
+};
+
+const EMPTY_COMPONENT: Component = { model: null, libraryFile: null, librarySpec: DEFAULT_LIBRARY };
+
+export const EMPTY_DOC: Doc = {
+  name: '',
+  side: 'unknown',
+  frames: [],
+  calibration: null,
+  components: { femur: EMPTY_COMPONENT, tibia: EMPTY_COMPONENT },
+  cells: {},
+  window: null,
+};
+
+export function cellKey(frameId: string, component: ComponentName): string {
+  return `${frameId}/${component}`;
+}
+
+export function cellOf(doc: Doc, frameId: string | undefined, component: ComponentName): Cell {
+  return (frameId !== undefined && doc.cells[cellKey(frameId, component)]) || EMPTY_CELL;
+}
+
+export function chosenCandidate(cell: Cell): Candidate | null {
+  return cell.result?.kind === 'posed' ? (cell.result.candidates[cell.result.chosen] ?? null) : null;
+}
+
+/** The name of a component as a word at the start of a sentence or on a button. */
+export function titleOf(component: ComponentName): string {
+  return component === 'femur' ? 'Femur' : 'Tibia';
+}

@@ -1,0 +1,97 @@
+import type { ComponentName, LibrarySpec, PoseNumbers } from '../document/types';
+
+/** What the workers can do; the page knows no more of WASM than this and `engine/film.ts`. */
+
+/** A calibration text and the size of the frames that it is for. */
+export interface CameraInput {
+  readonly text: string;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** A calibration in words and numbers, for chips and forms. */
+export interface CalibrationFacts {
+  readonly kind: 'jt' | 'matrix';
+  readonly principalDistance: number | null;
+  readonly pitch: number | null;
+  readonly offsetX: number | null;
+  readonly offsetY: number | null;
+  readonly fx: number;
+  readonly fy: number;
+  readonly cx: number;
+  readonly cy: number;
+}
+
+export interface ModelMesh {
+  /** x, y, z of each vertex, millimetres. */
+  readonly vertices: Float32Array<ArrayBuffer>;
+  /** Three vertices each. */
+  readonly triangles: Uint32Array<ArrayBuffer>;
+}
+
+export interface DecodedFrame {
+  readonly width: number;
+  readonly height: number;
+  readonly pixels: Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer>;
+  /** As the file suggests, if it does. */
+  readonly window: { readonly centre: number; readonly width: number } | null;
+}
+
+/** A candidate as the matcher gives it: with both canonical silhouettes, one bit a pixel. */
+export interface Match {
+  readonly candidates: readonly MatchedCandidate[];
+  readonly canonicalSize: number;
+  readonly canonicalArea: number;
+  readonly milliseconds: number;
+}
+
+export interface MatchedCandidate {
+  readonly pose: PoseNumbers;
+  readonly unmatched: number;
+  readonly viewX: number;
+  readonly viewY: number;
+  readonly picture: Picture;
+}
+
+/** Bits of the input's and the library view's canonical silhouettes, in the core's row order. */
+export interface Picture {
+  readonly size: number;
+  readonly input: Uint8Array<ArrayBuffer>;
+  readonly view: Uint8Array<ArrayBuffer>;
+}
+
+export interface LibraryFacts {
+  readonly views: number;
+  readonly bytes: number;
+}
+
+export type FileKind = 'frames' | 'model' | 'unknown';
+
+export interface DecodeProtocol {
+  sniff: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: FileKind; progress: never };
+  /** Frames arrive one by one as progress. */
+  frames: {
+    input: { bytes: Uint8Array<ArrayBuffer>; name: string };
+    output: number;
+    progress: { readonly index: number; readonly total: number; readonly frame: DecodedFrame };
+  };
+  model: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: ModelMesh; progress: never };
+}
+
+export interface LibraryProtocol {
+  build: {
+    input: { mesh: ModelMesh; camera: CameraInput; spec: LibrarySpec };
+    output: Uint8Array<ArrayBuffer>;
+    progress: { readonly done: number; readonly total: number };
+  };
+}
+
+export interface PoseProtocol {
+  open: { input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer> }; output: LibraryFacts; progress: never };
+  match: {
+    /** Columns and rows of the outline's points, by turns. */
+    input: { component: ComponentName; outline: Float64Array<ArrayBuffer>; camera: CameraInput };
+    output: Match;
+    progress: never;
+  };
+}

@@ -1,0 +1,43 @@
+import { distance, nearestOnSegment, type CanvasPoint, type FramePoint } from '../geometry/points';
+import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
+import type { Outline } from '../document/types';
+
+/** What of an outline lies under the pointer. */
+export type Hit =
+  | { readonly kind: 'vertex'; readonly index: number }
+  /** Between point `before - 1` and the next; `at` lies on the edge. */
+  | { readonly kind: 'edge'; readonly before: number; readonly at: FramePoint }
+  | { readonly kind: 'nothing' };
+
+/** Wide enough to hit with a mouse on a bad day. */
+export const VERTEX_REACH = 9;
+export const EDGE_REACH = 6;
+
+const NOTHING: Hit = { kind: 'nothing' };
+
+export function hitTest(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
+  if (!outline || outline.points.length === 0) return NOTHING;
+  const points = outline.points.map((point) => canvasFromFrame(viewport, point));
+  return hitVertex(points, at) ?? hitEdge(points, outline.closed, viewport, at) ?? NOTHING;
+}
+
+function hitVertex(points: readonly CanvasPoint[], at: CanvasPoint): Hit | null {
+  let best: { index: number; away: number } | null = null;
+  points.forEach((point, index) => {
+    const away = distance(point, at);
+    if (away <= VERTEX_REACH && (best === null || away < best.away)) best = { index, away };
+  });
+  const found = best as { index: number } | null;
+  return found && { kind: 'vertex', index: found.index };
+}
+
+function hitEdge(points: readonly CanvasPoint[], closed: boolean, viewport: Viewport, at: CanvasPoint): Hit | null {
+  const edges = closed ? points.length : points.length - 1;
+  let best: { before: number; on: CanvasPoint; away: number } | null = null;
+  for (let start = 0; start < edges; start++) {
+    const on = nearestOnSegment(at, points[start]!, points[(start + 1) % points.length]!);
+    const away = distance(on, at);
+    if (away <= EDGE_REACH && (best === null || away < best.away)) best = { before: start + 1, on, away };
+  }
+  return best && { kind: 'edge', before: best.before, at: frameFromCanvas(viewport, best.on) };
+}

@@ -1,0 +1,50 @@
+import type { CanvasPoint } from '../geometry/points';
+import type { Size, Viewport } from '../geometry/viewport';
+import type { Command, Place } from '../document/commands';
+import type { GreyWindow, Outline } from '../document/types';
+
+/**
+ * Interactions are state machines without a DOM: an input and the scene go in, the next state and effects come out.
+ * Tests drive them with plain values.
+ */
+export type Button = 'primary' | 'middle' | 'secondary';
+
+export interface Input {
+  readonly type: 'down' | 'move' | 'up' | 'double' | 'cancel';
+  readonly at: CanvasPoint;
+  readonly button: Button;
+  readonly alt: boolean;
+}
+
+export interface Scene {
+  readonly viewport: Viewport;
+  readonly frame: Size;
+  readonly place: Place;
+  readonly outline: Outline | null;
+  readonly window: GreyWindow;
+}
+
+export type Effect =
+  | { readonly type: 'perform'; readonly command: Command }
+  | { readonly type: 'preview'; readonly command: Command }
+  | { readonly type: 'commit'; readonly command: Command }
+  | { readonly type: 'cancel-preview' }
+  | { readonly type: 'select'; readonly index: number | null }
+  | { readonly type: 'viewport'; readonly viewport: Viewport };
+
+export interface Outcome<State> {
+  readonly state: State;
+  readonly effects: readonly Effect[];
+}
+
+export interface Machine<State> {
+  readonly start: State;
+  readonly next: (state: State, input: Input, scene: Scene) => Outcome<State>;
+}
+
+export function outcome<State>(state: State, ...effects: readonly Effect[]): Outcome<State> {
+  return { state, effects };
+}
+
+/** A press that moves less than this is a click: hands tremble. */
+export const DRAG_THRESHOLD = 3;

@@ -1,0 +1,59 @@
+import { addPoint, closeOutline } from '../document/commands';
+import { frameFromCanvas } from '../geometry/viewport';
+import { edit, type EditState } from './edit';
+import { hitTest } from './hit';
+import { outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+
+/**
+ * Tracing by clicks. A press on a point of the draft, or anywhere once the outline is closed, edits; a press elsewhere
+ * adds a point that can be dragged into place until the button is let go.
+ */
+export type TraceState =
+  | { readonly name: 'editing'; readonly edit: EditState; readonly maybeClosing: boolean }
+  | { readonly name: 'adding' };
+
+const IDLE: TraceState = { name: 'editing', edit: edit.start, maybeClosing: false };
+
+export const trace: Machine<TraceState> = { start: IDLE, next };
+
+export const FEWEST_POINTS = 3;
+
+function next(state: TraceState, input: Input, scene: Scene): Outcome<TraceState> {
+  if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
+  if (input.type === 'double' && isDraft(scene)) return outcome(IDLE, ...close(scene));
+  return state.name === 'adding' ? whileAdding(input, scene) : whileEditing(state, input, scene);
+}
+
+function whileEditing(
+  state: Extract<TraceState, { name: 'editing' }>,
+  input: Input,
+  scene: Scene,
+): Outcome<TraceState> {
+  const hit = hitTest(scene.outline, scene.viewport, input.at);
+  const fresh = input.type === 'down' && input.button === 'primary' && state.edit.name === 'idle';
+  if (fresh && isDraft(scene) && hit.kind !== 'vertex') return whileAdding(input, scene);
+  if (input.type === 'up' && state.maybeClosing && state.edit.name === 'pressed') {
+    return outcome(IDLE, ...close(scene));
+  }
+  const edited = edit.next(state.edit, input, scene);
+  const onFirst = hit.kind === 'vertex' && hit.index === 0 && isDraft(scene) && !input.alt;
+  const maybeClosing = fresh ? onFirst : state.maybeClosing;
+  return { state: { name: 'editing', edit: edited.state, maybeClosing }, effects: edited.effects };
+}
+
+function whileAdding(input: Input, scene: Scene): Outcome<TraceState> {
+  const command = addPoint(scene.place, frameFromCanvas(scene.viewport, input.at));
+  if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
+  return outcome({ name: 'adding' }, { type: 'preview', command });
+}
+
+/** Too few points to close: nothing happens, the status line says why. */
+function close(scene: Scene) {
+  if (!scene.outline || scene.outline.points.length < FEWEST_POINTS) return [];
+  const select = { type: 'select', index: null } as const;
+  return [{ type: 'perform', command: closeOutline(scene.place) } as const, select];
+}
+
+function isDraft(scene: Scene): boolean {
+  return scene.outline?.closed !== true;
+}
