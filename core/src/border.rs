@@ -148,7 +148,13 @@ mod tests {
     #[test]
     fn filling_the_border_gives_the_mask_back() {
         let shapes: [&[(f64, f64)]; 3] = [
-            &[(2.2, 3.1), (35.0, 1.2), (39.9, 23.9), (20.0, 9.0), (4.0, 22.0)],
+            &[
+                (2.2, 3.1),
+                (35.0, 1.2),
+                (39.9, 23.9),
+                (20.0, 9.0),
+                (4.0, 22.0),
+            ],
             &[(0.0, 0.0), (40.0, 0.0), (40.0, 24.0), (0.0, 24.0)],
             &[(10.0, 10.0), (11.0, 10.0), (11.0, 11.0), (10.0, 11.0)],
         ];
@@ -171,10 +177,7 @@ mod tests {
         let mut words = [0; words_needed(W, H)];
         let mask = Mask::new(&words, W, H).expect("valid");
         let mut border = Contour::<3>::new();
-        assert_eq!(
-            follow_border(&mask, &mut border),
-            Err(BorderError::Empty)
-        );
+        assert_eq!(follow_border(&mask, &mut border), Err(BorderError::Empty));
         words[0] = 1;
         let mask = Mask::new(&words, W, H).expect("valid");
         assert_eq!(

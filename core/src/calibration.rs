@@ -39,9 +39,7 @@ pub enum CalibrationError {
     #[error("the calibration's rotation is not a rotation matrix")]
     Rotation,
     /// The frame has another size than the calibration names.
-    #[error(
-        "the calibration is for frames of {calibration:?} pixels, but the frame has {frame:?}"
-    )]
+    #[error("the calibration is for frames of {calibration:?} pixels, but the frame has {frame:?}")]
     FrameSize {
         /// Width and height in the file.
         calibration: (usize, usize),

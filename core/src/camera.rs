@@ -205,9 +205,6 @@ mod tests {
         assert_eq!(name(make(f64::NAN, 0.3, 0.0)), "principal distance");
         assert_eq!(name(make(1000.0, -0.3, 0.0)), "pixel pitch");
         assert_eq!(name(make(1000.0, 0.3, f64::INFINITY)), "principal point x");
-        assert_eq!(
-            name(Camera::new(0, 9, [1e3; 2], [4.0; 2])),
-            "frame width"
-        );
+        assert_eq!(name(Camera::new(0, 9, [1e3; 2], [4.0; 2])), "frame width");
     }
 }

@@ -1,22 +1,29 @@
 //! Six-degree-of-freedom pose of a known implant from one X-ray silhouette, in fixed memory.
 //!
 //! The method is that of Walker, Hoff, Komistek and Dennis (1996). Data flow through the modules
-//! [`kinematics`] from two of them. Nothing is allocated: callers lend memory and can ask how
-//! much.
+//! in this order: a grey [`frame`], a traced [`contour`], a [`mask`], its [`canonical`] form,
+//! the best views of a [`library`] by [`matching`], a view between them by [`interpolate`], a
+//! [`pose`] by [`estimate`], and joint [`kinematics`] from two poses. Nothing is allocated:
+//! callers lend memory and can ask how much.
 #![no_std]
 #![forbid(unsafe_code)]
 
 #[cfg(test)]
 extern crate std;
-#[cfg(test)]
 
 pub mod border;
 pub mod calibration;
 pub mod camera;
+pub mod canonical;
 pub mod contour;
+pub mod estimate;
 pub mod frame;
+pub mod interpolate;
 pub mod jts;
+pub mod kinematics;
+pub mod library;
 pub mod mask;
+pub mod matching;
 pub mod math;
 pub mod median;
 pub mod mesh;

@@ -17,7 +17,9 @@ pub const MAX_SIDE: usize = 16_384;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum MaskError {
     /// The shape is empty or larger than [`MAX_SIDE`].
-    #[error("a mask of {width} x {height} pixels is not possible; each side must be 1 to {MAX_SIDE}")]
+    #[error(
+        "a mask of {width} x {height} pixels is not possible; each side must be 1 to {MAX_SIDE}"
+    )]
     Shape {
         /// Columns.
         width: usize,
@@ -470,8 +472,14 @@ mod tests {
 
     #[test]
     fn an_outline_fills_the_centres_inside_it() {
-        let points = [(3.2, 2.1), (60.7, 8.4), (69.9, 39.0), (30.0, 20.3), (5.5, 35.5)]
-            .map(|(column, row)| Point::new(column, row));
+        let points = [
+            (3.2, 2.1),
+            (60.7, 8.4),
+            (69.9, 39.0),
+            (30.0, 20.3),
+            (5.5, 35.5),
+        ]
+        .map(|(column, row)| Point::new(column, row));
         let outline = Outline::new(&points, W, H).expect("simple");
         let mut words = [0; words_needed(W, H)];
         let mut mask = MaskMut::new(&mut words, W, H).expect("fits");

@@ -216,8 +216,16 @@ impl From<Matrix3> for Quaternion {
     /// is the divisor, so none is lost; the scalar part is not negative.
     fn from(r: Matrix3) -> Self {
         let (a, b, c) = (r[0][0], r[1][1], r[2][2]);
-        let squares = [1.0 + a + b + c, 1.0 + a - b - c, 1.0 - a + b - c, 1.0 - a - b + c];
-        let largest = (1..4).fold(0, |best, k| if squares[k] > squares[best] { k } else { best });
+        let squares = [
+            1.0 + a + b + c,
+            1.0 + a - b - c,
+            1.0 - a + b - c,
+            1.0 - a - b + c,
+        ];
+        let largest = (1..4).fold(
+            0,
+            |best, k| if squares[k] > squares[best] { k } else { best },
+        );
         let root = sqrt(squares[largest]);
         let k = 0.5 / root;
         let (d0, d1, d2) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]);

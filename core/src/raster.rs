@@ -168,9 +168,8 @@ mod tests {
         let mut vertices = [[0.0; 3]; 8];
         vertices[1..].copy_from_slice(&rim);
         vertices[0] = [3.3, -2.7, 0.0];
-        let triangles: [[u32; 3]; 7] = core::array::from_fn(|k| {
-            [0, k as u32 + 1, (k as u32 + 1) % 7 + 1]
-        });
+        let triangles: [[u32; 3]; 7] =
+            core::array::from_fn(|k| [0, k as u32 + 1, (k as u32 + 1) % 7 + 1]);
         let pose = Pose {
             translation: [0.0, 0.0, -500.0],
             ..Pose::IDENTITY
@@ -179,11 +178,20 @@ mod tests {
             let mesh = Mesh::new(&vertices, triangles).expect("valid");
             let mut words = [0; words_needed(SIDE, SIDE)];
             let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-            render(&mesh, &camera(), &pose, &mut [Projected::default(); 8], &mut mask)
-                .expect("in front");
+            render(
+                &mesh,
+                &camera(),
+                &pose,
+                &mut [Projected::default(); 8],
+                &mut mask,
+            )
+            .expect("in front");
             mask.as_mask().area()
         };
-        let parts: u64 = triangles.iter().map(|t| area(core::slice::from_ref(t))).sum();
+        let parts: u64 = triangles
+            .iter()
+            .map(|t| area(core::slice::from_ref(t)))
+            .sum();
         assert_eq!(parts, area(&triangles));
     }
 

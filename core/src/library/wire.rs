@@ -1,0 +1,175 @@
+//! Every byte of a library file, and nothing else.
+//!
+//! Little-endian throughout. Header (256 bytes), then a record of 64 bytes a view, then the
+//! canonical bits of each view (`size * size / 8` bytes, row by row, least significant bit
+//! leftmost). Two CRC-32 (ISO-HDLC): of the header up to its own, and of the body.
+
+use crc::{CRC_32_ISO_HDLC, Crc};
+
+use super::{Grid, GridAxis, LibraryInfo, ViewRecord};
+
+/// First eight bytes of the file.
+pub const MAGIC: [u8; 8] = *b"FLUOROPL";
+/// Version of the layout. Version 0 may still change: its speed and size are being measured.
+pub const VERSION: u16 = 0;
+/// Bytes of the header.
+pub const HEADER_BYTES: usize = 256;
+/// Bytes of a view's record.
+pub const RECORD_BYTES: usize = 64;
+
+/// Where the header's own checksum stands.
+pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
+
+const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+pub(super) fn checksum(bytes: &[u8]) -> u32 {
+    CRC.checksum(bytes)
+}
+
+/// Reads numbers one after another; zero beyond the end, so no index can be wrong.
+pub(super) struct Reader<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        Self { rest: bytes }
+    }
+
+    pub(super) fn bytes<const N: usize>(&mut self) -> [u8; N] {
+        match self.rest.split_first_chunk() {
+            Some((head, rest)) => {
+                self.rest = rest;
+                *head
+            }
+            None => [0; N],
+        }
+    }
+
+    pub(super) fn u16(&mut self) -> u16 {
+        u16::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn u32(&mut self) -> u32 {
+        u32::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn u64(&mut self) -> u64 {
+        u64::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn f32(&mut self) -> f32 {
+        f32::from_le_bytes(self.bytes())
+    }
+
+    pub(super) fn f64(&mut self) -> f64 {
+        f64::from_le_bytes(self.bytes())
+    }
+}
+
+/// Writes numbers one after another; stops at the end of its bytes.
+pub(super) struct Writer<'a> {
+    rest: &'a mut [u8],
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(bytes: &'a mut [u8]) -> Self {
+        Self { rest: bytes }
+    }
+
+    pub(super) fn bytes(&mut self, bytes: &[u8]) {
+        let rest = core::mem::take(&mut self.rest);
+        if let Some((head, rest)) = rest.split_at_mut_checked(bytes.len()) {
+            head.copy_from_slice(bytes);
+            self.rest = rest;
+        }
+    }
+
+    pub(super) fn f64(&mut self, value: f64) {
+        self.bytes(&value.to_le_bytes());
+    }
+
+    fn u32(&mut self, value: usize) {
+        self.bytes(&(value as u32).to_le_bytes());
+    }
+
+    fn u16(&mut self, value: usize) {
+        self.bytes(&(value as u16).to_le_bytes());
+    }
+}
+
+fn write_axis(out: &mut Writer<'_>, axis: &GridAxis) {
+    out.f64(axis.first);
+    out.f64(axis.step);
+}
+
+/// Writes the header for a body of `body_bytes` bytes with the checksum `body_crc`.
+pub(super) fn write_header(
+    header: &mut [u8; HEADER_BYTES],
+    info: &LibraryInfo,
+    body_bytes: u64,
+    body_crc: u32,
+) {
+    header.fill(0);
+    let out = &mut Writer::new(header);
+    out.bytes(&MAGIC);
+    out.bytes(&VERSION.to_le_bytes());
+    out.u16(HEADER_BYTES);
+    out.u32(info.canonical.area() as usize);
+    out.u16(info.canonical.size());
+    out.u16(info.grid.x.count);
+    out.u16(info.grid.y.count);
+    out.u16(0);
+    write_axis(out, &info.grid.x);
+    write_axis(out, &info.grid.y);
+    out.f64(info.distance);
+    info.reference.iter().for_each(|&value| out.f64(value));
+    out.f64(info.focal);
+    out.u32(info.camera.width());
+    out.u32(info.camera.height());
+    info.camera.focal().iter().for_each(|&value| out.f64(value));
+    let centre = info.camera.principal_point();
+    centre.iter().for_each(|&value| out.f64(value));
+    out.bytes(&info.model);
+    out.bytes(&body_bytes.to_le_bytes());
+    out.bytes(&body_crc.to_le_bytes());
+    let crc = checksum(&header[..HEADER_CRC_AT]).to_le_bytes();
+    header[HEADER_CRC_AT..].copy_from_slice(&crc);
+}
+
+pub(super) fn read_grid(reader: &mut Reader<'_>, x_count: usize, y_count: usize) -> Grid {
+    let mut axis = |count| GridAxis {
+        first: reader.f64(),
+        step: reader.f64(),
+        count,
+    };
+    Grid {
+        x: axis(x_count),
+        y: axis(y_count),
+    }
+}
+
+pub(super) fn write_record(bytes: &mut [u8], record: &ViewRecord) {
+    bytes.fill(0);
+    let out = &mut Writer::new(bytes);
+    out.f64(record.x_deg);
+    out.f64(record.y_deg);
+    out.f64(record.scale);
+    out.f64(record.angle);
+    record.offset.iter().for_each(|&value| out.f64(value));
+    out.bytes(&record.area.to_le_bytes());
+    out.bytes(&record.elongation.to_le_bytes());
+}
+
+pub(super) fn read_record(bytes: &[u8]) -> ViewRecord {
+    let mut reader = Reader::new(bytes);
+    ViewRecord {
+        x_deg: reader.f64(),
+        y_deg: reader.f64(),
+        scale: reader.f64(),
+        angle: reader.f64(),
+        offset: [reader.f64(), reader.f64()],
+        area: reader.u32(),
+        elongation: reader.f32(),
+    }
+}
