@@ -3,6 +3,7 @@
 pub mod ci;
 pub mod demo;
 pub mod evaluate;
+pub mod implant;
 pub mod kinematics;
 pub mod library;
 pub mod models;
@@ -11,6 +12,8 @@ pub mod pose;
 pub mod serve;
 pub mod setup;
 pub mod static_server;
+pub mod suite;
+pub mod stl;
 pub mod synthetic;
 pub mod test;
 pub mod workspace;

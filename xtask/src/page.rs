@@ -23,7 +23,10 @@ pub fn build() -> Result<PathBuf> {
     announce("bundling the page (npm run build)");
     command::run(&mut node::script(&web, "build")?)?;
     let dist = web.join("dist");
-    ensure!(dist.join("index.html").is_file(), "`npm run build` left no index.html in web/dist");
+    ensure!(
+        dist.join("index.html").is_file(),
+        "`npm run build` left no index.html in web/dist"
+    );
     Ok(dist)
 }
 
@@ -55,7 +58,10 @@ pub fn target_dir() -> PathBuf {
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {
     let mut bindgen = Bindgen::new();
-    bindgen.input_path(module).typescript(true).remove_name_section(true);
+    bindgen
+        .input_path(module)
+        .typescript(true)
+        .remove_name_section(true);
     bindgen
         .web(true)
         .and_then(|bindgen| bindgen.generate(folder))

@@ -40,6 +40,8 @@ pub fn run(args: Args) -> Result<()> {
 /// Whether somebody sits before this machine: a terminal, and a desktop to open a browser on.
 fn has_display() -> bool {
     let desktop = cfg!(any(windows, target_os = "macos"))
-        || ["DISPLAY", "WAYLAND_DISPLAY"].iter().any(|name| std::env::var_os(name).is_some());
+        || ["DISPLAY", "WAYLAND_DISPLAY"]
+            .iter()
+            .any(|name| std::env::var_os(name).is_some());
     desktop && std::io::stdout().is_terminal()
 }

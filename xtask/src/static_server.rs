@@ -6,8 +6,8 @@ use std::thread::JoinHandle;
 
 use anyhow::{Context, Result, anyhow};
 use axum::Router;
-use axum::http::header::{CACHE_CONTROL, HeaderName, X_CONTENT_TYPE_OPTIONS};
 use axum::http::HeaderValue;
+use axum::http::header::{CACHE_CONTROL, HeaderName, X_CONTENT_TYPE_OPTIONS};
 use tower_http::services::ServeDir;
 use tower_http::set_header::SetResponseHeaderLayer;
 
@@ -39,7 +39,9 @@ impl Server {
 
     /// Waits until the server fails, which it normally does not.
     pub fn wait(self) -> Result<()> {
-        self.thread.join().map_err(|_| anyhow!("the server's thread ended in a panic"))?
+        self.thread
+            .join()
+            .map_err(|_| anyhow!("the server's thread ended in a panic"))?
     }
 }
 
@@ -62,7 +64,10 @@ fn header(name: HeaderName, value: &'static str) -> SetResponseHeaderLayer<Heade
 }
 
 fn serve(listener: TcpListener, app: Router) -> Result<()> {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build()?;
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_io()
+        .enable_time()
+        .build()?;
     runtime.block_on(async {
         let listener = tokio::net::TcpListener::from_std(listener)?;
         axum::serve(listener, app).await?;
@@ -82,7 +87,8 @@ mod tests {
 
     impl Site {
         fn new(name: &str) -> Self {
-            let outer = std::env::temp_dir().join(format!("fluoropose-{name}-{}", std::process::id()));
+            let outer =
+                std::env::temp_dir().join(format!("fluoropose-{name}-{}", std::process::id()));
             std::fs::create_dir_all(outer.join("site/assets")).unwrap();
             std::fs::write(outer.join("secret"), "secret").unwrap();
             std::fs::write(outer.join("site/index.html"), "<p>page").unwrap();
@@ -92,7 +98,11 @@ mod tests {
 
         fn get(&self, server: &Server, path: &str) -> String {
             let mut stream = TcpStream::connect(server.address).unwrap();
-            write!(stream, "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n").unwrap();
+            write!(
+                stream,
+                "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+            )
+            .unwrap();
             let mut answer = Vec::new();
             stream.read_to_end(&mut answer).unwrap();
             String::from_utf8_lossy(&answer).into_owned()
@@ -110,17 +120,32 @@ mod tests {
         let site = Site::new("serve");
         let server = Server::start(&site.0.join("site"), 0).unwrap();
         let page = site.get(&server, "/").to_lowercase();
-        assert!(page.starts_with("http/1.1 200") && page.ends_with("<p>page"), "{page}");
-        assert!(page.contains("content-type: text/html") && page.contains("cache-control: no-cache"), "{page}");
+        assert!(
+            page.starts_with("http/1.1 200") && page.ends_with("<p>page"),
+            "{page}"
+        );
+        assert!(
+            page.contains("content-type: text/html") && page.contains("cache-control: no-cache"),
+            "{page}"
+        );
         let module = site.get(&server, "/assets/core.wasm").to_lowercase();
-        assert!(module.contains("content-type: application/wasm") && module.contains("immutable"), "{module}");
+        assert!(
+            module.contains("content-type: application/wasm") && module.contains("immutable"),
+            "{module}"
+        );
     }
 
     #[test]
     fn nothing_outside_the_folder_is_served() {
         let site = Site::new("outside");
         let server = Server::start(&site.0.join("site"), 0).unwrap();
-        for path in ["/../secret", "/%2e%2e/secret", "/assets/..%2f..%2fsecret", "//etc/passwd", "/missing"] {
+        for path in [
+            "/../secret",
+            "/%2e%2e/secret",
+            "/assets/..%2f..%2fsecret",
+            "//etc/passwd",
+            "/missing",
+        ] {
             let answer = site.get(&server, path);
             assert!(answer.starts_with("HTTP/1.1 4"), "{path}: {answer}");
         }
@@ -130,7 +155,9 @@ mod tests {
     fn a_taken_port_is_told() {
         let site = Site::new("taken");
         let first = Server::start(&site.0.join("site"), 0).unwrap();
-        let error = Server::start(&site.0.join("site"), first.address.port()).err().unwrap();
+        let error = Server::start(&site.0.join("site"), first.address.port())
+            .err()
+            .unwrap();
         assert!(error.to_string().contains("--port"), "{error}");
     }
 }

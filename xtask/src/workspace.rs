@@ -23,7 +23,11 @@ pub fn fingerprint(paths: &[PathBuf]) -> Result<String> {
     for path in paths {
         hash_path(path, &mut hash)?;
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hash
+        .finalize()
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect())
 }
 
 fn hash_path(path: &Path, hash: &mut Sha256) -> Result<()> {
@@ -35,8 +39,9 @@ fn hash_path(path: &Path, hash: &mut Sha256) -> Result<()> {
         return Ok(());
     }
     let entries = fs::read_dir(path).with_context(|| format!("cannot list {}", path.display()))?;
-    let mut entries: Vec<PathBuf> =
-        entries.map(|entry| Ok(entry?.path())).collect::<Result<_>>()?;
+    let mut entries: Vec<PathBuf> = entries
+        .map(|entry| Ok(entry?.path()))
+        .collect::<Result<_>>()?;
     entries.sort();
     entries.iter().try_for_each(|entry| hash_path(entry, hash))
 }
@@ -50,7 +55,10 @@ pub struct Stamp {
 impl Stamp {
     /// The stamp `file` for a folder made from the given files and folders.
     pub fn new(file: PathBuf, made_from: &[PathBuf]) -> Result<Self> {
-        Ok(Self { file, wanted: fingerprint(made_from)? })
+        Ok(Self {
+            file,
+            wanted: fingerprint(made_from)?,
+        })
     }
 
     /// Whether the folder was made from exactly these contents.

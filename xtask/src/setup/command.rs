@@ -16,14 +16,18 @@ pub fn find_in(path: &std::ffi::OsStr, names: &[&str]) -> Option<PathBuf> {
     let folders: Vec<PathBuf> = std::env::split_paths(path).collect();
     names.iter().find_map(|name| {
         let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
-        folders.iter().map(|folder| folder.join(&file)).find(|candidate| is_executable(candidate))
+        folders
+            .iter()
+            .map(|folder| folder.join(&file))
+            .find(|candidate| is_executable(candidate))
     })
 }
 
 #[cfg(unix)]
 fn is_executable(file: &std::path::Path) -> bool {
     use std::os::unix::fs::PermissionsExt;
-    file.metadata().is_ok_and(|meta| meta.is_file() && meta.permissions().mode() & 0o111 != 0)
+    file.metadata()
+        .is_ok_and(|meta| meta.is_file() && meta.permissions().mode() & 0o111 != 0)
 }
 
 #[cfg(not(unix))]
@@ -33,7 +37,9 @@ fn is_executable(file: &std::path::Path) -> bool {
 
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
 pub fn run(command: &mut Command) -> Result<()> {
-    let status = command.status().with_context(|| format!("cannot start {}", shown(command)))?;
+    let status = command
+        .status()
+        .with_context(|| format!("cannot start {}", shown(command)))?;
     if !status.success() {
         bail!("{} failed ({status})", shown(command));
     }
@@ -42,10 +48,17 @@ pub fn run(command: &mut Command) -> Result<()> {
 
 /// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
 pub fn output(command: &mut Command) -> Result<String> {
-    let output = command.output().with_context(|| format!("cannot start {}", shown(command)))?;
+    let output = command
+        .output()
+        .with_context(|| format!("cannot start {}", shown(command)))?;
     if !output.status.success() {
         let errors = String::from_utf8_lossy(&output.stderr);
-        bail!("{} failed ({}): {}", shown(command), output.status, last_lines(&errors, 5));
+        bail!(
+            "{} failed ({}): {}",
+            shown(command),
+            output.status,
+            last_lines(&errors, 5)
+        );
     }
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
@@ -94,8 +107,13 @@ mod tests {
 
     #[test]
     fn a_failure_names_the_command() {
-        let error = output(Command::new("cargo").arg("--no-such-option")).unwrap_err().to_string();
-        assert!(error.starts_with("`cargo --no-such-option` failed"), "{error}");
+        let error = output(Command::new("cargo").arg("--no-such-option"))
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.starts_with("`cargo --no-such-option` failed"),
+            "{error}"
+        );
     }
 
     #[test]

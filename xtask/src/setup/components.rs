@@ -10,7 +10,11 @@ pub fn ensure(subcommand: &str) -> Result<(), Missing> {
     if works(subcommand) {
         return Ok(());
     }
-    let component = if subcommand == "fmt" { "rustfmt" } else { subcommand };
+    let component = if subcommand == "fmt" {
+        "rustfmt"
+    } else {
+        subcommand
+    };
     let missing = |why: String, tried: bool| Missing {
         what: format!("cargo {subcommand}"),
         why,
@@ -19,7 +23,9 @@ pub fn ensure(subcommand: &str) -> Result<(), Missing> {
     };
     let rustup = command::find(&["rustup"])
         .ok_or_else(|| missing("there is no rustup to add it with".into(), false))?;
-    announce(&format!("adding the Rust component {component} (rustup component add)"));
+    announce(&format!(
+        "adding the Rust component {component} (rustup component add)"
+    ));
     command::output(Command::new(rustup).args(["component", "add", component]))
         .map_err(|error| missing(format!("{error:#}"), true))?;
     Ok(())

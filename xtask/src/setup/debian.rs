@@ -24,7 +24,11 @@ pub fn access() -> Access {
         return Access::NoApt;
     }
     let user = command::output(Command::new("id").arg("-u")).unwrap_or_default();
-    if user.trim() == "0" { Access::Root } else { Access::NotRoot }
+    if user.trim() == "0" {
+        Access::Root
+    } else {
+        Access::NotRoot
+    }
 }
 
 /// Installs packages that together provide `what`, or says why that cannot be.
@@ -32,16 +36,22 @@ pub fn install(what: &str, packages: &[&str]) -> Result<(), Missing> {
     if let Some(missing) = refusal(access(), what, packages) {
         return Err(missing);
     }
-    announce(&format!("installing {what} (apt-get install {})", packages.join(" ")));
+    announce(&format!(
+        "installing {what} (apt-get install {})",
+        packages.join(" ")
+    ));
     update();
     let mut apt = apt_get();
-    apt.args(["install", "--yes", "--no-install-recommends"]).args(packages);
-    command::output(&mut apt).map(drop).map_err(|error| Missing {
-        what: what.to_string(),
-        why: format!("{error:#}"),
-        remedy: format!("install {} by hand", packages.join(" ")),
-        tried: true,
-    })
+    apt.args(["install", "--yes", "--no-install-recommends"])
+        .args(packages);
+    command::output(&mut apt)
+        .map(drop)
+        .map_err(|error| Missing {
+            what: what.to_string(),
+            why: format!("{error:#}"),
+            remedy: format!("install {} by hand", packages.join(" ")),
+            tried: true,
+        })
 }
 
 /// Why nothing can be installed here, if so.
@@ -58,7 +68,12 @@ fn refusal(access: Access, what: &str, packages: &[&str]) -> Option<Missing> {
             format!("install it with your package manager (Debian calls it {packages})"),
         ),
     };
-    Some(Missing { what: what.to_string(), why, remedy, tried: false })
+    Some(Missing {
+        what: what.to_string(),
+        why,
+        remedy,
+        tried: false,
+    })
 }
 
 /// Refreshes the package lists once a run. Its failure is not told: an install that then fails tells more.
@@ -86,12 +101,19 @@ mod tests {
 
     #[test]
     fn a_refusal_is_one_line_with_a_remedy() {
-        let line = refusal(Access::NotRoot, "Chromium", &["chromium"]).unwrap().to_string();
+        let line = refusal(Access::NotRoot, "Chromium", &["chromium"])
+            .unwrap()
+            .to_string();
         assert_eq!(
             line,
             "no Chromium: installing it wants root; run `sudo apt-get install chromium`"
         );
-        let line = refusal(Access::NoApt, "QEMU", &["qemu-system-arm"]).unwrap().to_string();
-        assert!(line.contains("no apt-get") && line.contains("qemu-system-arm"), "{line}");
+        let line = refusal(Access::NoApt, "QEMU", &["qemu-system-arm"])
+            .unwrap()
+            .to_string();
+        assert!(
+            line.contains("no apt-get") && line.contains("qemu-system-arm"),
+            "{line}"
+        );
     }
 }

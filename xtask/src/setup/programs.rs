@@ -15,7 +15,12 @@ struct Program {
 
 const CHROMIUM: Program = Program {
     what: "Chromium",
-    names: &["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"],
+    names: &[
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+    ],
     packages: &["chromium"],
     variable: "FLUOROPOSE_CHROMIUM",
 };
@@ -60,7 +65,11 @@ impl Program {
         }
         Err(Missing {
             what: self.what.into(),
-            why: format!("{} names {}, which is no file", self.variable, named.display()),
+            why: format!(
+                "{} names {}, which is no file",
+                self.variable,
+                named.display()
+            ),
             remedy: format!("correct or unset {}", self.variable),
             tried: false,
         })
@@ -73,7 +82,13 @@ mod tests {
 
     #[test]
     fn a_wrongly_named_program_is_told() {
-        let said = CHROMIUM.check_named("no/such/browser".into()).unwrap_err().to_string();
-        assert!(said.contains("FLUOROPOSE_CHROMIUM names no/such/browser"), "{said}");
+        let said = CHROMIUM
+            .check_named("no/such/browser".into())
+            .unwrap_err()
+            .to_string();
+        assert!(
+            said.contains("FLUOROPOSE_CHROMIUM names no/such/browser"),
+            "{said}"
+        );
     }
 }

@@ -76,14 +76,26 @@ fn debian_cargo(
     let mut cargo = Command::new("/usr/bin/cargo");
     cargo.current_dir(workspace::root());
     // What rustup and the outer cargo set for themselves would lead Debian's cargo to the wrong compiler.
-    for name in ["RUSTUP_TOOLCHAIN", "RUSTC_WRAPPER", "CARGO", "RUSTFLAGS", "LD_LIBRARY_PATH"] {
+    for name in [
+        "RUSTUP_TOOLCHAIN",
+        "RUSTC_WRAPPER",
+        "CARGO",
+        "RUSTFLAGS",
+        "LD_LIBRARY_PATH",
+    ] {
         cargo.env_remove(name);
     }
-    cargo.env("RUSTC", "/usr/bin/rustc").env("RUSTC_BOOTSTRAP", "1");
+    cargo
+        .env("RUSTC", "/usr/bin/rustc")
+        .env("RUSTC_BOOTSTRAP", "1");
     if let Some(linker) = linker {
         cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker);
     }
-    let library = if target == WASM { "-Zbuild-std=std,panic_abort" } else { "-Zbuild-std=core" };
+    let library = if target == WASM {
+        "-Zbuild-std=std,panic_abort"
+    } else {
+        "-Zbuild-std=core"
+    };
     cargo.arg(subcommand).args(["--target", target, library]);
     cargo.arg("--target-dir").arg(debian_dir(target_dir));
     cargo
@@ -100,7 +112,10 @@ pub fn ensure(target: &'static str) -> Result<Toolchain, Missing> {
     };
     debian_toolchain(target).map_err(|debian_said| Missing {
         what: format!("Rust target {target}"),
-        why: format!("{rustup_said}; Debian's compiler neither ({})", debian_said.why),
+        why: format!(
+            "{rustup_said}; Debian's compiler neither ({})",
+            debian_said.why
+        ),
         remedy: format!("run `rustup target add {target}`"),
         tried: debian_said.tried || command::find(&["rustup"]).is_some(),
     })
@@ -114,7 +129,9 @@ fn is_installed(target: &str) -> bool {
 }
 
 fn has_core(folder: &Path) -> bool {
-    let Ok(entries) = folder.read_dir() else { return false };
+    let Ok(entries) = folder.read_dir() else {
+        return false;
+    };
     entries.flatten().any(|entry| {
         let name = entry.file_name();
         let name = name.to_string_lossy();
@@ -126,10 +143,16 @@ fn add_with_rustup(target: &str) -> Result<(), String> {
     let Some(rustup) = command::find(&["rustup"]) else {
         return Err("there is no rustup to add it with".to_string());
     };
-    announce(&format!("adding the Rust target {target} (rustup target add)"));
+    announce(&format!(
+        "adding the Rust target {target} (rustup target add)"
+    ));
     command::output(Command::new(rustup).args(["target", "add", target]))
         .map_err(|error| format!("{error:#}"))?;
-    if is_installed(target) { Ok(()) } else { Err("rustup added it to another toolchain".into()) }
+    if is_installed(target) {
+        Ok(())
+    } else {
+        Err("rustup added it to another toolchain".into())
+    }
 }
 
 fn debian_toolchain(target: &'static str) -> Result<Toolchain, Missing> {
@@ -137,7 +160,13 @@ fn debian_toolchain(target: &'static str) -> Result<Toolchain, Missing> {
     if !Path::new("/usr/lib/rustlib/src").exists() || !Path::new("/usr/bin/cargo").exists() {
         debian::install(&format!("a Rust compiler for {target}"), &packages)?;
     }
-    let linker = command::find(&["wasm-ld", "wasm-ld-19", "wasm-ld-16", "wasm-ld-15", "wasm-ld-14"]);
+    let linker = command::find(&[
+        "wasm-ld",
+        "wasm-ld-19",
+        "wasm-ld-16",
+        "wasm-ld-15",
+        "wasm-ld-14",
+    ]);
     if target == WASM && linker.is_none() {
         return Err(Missing {
             what: "WASM linker".into(),
@@ -154,23 +183,40 @@ mod tests {
     use super::*;
 
     fn words(command: &Command) -> Vec<String> {
-        command.get_args().map(|word| word.to_string_lossy().into_owned()).collect()
+        command
+            .get_args()
+            .map(|word| word.to_string_lossy().into_owned())
+            .collect()
     }
 
     #[test]
     fn the_host_is_installed_and_nonsense_is_not() {
-        assert!(is_installed("x86_64-unknown-linux-gnu") || !cfg!(all(target_arch = "x86_64", target_os = "linux")));
+        assert!(
+            is_installed("x86_64-unknown-linux-gnu")
+                || !cfg!(all(target_arch = "x86_64", target_os = "linux"))
+        );
         assert!(!is_installed("pdp11-unknown-none"));
     }
 
     #[test]
     fn debian_builds_the_library_apart_from_the_main_output() {
-        let toolchain = Toolchain::Debian { target: WASM, linker: Some("/usr/bin/wasm-ld-14".into()) };
+        let toolchain = Toolchain::Debian {
+            target: WASM,
+            linker: Some("/usr/bin/wasm-ld-14".into()),
+        };
         let cargo = toolchain.cargo("build", Path::new("out"));
         let words = words(&cargo);
-        assert!(words.contains(&"-Zbuild-std=std,panic_abort".to_string()), "{words:?}");
-        assert_eq!(toolchain.output_dir("wasm", Path::new("out")), Path::new("out/debian").join(WASM).join("wasm"));
-        let bootstrap = cargo.get_envs().find(|(name, _)| *name == "RUSTC_BOOTSTRAP");
+        assert!(
+            words.contains(&"-Zbuild-std=std,panic_abort".to_string()),
+            "{words:?}"
+        );
+        assert_eq!(
+            toolchain.output_dir("wasm", Path::new("out")),
+            Path::new("out/debian").join(WASM).join("wasm")
+        );
+        let bootstrap = cargo
+            .get_envs()
+            .find(|(name, _)| *name == "RUSTC_BOOTSTRAP");
         assert!(bootstrap.is_some_and(|(_, value)| value.is_some()));
     }
 

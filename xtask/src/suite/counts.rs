@@ -1,0 +1,115 @@
+//! How many tests a runner says it ran.
+
+use anyhow::{Result, ensure};
+
+/// Sums the `test result:` lines of `cargo test`.
+///
+/// Errors when no test ran: a filter or a wrong folder would otherwise pass for success.
+pub fn of_cargo(output: &str) -> Result<String> {
+    let results = output
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("test result: "));
+    let (mut passed, mut ignored) = (0, 0);
+    for result in results {
+        passed += number_before(result, "passed").unwrap_or(0);
+        ignored += number_before(result, "ignored").unwrap_or(0);
+    }
+    let said = tests(passed)?;
+    Ok(if ignored == 0 {
+        said
+    } else {
+        format!("{said}, {ignored} ignored")
+    })
+}
+
+/// Reads the `Tests  12 passed (12)` line of vitest.
+pub fn of_vitest(output: &str) -> Result<String> {
+    let plain = without_colours(output);
+    let line = plain
+        .lines()
+        .find(|line| line.trim_start().starts_with("Tests "));
+    tests(
+        line.and_then(|line| number_before(line, "passed"))
+            .unwrap_or(0),
+    )
+}
+
+/// Reads the `pass 12` line of Node's test runner, and how many it skipped.
+pub fn of_node(output: &str) -> Result<String> {
+    let plain = without_colours(output);
+    let count = |word: &str| {
+        plain.lines().rev().find_map(|line| {
+            let mut words = line.split_whitespace().rev();
+            let number = words.next()?.parse::<u32>().ok()?;
+            (words.next()? == word && words.count() == 1).then_some(number)
+        })
+    };
+    let said = tests(count("pass").unwrap_or(0))?;
+    Ok(match count("skipped") {
+        None | Some(0) => said,
+        Some(skipped) => format!("{said}, {skipped} skipped"),
+    })
+}
+
+fn tests(count: u32) -> Result<String> {
+    ensure!(count > 0, "the runner reports that no test passed");
+    Ok(format!("{count} tests"))
+}
+
+/// The number in front of a word, as in `12 passed`.
+fn number_before(line: &str, word: &str) -> Option<u32> {
+    let words: Vec<&str> = line
+        .split([' ', ';', '|'])
+        .filter(|word| !word.is_empty())
+        .collect();
+    let at = words.iter().position(|found| *found == word)?;
+    words.get(at.checked_sub(1)?)?.parse().ok()
+}
+
+/// The text without the escape sequences that colour a terminal.
+fn without_colours(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once("\u{1b}[") {
+        plain.push_str(before);
+        rest = after.split_once('m').map_or("", |(_, after)| after);
+    }
+    plain + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cargo_results_are_summed() {
+        let output = "running 2 tests\n\
+            test result: ok. 2 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s\n\
+            test result: ok. 10 passed; 0 failed; 0 ignored; 0 measured; 0 filtered out; finished in 0.10s\n";
+        assert_eq!(of_cargo(output).unwrap(), "12 tests, 1 ignored");
+        assert!(of_cargo("test result: ok. 0 passed; 0 failed; 0 ignored;").is_err());
+        assert!(of_cargo("").is_err());
+    }
+
+    #[test]
+    fn vitest_is_read_through_its_colours() {
+        let output = " \u{1b}[2m Test Files \u{1b}[22m 3 passed (3)\n\u{1b}[2m      Tests \u{1b}[22m \u{1b}[1m\u{1b}[32m41 passed\u{1b}[39m\u{1b}[22m\u{1b}[90m (41)\u{1b}[39m\n";
+        assert_eq!(of_vitest(output).unwrap(), "41 tests");
+        assert_eq!(
+            of_vitest("      Tests  2 failed | 3 passed (5)").unwrap(),
+            "3 tests"
+        );
+        assert!(of_vitest("No test files found").is_err());
+    }
+
+    #[test]
+    fn both_reporters_of_node_are_read() {
+        assert_eq!(
+            of_node("ℹ tests 6\nℹ pass 5\nℹ fail 0\nℹ skipped 1\n").unwrap(),
+            "5 tests, 1 skipped"
+        );
+        assert_eq!(of_node("# pass 5\n# skipped 0\n").unwrap(), "5 tests");
+        assert!(of_node("ℹ tests 0\nℹ pass 0\n").is_err());
+        assert!(of_node("the pedals pass 7\n").is_err());
+    }
+}

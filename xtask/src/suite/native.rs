@@ -1,0 +1,75 @@
+//! Formatting, lints and the Rust tests on this machine; the core built for a microcontroller.
+
+use std::process::Command;
+
+use anyhow::{Result, ensure};
+
+use super::counts;
+use super::report::Report;
+use crate::page;
+use crate::setup::command;
+use crate::setup::components;
+use crate::setup::rust_target::{self, own_cargo};
+
+/// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
+/// arithmetic and assertions are checked in them.
+pub const CHECKED: [&str; 5] = [
+    "--release",
+    "--config",
+    "profile.release.package.fluoropose.overflow-checks=true",
+    "--config",
+    "profile.release.package.fluoropose.debug-assertions=true",
+];
+
+/// Runs the suite.
+pub fn run(report: &mut Report) {
+    report.step("native: formatting", || {
+        components::ensure("fmt")?;
+        quiet(own_cargo().args(["fmt", "--all", "--check"]))
+    });
+    report.step("native: lints", || {
+        components::ensure("clippy")?;
+        let lint = [
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--release",
+            "--",
+            "-D",
+            "warnings",
+        ];
+        quiet(own_cargo().args(lint))
+    });
+    report.step("native: tests", || {
+        tests(own_cargo().args(["test", "--workspace"]).args(CHECKED))
+    });
+    report.step("native: tests of the core with micromath", || {
+        let core = ["test", "--package", "fluoropose", "--features", "micromath"];
+        tests(own_cargo().args(core).args(CHECKED))
+    });
+    report.step("native: core built for Cortex-M4F", || build_core(&[]));
+    report.step("native: core built for Cortex-M4F with micromath", || {
+        build_core(&["--features", "micromath"])
+    });
+}
+
+fn quiet(command: &mut Command) -> Result<String> {
+    command::run(command).map(|()| String::new())
+}
+
+/// Runs `cargo test` and counts what it ran.
+pub fn tests(cargo: &mut Command) -> Result<String> {
+    let (success, output) = command::tee(cargo)?;
+    ensure!(success, "`cargo test` failed; its output above says where");
+    counts::of_cargo(&output)
+}
+
+fn build_core(features: &[&str]) -> Result<String> {
+    let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
+    let mut cargo = toolchain.cargo("build", &page::target_dir());
+    quiet(
+        cargo
+            .args(["--release", "--package", "fluoropose", "--lib"])
+            .args(features),
+    )
+}
