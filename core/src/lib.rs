@@ -22,6 +22,7 @@ pub mod interpolate;
 pub mod jts;
 pub mod kinematics;
 pub mod library;
+pub mod locate;
 pub mod mask;
 pub mod matching;
 pub mod math;
