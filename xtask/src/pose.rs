@@ -1,12 +1,105 @@
-//! Verb `pose`.
+//! Verb `pose`: the pose of an implant in each mask of a folder.
 
-use anyhow::Result;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use fluoropose::pose::EulerPose;
+
+use crate::pipeline::build::progress;
+use crate::pipeline::files::{
+    files_in, mesh_of, read, read_calibration, read_mask, read_model, write_poses,
+};
+use crate::pipeline::locator::Locator;
 
 /// Options of `pose`.
 #[derive(clap::Args)]
-pub struct Args {}
+#[command(
+    after_help = "Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant; their names' order is \
+the order of the frames. Where two poses fit nearly alike both are printed.\n\n\
+Example:\n  cargo xtask pose --library femur.library --model femur.stl --calibration calibration.txt --masks masks/femur --out femur.jts"
+)]
+pub struct Args {
+    /// Library file from `cargo xtask library`
+    #[arg(long)]
+    library: PathBuf,
+    /// The model that the library was made from; checked by its digest
+    #[arg(long)]
+    model: PathBuf,
+    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    #[arg(long)]
+    calibration: PathBuf,
+    /// Folder of mask images
+    #[arg(long)]
+    masks: PathBuf,
+    /// Pose file to write, a row a mask
+    #[arg(long)]
+    out: PathBuf,
+}
+
+/// A rival pose is mentioned when it leaves at most this many times the unmatched pixels of
+/// the best.
+const RIVAL_RATIO: f64 = 1.3;
 
 /// Runs the verb.
-pub fn run(_args: Args) -> Result<()> {
-    anyhow::bail!("not built yet")
+///
+/// # Errors
+/// For files that cannot be read, a model that the library was not made from, or a mask
+/// without a pose: the file is named, and nothing is written.
+pub fn run(args: Args) -> Result<()> {
+    let bytes = read(&args.library)?;
+    let mut locator = Locator::open(&bytes).with_context(|| args.library.display().to_string())?;
+    let model = read_model(&args.model)?;
+    if mesh_of(&model)?.digest() != locator.library().info().model {
+        bail!(
+            "{} was not made from {}: build the library again",
+            args.library.display(),
+            args.model.display()
+        );
+    }
+    let calibration = read_calibration(&args.calibration)?;
+    let files = files_in(&args.masks)?;
+    let bar = progress(files.len(), "masks");
+    let mut poses = Vec::new();
+    for path in &files {
+        let buffer = read_mask(path)?;
+        let mask = buffer.mask();
+        let camera = calibration.camera(mask.width(), mask.height())?;
+        let found = locator
+            .locate(&mask, &camera)
+            .with_context(|| format!("no pose for {}", path.display()))?;
+        bar.suspend(|| describe(path, &found.poses));
+        poses.extend(found.poses.first().map(|best| EulerPose::from(best.pose)));
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    write_poses(&args.out, &poses)
+}
+
+/// Prints the best pose and the rivals that fit nearly as well.
+fn describe(path: &std::path::Path, poses: &[fluoropose::locate::Located]) {
+    let Some(best) = poses.first() else { return };
+    println!("{}", path.file_name().unwrap_or_default().display());
+    let limit = f64::from(best.fine.unmatched) * RIVAL_RATIO;
+    for located in poses {
+        if f64::from(located.fine.unmatched) > limit {
+            break;
+        }
+        let pose = EulerPose::from(located.pose);
+        println!(
+            "  x {:8.2} y {:8.2} z {:9.2} mm   z {:8.2} x {:7.2} y {:7.2} deg   {} px unmatched{}{}",
+            pose.x_mm,
+            pose.y_mm,
+            pose.z_mm,
+            pose.z_rot_deg,
+            pose.x_rot_deg,
+            pose.y_rot_deg,
+            located.fine.unmatched,
+            if located == best { "" } else { "  (rival)" },
+            if located.fine.at_border {
+                "  (at the border of the library)"
+            } else {
+                ""
+            },
+        );
+    }
 }

@@ -1,0 +1,149 @@
+//! Errors of poses against known ones, and their statistics.
+
+use fluoropose::math::{IDENTITY, Matrix3, Vector3, dot, multiply, norm, scale, wrap};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use serde::Serialize;
+
+/// Signed differences of one pose from a reference; the geodesic one is not signed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Errors {
+    /// To the right, mm.
+    pub x_mm: f64,
+    /// Upwards, mm.
+    pub y_mm: f64,
+    /// Along the view, mm.
+    pub z_mm: f64,
+    /// In the image plane, degrees.
+    pub z_rot_deg: f64,
+    /// About x, degrees.
+    pub x_rot_deg: f64,
+    /// About y, degrees.
+    pub y_rot_deg: f64,
+    /// Angle of the rotation between the two, degrees.
+    pub geodesic_deg: f64,
+}
+
+impl Errors {
+    /// `found` minus `reference`; angles are taken the short way round.
+    pub fn of(found: &Pose, reference: &Pose) -> Self {
+        let (a, b) = (EulerPose::from(*found), EulerPose::from(*reference));
+        Self {
+            x_mm: a.x_mm - b.x_mm,
+            y_mm: a.y_mm - b.y_mm,
+            z_mm: a.z_mm - b.z_mm,
+            z_rot_deg: wrap(a.z_rot_deg - b.z_rot_deg, 360.0),
+            x_rot_deg: wrap(a.x_rot_deg - b.x_rot_deg, 360.0),
+            y_rot_deg: wrap(a.y_rot_deg - b.y_rot_deg, 360.0),
+            geodesic_deg: geodesic_deg(&found.rotation, &reference.rotation),
+        }
+    }
+
+    /// One statistic of each column; NaN for no errors at all.
+    pub fn summarise(all: &[Self], statistic: impl Fn(&[f64]) -> f64) -> Self {
+        let column = |value: fn(&Self) -> f64| {
+            let values: Vec<f64> = all.iter().map(value).collect();
+            statistic(&values)
+        };
+        Self {
+            x_mm: column(|e| e.x_mm),
+            y_mm: column(|e| e.y_mm),
+            z_mm: column(|e| e.z_mm),
+            z_rot_deg: column(|e| e.z_rot_deg),
+            x_rot_deg: column(|e| e.x_rot_deg),
+            y_rot_deg: column(|e| e.y_rot_deg),
+            geodesic_deg: column(|e| e.geodesic_deg),
+        }
+    }
+}
+
+/// Root of the mean square.
+pub fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// Mean of the absolute values.
+pub fn mean_absolute(values: &[f64]) -> f64 {
+    values.iter().map(|v| v.abs()).sum::<f64>() / values.len() as f64
+}
+
+/// Median of the absolute values; the mean of the two middle ones for an even number.
+pub fn median_absolute(values: &[f64]) -> f64 {
+    let mut sorted: Vec<f64> = values.iter().map(|v| v.abs()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    match (sorted.get(middle), sorted.len() % 2) {
+        (None, _) => f64::NAN,
+        (Some(value), 1) => *value,
+        (Some(value), _) => (sorted[middle - 1] + value) / 2.0,
+    }
+}
+
+/// Whether `found` lies on the wrong side of the mirror trap: nearer to a mirror image of the
+/// reference than to the reference itself.
+///
+/// A part that is symmetric about a plane through one of its axes has nearly the same
+/// silhouette at `R' = (I - 2 d d^T) R diag(1, 1, -1)`, `d` the unit ray to it (and alike for its
+/// other axes). Where image and reference are less than 2 degrees apart there is no side.
+pub fn is_wrong_side(found: &Pose, reference: &Pose) -> bool {
+    let own = geodesic_deg(&found.rotation, &reference.rotation);
+    (0..3)
+        .map(|axis| mirror_image(reference, axis))
+        .filter(|image| geodesic_deg(image, &reference.rotation) > 2.0)
+        .any(|image| geodesic_deg(&found.rotation, &image) < own)
+}
+
+/// The rotation whose view is the mirror image of the pose's, for a part symmetric in `axis`.
+fn mirror_image(pose: &Pose, axis: usize) -> Matrix3 {
+    let ray: Vector3 = scale(&pose.translation, 1.0 / norm(&pose.translation));
+    let mut reflection = IDENTITY;
+    for (row, values) in reflection.iter_mut().enumerate() {
+        for (column, value) in values.iter_mut().enumerate() {
+            *value -= 2.0 * ray[row] * ray[column];
+        }
+    }
+    let mut image = multiply(&reflection, &pose.rotation);
+    for row in &mut image {
+        row[axis] = -row[axis];
+    }
+    debug_assert!(dot(&image[0], &image[0]) > 0.99);
+    image
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pose(z_rot_deg: f64, x_rot_deg: f64, y_rot_deg: f64) -> Pose {
+        Pose::from(EulerPose {
+            z_mm: -1000.0,
+            z_rot_deg,
+            x_rot_deg,
+            y_rot_deg,
+            ..EulerPose::default()
+        })
+    }
+
+    #[test]
+    fn statistics_of_known_lists() {
+        assert_eq!(rms(&[3.0, -4.0]), 12.5f64.sqrt());
+        assert_eq!(mean_absolute(&[3.0, -4.0]), 3.5);
+        assert_eq!(median_absolute(&[5.0, -1.0, 2.0]), 2.0);
+        assert_eq!(median_absolute(&[5.0, -1.0]), 3.0);
+        assert!(median_absolute(&[]).is_nan());
+    }
+
+    #[test]
+    fn errors_go_the_short_way_round() {
+        let errors = Errors::of(&pose(179.5, 1.0, 0.0), &pose(-179.5, 0.0, 0.0));
+        assert!((errors.z_rot_deg + 1.0).abs() < 1e-9);
+        assert!((errors.x_rot_deg - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_mirror_image_on_the_axis_negates_both_out_of_plane_rotations() {
+        let reference = pose(-84.0, 0.6, -9.0);
+        assert!(is_wrong_side(&pose(-84.0, -0.5, 8.8), &reference));
+        assert!(!is_wrong_side(&pose(-83.0, 1.0, -7.0), &reference));
+        assert!(!is_wrong_side(&reference, &reference));
+    }
+}

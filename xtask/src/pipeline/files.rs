@@ -1,0 +1,169 @@
+//! Reading and writing the files of a study.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose::calibration::Calibration;
+use fluoropose::jts;
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::EulerPose;
+use fluoropose_decode::{Model, decode_mask, decode_model};
+
+/// Reads a whole file.
+///
+/// # Errors
+/// Names the file.
+pub fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// Reads a text file.
+///
+/// # Errors
+/// Names the file.
+pub fn read_text(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// Reads an STL, OBJ or PLY model.
+///
+/// # Errors
+/// Names the file and what is wrong with it.
+pub fn read_model(path: &Path) -> Result<Model> {
+    Ok(decode_model(&read(path)?, &name_of(path))?)
+}
+
+/// The model's surface as the core takes it.
+///
+/// # Errors
+/// Those of [`Mesh::new`].
+pub fn mesh_of(model: &Model) -> Result<Mesh<'_>> {
+    Ok(Mesh::new(&model.vertices, &model.triangles)?)
+}
+
+/// Reads a `JT_INTCALIB` or camera-matrix calibration.
+///
+/// # Errors
+/// Names the file and the line.
+pub fn read_calibration(path: &Path) -> Result<Calibration> {
+    Calibration::parse(&read_text(path)?).with_context(|| format!("in {}", path.display()))
+}
+
+/// A silhouette with its own memory.
+pub struct MaskBuffer {
+    words: Vec<Word>,
+    width: usize,
+    height: usize,
+}
+
+impl MaskBuffer {
+    /// An empty mask of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn new(width: usize, height: usize) -> Result<Self> {
+        let mut words = vec![0; words_needed(width, height)];
+        MaskMut::new(&mut words, width, height)?;
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
+    /// Draws into the cleared mask.
+    pub fn draw<T>(&mut self, draw: impl FnOnce(&mut MaskMut<'_>) -> T) -> T {
+        let mut mask = MaskMut::new(&mut self.words, self.width, self.height)
+            .expect("the shape was checked when the buffer was made");
+        draw(&mut mask)
+    }
+
+    /// What has been drawn.
+    pub fn mask(&self) -> Mask<'_> {
+        Mask::new(&self.words, self.width, self.height)
+            .expect("drawing keeps the bits beyond a row's end clear")
+    }
+}
+
+/// Reads a mask image.
+///
+/// # Errors
+/// Names the file and what is wrong with it.
+pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
+    let image = decode_mask(&read(path)?, &name_of(path))?;
+    let (width, height) = (image.width as usize, image.height as usize);
+    let mut buffer = MaskBuffer::new(width, height)?;
+    buffer.draw(|mask| {
+        for (row, pixels) in image.pixels.chunks_exact(width).enumerate() {
+            for (column, &pixel) in pixels.iter().enumerate() {
+                mask.set(column, row, pixel != 0);
+            }
+        }
+    });
+    Ok(buffer)
+}
+
+/// The files of a folder in name order: the order of the frames.
+///
+/// # Errors
+/// When the folder cannot be listed or holds no file.
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries =
+        fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| Ok(entry?.path()))
+        .collect::<Result<_>>()?;
+    files.retain(|path| path.is_file() && !name_of(path).starts_with('.'));
+    files.sort();
+    if files.is_empty() {
+        bail!("{} holds no files", folder.display());
+    }
+    Ok(files)
+}
+
+/// Reads the poses of a `.jts` file.
+///
+/// # Errors
+/// Names the file and the line.
+pub fn read_poses(path: &Path) -> Result<Vec<EulerPose>> {
+    let text = read_text(path)?;
+    let poses: Result<Vec<_>, _> = jts::read(&text).and_then(Iterator::collect);
+    let poses = poses.with_context(|| format!("in {}", path.display()))?;
+    if poses.is_empty() {
+        bail!("{} holds no poses", path.display());
+    }
+    Ok(poses)
+}
+
+/// Writes poses as `.jts`.
+///
+/// # Errors
+/// Names the file.
+pub fn write_poses(path: &Path, poses: &[EulerPose]) -> Result<()> {
+    let mut text = String::new();
+    jts::write_heading(&mut text)?;
+    for pose in poses {
+        jts::write_row(&mut text, pose)?;
+    }
+    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a table as JSON where `--json` asked for it.
+///
+/// # Errors
+/// Names the file.
+pub fn write_json(path: Option<&Path>, table: &impl serde::Serialize) -> Result<()> {
+    let Some(path) = path else { return Ok(()) };
+    let mut text = serde_json::to_string_pretty(table)?;
+    text.push('\n');
+    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}

@@ -1,0 +1,72 @@
+//! Studies: `study.toml` and the files that it names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use serde::Deserialize;
+
+use super::files::read_text;
+use crate::implant::Side;
+
+/// A sequence of frames with one or more components.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Study {
+    /// What the study is called.
+    pub name: String,
+    /// Which knee.
+    pub side: Option<Side>,
+    /// Calibration of the frames, of either kind.
+    pub calibration: PathBuf,
+    /// Folder of frames; their names' order is their order in time.
+    pub frames: Option<PathBuf>,
+    /// The components.
+    #[serde(rename = "component", default)]
+    pub components: Vec<Component>,
+}
+
+/// One implanted component of a study.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Component {
+    /// What it is called.
+    pub name: String,
+    /// Its model, mm.
+    pub model: PathBuf,
+    /// Reference poses (.jts), a row a frame.
+    pub reference: Option<PathBuf>,
+    /// Rotations about x and y of the nominal view, degrees.
+    #[serde(default)]
+    pub nominal: [f64; 2],
+    /// Distance from the focus, mm, where it is known.
+    pub distance_mm: Option<f64>,
+    /// Folders of masks by source; a row of the table each.
+    #[serde(default)]
+    pub masks: BTreeMap<String, PathBuf>,
+    /// Pose files of other methods, rows of the same table.
+    #[serde(default)]
+    pub peer: BTreeMap<String, PathBuf>,
+}
+
+impl Study {
+    /// Reads a study and resolves the paths in it against its folder.
+    ///
+    /// # Errors
+    /// Names the file and the key at fault.
+    pub fn read(path: &Path) -> Result<Self> {
+        let mut study: Self =
+            toml::from_str(&read_text(path)?).with_context(|| format!("in {}", path.display()))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
+        resolve(&mut study.calibration);
+        study.frames.as_mut().map(resolve);
+        for component in &mut study.components {
+            resolve(&mut component.model);
+            component.reference.as_mut().map(resolve);
+            component.masks.values_mut().for_each(resolve);
+            component.peer.values_mut().for_each(resolve);
+        }
+        Ok(study)
+    }
+}
