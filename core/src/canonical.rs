@@ -104,7 +104,10 @@ pub struct CanonicalForm {
     /// `(a - b) / (a + b)` of the principal second moments: 0 for a disc, 1 for a line. Near 0
     /// the angle is ill determined.
     pub elongation: f64,
-    /// Whether the canonical silhouette touches its frame's border and may have been cut.
+    /// Whether the canonical silhouette touches its frame's border and may have been cut: long
+    /// or hollow shapes reach further than compact ones of the same area. Area, centroid and
+    /// axis are those of the whole silhouette all the same; only the score does not see what
+    /// was cut, alike in library and query.
     pub clipped: bool,
 }
 

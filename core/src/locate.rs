@@ -18,11 +18,6 @@ pub enum LocateError {
     /// The silhouette has no canonical form.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
-    /// The silhouette does not fit the canonical frame, so its score would mean nothing.
-    #[error(
-        "the silhouette is too long and thin for the library's canonical frame; check the outline, or build the library with a smaller area"
-    )]
-    Clipped,
     /// Working memory has the wrong length.
     #[error(transparent)]
     Match(#[from] MatchError),
@@ -81,9 +76,6 @@ pub fn locate<'w, const K: usize>(
 ) -> Result<Found<'w, K>, LocateError> {
     let info = library.info();
     let form = canonicalise(mask, &info.canonical, camera.aspect(), work.canonical)?;
-    if form.clipped {
-        return Err(LocateError::Clipped);
-    }
     let scores = score(library, work.canonical, work.turned, work.scores)?;
     let minima: Vec<_, K> = scores.minima();
     let poses = minima

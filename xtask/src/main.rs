@@ -34,8 +34,19 @@ enum Verb {
     Ci(xtask::ci::Args),
 }
 
-fn main() -> anyhow::Result<()> {
-    match Cli::parse().verb {
+fn main() -> std::process::ExitCode {
+    match run(Cli::parse().verb) {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            // A sentence for a person; no backtrace, whatever the environment asks for.
+            eprintln!("error: {error:#}");
+            std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(verb: Verb) -> anyhow::Result<()> {
+    match verb {
         Verb::Models(args) => xtask::models::run(args),
         Verb::Library(args) => xtask::library::run(args),
         Verb::Demo(args) => xtask::demo::run(args),

@@ -39,16 +39,6 @@ pub enum BuildError {
         /// Length lent.
         given: usize,
     },
-    /// A view does not fit into its canonical frame.
-    #[error(
-        "the view at x {x_deg} deg, y {y_deg} deg is too elongated for its canonical frame; build with a smaller area"
-    )]
-    Clipped {
-        /// Rotation about x, degrees.
-        x_deg: f64,
-        /// Rotation about y, degrees.
-        y_deg: f64,
-    },
     /// A view has no canonical form.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
@@ -215,9 +205,6 @@ impl<'m> Builder<'m> {
         )?;
         let canonical = &self.info.canonical;
         let form = canonicalise(&mask.into_mask(), canonical, 1.0, scratch.canonical)?;
-        if form.clipped {
-            return Err(BuildError::Clipped { x_deg, y_deg });
-        }
         let middle = side as f64 / 2.0;
         let offset = [form.centroid.column - middle, middle - form.centroid.row];
         let values = ViewRecord {
