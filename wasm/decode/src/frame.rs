@@ -1,7 +1,7 @@
 //! A decoded frame: grey pixels and what the file says of them.
 
 use crate::error::Problem;
-use crate::limits::MAX_SIDE;
+use crate::limits::{MAX_EXPANSION, MAX_SIDE};
 
 /// One grey frame, black at 0.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,4 +116,9 @@ pub(crate) fn checked_area(width: u64, height: u64) -> Result<usize, Problem> {
         return Err(Problem::FrameSize { width, height });
     }
     usize::try_from(width * height).map_err(|_| Problem::FrameSize { width, height })
+}
+
+/// Whether a file of `file` bytes can hold so many bits of pixels in any coding (see [`MAX_EXPANSION`]).
+pub(crate) fn can_hold(file: usize, area: usize, bits_per_pixel: u64) -> bool {
+    area as u64 * bits_per_pixel / 8 <= MAX_EXPANSION * file as u64
 }

@@ -14,6 +14,12 @@ const FORMAT: &str = "JPEG";
 /// Most scans of one image. Encoders write about ten; a file of thousands would keep the decoder busy for hours.
 const MAX_SCANS: usize = 100;
 
+/// Process number of lossless coding: at least a bit a pixel.
+const LOSSLESS: u8 = 3;
+
+/// Pixels of a block of the other codings: at least a bit a block.
+const BLOCK: usize = 64;
+
 const START_OF_IMAGE: u8 = 0xD8;
 const END_OF_IMAGE: u8 = 0xD9;
 const START_OF_SCAN: u8 = 0xDA;
@@ -113,13 +119,13 @@ fn walk(bytes: &[u8]) -> Result<Header, Problem> {
 /// Walks the markers and refuses what the decoder does not do.
 fn checked_header(bytes: &[u8]) -> Result<Header, Problem> {
     let header = walk(bytes)?;
-    checked_area(header.width.into(), header.height.into())?;
+    let area = checked_area(header.width.into(), header.height.into())?;
     let remedy = "Export it as an ordinary JPEG, PNG or TIFF";
-    if header.process > 3 {
+    if header.process > LOSSLESS {
         let what = "a rare coding (hierarchical or arithmetic)";
         return Err(Problem::unsupported(FORMAT, what, remedy));
     }
-    if header.process != 3 && header.precision != 8 {
+    if header.process != LOSSLESS && header.precision != 8 {
         let what = format!("{}-bit lossy pixels", header.precision);
         return Err(Problem::unsupported(FORMAT, what, remedy));
     }
@@ -127,7 +133,14 @@ fn checked_header(bytes: &[u8]) -> Result<Header, Problem> {
         let what = format!("{} colour channels", header.components);
         return Err(Problem::unsupported(FORMAT, what, remedy));
     }
-    Ok(header)
+    let least_bits = match header.process {
+        LOSSLESS => area,
+        _ => area / BLOCK,
+    };
+    match least_bits / 8 > bytes.len() {
+        true => Err(cut("it is too short for its stated size")),
+        false => Ok(header),
+    }
 }
 
 /// Checks the markers: whether this is one whole image of a kind and size that is read.

@@ -22,3 +22,7 @@ pub const MAX_TRIANGLES: usize = 5_000_000;
 
 /// Most vertices of a model file, before equal ones are merged: three a triangle.
 pub const MAX_VERTICES: usize = 3 * MAX_TRIANGLES;
+
+/// Most bytes that one byte of a file can stand for in any of the codings that are read: deflate reaches 1032 and
+/// LZW 2560. A frame that states more is refused before memory is reserved for it.
+pub(crate) const MAX_EXPANSION: u64 = 4096;

@@ -8,7 +8,7 @@ use std::io::Cursor;
 use png::{BitDepth, Decoder, DecodingError, Limits, Reader, Transformations};
 
 use crate::error::Problem;
-use crate::frame::{GreyFrame, Pixels, checked_area};
+use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
 use crate::limits::MAX_SIDE;
 use crate::luminance::{grey_from_u8, grey_from_u16};
 
@@ -31,7 +31,14 @@ fn open(bytes: &[u8]) -> Result<Reader<Cursor<&[u8]>>, Problem> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: SIDE_BYTES });
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info().map_err(damaged)?;
-    checked_area(header.width.into(), header.height.into())?;
+    let area = checked_area(header.width.into(), header.height.into())?;
+    let bits = header.color_type.samples() * header.bit_depth as usize;
+    if !can_hold(bytes.len(), area, bits as u64) {
+        return Err(Problem::damaged(
+            FORMAT,
+            "it is too short for its stated size",
+        ));
+    }
     decoder.read_info().map_err(damaged)
 }
 

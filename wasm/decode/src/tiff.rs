@@ -12,7 +12,7 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use crate::error::Problem;
-use crate::frame::{GreyFrame, Pixels, checked_area};
+use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
 use crate::limits::{MAX_FRAMES, MAX_SIDE};
 use crate::luminance::{grey_from_u8, grey_from_u16};
 
@@ -111,6 +111,10 @@ pub(crate) fn decode(bytes: &[u8], page: usize) -> Result<GreyFrame, Problem> {
     let (width, height) = decoder.dimensions().map_err(|e| failed(page, e))?;
     let area = checked_area(width.into(), height.into())?;
     let color = decoder.colortype().map_err(|e| failed(page, e))?;
+    let bits = u64::from(color.bit_depth()) * u64::from(color.num_samples());
+    if !can_hold(bytes.len(), area, bits) {
+        return Err(damaged(page, "the file is too short for its stated size"));
+    }
     let layout = channels(color)?;
     check_extents(&mut decoder, page, bytes.len())?;
     let samples = decoder.read_image().map_err(|e| failed(page, e))?;

@@ -10,6 +10,9 @@ use crate::error::Problem;
 const HEADER: usize = 64;
 const MAX_SEGMENTS: usize = 15;
 
+/// Two bytes give at most 128.
+const MAX_EXPANSION: usize = 64;
+
 /// Decodes one frame into interleaved little endian samples.
 ///
 /// `area` pixels of `samples` samples of `bytes_per_sample` bytes; the result has exactly their product.
@@ -21,6 +24,11 @@ pub(super) fn decode(
 ) -> Result<Vec<u8>, Problem> {
     let planes = samples * bytes_per_sample;
     let bounds = segment_bounds(coded, planes)?;
+    if area * planes / MAX_EXPANSION > coded.len() {
+        return Err(damaged(
+            "a frame's run lengths are too short for its stated size",
+        ));
+    }
     let mut frame = vec![0; area * planes];
     for (plane, pair) in bounds.windows(2).enumerate() {
         let segment = coded.get(pair[0]..pair[1]).ok_or_else(|| {
@@ -66,17 +74,14 @@ fn segment_bounds(coded: &[u8], planes: usize) -> Result<Vec<usize>, Problem> {
 fn unpack<'a>(segment: &[u8], mut target: impl Iterator<Item = &'a mut u8>) -> usize {
     let (mut written, mut rest) = (0, segment);
     while let [control, tail @ ..] = rest {
-        let control = control.cast_signed();
-        let (run, after) = if control >= 0 {
-            tail.split_at(tail.len().min(control as usize + 1))
-        } else {
-            tail.split_at(tail.len().min(usize::from(control != i8::MIN)))
+        let control = isize::from(control.cast_signed());
+        // 0 and above: so many bytes follow, less one. Below: one byte follows, to be repeated; -128 is nothing.
+        let (length, repeats) = match control {
+            0.. => (control as usize + 1, 1),
+            -127..0 => (1, (1 - control) as usize),
+            _ => (0, 0),
         };
-        let repeats = if control < 0 {
-            1 - isize::from(control)
-        } else {
-            1
-        } as usize;
+        let (run, after) = tail.split_at(tail.len().min(length));
         for value in run.iter().flat_map(|v| std::iter::repeat_n(*v, repeats)) {
             let Some(place) = target.next() else {
                 return written;

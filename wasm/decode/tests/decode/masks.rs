@@ -1,0 +1,49 @@
+use fluoropose_decode::{MaskRule, Problem, decode_mask, decode_mask_by};
+use png::{BitDepth, ColorType};
+use tiff::encoder::{Compression, colortype::Gray8};
+
+use crate::samples::{jpeg, png, tiff};
+
+#[test]
+fn anything_but_zero_is_inside() {
+    let labels = png(4, 1, ColorType::Grayscale, BitDepth::Eight, &[0, 1, 2, 255]);
+    let mask = decode_mask(&labels, "m.png").unwrap();
+    assert_eq!((mask.width, mask.height), (4, 1));
+    assert_eq!(mask.pixels, [0, 1, 1, 1]);
+    assert_eq!(mask.area(), 3);
+    let words = png(2, 1, ColorType::Grayscale, BitDepth::Sixteen, &[0, 1, 0, 0]);
+    assert_eq!(decode_mask(&words, "m.png").unwrap().pixels, [1, 0]);
+}
+
+#[test]
+fn a_threshold_may_be_given() {
+    let file = png(
+        4,
+        1,
+        ColorType::Grayscale,
+        BitDepth::Eight,
+        &[0, 99, 100, 255],
+    );
+    let mask = decode_mask_by(&file, "m.png", MaskRule::AtLeast(100)).unwrap();
+    assert_eq!(mask.pixels, [0, 0, 1, 1]);
+}
+
+#[test]
+fn ripples_of_jpeg_are_not_inside() {
+    let pixels: Vec<u8> = (0..32 * 32)
+        .map(|i| if i % 32 > 13 && i / 32 > 9 { 255 } else { 0 })
+        .collect();
+    let mask = decode_mask(&jpeg(32, 32, &pixels, false), "m.jpg").unwrap();
+    let due: Vec<u8> = pixels.iter().map(|&p| p / 255).collect();
+    assert_eq!(mask.pixels, due);
+}
+
+#[test]
+fn several_pages_are_refused() {
+    let file = tiff(Compression::Uncompressed, |encoder| {
+        encoder.write_image::<Gray8>(1, 1, &[1]).unwrap();
+        encoder.write_image::<Gray8>(1, 1, &[1]).unwrap();
+    });
+    let error = decode_mask(&file, "m.tif").unwrap_err();
+    assert_eq!(error.problem, Problem::SeveralMasks { count: 2 });
+}

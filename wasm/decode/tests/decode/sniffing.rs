@@ -1,0 +1,54 @@
+use fluoropose_decode::{Kind, sniff};
+
+use crate::samples::dicom::{Builder, EXPLICIT};
+use crate::samples::models::{obj, ply_ascii, ply_little, stl_ascii, stl_binary};
+use crate::samples::{jpeg, png, raw_tiff};
+
+#[test]
+fn content_decides_whatever_the_name() {
+    let grey = png::ColorType::Grayscale;
+    let cases: Vec<(Vec<u8>, Kind)> = vec![
+        (png(1, 1, grey, png::BitDepth::Eight, &[1]), Kind::Png),
+        (jpeg(8, 8, &[1; 64], false), Kind::Jpeg),
+        (raw_tiff(&[], &[]), Kind::Tiff),
+        (
+            Builder::image(EXPLICIT, 1, 1, 8, 1).octets(&[1]),
+            Kind::Dicom,
+        ),
+        (stl_binary("solid facet"), Kind::Stl),
+        (stl_ascii().into_bytes(), Kind::Stl),
+        (obj().into_bytes(), Kind::Obj),
+        (ply_ascii().into_bytes(), Kind::Ply),
+        (ply_little(), Kind::Ply),
+        (b"JT_EULER_312\nx, y, z\n1 2 3 4 5 6\n".to_vec(), Kind::Jts),
+        (
+            b"\xEF\xBB\xBF JT_INTCALIB\r\n1198\r\n".to_vec(),
+            Kind::Calibration,
+        ),
+        (b"Image Size\n1024,1024\n".to_vec(), Kind::Mayacam),
+        (b"FLUOROPL\0\0\0\0".to_vec(), Kind::Library),
+        (
+            b"{ \"format\": \"fluoropose-session\" }".to_vec(),
+            Kind::Session,
+        ),
+        (b"{ \"format\": \"another\" }".to_vec(), Kind::Unknown),
+        (b"".to_vec(), Kind::Unknown),
+        (b"once upon a time".to_vec(), Kind::Unknown),
+    ];
+    for (bytes, kind) in cases {
+        for name in ["", "x.bin", "no extension"] {
+            assert_eq!(sniff(&bytes, name), kind);
+        }
+        if kind != Kind::Unknown {
+            assert_eq!(sniff(&bytes, "x.png"), kind);
+        }
+    }
+}
+
+#[test]
+fn a_name_helps_where_content_cannot_tell() {
+    assert_eq!(sniff(&[0; 50], "Knee.STL"), Kind::Stl);
+    assert_eq!(sniff(&[0; 50], "run.dcm"), Kind::Dicom);
+    assert_eq!(sniff(b"garbage", "x.png"), Kind::Png);
+    assert_eq!(sniff(b"", "x.png"), Kind::Unknown);
+}
