@@ -3,11 +3,13 @@
 pub mod ci;
 pub mod demo;
 pub mod evaluate;
+pub mod firmware;
 pub mod implant;
 pub mod kinematics;
 pub mod library;
 pub mod models;
 pub mod page;
+pub mod pipeline;
 pub mod pose;
 pub mod serve;
 pub mod setup;

@@ -42,18 +42,12 @@ pub fn build_wasm(web: &Path) -> Result<()> {
 
 fn build_module(toolchain: &Toolchain, package: &str) -> Result<PathBuf> {
     announce(&format!("building {package} for the page"));
-    let target_dir = target_dir();
+    let target_dir = workspace::target_dir();
     let mut cargo = toolchain.cargo("build", &target_dir);
     cargo.args(["--profile", "wasm", "--lib", "--package", package]);
     command::run(&mut cargo)?;
     let file = format!("{}.wasm", package.replace('-', "_"));
     Ok(toolchain.output_dir("wasm", &target_dir).join(file))
-}
-
-/// Where cargo's output goes: `target`, or as the environment says.
-pub fn target_dir() -> PathBuf {
-    let chosen = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
-    workspace::root().join(chosen)
 }
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {

@@ -152,9 +152,9 @@ fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: 
     };
     let mut draw = |(middle, reach): (f64, f64)| middle + reach * random.random_range(-1.0..=1.0);
     let mut pose = Pose::from(EulerPose {
-        x_mm: draw((0.0, LATERAL_MM)),
-        y_mm: draw((0.0, LATERAL_MM)),
-        z_mm: draw((-distance, DEPTH_MM)),
+        x_mm: draw((0.0, std::env::var("LAT").map_or(40.0,|v|v.parse().unwrap()))),
+        y_mm: draw((0.0, std::env::var("LAT").map_or(40.0,|v|v.parse().unwrap()))),
+        z_mm: draw((-distance, std::env::var("DEP").map_or(50.0,|v|v.parse().unwrap()))),
         z_rot_deg: draw((0.0, 180.0)),
         x_rot_deg: draw(inside(&grid.x)),
         y_rot_deg: draw(inside(&grid.y)),

@@ -15,6 +15,12 @@ pub fn root() -> PathBuf {
     package.parent().map_or(package.clone(), Path::to_path_buf)
 }
 
+/// Where cargo's output goes: `target`, or as the environment says.
+pub fn target_dir() -> PathBuf {
+    let chosen = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
+    root().join(chosen)
+}
+
 /// SHA-256 (hex) over the names and contents of files and whole folders, independent of the order on disk.
 ///
 /// Errors when one of the paths cannot be read.

@@ -29,7 +29,7 @@ mod peg;
 mod rim;
 mod section;
 mod shape;
-mod table;
+pub(crate) mod table;
 mod tibia;
 
 use std::fmt;

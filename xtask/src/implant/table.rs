@@ -1,11 +1,11 @@
 //! A smooth function through a few values at whole-number or other knots.
 
 /// Knots `(x, y)` in rising order of `x`, joined by a cubic with continuous slope.
-pub(super) struct Table(pub(super) &'static [(f64, f64)]);
+pub(crate) struct Table(pub(crate) &'static [(f64, f64)]);
 
 impl Table {
     /// The value at `x`; beyond the first and last knot the end value.
-    pub(super) fn at(&self, x: f64) -> f64 {
+    pub(crate) fn at(&self, x: f64) -> f64 {
         let knots = self.0;
         let last = knots.len() - 1;
         if x <= knots[0].0 {
@@ -35,13 +35,13 @@ impl Table {
 }
 
 /// Rises from 0 at `x <= 0` to 1 at `x >= 1` without a kink.
-pub(super) fn smooth_step(x: f64) -> f64 {
+pub(crate) fn smooth_step(x: f64) -> f64 {
     let t = x.clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
 
 /// Linear from `a` at 0 to `b` at 1.
-pub(super) fn mix(a: f64, b: f64, t: f64) -> f64 {
+pub(crate) fn mix(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t
 }
 

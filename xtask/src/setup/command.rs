@@ -1,10 +1,11 @@
 //! Other programs: found on the PATH, run, and their failures told in words.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 
 /// The first of these names that is an executable file on the PATH.
 pub fn find(names: &[&str]) -> Option<PathBuf> {
@@ -84,6 +85,46 @@ pub fn tee(command: &mut Command) -> Result<(bool, String)> {
     Ok((child.wait()?.success(), kept))
 }
 
+/// Runs a command quietly for at most `limit` and returns its standard output; one that takes longer is ended.
+pub fn output_within(limit: Duration, command: &mut Command) -> Result<String> {
+    let mut child = command
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .spawn()
+        .with_context(|| format!("cannot start {}", shown(command)))?;
+    let mut stdout = child.stdout.take();
+    let reader = std::thread::spawn(move || {
+        let mut text = String::new();
+        let read = stdout
+            .as_mut()
+            .map(|stdout| stdout.read_to_string(&mut text));
+        read.transpose().map(|_| text)
+    });
+    let end = Instant::now() + limit;
+    let status = loop {
+        match child.try_wait()? {
+            Some(status) => break status,
+            None if Instant::now() < end => std::thread::sleep(Duration::from_millis(20)),
+            None => {
+                child.kill()?;
+                child.wait()?;
+                bail!("{} took longer than {} s", shown(command), limit.as_secs());
+            }
+        }
+    };
+    let text = reader
+        .join()
+        .map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
+    if !status.success() {
+        bail!(
+            "{} failed ({status}): {}",
+            shown(command),
+            last_lines(&text, 5)
+        );
+    }
+    Ok(text)
+}
+
 fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     let words: Vec<_> = words.map(|word| word.to_string_lossy()).collect();
@@ -114,6 +155,15 @@ mod tests {
             error.starts_with("`cargo --no-such-option` failed"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_command_that_hangs_is_ended() {
+        let mut sleep = Command::new("sleep");
+        let error = output_within(Duration::from_millis(100), sleep.arg("60")).unwrap_err();
+        assert!(error.to_string().contains("took longer"), "{error}");
+        let said = output_within(Duration::from_secs(60), Command::new("echo").arg("done"));
+        assert_eq!(said.unwrap(), "done\n");
     }
 
     #[test]

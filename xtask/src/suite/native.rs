@@ -6,10 +6,10 @@ use anyhow::{Result, ensure};
 
 use super::counts;
 use super::report::Report;
-use crate::page;
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::{self, own_cargo};
+use crate::workspace;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
@@ -66,7 +66,7 @@ pub fn tests(cargo: &mut Command) -> Result<String> {
 
 fn build_core(features: &[&str]) -> Result<String> {
     let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
-    let mut cargo = toolchain.cargo("build", &page::target_dir());
+    let mut cargo = toolchain.cargo("build", &workspace::target_dir());
     quiet(
         cargo
             .args(["--release", "--package", "fluoropose", "--lib"])

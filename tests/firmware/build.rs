@@ -1,0 +1,35 @@
+//! Finds the library and the outline that go into flash, and the linker script.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=memory.x");
+    println!("cargo::rerun-if-env-changed=FLUOROPOSE_FIRMWARE_INPUTS");
+    let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
+    let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS").map_or_else(
+        || package.join("../../target/firmware/inputs"),
+        PathBuf::from,
+    );
+    for name in ["femur.library", "femur.outline"] {
+        let file = inputs.join(name);
+        if !file.is_file() {
+            println!(
+                "cargo::error={name} is missing; `cargo xtask test --firmware` makes it and builds this"
+            );
+        }
+        println!("cargo::rerun-if-changed={}", file.display());
+    }
+    println!(
+        "cargo::rustc-env=FLUOROPOSE_FIRMWARE_INPUTS={}",
+        inputs.display()
+    );
+    if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
+        let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+        fs::copy(package.join("memory.x"), out.join("memory.x")).expect("OUT_DIR can be written");
+        println!("cargo::rustc-link-search={}", out.display());
+        println!("cargo::rustc-link-arg-bins=-Tlink.x");
+        println!("cargo::rustc-link-arg-bins=--nmagic");
+    }
+}

@@ -1,0 +1,55 @@
+//! How deep the stack went: it is painted first, and later the paint that is left is counted.
+#![expect(unsafe_code, reason = "the stack is only reachable through addresses")]
+
+use core::ptr::{addr_of, read_volatile, write_volatile};
+
+unsafe extern "C" {
+    /// First address above the stack, from the linker script.
+    static _stack_start: u32;
+    /// First address of the statics.
+    static __sdata: u32;
+    /// First address after the statics, where the stack may grow down to.
+    static __euninit: u32;
+}
+
+const PAINT: u32 = 0x5afe_57ac;
+/// Words painted: far more than the stack is expected to take, far fewer than there is room for.
+const PAINTED: usize = 32 * 1024;
+/// Words below the caller's frame left alone while painting, for the frames of painting itself.
+const MARGIN: usize = 256;
+
+/// Paints the unused stack. Call it first of all.
+#[inline(never)]
+pub(crate) fn paint() {
+    let here = cortex_m::register::msp::read() as usize / 4 - MARGIN;
+    for word in bottom()..here {
+        // SAFETY: between the statics and the live stack there is nothing else.
+        unsafe { write_volatile((word * 4) as *mut u32, PAINT) };
+    }
+}
+
+/// The most bytes of stack that were ever used since [`paint`].
+pub(crate) fn most_used() -> usize {
+    let painted = |word: &usize| {
+        // SAFETY: these are words of RAM, and reading them has no effect.
+        unsafe { read_volatile((word * 4) as *const u32) == PAINT }
+    };
+    let lowest = (bottom()..top())
+        .find(|word| !painted(word))
+        .unwrap_or(top());
+    (top() - lowest) * 4
+}
+
+/// Bytes of all statics: initialised, zeroed and uninitialised.
+pub(crate) fn statics() -> usize {
+    addr_of!(__euninit) as usize - addr_of!(__sdata) as usize
+}
+
+fn top() -> usize {
+    addr_of!(_stack_start) as usize / 4
+}
+
+/// The lowest painted word.
+fn bottom() -> usize {
+    (top() - PAINTED).max(addr_of!(__euninit) as usize / 4)
+}

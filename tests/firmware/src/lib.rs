@@ -1,0 +1,13 @@
+//! A pose from an outline in static memory: what the Cortex-M4F and the host both run.
+//!
+//! The board and the host call [`prove`] with the same bytes; each line it writes must be the same on both.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod inputs;
+mod memory;
+mod proof;
+
+pub use inputs::{LIBRARY, OUTLINE};
+pub use memory::{FRAME_SIDE, MAX_POINTS, MAX_VIEWS, Memory};
+pub use proof::{Failure, prove};

@@ -1,0 +1,44 @@
+//! All memory that the way from outline to pose uses, of one size known when it is built.
+
+use fluoropose::contour::Contour;
+use fluoropose::mask::{Word, words_needed};
+use fluoropose::matching::scores_needed;
+
+/// Columns and rows of the frame, pixels.
+pub const FRAME_SIDE: usize = 512;
+/// Most vertices of an outline.
+pub const MAX_POINTS: usize = 1024;
+/// Views of the library: 7 rotations about x times 9 about y.
+pub const MAX_VIEWS: usize = 63;
+
+/// Side of the canonical frame, pixels.
+const CANONICAL_SIDE: usize = 256;
+const CANONICAL_WORDS: usize = words_needed(CANONICAL_SIDE, CANONICAL_SIDE);
+
+/// The working memory; a microcontroller holds one in a static.
+pub struct Memory {
+    pub(crate) points: Contour<MAX_POINTS>,
+    pub(crate) mask: [Word; words_needed(FRAME_SIDE, FRAME_SIDE)],
+    pub(crate) canonical: [Word; CANONICAL_WORDS],
+    pub(crate) turned: [Word; CANONICAL_WORDS],
+    pub(crate) scores: [u32; scores_needed(MAX_VIEWS)],
+}
+
+impl Memory {
+    /// Empty working memory.
+    pub const fn new() -> Self {
+        Self {
+            points: Contour::new(),
+            mask: [0; words_needed(FRAME_SIDE, FRAME_SIDE)],
+            canonical: [0; CANONICAL_WORDS],
+            turned: [0; CANONICAL_WORDS],
+            scores: [0; scores_needed(MAX_VIEWS)],
+        }
+    }
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self::new()
+    }
+}

@@ -1,0 +1,193 @@
+//! What the firmware proof holds in flash: a coarse library of the built-in femur and an outline of it.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use fluoropose::border::follow_border;
+use fluoropose::camera::Camera;
+use fluoropose::canonical::CanonicalSpec;
+use fluoropose::contour::{Contour, Point};
+use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::mask::{MaskMut, words_needed};
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::raster::{self, Projected};
+
+use crate::implant;
+
+/// Columns and rows of the firmware's frame, pixels.
+const FRAME_SIDE: usize = 512;
+/// Most vertices of an outline that the firmware has room for.
+const MAX_POINTS: usize = 1024;
+/// From focus to detector, mm.
+const PRINCIPAL_DISTANCE_MM: f64 = 1000.0;
+/// Pixel pitch at the detector, mm.
+const PITCH_MM: f64 = 0.4;
+/// From focus to implant in the library's views, mm.
+const LIBRARY_DISTANCE_MM: f64 = 900.0;
+
+/// The pose whose silhouette the outline is: off the axis, nearer than the views, between them.
+pub const TRUTH: EulerPose = EulerPose {
+    x_mm: 12.0,
+    y_mm: -9.0,
+    z_mm: -870.0,
+    z_rot_deg: 25.0,
+    x_rot_deg: 3.4,
+    y_rot_deg: -4.3,
+};
+
+/// Writes `femur.library` and `femur.outline` into `folder`, unless they are there already with these contents.
+pub fn write_inputs(folder: &Path) -> Result<()> {
+    let femur = implant::femur(&implant::Parameters::default())?;
+    let mesh = Mesh::new(&femur.vertices, &femur.triangles)?;
+    let camera = Camera::from_principal_distance(
+        FRAME_SIDE,
+        FRAME_SIDE,
+        PRINCIPAL_DISTANCE_MM,
+        PITCH_MM,
+        [0.0; 2],
+    )?;
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    write_if_changed(&folder.join("femur.library"), &library(mesh, camera)?)?;
+    write_if_changed(&folder.join("femur.outline"), &outline(&mesh, &camera)?)
+}
+
+/// 7 x 9 views, 2.5 degrees apart: 63 x 8 KiB of flash.
+fn library(mesh: Mesh<'_>, camera: Camera) -> Result<Vec<u8>> {
+    let axis = |count: usize| GridAxis {
+        first: -2.5 * (count / 2) as f64,
+        step: 2.5,
+        count,
+    };
+    let grid = Grid {
+        x: axis(7),
+        y: axis(9),
+    };
+    let canonical = CanonicalSpec::default();
+    let builder = Builder::new(mesh, camera, canonical, grid, LIBRARY_DISTANCE_MM)?;
+    let mut bytes = vec![0; builder.bytes_needed()];
+    let mut scratch = ViewScratch {
+        projected: &mut vec![Projected::default(); builder.projected_needed()],
+        render: &mut vec![0; builder.render_words_needed()],
+        canonical: &mut vec![0; canonical.words_needed()],
+    };
+    builder.build(&mut bytes, &mut scratch)?;
+    Ok(bytes)
+}
+
+/// The silhouette at [`TRUTH`] as a polygon through the middles of its border's sides.
+fn outline(mesh: &Mesh<'_>, camera: &Camera) -> Result<Vec<u8>> {
+    let mut words = vec![0; words_needed(FRAME_SIDE, FRAME_SIDE)];
+    let mut mask = MaskMut::new(&mut words, FRAME_SIDE, FRAME_SIDE)?;
+    let mut scratch = vec![Projected::default(); raster::scratch_needed(mesh)];
+    raster::render(mesh, camera, &Pose::from(TRUTH), &mut scratch, &mut mask)?;
+    let mut border: Contour<MAX_POINTS> = Contour::new();
+    follow_border(&mask.as_mask(), &mut border)?;
+    let next = border.iter().cycle().skip(1);
+    let middles = border.iter().zip(next).map(|(a, b)| Point {
+        column: (a.column + b.column) / 2.0,
+        row: (a.row + b.row) / 2.0,
+    });
+    Ok(middles
+        .flat_map(|point| [point.column, point.row])
+        .flat_map(f64::to_le_bytes)
+        .collect())
+}
+
+/// Leaves the file's time alone where nothing changed, so that cargo does not build the firmware again.
+fn write_if_changed(file: &Path, bytes: &[u8]) -> Result<()> {
+    if fs::read(file).is_ok_and(|found| found == bytes) {
+        return Ok(());
+    }
+    fs::write(file, bytes).with_context(|| format!("cannot write {}", file.display()))
+}
+
+/// What the proof found, read back from its lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Proof {
+    /// The first pose.
+    pub pose: Pose,
+}
+
+impl Proof {
+    /// Reads the first pose, with every bit, from the lines that the firmware writes.
+    ///
+    /// Errors when one of its six numbers is missing.
+    pub fn read(lines: &str) -> Result<Self> {
+        let number = |name: &str| {
+            let value = lines.lines().find_map(|line| bits(line, name));
+            value.with_context(|| format!("the proof has no line `{name}`"))
+        };
+        let euler = EulerPose {
+            x_mm: number("x mm")?,
+            y_mm: number("y mm")?,
+            z_mm: number("z mm")?,
+            z_rot_deg: number("z_rot deg")?,
+            x_rot_deg: number("x_rot deg")?,
+            y_rot_deg: number("y_rot deg")?,
+        };
+        Ok(Self {
+            pose: Pose::from(euler),
+        })
+    }
+}
+
+/// The number in `name: 1.500000 (3ff8000000000000)`, from its bits.
+fn bits(line: &str, name: &str) -> Option<f64> {
+    let value = line.trim().strip_prefix(name)?.strip_prefix(": ")?;
+    let (_, hex) = value.strip_suffix(')')?.split_once('(')?;
+    u64::from_str_radix(hex, 16).ok().map(f64::from_bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_pose_is_read_from_its_bits() {
+        let numbers = [
+            "x mm",
+            "y mm",
+            "z mm",
+            "z_rot deg",
+            "x_rot deg",
+            "y_rot deg",
+        ];
+        let mut lines = String::from("view 5: reversed false\n");
+        for (index, name) in numbers.iter().enumerate() {
+            // What people read is rounded; the bits count.
+            let value = index as f64 + 0.123_456_789;
+            lines += &format!("  {name}: {value:.1} ({:016x})\n", value.to_bits());
+        }
+        lines += "  x mm: 9.0 (4022000000000000)\n";
+        let proof = Proof::read(&lines).unwrap();
+        assert_eq!(
+            proof.pose.translation,
+            [0.123_456_789, 1.123_456_789, 2.123_456_789]
+        );
+        let missing = lines.replace("z mm", "depth");
+        assert!(
+            Proof::read(&missing)
+                .unwrap_err()
+                .to_string()
+                .contains("z mm")
+        );
+    }
+
+    #[test]
+    fn the_outline_is_valid_and_fits_the_firmware() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-inputs-{}", std::process::id()));
+        write_inputs(&folder).unwrap();
+        let bytes = fs::read(folder.join("femur.outline")).unwrap();
+        let count = bytes.len() / 16;
+        assert!(
+            (100..=MAX_POINTS).contains(&count) && bytes.len() % 16 == 0,
+            "{count}"
+        );
+        let library = fs::read(folder.join("femur.library")).unwrap();
+        let library = fluoropose::library::Library::open(&library).unwrap();
+        assert_eq!(library.views(), 63);
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
