@@ -8,9 +8,20 @@ use crate::error::sentence;
 
 /// The camera of a calibration text for frames of `width` x `height` pixels.
 pub(crate) fn camera(text: &str, width: u32, height: u32) -> Result<Camera, JsError> {
-    Calibration::parse(text)
-        .and_then(|calibration| calibration.camera(width as usize, height as usize))
-        .map_err(sentence)
+    calibration_of(text, width, height).map(|(_, camera)| camera)
+}
+
+/// A calibration text with its camera for frames of `width` x `height` pixels.
+pub(crate) fn calibration_of(
+    text: &str,
+    width: u32,
+    height: u32,
+) -> Result<(Calibration, Camera), JsError> {
+    let calibration = Calibration::parse(text).map_err(sentence)?;
+    let camera = calibration
+        .camera(width as usize, height as usize)
+        .map_err(sentence)?;
+    Ok((calibration, camera))
 }
 
 /// What a calibration text says, for a chip and a form.

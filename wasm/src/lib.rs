@@ -7,11 +7,17 @@ mod calibration;
 mod error;
 mod film;
 mod jts;
+mod library;
+mod matcher;
 mod model;
 mod paint;
 mod pose_numbers;
+mod unmatched;
 
 pub use calibration::{CalibrationText, jt_intcalib_text};
 pub use film::Film;
 pub use jts::{read_jts, write_jts};
+pub use library::{LibraryBuilder, LibraryViews};
+pub use matcher::{Match, Matcher};
 pub use model::Model;
+pub use unmatched::paint_unmatched;

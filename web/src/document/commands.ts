@@ -83,7 +83,14 @@ function onOutline(label: string, place: Place, change: (outline: Outline | null
 
 /** While a closed outline changes, the last result stays on view until the new one is there. */
 function keepWhileFollowing(cell: Cell, outline: Outline | null): Cell {
-  return { outline, result: outline?.closed ? cell.result : null };
+  return outline?.closed ? { ...cell, outline } : { outline, result: null, resultOf: null };
+}
+
+/** The same while a gesture is previewed: what is on view has a later result than the document before the gesture. */
+export function carryResult(shown: Doc, next: Doc, place: Place): Doc {
+  const { result, resultOf } = cellOf(shown, place.frameId, place.component);
+  const cell = cellOf(next, place.frameId, place.component);
+  return cell.outline?.closed && result ? withCell(next, place, { ...cell, result, resultOf }) : next;
 }
 
 export function withCell(doc: Doc, place: Place, cell: Cell): Doc {
@@ -116,7 +123,7 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
         const { outline } = cellOf(changed, frame.id, component);
         const candidates = [{ pose, unmatched: null }];
         const result = { kind: 'posed', from: 'file', origin: fileName, candidates, chosen: 0 } as const;
-        return withCell(changed, place, { outline, result });
+        return withCell(changed, place, { outline, result, resultOf: outline });
       }, doc),
   };
 }

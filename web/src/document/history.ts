@@ -1,5 +1,5 @@
 import type { Doc } from './types';
-import type { Command, Place } from './commands';
+import { carryResult, type Command, type Place } from './commands';
 
 /**
  * Undo and redo over immutable documents. A command is one undo unit; a gesture previews as often as it likes and
@@ -39,7 +39,9 @@ export function perform(history: History, command: Command): History {
 /** Shows a gesture's effect without making it an undo unit; always applied to the document before the gesture. */
 export function preview(history: History, command: Command): History {
   const start = history.gestureStart ?? history.present;
-  return { ...history, gestureStart: start, present: command.apply(start) };
+  const changed = command.apply(start);
+  const present = command.place ? carryResult(history.present, changed, command.place) : changed;
+  return { ...history, gestureStart: start, present };
 }
 
 /** Ends a gesture: what is on view becomes one undo unit. */

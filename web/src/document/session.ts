@@ -85,8 +85,12 @@ function parse(json: string): Record<string, unknown> {
 // --- Points are written as pairs: shorter, and easy to read elsewhere ----------------------------------------------
 
 function plain(doc: Doc): unknown {
-  const cells = Object.entries(doc.cells).map(([key, cell]) => [key, { ...cell, outline: plainOutline(cell.outline) }]);
+  const cells = Object.entries(doc.cells).map(([key, cell]) => [key, plainCell(cell)]);
   return { ...doc, cells: Object.fromEntries(cells) };
+}
+
+function plainCell({ outline, result, resultOf }: Cell): unknown {
+  return { outline: plainOutline(outline), result, resultIsCurrent: result !== null && resultOf === outline };
 }
 
 function plainOutline(outline: Outline | null): unknown {
@@ -124,7 +128,16 @@ const readResult: Reader<Result> = (value, path) => {
   return kind === 'posed' ? readPosed(value, path) : readFailed(value, path);
 };
 
-const readCell = object<Cell>({ outline: nullable(readOutline), result: nullable(readResult) });
+const readPlainCell = object<{ outline: Outline | null; result: Result | null; resultIsCurrent: boolean }>({
+  outline: nullable(readOutline),
+  result: nullable(readResult),
+  resultIsCurrent: flag,
+});
+
+const readCell: Reader<Cell> = (value, path) => {
+  const { outline, result, resultIsCurrent } = readPlainCell(value, path);
+  return { outline, result, resultOf: resultIsCurrent ? outline : null };
+};
 
 const readFrame = object<FrameEntry>({
   id: text,

@@ -50,7 +50,7 @@ export interface Job {
 
 export type LibraryState =
   | { readonly state: 'none' }
-  | { readonly state: 'building'; readonly key: string; readonly job: number }
+  | { readonly state: 'building'; readonly key: string }
   | { readonly state: 'stopped'; readonly key: string; readonly reason: string }
   | { readonly state: 'ready'; readonly key: string; readonly views: number; readonly bytes: number; readonly seconds: number | null };
 
@@ -132,6 +132,11 @@ export class Store {
   /** Another document takes the place of this one; nothing of the old is undone into. */
   replace(doc: Doc): void {
     this.#set({ history: history.startHistory(doc), ui: { ...this.ui, frameIndex: 0, viewport: null, selectedPoint: null } });
+  }
+
+  /** What is there now is where undo ends, and nothing that needs saving. */
+  settle(): void {
+    this.#toHistory(history.startHistory(this.doc));
   }
 
   markSaved(doc: Doc): void {

@@ -70,6 +70,8 @@ export interface LibrarySpec {
 export interface Cell {
   readonly outline: Outline | null;
   readonly result: Result | null;
+  /** The outline that the result belongs to: another object than `outline` while a new result is on its way. */
+  readonly resultOf: Outline | null;
 }
 
 /** An open outline is a draft. */
@@ -118,7 +120,7 @@ export interface GreyWindow {
   readonly width: number;
 }
 
-export const EMPTY_CELL: Cell = { outline: null, result: null };
+export const EMPTY_CELL: Cell = { outline: null, result: null, resultOf: null };
 
 export const DEFAULT_LIBRARY: LibrarySpec = {
   nominalX: 0,

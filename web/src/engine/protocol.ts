@@ -9,17 +9,17 @@ export interface CameraInput {
   readonly height: number;
 }
 
-/** A calibration in words and numbers, for chips and forms. */
+/** What a calibration says, for chips and forms. Millimetres; the camera in pixels. */
 export interface CalibrationFacts {
-  readonly kind: 'jt' | 'matrix';
-  readonly principalDistance: number | null;
-  readonly pitch: number | null;
-  readonly offsetX: number | null;
-  readonly offsetY: number | null;
-  readonly fx: number;
-  readonly fy: number;
-  readonly cx: number;
-  readonly cy: number;
+  /** Null for a camera matrix. */
+  readonly principal: {
+    readonly distance: number;
+    readonly offsetX: number;
+    readonly offsetY: number;
+    readonly pitch: number;
+  } | null;
+  /** Null while no frame tells the size. */
+  readonly camera: { readonly fx: number; readonly fy: number; readonly cx: number; readonly cy: number } | null;
 }
 
 export interface ModelMesh {
@@ -35,6 +35,8 @@ export interface DecodedFrame {
   readonly pixels: Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer>;
   /** As the file suggests, if it does. */
   readonly window: { readonly centre: number; readonly width: number } | null;
+  /** What was done to the pixels on the way, a sentence each. */
+  readonly notes: readonly string[];
 }
 
 /** A candidate as the matcher gives it: with both canonical silhouettes, one bit a pixel. */
@@ -42,14 +44,16 @@ export interface Match {
   readonly candidates: readonly MatchedCandidate[];
   readonly canonicalSize: number;
   readonly canonicalArea: number;
+  /** The canonical silhouette reaches its frame's border. */
+  readonly clipped: boolean;
   readonly milliseconds: number;
 }
 
 export interface MatchedCandidate {
   readonly pose: PoseNumbers;
   readonly unmatched: number;
-  readonly viewX: number;
-  readonly viewY: number;
+  /** The view lies at the border of the library: the truth may lie beyond it. */
+  readonly atBorder: boolean;
   readonly picture: Picture;
 }
 
@@ -65,7 +69,7 @@ export interface LibraryFacts {
   readonly bytes: number;
 }
 
-export type FileKind = 'frames' | 'model' | 'unknown';
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'unknown';
 
 export interface DecodeProtocol {
   sniff: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: FileKind; progress: never };

@@ -40,6 +40,9 @@ export class Bridge<P extends Protocol<P>> {
   #running: { id: number; call: Waiting } | null = null;
   #lastId = 0;
 
+  /** Told when the worker has stopped by itself and what it held is gone. */
+  onCrash: () => void = () => undefined;
+
   /** The worker starts with the first call. */
   constructor(start: () => WorkerPort) {
     this.#start = start;
@@ -108,6 +111,7 @@ export class Bridge<P extends Protocol<P>> {
     this.#port?.terminate();
     this.#port = null;
     this.#failAll(new Error(`the worker stopped (${reason}); what you have done is still here, try again`));
+    this.onCrash();
   }
 
   #failAll(error: Error): void {

@@ -2,7 +2,7 @@ import type { FromWorker, Method, Protocol, ToWorker } from './messages';
 
 /** What a handler may do besides returning. */
 export interface Context<Progress> {
-  report(progress: Progress): void;
+  report(progress: Progress, transfer?: Transferable[]): void;
   /** Lets messages in; throws when the call was aborted in the meantime. Long work calls it every few milliseconds. */
   breathe(): Promise<void>;
 }
@@ -28,7 +28,7 @@ export function serve<P extends Protocol<P>>(handlers: Handlers<P>): void {
   self.onmessage = (event: MessageEvent<ToWorker>) => {
     const message = event.data;
     if (message.type === 'abort') aborted.add(message.id);
-    else void answer(handlers as Record<string, Handler<Method>>, message, aborted);
+    else void answer(handlers as unknown as Record<string, Handler<Method>>, message, aborted);
   };
 }
 
@@ -39,7 +39,7 @@ async function answer(
 ): Promise<void> {
   const { id, method, input } = call;
   const context: Context<unknown> = {
-    report: (progress) => send({ type: 'progress', id, progress }),
+    report: (progress, transfer) => send({ type: 'progress', id, progress }, transfer),
     breathe: async () => {
       await nextMessage();
       if (aborted.has(id)) throw new Error('aborted');

@@ -1,0 +1,220 @@
+//! Outlines matched against an open library.
+
+use fluoropose::canonical::reverse;
+use fluoropose::contour::{Outline, Point};
+use fluoropose::library::Library;
+use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
+use fluoropose::mask::{MaskMut, Word, words_needed};
+use fluoropose::pose::EulerPose;
+use wasm_bindgen::prelude::*;
+
+use crate::calibration::camera;
+use crate::error::sentence;
+use crate::pose_numbers::{PoseNumbers, to_numbers};
+
+self_cell::self_cell!(
+    /// A library with its bytes, checked once.
+    struct OpenLibrary {
+        owner: Vec<u8>,
+        #[covariant]
+        dependent: Library,
+    }
+);
+
+/// Poses that are offered: the best and one rival.
+const CANDIDATES: usize = 2;
+
+/// A rival with more than this many times the unmatched pixels of the best is none.
+const RIVAL_WITHIN: f64 = 2.0;
+
+/// An open library with the working memory to match against it.
+#[wasm_bindgen]
+pub struct Matcher {
+    library: OpenLibrary,
+    mask: Vec<Word>,
+    canonical: Vec<Word>,
+    turned: Vec<Word>,
+    scores: Vec<u32>,
+}
+
+#[wasm_bindgen]
+impl Matcher {
+    /// Opens a library; its bytes stay in the module's memory.
+    ///
+    /// # Errors
+    /// The core's sentence about what is damaged.
+    #[wasm_bindgen(constructor)]
+    pub fn new(bytes: Vec<u8>) -> Result<Matcher, JsError> {
+        let library = OpenLibrary::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))?;
+        let (words, scores) = workspace_needed(library.borrow_dependent());
+        Ok(Self {
+            library,
+            mask: Vec::new(),
+            canonical: vec![0; words],
+            turned: vec![0; words],
+            scores: vec![0; scores],
+        })
+    }
+
+    /// Number of views.
+    #[wasm_bindgen(getter)]
+    pub fn views(&self) -> usize {
+        self.library.borrow_dependent().views()
+    }
+
+    /// Side of the canonical frame, pixels.
+    #[wasm_bindgen(getter, js_name = canonicalSize)]
+    pub fn canonical_size(&self) -> usize {
+        self.library.borrow_dependent().info().canonical.size()
+    }
+
+    /// Area of every canonical silhouette, pixels.
+    #[wasm_bindgen(getter, js_name = canonicalArea)]
+    pub fn canonical_area(&self) -> u32 {
+        self.library.borrow_dependent().info().canonical.area()
+    }
+
+    /// Finds the poses that explain an outline (columns and rows by turns) on a frame of `width` x `height` pixels, seen by
+    /// the camera of a calibration text.
+    ///
+    /// # Errors
+    /// The core's sentence about the outline, the calibration or the silhouette.
+    #[wasm_bindgen(js_name = matchOutline)]
+    pub fn match_outline(
+        &mut self,
+        outline: &[f64],
+        calibration: &str,
+        width: u32,
+        height: u32,
+    ) -> Result<Match, JsError> {
+        let camera = camera(calibration, width, height)?;
+        let (width, height) = (width as usize, height as usize);
+        let points: Vec<Point> = outline
+            .as_chunks()
+            .0
+            .iter()
+            .map(|&[column, row]| Point::new(column, row))
+            .collect();
+        let outline = Outline::new(&points, width, height).map_err(sentence)?;
+        self.mask.resize(words_needed(width, height), 0);
+        let mut mask = MaskMut::new(&mut self.mask, width, height).map_err(sentence)?;
+        mask.fill_outline(&outline);
+        let library = self.library.borrow_dependent();
+        let work = Workspace {
+            canonical: &mut self.canonical,
+            turned: &mut self.turned,
+            scores: &mut self.scores,
+        };
+        let found =
+            locate::<CANDIDATES>(&mask.as_mask(), &camera, library, work).map_err(sentence)?;
+        let (poses, clipped) = (found.poses, found.form.clipped);
+        let limit = poses
+            .first()
+            .map_or(0.0, |best| f64::from(best.fine.unmatched) * RIVAL_WITHIN);
+        let near = |located: &&Located| f64::from(located.fine.unmatched) <= limit;
+        let candidates = poses
+            .iter()
+            .filter(near)
+            .map(|located| self.candidate(located))
+            .collect();
+        Ok(Match {
+            candidates,
+            clipped,
+        })
+    }
+}
+
+impl Matcher {
+    fn candidate(&self, located: &Located) -> Candidate {
+        let mut input = self.canonical.clone();
+        if located.fine.reversed {
+            reverse(&self.canonical, &mut input);
+        }
+        let library = self.library.borrow_dependent();
+        Candidate {
+            pose: to_numbers(&EulerPose::from(located.pose)),
+            unmatched: located.fine.unmatched,
+            view: [located.fine.record.x_deg, located.fine.record.y_deg],
+            at_border: located.fine.at_border,
+            input: input.iter().flat_map(|word| word.to_le_bytes()).collect(),
+            library: library.bits(located.view).to_vec(),
+        }
+    }
+}
+
+struct Candidate {
+    pose: PoseNumbers,
+    unmatched: u32,
+    view: [f64; 2],
+    at_border: bool,
+    input: Vec<u8>,
+    library: Vec<u8>,
+}
+
+/// What was found for one outline: the best pose first, then its rival, if there is one. Asked beyond `count`, the
+/// getters answer as for the last.
+#[wasm_bindgen]
+pub struct Match {
+    candidates: Vec<Candidate>,
+    clipped: bool,
+}
+
+#[wasm_bindgen]
+impl Match {
+    /// How many candidates there are.
+    #[wasm_bindgen(getter)]
+    pub fn count(&self) -> usize {
+        self.candidates.len()
+    }
+
+    /// Whether the canonical silhouette reaches its frame's border, where the score does not see all of it.
+    #[wasm_bindgen(getter)]
+    pub fn clipped(&self) -> bool {
+        self.clipped
+    }
+
+    /// x, y, z (mm), z, x and y rotation (degrees).
+    pub fn pose(&self, index: usize) -> Option<Vec<f64>> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.pose.to_vec())
+    }
+
+    /// Unmatched canonical pixels.
+    pub fn unmatched(&self, index: usize) -> Option<u32> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.unmatched)
+    }
+
+    /// Rotations about x and y of the view that fits, between the library's own, degrees.
+    pub fn view(&self, index: usize) -> Option<Vec<f64>> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.view.to_vec())
+    }
+
+    /// Whether that view lies at the border of the library: the truth may lie beyond it.
+    #[wasm_bindgen(js_name = atBorder)]
+    pub fn at_border(&self, index: usize) -> Option<bool> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.at_border)
+    }
+
+    /// The outline's canonical silhouette, turned as the view: one bit a pixel, row by row, least significant leftmost.
+    #[wasm_bindgen(js_name = inputBits)]
+    pub fn input_bits(&self, index: usize) -> Option<Vec<u8>> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.input.clone())
+    }
+
+    /// The library view's canonical silhouette, in the same form.
+    #[wasm_bindgen(js_name = viewBits)]
+    pub fn view_bits(&self, index: usize) -> Option<Vec<u8>> {
+        self.candidates
+            .get(index)
+            .map(|candidate| candidate.library.clone())
+    }
+}

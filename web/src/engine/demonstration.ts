@@ -1,0 +1,52 @@
+import * as commands from '../document/commands';
+import { list, object, oneOf, text, type Reader } from '../document/reader';
+import type { ComponentName } from '../document/types';
+import { openFiles, type Incoming } from './opener';
+import type { Services } from './services';
+
+const FOLDER = './demo/';
+
+interface Manifest {
+  readonly name: string;
+  readonly side: 'left' | 'right';
+  readonly calibration: string;
+  readonly frames: readonly string[];
+  readonly models: Readonly<Record<ComponentName, string>>;
+}
+
+const readManifest: Reader<Manifest> = object<Manifest>({
+  name: text,
+  side: oneOf('left', 'right'),
+  calibration: text,
+  frames: list(text),
+  models: object({ femur: text, tibia: text }),
+});
+
+/** Opens the built-in sequence with its calibration and models, and no outlines: those are for the person to trace. */
+export async function openDemonstration(services: Services): Promise<void> {
+  const { store } = services;
+  store.say('info', 'Fetching the demonstration ...');
+  const manifest = readManifest(await (await fetched('demo.json')).json(), 'demo.json');
+  const names = [manifest.calibration, ...manifest.frames];
+  const files = await Promise.all([
+    ...names.map((name) => incoming(name)),
+    incoming(manifest.models.femur, 'femur'),
+    incoming(manifest.models.tibia, 'tibia'),
+  ]);
+  await openFiles(services, files);
+  store.perform(commands.rename(manifest.name));
+  store.perform(commands.setSide(manifest.side));
+  store.goTo(0);
+  store.settle();
+}
+
+async function incoming(name: string, component?: ComponentName): Promise<Incoming> {
+  const bytes = new Uint8Array(await (await fetched(name)).arrayBuffer());
+  return { name: name.split('/').at(-1) ?? name, bytes, component };
+}
+
+async function fetched(name: string): Promise<Response> {
+  const response = await fetch(FOLDER + name);
+  if (!response.ok) throw new Error(`the demonstration's ${name} could not be fetched (${response.status})`);
+  return response;
+}

@@ -1,0 +1,108 @@
+import type { ComponentName, Doc } from '../document/types';
+import { COMPONENT_NAMES, titleOf } from '../document/types';
+import { Aborted, type Bridge } from '../worker/bridge';
+import { cameraOf, libraryKey } from './keys';
+import type { LibraryFacts, PoseProtocol } from './protocol';
+import { asJob, sentenceOf, type Services } from './services';
+import { libraryWorker } from './workers';
+
+/**
+ * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
+ * size are there it is built, when one of them changes it is built anew. What was called off stays off until asked for.
+ */
+export class Librarian {
+  readonly #services: Services;
+  readonly #poser: Bridge<PoseProtocol>;
+  readonly #running = new Map<ComponentName, AbortController>();
+
+  constructor(services: Services, poser: Bridge<PoseProtocol>) {
+    this.#services = services;
+    this.#poser = poser;
+    services.store.subscribe(() => this.#reconcile());
+    // A new pose worker holds no libraries yet.
+    poser.onCrash = () => COMPONENT_NAMES.forEach((component) => this.retry(component));
+  }
+
+  /** Builds again what was called off or failed. */
+  retry(component: ComponentName): void {
+    this.#services.store.setLibrary(component, { state: 'none' });
+  }
+
+  #reconcile(): void {
+    const { store } = this.#services;
+    for (const component of COMPONENT_NAMES) {
+      const wanted = libraryKey(store.doc, component);
+      const library = store.ui.libraries[component];
+      const present = library.state === 'none' ? null : library.key;
+      if (wanted === present) continue;
+      this.#running.get(component)?.abort();
+      if (wanted !== null && this.#inputsAreHere(component)) void this.#obtain(component, wanted);
+      else if (present !== null) store.setLibrary(component, { state: 'none' });
+    }
+  }
+
+  /** A session may name files that have not been dropped on the page yet. */
+  #inputsAreHere(component: ComponentName): boolean {
+    const { store, studio, assets } = this.#services;
+    const { model, libraryFile } = store.doc.components[component];
+    if (libraryFile) return assets.get(libraryFile.sha256) !== undefined;
+    return model !== null && studio.meshOf(component, model.sha256) !== null;
+  }
+
+  async #obtain(component: ComponentName, key: string): Promise<void> {
+    const { store } = this.#services;
+    const abort = new AbortController();
+    this.#running.set(component, abort);
+    const startedAt = performance.now();
+    store.setLibrary(component, { state: 'building', key });
+    try {
+      const { libraryFile } = store.doc.components[component];
+      const facts = libraryFile
+        ? await this.#openFile(component, libraryFile.sha256, abort.signal)
+        : await this.#build(component, store.doc, abort);
+      const seconds = libraryFile ? null : (performance.now() - startedAt) / 1000;
+      if (!abort.signal.aborted) store.setLibrary(component, { state: 'ready', key, ...facts, seconds });
+    } catch (error) {
+      this.#stopped(component, key, error);
+    }
+  }
+
+  #openFile(component: ComponentName, sha256: string, signal: AbortSignal): Promise<LibraryFacts> {
+    const asset = this.#services.assets.get(sha256);
+    if (!asset) throw new Error('the library file is not at hand');
+    return this.#poser.call('open', { component, bytes: asset.bytes.slice() }, { signal });
+  }
+
+  async #build(component: ComponentName, doc: Doc, abort: AbortController): Promise<LibraryFacts> {
+    const { store, studio } = this.#services;
+    const { model, librarySpec: spec } = doc.components[component];
+    const mesh = model && studio.meshOf(component, model.sha256);
+    const camera = cameraOf(doc, doc.frames[0] ?? null);
+    if (!mesh || !camera) throw new Error('the model or the calibration is not at hand');
+    const worker = libraryWorker();
+    const cancel = () => abort.abort();
+    try {
+      return await asJob(store, { title: `Library of the ${component}`, unit: 'views', total: 0, cancel }, async (report) => {
+        const bytes = await worker.call('build', { mesh, camera, spec }, {
+          signal: abort.signal,
+          onProgress: ({ done, total }) => report(done, total),
+        });
+        return this.#poser.call('open', { component, bytes }, { signal: abort.signal, transfer: [bytes.buffer] });
+      });
+    } finally {
+      worker.dispose();
+    }
+  }
+
+  #stopped(component: ComponentName, key: string, error: unknown): void {
+    const { store } = this.#services;
+    const library = store.ui.libraries[component];
+    // Another one has been asked for in the meantime.
+    if (library.state !== 'building' || library.key !== key) return;
+    const calledOff = error instanceof Aborted;
+    const reason = calledOff ? 'called off' : sentenceOf(error);
+    store.setLibrary(component, { state: 'stopped', key, reason });
+    if (calledOff) store.say('info', `The library of the ${component} was called off; its panel builds it again.`);
+    else store.say('error', `${titleOf(component)} library: ${reason}`);
+  }
+}

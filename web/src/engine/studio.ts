@@ -1,0 +1,163 @@
+import init, {
+  CalibrationText,
+  Film,
+  jtIntcalibText,
+  Model,
+  paintUnmatched,
+  readJts,
+  writeJts,
+} from '../pkg/core/fluoropose_wasm.js';
+import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+import type { ComponentName, GreyWindow, PoseNumbers } from '../document/types';
+import type { Size } from '../geometry/viewport';
+import type { CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture } from './protocol';
+
+/** Grey values of a frame, and the window to begin with. */
+export interface FilmFacts {
+  readonly least: number;
+  readonly greatest: number;
+  readonly window: GreyWindow;
+}
+
+interface HeldFilm {
+  readonly film: Film;
+  readonly facts: FilmFacts;
+}
+
+interface HeldModel {
+  readonly sha256: string;
+  readonly mesh: ModelMesh;
+  readonly model: Model;
+}
+
+/**
+ * The core on the page's own thread: holds pixels and models in WASM memory and paints them. Matching is the pose
+ * worker's work.
+ */
+export class Studio {
+  readonly #films = new Map<string, HeldFilm>();
+  readonly #models = new Map<ComponentName, HeldModel>();
+
+  static async open(): Promise<Studio> {
+    await init({ module_or_path: wasmAddress });
+    return new Studio();
+  }
+
+  // --- Frames -------------------------------------------------------------------------------------------------
+
+  addFilm(id: string, frame: DecodedFrame): void {
+    if (this.#films.has(id)) return;
+    const { pixels, width, height } = frame;
+    const film =
+      pixels instanceof Uint8Array ? Film.fromEightBit(pixels, width, height) : Film.fromSixteenBit(pixels, width, height);
+    const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = film.greyRange();
+    const window = frame.window ?? { centre, width: windowWidth };
+    this.#films.set(id, { film, facts: { least, greatest, window } });
+  }
+
+  hasFilm(id: string): boolean {
+    return this.#films.has(id);
+  }
+
+  filmFacts(id: string): FilmFacts | null {
+    return this.#films.get(id)?.facts ?? null;
+  }
+
+  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow): void {
+    this.#films.get(id)?.film.paint(context, window.centre, window.width);
+  }
+
+  greyAt(id: string, column: number, row: number): number | null {
+    if (column < 0 || row < 0) return null;
+    return this.#films.get(id)?.film.greyAt(Math.floor(column), Math.floor(row)) ?? null;
+  }
+
+  // --- Models -------------------------------------------------------------------------------------------------
+
+  setModel(component: ComponentName, sha256: string, mesh: ModelMesh): void {
+    const model = new Model(mesh.vertices, mesh.triangles);
+    this.#models.get(component)?.model.free();
+    this.#models.set(component, { sha256, mesh, model });
+  }
+
+  /** The mesh of the model with this digest, if it is the one that is held. */
+  meshOf(component: ComponentName, sha256: string): ModelMesh | null {
+    const held = this.#models.get(component);
+    return held?.sha256 === sha256 ? held.mesh : null;
+  }
+
+  /**
+   * Paints the silhouette of a component at a pose and returns its border in frame coordinates, columns and rows by
+   * turns. Null without the model.
+   */
+  paintSilhouette(
+    context: CanvasRenderingContext2D,
+    component: ComponentName,
+    camera: CameraInput,
+    pose: PoseNumbers,
+    rgb: number,
+  ): Float64Array | null {
+    const model = this.#models.get(component)?.model;
+    if (!model) return null;
+    const { text, width, height } = camera;
+    model.project(text, width, height, Float64Array.from(poseArray(pose)));
+    context.clearRect(0, 0, width, height);
+    model.paint(context, width, height, rgb);
+    return model.border(width, height);
+  }
+
+  paintUnmatched(context: CanvasRenderingContext2D, picture: Picture): void {
+    paintUnmatched(context, picture.input, picture.view, picture.size);
+  }
+
+  // --- Texts --------------------------------------------------------------------------------------------------
+
+  /** Throws the core's sentence for a text that is no calibration or does not fit the frames. */
+  calibrationFacts(text: string, frame: Size | null): CalibrationFacts {
+    const calibration = new CalibrationText(text);
+    try {
+      const principal = calibration.principal;
+      const [fx, fy, cx, cy] = frame ? calibration.cameraFor(frame.width, frame.height) : [];
+      const [principalDistance, offsetX, offsetY, pitch] = principal ?? [];
+      return {
+        principal:
+          principalDistance === undefined || pitch === undefined
+            ? null
+            : { distance: principalDistance, offsetX: offsetX ?? 0, offsetY: offsetY ?? 0, pitch },
+        camera: fx === undefined ? null : { fx, fy: fy ?? fx, cx: cx ?? 0, cy: cy ?? 0 },
+      };
+    } finally {
+      calibration.free();
+    }
+  }
+
+  /** Throws the core's sentence for a value that is not possible. */
+  calibrationText(distance: number, offsetX: number, offsetY: number, pitch: number, frame: Size): string {
+    return jtIntcalibText(distance, offsetX, offsetY, pitch, frame.width, frame.height);
+  }
+
+  /** Null for the rows of zeros that stand for "no pose". */
+  readPoses(text: string): (PoseNumbers | null)[] {
+    const numbers = readJts(text);
+    return Array.from({ length: numbers.length / 6 }, (_, row) => {
+      const values = numbers.subarray(6 * row, 6 * row + 6);
+      return values.every((value) => value === 0) ? null : poseFrom(values);
+    });
+  }
+
+  writePoses(poses: readonly (PoseNumbers | null)[]): string {
+    return writeJts(Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE))));
+  }
+}
+
+/** At the focus, where nothing can be: other programs of the field read it without complaint. */
+const NO_POSE: readonly number[] = [0, 0, 0, 0, 0, 0];
+
+function poseArray(pose: PoseNumbers): number[] {
+  return [pose.x, pose.y, pose.z, pose.zRot, pose.xRot, pose.yRot];
+}
+
+export function poseFrom(values: ArrayLike<number>): PoseNumbers {
+  const [x = 0, y = 0, z = 0, zRot = 0, xRot = 0, yRot = 0] = Array.from(values);
+  return { x, y, z, zRot, xRot, yRot };
+}

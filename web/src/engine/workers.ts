@@ -1,0 +1,25 @@
+import { Bridge, type WorkerPort } from '../worker/bridge';
+import type { DecodeProtocol, LibraryProtocol, PoseProtocol } from './protocol';
+
+/** Each worker starts with its first call. A library has a worker of its own: two are built at the same time. */
+export function decodeWorker(): Bridge<DecodeProtocol> {
+  return new Bridge<DecodeProtocol>(() =>
+    port(new Worker(new URL('../worker/decode.ts', import.meta.url), { type: 'module', name: 'decode' })),
+  );
+}
+
+export function libraryWorker(): Bridge<LibraryProtocol> {
+  return new Bridge<LibraryProtocol>(() =>
+    port(new Worker(new URL('../worker/library.ts', import.meta.url), { type: 'module', name: 'library' })),
+  );
+}
+
+export function poseWorker(): Bridge<PoseProtocol> {
+  return new Bridge<PoseProtocol>(() =>
+    port(new Worker(new URL('../worker/pose.ts', import.meta.url), { type: 'module', name: 'pose' })),
+  );
+}
+
+function port(worker: Worker): WorkerPort {
+  return worker as unknown as WorkerPort;
+}

@@ -1,0 +1,111 @@
+import { TOOLS, type ToolName } from './tools';
+
+/** What keys do. The sheet that `?` shows is made from this table, so the two cannot differ. */
+export type Action =
+  | { readonly name: 'tool'; readonly tool: ToolName }
+  | {
+      readonly name:
+        | 'undo'
+        | 'redo'
+        | 'save'
+        | 'open'
+        | 'previous-frame'
+        | 'next-frame'
+        | 'other-component'
+        | 'other-candidate'
+        | 'close-outline'
+        | 'delete-point'
+        | 'delete-outline'
+        | 'leave'
+        | 'fit'
+        | 'zoom-in'
+        | 'zoom-out'
+        | 'reset-window'
+        | 'keys';
+    };
+
+export interface Binding {
+  /** As shown on the sheet. */
+  readonly shown: readonly string[];
+  readonly does: string;
+  readonly group: 'Tracing' | 'Seeing' | 'Working' | 'Mouse';
+  readonly matches: (key: KeyInput) => boolean;
+  /** Null: the sheet tells of it, something else does it. */
+  readonly action: Action | null;
+}
+
+/** The part of a `KeyboardEvent` that matters. */
+export interface KeyInput {
+  readonly key: string;
+  readonly ctrl: boolean;
+  readonly shift: boolean;
+  readonly alt: boolean;
+}
+
+export const BINDINGS: readonly Binding[] = [
+  ...TOOLS.map(({ name, key, title }) =>
+    binding('Tracing', [key.toUpperCase()], title, plainly(key), { name: 'tool', tool: name }),
+  ),
+  binding('Tracing', ['Enter'], 'Close the outline', plainly('enter'), { name: 'close-outline' }),
+  binding('Tracing', ['Delete', 'Backspace'], 'Delete the selected point, or the last one of a draft', plainly('delete', 'backspace'), {
+    name: 'delete-point',
+  }),
+  binding('Tracing', ['Shift + Delete'], 'Delete the whole outline', shifted('delete', 'backspace'), { name: 'delete-outline' }),
+  binding('Tracing', ['Esc'], 'Leave the tool; a draft stays', plainly('escape'), { name: 'leave' }),
+  binding('Tracing', ['Tab'], 'Switch between the pose and its rival', plainly('tab'), { name: 'other-candidate' }),
+  binding('Working', ['D', 'Page Up'], 'Previous frame', plainly('d', 'pageup'), { name: 'previous-frame' }),
+  binding('Working', ['F', 'Page Down'], 'Next frame', plainly('f', 'pagedown'), { name: 'next-frame' }),
+  binding('Working', ['C'], 'Other component', plainly('c'), { name: 'other-component' }),
+  binding('Working', ['Ctrl + Z'], 'Undo', (key) => key.ctrl && !key.shift && is(key, 'z'), { name: 'undo' }),
+  binding(
+    'Working',
+    ['Ctrl + Y', 'Ctrl + Shift + Z'],
+    'Redo',
+    (key) => key.ctrl && (is(key, 'y') || (key.shift && is(key, 'z'))),
+    { name: 'redo' },
+  ),
+  binding('Working', ['Ctrl + S'], 'Save the session', (key) => key.ctrl && is(key, 's'), { name: 'save' }),
+  binding('Working', ['Ctrl + O'], 'Open files', (key) => key.ctrl && is(key, 'o'), { name: 'open' }),
+  binding('Working', ['?'], 'This sheet', (key) => is(key, '?'), { name: 'keys' }),
+  binding('Seeing', ['0'], 'Fit the film to the window', plainly('0'), { name: 'fit' }),
+  binding('Seeing', ['+'], 'Zoom in', (key) => is(key, '+', '='), { name: 'zoom-in' }),
+  binding('Seeing', ['-'], 'Zoom out', plainly('-'), { name: 'zoom-out' }),
+  binding('Seeing', ['R'], 'Window and level as the film suggests', plainly('r'), { name: 'reset-window' }),
+  mouse('Space held', 'Hide outlines and overlays; dragging moves the film'),
+  mouse('Wheel', 'Zoom at the cursor'),
+  mouse('Middle drag', 'Move the film'),
+  mouse('Right drag', 'Window (sideways) and level (up and down)'),
+  mouse('Alt + click on a point', 'Delete the point'),
+  mouse('Click on an edge', 'Insert a point (closed outline, or Edit points)'),
+  mouse('Double click', 'Close the outline'),
+];
+
+export function actionFor(key: KeyInput): Action | null {
+  return BINDINGS.find((binding) => binding.action && binding.matches(key))?.action ?? null;
+}
+
+function binding(
+  group: Binding['group'],
+  shown: readonly string[],
+  does: string,
+  matches: Binding['matches'],
+  action: Action,
+): Binding {
+  return { group, shown, does, matches, action };
+}
+
+function mouse(shown: string, does: string): Binding {
+  return { group: 'Mouse', shown: [shown], does, matches: () => false, action: null };
+}
+
+function is(key: KeyInput, ...names: readonly string[]): boolean {
+  return names.includes(key.key.toLowerCase());
+}
+
+function plainly(...names: readonly string[]) {
+  return (key: KeyInput) => !key.ctrl && !key.shift && !key.alt && is(key, ...names);
+}
+
+function shifted(...names: readonly string[]) {
+  return (key: KeyInput) => !key.ctrl && key.shift && !key.alt && is(key, ...names);
+}

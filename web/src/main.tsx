@@ -1,0 +1,45 @@
+import { render } from 'preact';
+import './styles/theme.css';
+import './styles/layout.css';
+import './styles/controls.css';
+import './styles/panels.css';
+import { Assets } from './document/assets';
+import { Store } from './document/store';
+import { Librarian } from './engine/librarian';
+import { Poser } from './engine/poser';
+import type { Services } from './engine/services';
+import { Studio } from './engine/studio';
+import { decodeWorker, poseWorker } from './engine/workers';
+import { Actions } from './view/actions';
+import { AppContext, type App } from './view/app';
+import { guardAgainstLoss } from './view/guard';
+import { Page } from './view/page';
+
+async function start(root: HTMLElement): Promise<void> {
+  const services: Services = {
+    store: new Store(),
+    studio: await Studio.open(),
+    assets: new Assets(),
+    decoder: decodeWorker(),
+  };
+  const matcher = poseWorker();
+  const app: App = {
+    services,
+    librarian: new Librarian(services, matcher),
+    poser: new Poser(services.store, matcher),
+    actions: new Actions(services),
+  };
+  guardAgainstLoss(services.store);
+  render(
+    <AppContext.Provider value={app}>
+      <Page />
+    </AppContext.Provider>,
+    root,
+  );
+}
+
+const root = document.getElementById('page');
+if (!root) throw new Error('index.html has no element "page"');
+start(root).catch((error: unknown) => {
+  root.textContent = `The page could not start: ${error instanceof Error ? error.message : String(error)}. It needs a current browser with WebAssembly.`;
+});

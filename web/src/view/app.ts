@@ -1,0 +1,45 @@
+import { createContext } from 'preact';
+import { useContext, useEffect, useState } from 'preact/hooks';
+import type { State } from '../document/store';
+import type { Librarian } from '../engine/librarian';
+import type { Poser } from '../engine/poser';
+import type { Services } from '../engine/services';
+import type { Actions } from './actions';
+
+/** What every view may use. Views read the state and call actions; they hold nothing that matters. */
+export interface App {
+  readonly services: Services;
+  readonly librarian: Librarian;
+  readonly poser: Poser;
+  readonly actions: Actions;
+}
+
+export const AppContext = createContext<App | null>(null);
+
+export function useApp(): App {
+  const app = useContext(AppContext);
+  if (!app) throw new Error('a view outside the page');
+  return app;
+}
+
+/** The state, at most once a screen frame: a drag changes it more often. */
+export function useAppState(): State {
+  const { store } = useApp().services;
+  const [state, setState] = useState(store.state);
+  useEffect(() => {
+    let scheduled = 0;
+    const update = () => {
+      scheduled ||= requestAnimationFrame(() => {
+        scheduled = 0;
+        setState(store.state);
+      });
+    };
+    update();
+    const unsubscribe = store.subscribe(update);
+    return () => {
+      unsubscribe();
+      cancelAnimationFrame(scheduled);
+    };
+  }, [store]);
+  return state;
+}

@@ -1,0 +1,86 @@
+import { useState } from 'preact/hooks';
+import * as commands from '../document/commands';
+import { currentFrame, type State } from '../document/store';
+import type { CalibrationFacts } from '../engine/protocol';
+import { sentenceOf } from '../engine/services';
+import { useApp } from './app';
+import { NumberField } from './number_field';
+
+/** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
+export function CalibrationSheet({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const { store, studio } = services;
+  const frame = currentFrame(state);
+  const facts = factsOf(state, studio.calibrationFacts.bind(studio));
+  const [typed, setTyped] = useState({
+    distance: facts?.principal?.distance ?? NaN,
+    pitch: facts?.principal?.pitch ?? NaN,
+    offsetX: facts?.principal?.offsetX ?? 0,
+    offsetY: facts?.principal?.offsetY ?? 0,
+  });
+  const [trouble, setTrouble] = useState('');
+  const set = (field: keyof typeof typed) => (value: number) => setTyped({ ...typed, [field]: value });
+  const use = () => {
+    try {
+      const size = frame ?? { width: 1024, height: 1024 };
+      const text = studio.calibrationText(typed.distance, typed.offsetX, typed.offsetY, typed.pitch, size);
+      store.perform(commands.setCalibration({ name: 'typed', text }));
+      setTrouble('');
+      store.show({ popover: null });
+    } catch (error) {
+      setTrouble(sentenceOf(error));
+    }
+  };
+  return (
+    <form
+      class="sheet-body"
+      onSubmit={(event) => {
+        event.preventDefault();
+        use();
+      }}
+    >
+      <p class="sheet-text">{describe(state, facts)}</p>
+      <div class="fields">
+        <NumberField label="Principal distance" unit="mm" value={typed.distance} onChange={set('distance')} />
+        <NumberField label="Pixel pitch" unit="mm" value={typed.pitch} onChange={set('pitch')} />
+        <NumberField label="Principal point x" unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
+        <NumberField label="Principal point y" unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
+      </div>
+      <p class="sheet-text quiet">
+        Distance from the X-ray focus to the detector; principal point from the frame's middle, x to the right, y up.
+        {frame ? ` The frame has ${frame.width} x ${frame.height} px.` : ''}
+      </p>
+      <p class="sheet-trouble" role="alert">
+        {trouble}
+      </p>
+      <div class="sheet-buttons">
+        <button type="submit" class="button primary">
+          Use these numbers
+        </button>
+        <button type="button" class="button" onClick={() => void actions.openPicked()}>
+          Open a calibration file
+        </button>
+      </div>
+    </form>
+  );
+}
+
+function factsOf(state: State, read: (text: string, frame: ReturnType<typeof currentFrame>) => CalibrationFacts) {
+  const { calibration } = state.history.present;
+  if (!calibration) return null;
+  try {
+    return read(calibration.text, currentFrame(state));
+  } catch {
+    // A calibration for frames of another size: its chip and the pose say so; the form stays usable.
+    return read(calibration.text, null);
+  }
+}
+
+function describe(state: State, facts: CalibrationFacts | null): string {
+  const { calibration } = state.history.present;
+  if (!calibration || !facts) return 'No calibration yet. Drop a JT_INTCALIB or MayaCam file, or type the numbers.';
+  if (!facts.camera) return `${calibration.name}.`;
+  const { fx, fy, cx, cy } = facts.camera;
+  const focal = fx === fy ? fx.toFixed(1) : `${fx.toFixed(1)} x ${fy.toFixed(1)}`;
+  return `${calibration.name}: focal length ${focal} px, principal point at ${cx.toFixed(1)}, ${cy.toFixed(1)} px.`;
+}

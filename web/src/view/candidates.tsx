@@ -1,0 +1,87 @@
+import { useApp } from './app';
+import type { Candidate, Cell } from '../document/types';
+
+const CANONICAL_AREA = '15 000';
+
+/** The score, and the rival pose where there is one: ambiguity is a visible choice. */
+export function Candidates({ cell }: { cell: Cell }) {
+  const { actions, poser } = useApp();
+  const result = cell.result?.kind === 'posed' ? cell.result : null;
+  const area = poser.findings(cell.outline)?.canonicalArea ?? 0;
+  const chosen = result?.candidates[result.chosen] ?? null;
+  return (
+    <section class="card candidates" aria-label="Score and candidates">
+      <div class="number score">
+        <span class="label">Unmatched</span>
+        <output class="value" aria-label="Unmatched pixels">
+          {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
+        </output>
+        <span class="unit">px of {area > 0 ? grouped(area) : CANONICAL_AREA}</span>
+      </div>
+      <div class="rivals" role="radiogroup" aria-label="Candidate poses">
+        {[0, 1].map((index) => (
+          <CandidateButton
+            key={index}
+            index={index}
+            candidate={result?.candidates[index] ?? null}
+            chosen={result !== null && result.chosen === index}
+            onChoose={() => result && result.chosen !== index && actions.chooseOtherCandidate()}
+          />
+        ))}
+      </div>
+      <p class="card-note">{result ? reason(result.candidates, result.chosen) : ''}</p>
+    </section>
+  );
+}
+
+interface CandidateButtonProps {
+  readonly index: number;
+  readonly candidate: Candidate | null;
+  readonly chosen: boolean;
+  readonly onChoose: () => void;
+}
+
+function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButtonProps) {
+  const name = index === 0 ? 'Best' : 'Rival';
+  const { pose, unmatched } = candidate ?? {};
+  return (
+    <button
+      type="button"
+      role="radio"
+      class="rival"
+      aria-checked={chosen}
+      aria-label={`${name} candidate`}
+      disabled={!candidate}
+      title={index === 1 ? 'The second-best pose that is not a neighbour of the best (Tab switches)' : 'The pose with the fewest unmatched pixels'}
+      onClick={onChoose}
+    >
+      <span>{name}</span>
+      <span class="rival-score">{unmatched == null ? '–' : `${grouped(unmatched)} px`}</span>
+      <span class="rival-pose">{pose ? `${degrees(pose.xRot)}, ${degrees(pose.yRot)}` : 'none'}</span>
+    </button>
+  );
+}
+
+/** Below this ratio of scores the better one is not to be relied on. */
+const DECISIVE = 1.3;
+
+function reason(candidates: readonly Candidate[], chosen: number): string {
+  const [best, rival] = candidates;
+  if (best?.unmatched == null) return '';
+  if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
+  if (chosen !== 0) return 'Chosen by hand. Tab goes back to the one with fewer unmatched pixels.';
+  const ratio = rival.unmatched / Math.max(1, best.unmatched);
+  const times = ratio.toFixed(2);
+  return ratio >= DECISIVE
+    ? `Chosen for its score: the rival leaves ${times} times as much unmatched.`
+    : `Close: the rival leaves only ${times} times as much unmatched. Compare both overlays with Tab.`;
+}
+
+function degrees(value: number): string {
+  return `${value.toFixed(1).replace('-', '\u2212')}°`;
+}
+
+/** Thousands apart by a narrow space. */
+export function grouped(value: number): string {
+  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, '\u202f');
+}

@@ -1,0 +1,81 @@
+import * as commands from '../document/commands';
+import { currentFrame, type State } from '../document/store';
+import { useApp } from './app';
+
+/** Opacity of the overlay, window and level of the film. */
+export function Display({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const { store, studio } = services;
+  const frame = currentFrame(state);
+  const facts = frame && studio.filmFacts(frame.id);
+  const window = state.history.present.window ?? facts?.window ?? { centre: 128, width: 256 };
+  const [least, greatest] = [facts?.least ?? 0, facts?.greatest ?? 255];
+  const span = Math.max(1, greatest - least);
+  return (
+    <section class="card display" aria-label="Display">
+      <Slider
+        label="Overlay opacity"
+        text={`${Math.round(state.ui.overlayOpacity * 100)} %`}
+        min={0}
+        max={1}
+        step={0.01}
+        value={state.ui.overlayOpacity}
+        onInput={(overlayOpacity) => store.show({ overlayOpacity })}
+      />
+      <Slider
+        label="Window width"
+        text={String(Math.round(window.width))}
+        min={1}
+        max={Math.max(2 * span, window.width)}
+        step={1}
+        value={window.width}
+        disabled={!facts}
+        onInput={(width) => store.perform(commands.setWindow({ ...window, width }))}
+      />
+      <Slider
+        label="Window level"
+        text={String(Math.round(window.centre))}
+        min={Math.min(least - span / 2, window.centre)}
+        max={Math.max(greatest + span / 2, window.centre)}
+        step={1}
+        value={window.centre}
+        disabled={!facts}
+        onInput={(centre) => store.perform(commands.setWindow({ ...window, centre }))}
+      />
+      <button type="button" class="button small" disabled={!state.history.present.window} title="R" onClick={() => actions.run({ name: 'reset-window' })}>
+        Reset window and level
+      </button>
+    </section>
+  );
+}
+
+interface SliderProps {
+  readonly label: string;
+  readonly text: string;
+  readonly min: number;
+  readonly max: number;
+  readonly step: number;
+  readonly value: number;
+  readonly disabled?: boolean;
+  readonly onInput: (value: number) => void;
+}
+
+function Slider({ label, text, min, max, step, value, disabled, onInput }: SliderProps) {
+  return (
+    <label class="slider">
+      <span class="slider-label">{label}</span>
+      <span class="slider-value">{text}</span>
+      <input
+        type="range"
+        aria-label={label}
+        aria-valuetext={text}
+        min={min}
+        max={max}
+        step={step}
+        value={value}
+        disabled={disabled ?? false}
+        onInput={(event) => onInput(event.currentTarget.valueAsNumber)}
+      />
+    </label>
+  );
+}

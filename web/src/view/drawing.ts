@@ -1,0 +1,109 @@
+import type { ComponentName } from '../document/types';
+import type { CanvasPoint } from '../geometry/points';
+import type { Size, Viewport } from '../geometry/viewport';
+import type { Hit } from '../interaction/hit';
+import { COMPONENT_COLOURS } from './colours';
+import type { OverlayLayer } from './layers';
+
+type Context = CanvasRenderingContext2D;
+
+/** Dark under every line: the film behind may be as bright as the line. */
+const HALO = 'rgb(0 0 0 / 0.55)';
+const TAU = 2 * Math.PI;
+
+export function drawSilhouette(context: Context, view: Viewport, overlay: OverlayLayer, frame: Size, opacity: number): void {
+  if (!overlay.border || opacity === 0) return;
+  context.save();
+  context.translate(view.left, view.top);
+  context.scale(view.scale, view.scale);
+  context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
+  context.globalAlpha = opacity;
+  context.drawImage(overlay.canvas, 0, 0, frame.width, frame.height);
+  context.globalAlpha = Math.min(1, opacity * 2);
+  context.lineJoin = 'round';
+  context.lineWidth = 1.25 / view.scale;
+  context.strokeStyle = COMPONENT_COLOURS[overlay.component].css;
+  context.stroke(overlay.border);
+  context.restore();
+}
+
+interface OutlineStyle {
+  readonly closed: boolean;
+  readonly active: boolean;
+  readonly handles: boolean;
+  readonly hit: Hit;
+  readonly selected: number | null;
+}
+
+export function drawOutline(context: Context, component: ComponentName, points: readonly CanvasPoint[], style: OutlineStyle): void {
+  const colour = COMPONENT_COLOURS[component].css;
+  const path = new Path2D();
+  for (const { x, y } of points) path.lineTo(x, y);
+  if (style.closed) path.closePath();
+  context.save();
+  context.lineJoin = 'round';
+  context.globalAlpha = style.active ? 1 : 0.6;
+  stroke(context, path, HALO, 3.5);
+  stroke(context, path, colour, 1.5);
+  if (style.handles) {
+    points.forEach((point, index) => drawHandle(context, colour, point, handleStyle(index, style)));
+    drawInsertion(context, colour, points, style);
+  }
+  context.restore();
+}
+
+function handleStyle(index: number, { hit, selected, closed }: OutlineStyle) {
+  const hovered = hit.kind === 'vertex' && hit.index === index;
+  // The first point of a draft is where it closes.
+  const first = index === 0 && !closed;
+  return { radius: hovered || first ? 5.5 : 4, filled: index === selected, hovered };
+}
+
+function drawHandle(
+  context: Context,
+  colour: string,
+  { x, y }: CanvasPoint,
+  style: { radius: number; filled: boolean; hovered: boolean },
+): void {
+  context.beginPath();
+  context.arc(x, y, style.radius, 0, TAU);
+  context.fillStyle = style.filled ? colour : 'rgb(20 22 24 / 0.85)';
+  context.fill();
+  context.lineWidth = 3;
+  context.strokeStyle = HALO;
+  context.stroke();
+  context.lineWidth = 1.5;
+  context.strokeStyle = style.hovered || style.filled ? '#ffffff' : colour;
+  context.stroke();
+}
+
+/** A faint handle where a click on the edge would insert a point. */
+function drawInsertion(context: Context, colour: string, points: readonly CanvasPoint[], { hit, closed }: OutlineStyle): void {
+  if (hit.kind !== 'edge' || !closed) return;
+  const before = points[hit.before % points.length];
+  const after = points[hit.before - 1];
+  if (!before || !after) return;
+  context.beginPath();
+  context.moveTo(after.x, after.y);
+  context.lineTo(before.x, before.y);
+  context.lineWidth = 3;
+  context.strokeStyle = colour;
+  context.stroke();
+}
+
+export function drawRubberBand(context: Context, component: ComponentName, from: CanvasPoint, to: CanvasPoint): void {
+  const path = new Path2D();
+  path.moveTo(from.x, from.y);
+  path.lineTo(to.x, to.y);
+  context.save();
+  context.setLineDash([5, 4]);
+  stroke(context, path, HALO, 2.5);
+  stroke(context, path, COMPONENT_COLOURS[component].css, 1);
+  context.restore();
+}
+
+function stroke(context: Context, path: Path2D, colour: string, width: number): void {
+  context.strokeStyle = colour;
+  context.lineWidth = width;
+  context.stroke(path);
+}

@@ -1,0 +1,16 @@
+import type { State } from '../document/store';
+
+/** Everything that was said, the latest first. */
+export function LogSheet({ state }: { state: State }) {
+  const { log } = state.ui;
+  if (log.length === 0) return <p class="sheet-body sheet-text">Nothing has been said yet.</p>;
+  return (
+    <ol class="sheet-body log">
+      {log.toReversed().map(({ kind, text, at }, index) => (
+        <li key={log.length - index} class={kind}>
+          <time>{new Date(at).toLocaleTimeString()}</time> {text}
+        </li>
+      ))}
+    </ol>
+  );
+}

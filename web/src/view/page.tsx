@@ -1,0 +1,77 @@
+import { useEffect } from 'preact/hooks';
+import { actionFor } from '../interaction/bindings';
+import { useApp, useAppState } from './app';
+import { useDropTarget } from './drop';
+import { Panel } from './panel';
+import { Popovers } from './popovers';
+import { Rail } from './rail';
+import { Stage } from './stage';
+import { StatusLine } from './status_line';
+import { Timeline } from './timeline';
+import { TopBar } from './top_bar';
+
+export function Page() {
+  const state = useAppState();
+  const dropping = useDropTarget();
+  useKeys();
+  return (
+    <div class={dropping ? 'page dropping' : 'page'}>
+      <TopBar state={state} />
+      <Rail state={state} />
+      <Stage state={state} />
+      <Panel state={state} />
+      <Timeline state={state} />
+      <StatusLine state={state} />
+      <Popovers state={state} />
+    </div>
+  );
+}
+
+/** Keys for the whole page; a field that is being typed in keeps its own. */
+function useKeys(): void {
+  const { actions, services } = useApp();
+  useEffect(() => {
+    const { store } = services;
+    const onDown = (event: KeyboardEvent) => {
+      if (event.key === ' ' && !typing(event.target) && !onControl(event.target)) {
+        event.preventDefault();
+        if (!store.ui.overlaysHidden) store.show({ overlaysHidden: true });
+        return;
+      }
+      if (handle(event)) event.preventDefault();
+    };
+    const onUp = (event: KeyboardEvent) => {
+      if (event.key === ' ' && store.ui.overlaysHidden) store.show({ overlaysHidden: false });
+    };
+    const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
+    const handle = (event: KeyboardEvent): boolean => {
+      const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
+      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt });
+      if (!action) return false;
+      const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
+      if (typing(target) && !everywhere) return false;
+      // Enter and Tab belong to the control that has the focus.
+      if (onControl(target) && (action.name === 'close-outline' || action.name === 'other-candidate')) return false;
+      if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
+      store.quiet();
+      return actions.run(action);
+    };
+    window.addEventListener('keydown', onDown);
+    window.addEventListener('keyup', onUp);
+    window.addEventListener('blur', onBlur);
+    return () => {
+      window.removeEventListener('keydown', onDown);
+      window.removeEventListener('keyup', onUp);
+      window.removeEventListener('blur', onBlur);
+    };
+  }, [actions, services]);
+}
+
+function typing(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) return target.type !== 'range' && target.type !== 'checkbox';
+  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+}
+
+function onControl(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.closest('button, input, select, textarea, a') !== null;
+}

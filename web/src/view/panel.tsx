@@ -1,0 +1,55 @@
+import { currentCell, currentFrame, type State } from '../document/store';
+import { cellOf, COMPONENT_NAMES, titleOf } from '../document/types';
+import { missingForPose } from '../engine/missing';
+import { useApp } from './app';
+import { Display } from './display';
+import { PoseNumbersCard } from './pose_card';
+import { Candidates } from './candidates';
+import { Unmatched } from './unmatched';
+
+/** The right side: the selected component's pose, how far to trust it, and how the film is shown. */
+export function Panel({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const { component } = state.ui;
+  const cell = currentCell(state);
+  const frame = currentFrame(state);
+  return (
+    <aside class={`panel ${component}`} aria-label="Pose">
+      <div class="switch" role="radiogroup" aria-label="Component">
+        {COMPONENT_NAMES.map((name) => (
+          <button
+            key={name}
+            type="button"
+            role="radio"
+            class={`switch-side ${name}`}
+            aria-checked={component === name}
+            title={`${titleOf(name)} (C switches)`}
+            onClick={() => services.store.selectComponent(name)}
+          >
+            <span class={`state-dot ${dotOf(state, name)}`} aria-hidden="true" />
+            {titleOf(name)}
+          </button>
+        ))}
+      </div>
+      <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} />
+      <Candidates cell={cell} />
+      <Unmatched state={state} />
+      <Display state={state} />
+      <div class="panel-foot">
+        <button type="button" class="button" disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
+          Save {component} poses (.jts)
+        </button>
+        <button type="button" class="button" disabled={!frame || !cell.outline} title="Shift+Delete" onClick={() => actions.deleteOutline()}>
+          Delete outline
+        </button>
+      </div>
+    </aside>
+  );
+
+  function dotOf(state: State, name: (typeof COMPONENT_NAMES)[number]): string {
+    const { outline, result } = cellOf(state.history.present, frame?.id, name);
+    if (result?.kind === 'failed') return 'failed';
+    if (result) return 'posed';
+    return outline ? 'traced' : 'none';
+  }
+}

@@ -1,0 +1,70 @@
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Popover, State } from '../document/store';
+import { titleOf } from '../document/types';
+import { useApp } from './app';
+import { CalibrationSheet } from './calibration_sheet';
+import { ComponentSheet } from './component_sheet';
+import { Icon } from './icons';
+import { KeySheet } from './key_sheet';
+import { LogSheet } from './log_sheet';
+import { SessionSheet } from './session_sheet';
+
+/** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
+export function Popovers({ state }: { state: State }) {
+  const { popover } = state.ui;
+  if (!popover) return null;
+  return (
+    <Sheet key={popover} name={popover} title={TITLES[popover]}>
+      {contents(popover, state)}
+    </Sheet>
+  );
+}
+
+const TITLES: Readonly<Record<Popover, string>> = {
+  calibration: 'Calibration',
+  femur: titleOf('femur'),
+  tibia: titleOf('tibia'),
+  keys: 'Keys and mouse',
+  log: 'Log',
+  session: 'Save',
+};
+
+function contents(popover: Popover, state: State): ComponentChildren {
+  switch (popover) {
+    case 'calibration':
+      return <CalibrationSheet state={state} />;
+    case 'femur':
+    case 'tibia':
+      return <ComponentSheet state={state} component={popover} />;
+    case 'keys':
+      return <KeySheet />;
+    case 'log':
+      return <LogSheet state={state} />;
+    case 'session':
+      return <SessionSheet state={state} />;
+  }
+}
+
+function Sheet({ name, title, children }: { name: Popover; title: string; children: ComponentChildren }) {
+  const { store } = useApp().services;
+  const sheet = useRef<HTMLElement>(null);
+  useEffect(() => {
+    const before = document.activeElement;
+    sheet.current?.focus();
+    return () => {
+      if (before instanceof HTMLElement) before.focus();
+    };
+  }, []);
+  return (
+    <section ref={sheet} class={`sheet ${name}-sheet`} role="dialog" aria-label={title} tabIndex={-1}>
+      <header class="sheet-head">
+        <h2>{title}</h2>
+        <button type="button" class="button square small" aria-label={`Close ${title}`} title="Close (Esc)" onClick={() => store.show({ popover: null })}>
+          <Icon name="close" />
+        </button>
+      </header>
+      {children}
+    </section>
+  );
+}

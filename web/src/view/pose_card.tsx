@@ -1,0 +1,102 @@
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { chosenCandidate, type Cell, type PoseNumbers } from '../document/types';
+import { inWords } from '../engine/missing';
+import { useApp } from './app';
+
+interface Quantity {
+  readonly field: keyof PoseNumbers;
+  readonly name: string;
+  readonly label: string;
+  readonly unit: 'mm' | '°';
+  readonly decimals: number;
+}
+
+/** Decimals that match what a library pose is good for: hundredths in the plane, tenths along the view. */
+const TRANSLATIONS: readonly Quantity[] = [
+  { field: 'x', name: 'x', label: 'x', unit: 'mm', decimals: 2 },
+  { field: 'y', name: 'y', label: 'y', unit: 'mm', decimals: 2 },
+  { field: 'z', name: 'z', label: 'z', unit: 'mm', decimals: 1 },
+];
+
+const ROTATIONS: readonly Quantity[] = [
+  { field: 'zRot', name: 'z rotation', label: 'z rot', unit: '°', decimals: 2 },
+  { field: 'xRot', name: 'x rotation', label: 'x rot', unit: '°', decimals: 2 },
+  { field: 'yRot', name: 'y rotation', label: 'y rot', unit: '°', decimals: 2 },
+];
+
+export function PoseNumbersCard({ cell, missing }: { cell: Cell; missing: readonly string[] }) {
+  const pose = chosenCandidate(cell)?.pose ?? null;
+  const source = cell.result?.kind === 'posed' && cell.result.from === 'file' ? `from ${cell.result.origin}` : '';
+  return (
+    <section class="card pose" aria-label="Pose numbers">
+      <dl class="numbers">
+        {[...TRANSLATIONS, ...ROTATIONS].map((quantity) => (
+          <NumberRow key={quantity.field} quantity={quantity} value={pose ? pose[quantity.field] : null} />
+        ))}
+      </dl>
+      <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+    </section>
+  );
+}
+
+function needs(cell: Cell, missing: readonly string[]): string {
+  if (missing.length > 0) return `For a pose: ${inWords(missing)}.`;
+  return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding the pose ...';
+}
+
+function NumberRow({ quantity, value }: { quantity: Quantity; value: number | null }) {
+  const { store } = useApp().services;
+  const text = value === null ? '–' : format(value, quantity.decimals);
+  const flashing = useFlash(text);
+  const copy = () => {
+    if (value === null) return;
+    void navigator.clipboard.writeText(String(value)).then(
+      () => store.say('info', `${quantity.name} copied: ${value}`),
+      () => store.say('error', 'The browser did not let the page copy to the clipboard.'),
+    );
+  };
+  return (
+    <div class="number">
+      <dt>{quantity.label}</dt>
+      <dd>
+        <button
+          type="button"
+          class={flashing ? 'value flash' : 'value'}
+          aria-label={`${quantity.name} ${text} ${quantity.unit === '°' ? 'degrees' : 'mm'}`}
+          title="Click to copy with all its decimals"
+          disabled={value === null}
+          onClick={copy}
+        >
+          {text}
+        </button>
+        <span class="unit">{quantity.unit}</span>
+      </dd>
+    </div>
+  );
+}
+
+function format(value: number, decimals: number): string {
+  // A true minus sign is as wide as a digit's plus; "-0.00" is just zero.
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? (0).toFixed(decimals) : text.replace('-', '\u2212');
+}
+
+/** True for a moment after a change that was not part of a stream of changes. */
+function useFlash(text: string): boolean {
+  const [flashing, setFlashing] = useState(false);
+  const last = useRef({ text, at: 0 });
+  useEffect(() => {
+    if (last.current.text === text) return undefined;
+    const now = performance.now();
+    const quiet = now - last.current.at > FLASH_PAUSE;
+    last.current = { text, at: now };
+    if (!quiet || text === '–') return undefined;
+    setFlashing(true);
+    const timer = setTimeout(() => setFlashing(false), FLASH_LENGTH);
+    return () => clearTimeout(timer);
+  }, [text]);
+  return flashing;
+}
+
+const FLASH_PAUSE = 400;
+const FLASH_LENGTH = 350;

@@ -1,0 +1,33 @@
+import type { State } from '../document/store';
+import { TOOLS, type ToolName } from '../interaction/tools';
+import { useApp } from './app';
+import { Icon, type IconName } from './icons';
+
+const ICONS: Readonly<Record<ToolName, IconName>> = { edit: 'pointer', trace: 'polygon', hand: 'hand', window: 'contrast' };
+
+export function Rail({ state }: { state: State }) {
+  const { actions } = useApp();
+  return (
+    <nav class="rail" aria-label="Tools">
+      {TOOLS.map(({ name, key, title }) => (
+        <button
+          key={name}
+          type="button"
+          class="tool"
+          aria-label={title}
+          aria-pressed={state.ui.tool === name}
+          title={`${title} (${key.toUpperCase()})`}
+          onClick={() => actions.run({ name: 'tool', tool: name })}
+        >
+          <Icon name={ICONS[name]} />
+          <kbd aria-hidden="true">{key.toUpperCase()}</kbd>
+        </button>
+      ))}
+      <span class="rail-gap" />
+      <button type="button" class="tool" aria-label="Fit the film to the window" title="Fit the film to the window (0)" onClick={() => actions.run({ name: 'fit' })}>
+        <Icon name="fit" />
+        <kbd aria-hidden="true">0</kbd>
+      </button>
+    </nav>
+  );
+}

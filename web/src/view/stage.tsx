@@ -1,0 +1,147 @@
+import { useEffect, useRef } from 'preact/hooks';
+import { currentCell, currentFrame, currentPlace, type State, type Store } from '../document/store';
+import { titleOf } from '../document/types';
+import { canvasPoint, type CanvasPoint } from '../geometry/points';
+import { frameFromCanvas, recentre } from '../geometry/viewport';
+import { Controller } from '../interaction/controller';
+import { hitTest, type Hit } from '../interaction/hit';
+import type { Effect, Input } from '../interaction/machine';
+import { wheelZoom } from '../interaction/navigate';
+import { TOOLS } from '../interaction/tools';
+import { useApp, type App } from './app';
+import { EmptyState } from './empty_state';
+import { pointerStore } from './pointer';
+import { NO_HOVER, StageView } from './stage_view';
+
+/** The frame with everything on it, and the pointer's way into the document. */
+export function Stage({ state }: { state: State }) {
+  const app = useApp();
+  const film = useRef<HTMLCanvasElement>(null);
+  const vectors = useRef<HTMLCanvasElement>(null);
+  useEffect(() => {
+    if (film.current && vectors.current) return attach(app, film.current, vectors.current);
+    return undefined;
+  }, [app]);
+  const frame = currentFrame(state);
+  const { tool, component, overlaysHidden } = state.ui;
+  const cursor = overlaysHidden ? 'grab' : (TOOLS.find(({ name }) => name === tool)?.cursor ?? 'default');
+  const label = frame
+    ? `${frame.name}, frame ${state.ui.frameIndex + 1} of ${state.history.present.frames.length}, tracing the ${component}`
+    : 'No frame';
+  return (
+    <main class="stage" aria-label="Film">
+      <canvas ref={film} class="film" aria-hidden="true" />
+      <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={`${label}. ${titleOf(component)} outline`} />
+      {!frame && <EmptyState />}
+    </main>
+  );
+}
+
+function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): () => void {
+  const { store, studio } = app.services;
+  const view = new StageView(store, studio, film, canvas);
+  app.actions.stage = { size: () => view.size, viewport: () => view.viewport(store.state) };
+  const stopPointer = attachPointer(store, view, canvas);
+  const unsubscribe = store.subscribe(() => view.schedule());
+  const observer = new ResizeObserver(([entry]) => {
+    if (!entry) return;
+    const { width, height } = entry.contentRect;
+    const { viewport } = store.ui;
+    if (viewport) store.show({ viewport: recentre(viewport, view.size, { width, height }) });
+    view.resize({ width, height });
+  });
+  observer.observe(canvas);
+  return () => {
+    observer.disconnect();
+    unsubscribe();
+    stopPointer();
+    app.actions.stage = null;
+  };
+}
+
+/** Turns DOM events into inputs of the controller, and its effects into changes of the store. */
+function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement): () => void {
+  const controller = new Controller();
+  const pointOf = (event: MouseEvent): CanvasPoint => canvasPoint(event.offsetX, event.offsetY);
+
+  const send = (type: Input['type'], event: MouseEvent) => {
+    const scene = sceneOf(store, view);
+    if (!scene) return;
+    const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey };
+    for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(store, effect);
+  };
+  const hover = (event: MouseEvent) => {
+    const at = pointOf(event);
+    const { outline } = currentCell(store.state);
+    const hit: Hit = hitTest(outline, view.viewport(store.state), at);
+    view.setHover({ at, hit });
+    pointerStore.set(currentFrame(store.state) && { at: frameFromCanvas(view.viewport(store.state), at), hit });
+  };
+
+  const listeners: { [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void } = {
+    pointerdown: (event) => {
+      canvas.focus({ preventScroll: true });
+      canvas.setPointerCapture(event.pointerId);
+      event.preventDefault();
+      store.quiet();
+      if (store.ui.popover) store.show({ popover: null });
+      send('down', event);
+      hover(event);
+    },
+    pointermove: (event) => {
+      send('move', event);
+      hover(event);
+    },
+    pointerup: (event) => {
+      send('up', event);
+      hover(event);
+    },
+    pointercancel: (event) => send('cancel', event),
+    pointerleave: () => {
+      view.setHover(NO_HOVER);
+      pointerStore.set(null);
+    },
+    dblclick: (event) => send('double', event),
+    contextmenu: (event) => event.preventDefault(),
+    wheel: (event) => {
+      event.preventDefault();
+      if (!currentFrame(store.state)) return;
+      const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
+      store.show({ viewport: wheelZoom(view.viewport(store.state), pointOf(event), event.deltaY * lines) });
+      hover(event);
+    },
+  };
+  const entries = Object.entries(listeners) as [string, EventListener][];
+  for (const [type, listener] of entries) canvas.addEventListener(type, listener, { passive: false });
+  return () => {
+    for (const [type, listener] of entries) canvas.removeEventListener(type, listener);
+  };
+}
+
+const BUTTONS = ['primary', 'middle', 'secondary'] as const;
+
+function sceneOf(store: Store, view: StageView) {
+  const { state } = store;
+  const frame = currentFrame(state);
+  const place = currentPlace(state);
+  if (!frame || !place) return null;
+  const { outline } = currentCell(state);
+  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state) };
+}
+
+function apply(store: Store, effect: Effect): void {
+  switch (effect.type) {
+    case 'perform':
+      return store.perform(effect.command);
+    case 'preview':
+      return store.preview(effect.command);
+    case 'commit':
+      return store.commit(effect.command);
+    case 'cancel-preview':
+      return store.cancelPreview();
+    case 'select':
+      return store.show({ selectedPoint: effect.index });
+    case 'viewport':
+      return store.show({ viewport: effect.viewport });
+  }
+}

@@ -1,0 +1,174 @@
+import { currentFrame, currentPlace, type State, type Store } from '../document/store';
+import {
+  cellOf,
+  chosenCandidate,
+  COMPONENT_NAMES,
+  type ComponentName,
+  type Doc,
+  type FrameEntry,
+  type GreyWindow,
+  type Outline,
+} from '../document/types';
+import { cameraOf } from '../engine/keys';
+import type { Studio } from '../engine/studio';
+import type { CanvasPoint } from '../geometry/points';
+import { canvasFromFrame, fit, type Size, type Viewport } from '../geometry/viewport';
+import type { Hit } from '../interaction/hit';
+import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
+import { FilmLayer, OverlayLayer } from './layers';
+
+/** What the pointer is doing over the stage; no part of the store, it changes with every move. */
+export interface Hover {
+  readonly at: CanvasPoint | null;
+  readonly hit: Hit;
+}
+
+export const NO_HOVER: Hover = { at: null, hit: { kind: 'nothing' } };
+
+const FALLBACK_WINDOW: GreyWindow = { centre: 128, width: 256 };
+
+/**
+ * Draws the stage: the film on one canvas, overlays and outlines on another above it, at the screen's own resolution.
+ * Everything is redrawn from the state at most once a screen frame.
+ */
+export class StageView {
+  readonly #store: Store;
+  readonly #studio: Studio;
+  readonly #film: HTMLCanvasElement;
+  readonly #vectors: HTMLCanvasElement;
+  readonly #filmLayer = new FilmLayer();
+  readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
+  #hover = NO_HOVER;
+  #size: Size = { width: 1, height: 1 };
+  #drawnFilm = '';
+  #scheduled = 0;
+
+  constructor(store: Store, studio: Studio, film: HTMLCanvasElement, vectors: HTMLCanvasElement) {
+    this.#store = store;
+    this.#studio = studio;
+    this.#film = film;
+    this.#vectors = vectors;
+  }
+
+  get size(): Size {
+    return this.#size;
+  }
+
+  resize(size: Size): void {
+    this.#size = size;
+    const ratio = window.devicePixelRatio || 1;
+    for (const canvas of [this.#film, this.#vectors]) {
+      canvas.width = Math.max(1, Math.round(size.width * ratio));
+      canvas.height = Math.max(1, Math.round(size.height * ratio));
+    }
+    this.#drawnFilm = '';
+    this.draw();
+  }
+
+  setHover(hover: Hover): void {
+    this.#hover = hover;
+    this.schedule();
+  }
+
+  schedule(): void {
+    this.#scheduled ||= requestAnimationFrame(() => {
+      this.#scheduled = 0;
+      this.draw();
+    });
+  }
+
+  viewport(state: State): Viewport {
+    const frame = currentFrame(state);
+    return state.ui.viewport ?? fit(frame ?? { width: 1, height: 1 }, this.#size);
+  }
+
+  window(state: State): GreyWindow {
+    const frame = currentFrame(state);
+    return state.history.present.window ?? (frame && this.#studio.filmFacts(frame.id)?.window) ?? FALLBACK_WINDOW;
+  }
+
+  draw(): void {
+    const { state } = this.#store;
+    const frame = currentFrame(state);
+    const view = this.viewport(state);
+    if (frame) this.#drawFilm(state, frame, view);
+    else clear(this.#film, () => (this.#drawnFilm = ''));
+    const context = prepare(this.#vectors);
+    if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view);
+  }
+
+  #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
+    const window = this.window(state);
+    const key = `${frame.id} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    if (key === this.#drawnFilm) return;
+    this.#drawnFilm = key;
+    this.#filmLayer.update(this.#studio, frame, window);
+    const context = prepare(this.#film);
+    // Pixels are shown as pixels as soon as they are large enough to be told apart.
+    context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
+    context.imageSmoothingQuality = 'high';
+    if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, view);
+  }
+
+  #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+    const { component: active, overlayOpacity } = state.ui;
+    const { present: doc } = state.history;
+    // The selected component lies on top.
+    const order = [...this.#overlays].sort((a, b) => Number(a.component === active) - Number(b.component === active));
+    for (const overlay of order) {
+      this.#updateOverlay(overlay, doc, frame);
+      if (overlay.border) drawSilhouette(context, view, overlay, frame, overlayOpacity);
+    }
+    for (const { component } of order) {
+      const { outline } = cellOf(doc, frame.id, component);
+      if (outline) this.#drawOutline(context, state, view, component, outline);
+    }
+  }
+
+  #updateOverlay(overlay: OverlayLayer, doc: Doc, frame: FrameEntry): void {
+    const { component } = overlay;
+    const { model } = doc.components[component];
+    const held = model && this.#studio.meshOf(component, model.sha256) ? model.sha256 : null;
+    const candidate = chosenCandidate(cellOf(doc, frame.id, component));
+    const trouble = overlay.update(this.#studio, cameraOf(doc, frame), held, candidate);
+    if (trouble) queueMicrotask(() => this.#store.say('error', `The ${component} cannot be shown: ${trouble}`));
+  }
+
+  #drawOutline(
+    context: CanvasRenderingContext2D,
+    state: State,
+    view: Viewport,
+    component: ComponentName,
+    outline: Outline,
+  ): void {
+    const active = component === state.ui.component;
+    const { tool, selectedPoint } = state.ui;
+    const points = outline.points.map((point) => canvasFromFrame(view, point));
+    const handles = active && (tool === 'edit' || tool === 'trace');
+    const hit: Hit = handles ? this.#hover.hit : NO_HOVER.hit;
+    drawOutline(context, component, points, { closed: outline.closed, active, handles, hit, selected: handles ? selectedPoint : null });
+    const last = points.at(-1);
+    if (active && tool === 'trace' && !outline.closed && last && this.#hover.at && currentPlace(state)) {
+      drawRubberBand(context, component, last, hit.kind === 'vertex' ? points[hit.index]! : this.#hover.at);
+    }
+  }
+}
+
+/** Cleared, and scaled so that one unit is one CSS pixel. */
+function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+  const context = canvas.getContext('2d');
+  if (!context) throw new Error('this browser has no 2-D canvas');
+  const ratio = window.devicePixelRatio || 1;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  return context;
+}
+
+function clear(canvas: HTMLCanvasElement, then: () => void): void {
+  prepare(canvas);
+  then();
+}
+
+export function drawFrameSized(context: CanvasRenderingContext2D, image: CanvasImageSource, frame: Size, view: Viewport): void {
+  context.drawImage(image, view.left, view.top, frame.width * view.scale, frame.height * view.scale);
+}

@@ -1,0 +1,85 @@
+import { useEffect } from 'preact/hooks';
+import { currentCell, currentFrame, type Job, type State } from '../document/store';
+import { hint } from '../interaction/hints';
+import { useApp } from './app';
+import { usePointer } from './pointer';
+
+/** One line: what the next click does, or what just went wrong and what to do. */
+export function StatusLine({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const pointer = usePointer();
+  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' });
+  useInfoExpires(state);
+  return (
+    <footer class="status" aria-label="Status">
+      <p class={`status-text ${kind}`} role="status" aria-live="polite" title={text}>
+        {text}
+      </p>
+      {state.ui.jobs.map((job) => (
+        <JobBar key={job.id} job={job} />
+      ))}
+      <PointerReadout state={state} />
+      <button
+        type="button"
+        class="button small"
+        aria-haspopup="dialog"
+        aria-expanded={state.ui.popover === 'log'}
+        onClick={() => store.show({ popover: state.ui.popover === 'log' ? null : 'log' })}
+      >
+        Log
+      </button>
+    </footer>
+  );
+}
+
+function message(state: State, hit: Parameters<typeof hint>[3]): { text: string; kind: 'hint' | 'info' | 'error' } {
+  const { notice, tool, component } = state.ui;
+  if (notice) return notice;
+  const { outline, result } = currentCell(state);
+  if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
+  if (!currentFrame(state)) return { text: 'Open frames, or the demonstration, to begin.', kind: 'hint' };
+  return { text: hint(tool, component, outline, hit), kind: 'hint' };
+}
+
+/** News passes; errors stay until something is done. */
+function useInfoExpires(state: State): void {
+  const { store } = useApp().services;
+  const { notice } = state.ui;
+  useEffect(() => {
+    if (notice?.kind !== 'info') return undefined;
+    const timer = setTimeout(() => store.ui.notice === notice && store.quiet(), INFO_LENGTH);
+    return () => clearTimeout(timer);
+  }, [notice, store]);
+}
+
+const INFO_LENGTH = 6000;
+
+function JobBar({ job }: { job: Job }) {
+  const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
+  const count = job.total > 0 ? `${job.done} of ${job.total} ${job.unit}` : 'preparing';
+  return (
+    <div class="job">
+      <span class="job-text">
+        {job.title}: {count}, {seconds} s
+      </span>
+      <progress aria-label={job.title} value={job.total > 0 ? job.done : undefined} max={job.total > 0 ? job.total : 1} />
+      <button type="button" class="button small" aria-label={`Cancel: ${job.title}`} onClick={job.cancel}>
+        Cancel
+      </button>
+    </div>
+  );
+}
+
+function PointerReadout({ state }: { state: State }) {
+  const { studio } = useApp().services;
+  const pointer = usePointer();
+  const frame = currentFrame(state);
+  if (!frame || !pointer) return <span class="readout" />;
+  const { column, row } = pointer.at;
+  const grey = studio.greyAt(frame.id, column, row);
+  return (
+    <span class="readout">
+      {column.toFixed(1)}, {row.toFixed(1)} px{grey === null ? '' : ` · ${grey}`}
+    </span>
+  );
+}

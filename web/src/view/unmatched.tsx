@@ -1,0 +1,36 @@
+import { useEffect, useRef } from 'preact/hooks';
+import { currentCell, type State } from '../document/store';
+import { useApp } from './app';
+
+const SIZE = 256;
+
+/** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
+export function Unmatched({ state }: { state: State }) {
+  const { poser, services } = useApp();
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const { outline, result } = currentCell(state);
+  const findings = result?.kind === 'posed' ? poser.findings(outline) : null;
+  const chosen = result?.kind === 'posed' ? result.chosen : 0;
+  const picture = findings?.pictures[chosen] ?? null;
+  useEffect(() => {
+    const context = canvas.current?.getContext('2d');
+    if (!context) return;
+    if (picture) services.studio.paintUnmatched(context, picture);
+    else context.clearRect(0, 0, SIZE, SIZE);
+  }, [picture, services]);
+  return (
+    <section class="card unmatched" aria-label="Unmatched pixels in the canonical frame">
+      <canvas
+        ref={canvas}
+        width={picture?.size ?? SIZE}
+        height={picture?.size ?? SIZE}
+        role="img"
+        aria-label={picture ? 'Outline and library view in canonical form, black where they differ' : 'No match to show'}
+      />
+      <p class="card-note">
+        <span class="key-swatch" aria-hidden="true" /> differs
+        <span class="timing">{findings && findings.milliseconds > 0 ? `found in ${findings.milliseconds.toFixed(1)} ms` : ''}</span>
+      </p>
+    </section>
+  );
+}

@@ -1,0 +1,81 @@
+import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../pkg/decode/fluoropose_decode.js';
+import wasmAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
+import type { DecodedFrame, DecodeProtocol, FileKind } from '../engine/protocol';
+import { serve, Transferred, type Context } from './serve';
+
+/** Image and model files, decoded away from the page. */
+const ready = init({ module_or_path: wasmAddress });
+
+type FrameProgress = DecodeProtocol['frames']['progress'];
+
+serve<DecodeProtocol>({
+  sniff: async ({ bytes, name }) => {
+    await ready;
+    return kindOf(sniff(bytes, name));
+  },
+  frames: async ({ bytes, name }, context) => {
+    await ready;
+    const file = new FrameFile(bytes, name);
+    try {
+      await decodeAll(file, context);
+      return file.count;
+    } finally {
+      file.free();
+    }
+  },
+  model: async ({ bytes, name }) => {
+    await ready;
+    const model = decode_model(bytes, name);
+    const vertices = model.vertices as Float32Array<ArrayBuffer>;
+    const triangles = model.triangles as Uint32Array<ArrayBuffer>;
+    model.free();
+    return new Transferred({ vertices, triangles }, [vertices.buffer, triangles.buffer]);
+  },
+});
+
+async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Promise<void> {
+  const total = file.count;
+  for (let index = 0; index < total; index++) {
+    const raw = file.frame(index);
+    const frame = copied(raw);
+    raw.free();
+    context.report({ index, total, frame }, [frame.pixels.buffer]);
+    await context.breathe();
+  }
+}
+
+function copied(raw: RawFrame): DecodedFrame {
+  const { width, height, windowCentre: centre, windowWidth, notes } = raw;
+  const stated = centre !== undefined && windowWidth !== undefined;
+  return {
+    width,
+    height,
+    pixels: raw.pixels as DecodedFrame['pixels'],
+    window: stated ? { centre, width: windowWidth } : null,
+    notes,
+  };
+}
+
+function kindOf(word: string): FileKind {
+  switch (word) {
+    case 'png':
+    case 'jpeg':
+    case 'tiff':
+    case 'dicom':
+      return 'frames';
+    case 'stl':
+    case 'obj':
+    case 'ply':
+      return 'model';
+    case 'jts':
+      return 'poses';
+    case 'calibration':
+    case 'mayacam':
+      return 'calibration';
+    case 'library':
+    case 'session':
+      return word;
+    default:
+      return 'unknown';
+  }
+}
