@@ -27,6 +27,10 @@ const PITCH_MM: f64 = 0.4;
 /// From focus to implant in the library's views, mm.
 const LIBRARY_DISTANCE_MM: f64 = 900.0;
 
+/// Rotation about x and y in the middle of the library's views, degrees: as
+/// the pose on the frame before would give it.
+const NOMINAL_DEG: [f64; 2] = [3.0, -4.0];
+
 /// The pose whose silhouette the outline is: off the axis, nearer than the views, between them.
 pub const TRUTH: EulerPose = EulerPose {
     x_mm: 12.0,
@@ -53,16 +57,16 @@ pub fn write_inputs(folder: &Path) -> Result<()> {
     write_if_changed(&folder.join("femur.outline"), &outline(&mesh, &camera)?)
 }
 
-/// 7 x 9 views, 2.5 degrees apart: 63 x 8 KiB of flash.
+/// 7 x 9 views, a degree apart: 63 x 8 KiB of flash.
 fn library(mesh: Mesh<'_>, camera: Camera) -> Result<Vec<u8>> {
-    let axis = |count: usize| GridAxis {
-        first: -2.5 * (count / 2) as f64,
-        step: 2.5,
+    let axis = |nominal: f64, count: usize| GridAxis {
+        first: nominal - (count / 2) as f64,
+        step: 1.0,
         count,
     };
     let grid = Grid {
-        x: axis(7),
-        y: axis(9),
+        x: axis(NOMINAL_DEG[0], 7),
+        y: axis(NOMINAL_DEG[1], 9),
     };
     let canonical = CanonicalSpec::default();
     let builder = Builder::new(mesh, camera, canonical, grid, LIBRARY_DISTANCE_MM)?;

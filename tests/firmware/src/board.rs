@@ -15,6 +15,9 @@ mod stack;
 /// Lines that start with this are not compared with the host's.
 const INFORMATION: &str = "info";
 
+/// What the proof writes, before it is shown.
+type Lines = heapless::String<8192>;
+
 #[entry]
 fn main() -> ! {
     stack::paint();
@@ -31,9 +34,9 @@ fn main() -> ! {
 fn run() -> fmt::Result {
     let mut console = hio::hstdout().map_err(|()| fmt::Error)?;
     let memory = cortex_m::singleton!(: Memory = Memory::new()).ok_or(fmt::Error)?;
+    let lines = cortex_m::singleton!(: Lines = Lines::new()).ok_or(fmt::Error)?;
     let mut clock = Clock::start(cortex_m::Peripherals::take().ok_or(fmt::Error)?.SYST);
     let mut stages: heapless::Vec<(u64, heapless::String<40>), 8> = heapless::Vec::new();
-    let mut lines: heapless::String<8192> = heapless::String::new();
     let mut stage = |name: &str| {
         let ticks = clock.lap();
         if let Ok(name) = heapless::String::try_from(name) {
@@ -41,12 +44,16 @@ fn run() -> fmt::Result {
             let _ = stages.push((ticks, name));
         }
     };
-    let proof = prove(LIBRARY, OUTLINE, memory, &mut lines, &mut stage);
+    let proof = prove(LIBRARY, OUTLINE, memory, lines, &mut stage);
     console
         .write_all(lines.as_bytes())
         .map_err(|()| fmt::Error)?;
     for (ticks, name) in &stages {
-        writeln!(console, "{INFORMATION}: {name}: {ticks} ticks")?;
+        let instructions = ticks * 5 / 8;
+        writeln!(
+            console,
+            "{INFORMATION}: {name}: {instructions} instructions"
+        )?;
     }
     report_memory(&mut console)?;
     proof.map_err(|failure| {
@@ -58,6 +65,10 @@ fn run() -> fmt::Result {
 fn report_memory(console: &mut HostStream) -> fmt::Result {
     let bytes = [
         ("working memory", size_of::<Memory>()),
+        (
+            "code and constants in flash",
+            stack::code() - LIBRARY.len() - OUTLINE.len(),
+        ),
         ("library in flash", LIBRARY.len()),
         ("outline in flash", OUTLINE.len()),
         ("all statics", stack::statics()),

@@ -1,4 +1,4 @@
-//! How deep the stack went: it is painted first, and later the paint that is left is counted.
+//! Sizes of memory, and how deep the stack went: it is painted first, later the paint that is left is counted.
 #![expect(unsafe_code, reason = "the stack is only reachable through addresses")]
 
 use core::ptr::{addr_of, read_volatile, write_volatile};
@@ -10,6 +10,8 @@ unsafe extern "C" {
     static __sdata: u32;
     /// First address after the statics, where the stack may grow down to.
     static __euninit: u32;
+    /// First address after code and constants, which begin at address 0.
+    static __erodata: u32;
 }
 
 const PAINT: u32 = 0x5afe_57ac;
@@ -43,6 +45,11 @@ pub(crate) fn most_used() -> usize {
 /// Bytes of all statics: initialised, zeroed and uninitialised.
 pub(crate) fn statics() -> usize {
     addr_of!(__euninit) as usize - addr_of!(__sdata) as usize
+}
+
+/// Bytes of code and constants.
+pub(crate) fn code() -> usize {
+    addr_of!(__erodata) as usize
 }
 
 fn top() -> usize {
