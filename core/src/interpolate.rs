@@ -1,6 +1,8 @@
 //! Between the views: sub-degree rotation from the score surface, and the view's record there.
 
+use crate::bands::{self, lagrange, window};
 use crate::library::{Grid, Library, ViewRecord};
+use crate::mask::Word;
 use crate::matching::{Candidate, Scores};
 use crate::math::{solve_spd, wrap};
 
@@ -18,26 +20,33 @@ pub struct FineView {
     pub at_border: bool,
 }
 
-/// Half width of the neighbourhood that the quadratic is fitted to, in views.
+/// Half width of the neighbourhood that the quadratic is fitted to, in views. Wider ones were
+/// worse: the score is no quadratic that far from its minimum.
 const REACH: usize = 2;
 
-/// Finds the minimum of the score surface round `candidate` and reads scale, angle and offset
-/// there.
+/// Finds the rotation between the views round `candidate` and reads scale, angle and offset
+/// there. `canonical` is the canonical mask in the candidate's direction of the axis.
 ///
-/// For small rotations each stretch of the outline moves in proportion to the rotation, so the
-/// unmatched area behaves like a norm of the rotation over a floor of sampling noise; its
-/// *square* is close to a quadratic form. A quadratic is therefore fitted to the squared scores
-/// of the 5 x 5 neighbourhood by least squares, and its minimum taken where it lies within one
-/// step of the best view.
+/// The rotation comes from the bands that the outline sweeps between neighbouring views
+/// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
+/// is the minimum of a quadratic fitted to the scores.
 #[must_use]
-pub fn interpolate(library: &Library<'_>, scores: &Scores<'_>, candidate: &Candidate) -> FineView {
+pub fn interpolate(
+    library: &Library<'_>,
+    scores: &Scores<'_>,
+    candidate: &Candidate,
+    canonical: &[Word],
+) -> FineView {
     let grid = scores.grid();
     let (x, y) = grid.place(candidate.view);
-    let (dx, dy) = fit_minimum(grid, scores.surface(candidate.reversed), x, y);
+    let [fine_x, fine_y] = bands::solve(library, canonical, (x, y)).unwrap_or_else(|| {
+        let (dx, dy) = fit_minimum(grid, scores.surface(candidate.reversed), x, y);
+        [x as f64 + dx, y as f64 + dy]
+    });
     let last = |count: usize| count.saturating_sub(1) as f64;
     let place = [
-        (x as f64 + dx).clamp(0.0, last(grid.x.count)),
-        (y as f64 + dy).clamp(0.0, last(grid.y.count)),
+        fine_x.clamp(0.0, last(grid.x.count)),
+        fine_y.clamp(0.0, last(grid.y.count)),
     ];
     let inside = |at: usize, count: usize| count == 1 || (at > 0 && at + 1 < count);
     FineView {
@@ -46,13 +55,6 @@ pub fn interpolate(library: &Library<'_>, scores: &Scores<'_>, candidate: &Candi
         unmatched: candidate.unmatched,
         at_border: !(inside(x, grid.x.count) && inside(y, grid.y.count)),
     }
-}
-
-/// First index of a window of `2 * REACH + 1` places round `at` that lies on the axis.
-fn window(at: usize, count: usize, reach: usize) -> core::ops::Range<usize> {
-    let length = (2 * reach + 1).min(count);
-    let first = at.saturating_sub(reach).min(count - length);
-    first..first + length
 }
 
 /// Offset in steps from the view at (x, y) to the minimum of the fitted quadratic; (0, 0) where
@@ -67,7 +69,7 @@ fn fit_minimum(grid: &Grid, surface: &[u32], x: usize, y: usize) -> (f64, f64) {
             };
             let (a, b) = (u as f64 - x as f64, v as f64 - y as f64);
             let terms = [1.0, a, b, a * a, a * b, b * b];
-            let value = f64::from(score) * f64::from(score);
+            let value = f64::from(score);
             for (row, &term) in terms.iter().enumerate() {
                 right[row] += term * value;
                 for (column, &other) in terms.iter().enumerate() {
@@ -118,15 +120,6 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
     mean
 }
 
-/// Lagrange's weight of the node `at` among consecutive whole `nodes`, for the place `x`.
-fn lagrange(nodes: &core::ops::Range<usize>, at: usize, x: f64) -> f64 {
-    nodes
-        .clone()
-        .filter(|&other| other != at)
-        .map(|other| (x - other as f64) / (at as f64 - other as f64))
-        .product()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,27 +150,5 @@ mod tests {
             assert!((x + dx - mx).abs() < 0.02, "{mx}: {}", x + dx);
             assert!((y + dy - my).abs() < 0.02, "{my}: {}", y + dy);
         }
-    }
-
-    #[test]
-    fn lagrange_reproduces_parabolas() {
-        let nodes = 4..7;
-        let parabola = |x: f64| 2.0 - 3.0 * x + 0.5 * x * x;
-        for x in [4.0, 4.7, 5.5, 6.2] {
-            let value: f64 = nodes
-                .clone()
-                .map(|n| lagrange(&nodes, n, x) * parabola(n as f64))
-                .sum();
-            assert!((value - parabola(x)).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn a_window_stays_on_its_axis() {
-        assert_eq!(window(0, 9, 2), 0..5);
-        assert_eq!(window(4, 9, 2), 2..7);
-        assert_eq!(window(8, 9, 2), 4..9);
-        assert_eq!(window(1, 3, 2), 0..3);
-        assert_eq!(window(0, 1, 1), 0..1);
     }
 }

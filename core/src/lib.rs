@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod bands;
 pub mod border;
 pub mod calibration;
 pub mod camera;

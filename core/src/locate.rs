@@ -81,7 +81,12 @@ pub fn locate<'w, const K: usize>(
     let poses = minima
         .iter()
         .map(|candidate| {
-            let fine = interpolate(library, &scores, candidate);
+            let canonical = if candidate.reversed {
+                &*work.turned
+            } else {
+                &*work.canonical
+            };
+            let fine = interpolate(library, &scores, candidate, canonical);
             Located {
                 pose: pose_from_view(camera, info, &form, &fine),
                 view: candidate.view,
