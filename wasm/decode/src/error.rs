@@ -103,7 +103,7 @@ impl Problem {
     pub(crate) fn damaged(format: &'static str, detail: impl Into<String>) -> Self {
         Self::Damaged {
             format,
-            detail: detail.into(),
+            detail: tidy(&detail.into()),
         }
     }
 
@@ -115,7 +115,7 @@ impl Problem {
     ) -> Self {
         Self::Unsupported {
             format,
-            detail: detail.into(),
+            detail: tidy(&detail.into()),
             remedy,
         }
     }
@@ -127,6 +127,23 @@ impl Problem {
             problem: self,
         }
     }
+}
+
+/// Most characters of a detail: libraries quote what they stumbled over, at any length.
+const MAX_DETAIL: usize = 200;
+
+/// One line of bounded length without a full stop, to stand inside a sentence.
+fn tidy(detail: &str) -> String {
+    let words: Vec<&str> = detail.split_whitespace().collect();
+    let line = words.join(" ");
+    let printable = |c: &char| !c.is_control();
+    let mut short: String = line.chars().filter(printable).take(MAX_DETAIL).collect();
+    if line.chars().count() > MAX_DETAIL {
+        short.push_str("...");
+    } else {
+        short.truncate(short.trim_end_matches('.').len());
+    }
+    short
 }
 
 impl fmt::Display for Problem {

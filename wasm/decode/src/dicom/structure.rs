@@ -14,7 +14,7 @@ use crate::limits::MAX_INFLATED_BYTES;
 const PREAMBLE: usize = 128;
 
 /// Elements longer than this are not copied for the library: nothing that is wanted comes near it.
-const MAX_WANTED_BYTES: usize = 4096;
+const MAX_WANTED_BYTES: u32 = 4096;
 
 /// Deepest nesting of sequences.
 const MAX_DEPTH: usize = 32;
@@ -126,9 +126,9 @@ impl Walker<'_> {
                     at + 4
                 )));
             }
-            match has_long_length(representation) {
-                true => (Some(representation), at + 12, self.u32(at + 8)?),
-                false => (Some(representation), at + 8, self.u16(at + 6)?.into()),
+            match has_short_length(representation) {
+                true => (Some(representation), at + 8, self.u16(at + 6)?.into()),
+                false => (Some(representation), at + 12, self.u32(at + 8)?),
             }
         };
         Ok(Element {
@@ -220,24 +220,14 @@ impl Walker<'_> {
     }
 }
 
-/// The representations whose length takes four bytes after two reserved ones (PS3.5 table 7.1-1).
-fn has_long_length(representation: [u8; 2]) -> bool {
-    matches!(
-        &representation,
-        b"OB"
-            | b"OD"
-            | b"OF"
-            | b"OL"
-            | b"OV"
-            | b"OW"
-            | b"SQ"
-            | b"SV"
-            | b"UC"
-            | b"UN"
-            | b"UR"
-            | b"UT"
-            | b"UV"
-    )
+/// The representations whose length takes two bytes. All others, also those the standard may yet invent, take four
+/// after two reserved ones (PS3.5 7.1.2).
+fn has_short_length(representation: [u8; 2]) -> bool {
+    const SHORT: [&[u8; 2]; 21] = [
+        b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN",
+        b"SH", b"SL", b"SS", b"ST", b"TM", b"UI", b"UL", b"US",
+    ];
+    SHORT.contains(&&representation)
 }
 
 /// Reads the group of elements (always explicit little endian) that names the transfer syntax.
@@ -295,8 +285,7 @@ pub(super) fn walk(bytes: &[u8], start: usize, syntax: &Syntax) -> Result<DataSe
             return Ok(DataSet { wanted, pixels });
         }
         let end = walker.after(&element, 0)?;
-        let copied = super::attributes::is_wanted(element.tag) && element.length != UNDEFINED;
-        if copied && end - at <= MAX_WANTED_BYTES {
+        if is_small_and_wanted(&element) {
             wanted.extend_from_slice(&bytes[at..end]);
         }
         at = end;
@@ -306,6 +295,13 @@ pub(super) fn walk(bytes: &[u8], start: usize, syntax: &Syntax) -> Result<DataSe
         "no pixels (a report, a directory or floating point data)",
         "Choose the file with the X-ray frames",
     ))
+}
+
+/// Whether an element goes to the library: one of the attributes, with a representation whose values are small.
+fn is_small_and_wanted(element: &Element) -> bool {
+    super::attributes::is_wanted(element.tag)
+        && element.length <= MAX_WANTED_BYTES
+        && element.representation.is_none_or(has_short_length)
 }
 
 fn pixel_data(

@@ -74,8 +74,7 @@ fn whole_numbers(property: Property) -> Vec<i64> {
 
 /// Reads vertices and faces; faces of more than three corners become fans.
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
-    let failed =
-        |e: ply_rs_bw::parser::ParseError| Problem::damaged(FORMAT, one_line(&e.to_string()));
+    let failed = |e: ply_rs_bw::parser::ParseError| Problem::damaged(FORMAT, e.to_string());
     let parser = Parser::<Element>::new();
     let mut reader = Reader::new(bytes);
     let header = parser.read_header(&mut reader).map_err(failed)?;
@@ -97,12 +96,6 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
         raw.push_face(&corners)?;
     }
     Ok(raw)
-}
-
-/// The library's messages span lines and quote what they stumbled over.
-fn one_line(message: &str) -> String {
-    let words: Vec<&str> = message.split_whitespace().collect();
-    words.join(" ").chars().take(200).collect()
 }
 
 /// Refuses more elements than the rest of the file could hold.
@@ -130,7 +123,7 @@ fn check_count(definition: &ElementDef, encoding: Encoding, left: usize) -> Resu
             FORMAT,
             format!(
                 "it states {stated} of '{}' and has {left} bytes left for them",
-                one_line(&definition.name)
+                definition.name
             ),
         )),
     }

@@ -111,7 +111,7 @@ fn the_window_is_in_units_of_the_pixels() {
         let mut file = image("MONOCHROME2", 0);
         file.text(0x0028_1052, b"DS", &intercept.to_string());
         file.text(0x0028_1053, b"DS", &slope.to_string());
-        // The window's elements come first in `check_window`; readers do not depend on the order.
+        // The window's elements come after these; readers do not depend on the order.
         check_window(file, &stored, |v| slope * f64::from(v) + intercept, false);
     }
 }

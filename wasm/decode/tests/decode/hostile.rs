@@ -1,6 +1,7 @@
 //! Cut, flipped and random files: an error in words or a decoded file, never a panic, never more memory or time than
 //! the file's length justifies.
 
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use fluoropose_decode::{FrameFile, decode_frames, decode_mask, decode_model, sniff};
@@ -14,7 +15,9 @@ use crate::samples::dicom::{
     run_lengths,
 };
 use crate::samples::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
-use crate::samples::{jpeg, jpeg_of, lossless, pattern, png, tiff};
+use crate::samples::{
+    big_tiff, jpeg, jpeg_of, lossless, pattern, png, predicted_tiff, tiff, tiled_tiff,
+};
 
 /// No small file may keep the reader longer than this, in any build.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -49,6 +52,7 @@ fn images() -> Vec<Sample> {
             .write_image::<Gray32Float>(2, 2, &[0.0, 1.0, 2.0, 3.0])
             .unwrap();
     });
+    let predicted = predicted_tiff(|encoder| encoder.write_image::<Gray8>(12, 9, &pixels).unwrap());
     vec![
         sample(
             "grey.png",
@@ -77,6 +81,12 @@ fn images() -> Vec<Sample> {
         ),
         sample("packbits.tif", two_pages(Compression::Packbits)),
         sample("float.tif", float),
+        sample("predicted.tif", predicted),
+        sample(
+            "tiled.tif",
+            tiled_tiff(11, 7, &std::array::from_fn(|i| i as u8)),
+        ),
+        sample("big.tif", big_tiff(12, 9, &pixels)),
     ]
 }
 
@@ -147,9 +157,13 @@ fn models() -> Vec<Sample> {
     ]
 }
 
-fn samples() -> impl Iterator<Item = Sample> {
-    images().into_iter().chain(dicoms()).chain(models())
-}
+static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
+    images()
+        .into_iter()
+        .chain(dicoms())
+        .chain(models())
+        .collect()
+});
 
 /// Reads a file in every way there is; whether it could be read as a whole.
 fn read_all(bytes: &[u8], name: &str) -> bool {
@@ -174,7 +188,7 @@ fn read_all(bytes: &[u8], name: &str) -> bool {
             sentence.ends_with('.') && !sentence.contains('\n'),
             "{sentence:?}"
         );
-        assert!(sentence.len() < 600, "{sentence}");
+        assert!(sentence.chars().count() < 500, "{sentence}");
     }
     if let Ok(model) = &model {
         assert!(model.vertices.as_flattened().iter().all(|c| c.is_finite()));
@@ -197,14 +211,14 @@ fn read_all(bytes: &[u8], name: &str) -> bool {
 
 #[test]
 fn whole_samples_are_read() {
-    for sample in samples() {
+    for sample in SAMPLES.iter() {
         assert!(read_all(&sample.bytes, sample.name), "{}", sample.name);
     }
 }
 
 #[test]
 fn cut_anywhere_is_an_error() {
-    for sample in samples() {
+    for sample in SAMPLES.iter() {
         for length in 0..sample.bytes.len() {
             for name in [sample.name, "nameless"] {
                 let read = read_all(&sample.bytes[..length], name);
@@ -221,7 +235,7 @@ fn cut_anywhere_is_an_error() {
 
 #[test]
 fn any_flipped_bit_is_survived() {
-    for sample in samples() {
+    for sample in SAMPLES.iter() {
         let mut bytes = sample.bytes.clone();
         for bit in 0..8 * bytes.len() {
             bytes[bit / 8] ^= 1 << (bit % 8);
@@ -233,7 +247,7 @@ fn any_flipped_bit_is_survived() {
 
 #[test]
 fn any_four_bytes_of_ones_or_zeros_are_survived() {
-    for sample in samples() {
+    for sample in SAMPLES.iter() {
         for start in 0..sample.bytes.len().saturating_sub(3) {
             for lie in [[0xFF; 4], [0; 4], [0xFF, 0xFF, 0xFF, 0x7F], [0, 0, 0, 0x80]] {
                 let mut bytes = sample.bytes.clone();
@@ -264,7 +278,7 @@ fn a_deflated_bomb_is_refused() {
     let mut file = Builder::image(DEFLATED, 12, 9, 8, 1);
     file.bytes(0x0029_1010, b"OB", &vec![0; 600 << 20]);
     let bytes = file.octets(&pattern(12, 9));
-    assert!(bytes.len() < 1 << 20);
+    assert!(bytes.len() < 8 << 20);
     let error = decode_frames(&bytes, "bomb.dcm").unwrap_err().to_string();
     assert!(error.contains("beyond all bounds"), "{error}");
 }
@@ -335,18 +349,26 @@ fn changed(mut bytes: Vec<u8>, changes: Vec<Change>) -> Vec<u8> {
     bytes
 }
 
+/// 4000 cases each, or as many as `PROPTEST_CASES` says.
+fn config() -> ProptestConfig {
+    match std::env::var_os("PROPTEST_CASES") {
+        Some(_) => ProptestConfig::default(),
+        None => ProptestConfig::with_cases(4000),
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(config())]
 
     #[test]
-    fn random_changes_are_survived(which in 0..26usize, changes in prop::collection::vec(change(), 1..6)) {
-        let sample = samples().nth(which).unwrap();
-        read_all(&changed(sample.bytes, changes), sample.name);
+    fn random_changes_are_survived(which in any::<prop::sample::Index>(), changes in prop::collection::vec(change(), 1..6)) {
+        let sample = which.get(&SAMPLES);
+        read_all(&changed(sample.bytes.clone(), changes), sample.name);
     }
 
     #[test]
-    fn random_bytes_are_survived(which in 0..26usize, keep in 0..200usize, tail in prop::collection::vec(any::<u8>(), 0..600)) {
-        let sample = samples().nth(which).unwrap();
+    fn random_bytes_are_survived(which in any::<prop::sample::Index>(), keep in 0..200usize, tail in prop::collection::vec(any::<u8>(), 0..600)) {
+        let sample = which.get(&SAMPLES);
         let mut bytes = sample.bytes[..keep.min(sample.bytes.len())].to_vec();
         bytes.extend(tail);
         read_all(&bytes, sample.name);

@@ -6,7 +6,10 @@ use tiff::tags::Tag;
 
 use fluoropose_decode::{FrameFile, Problem, decode_frames};
 
-use crate::samples::{bytes_of, only_frame, pattern, raw_tiff, tiff, words_of};
+use crate::samples::{
+    big_tiff, bytes_of, grey_fields, only_frame, pattern, predicted_tiff, raw_tiff, tiff,
+    tiled_tiff, words_of,
+};
 
 /// One uncompressed page.
 fn page<C: ColorType>(width: u32, height: u32, data: &[C::Inner]) -> Vec<u8>
@@ -16,19 +19,6 @@ where
     tiff(Compression::Uncompressed, |encoder| {
         encoder.write_image::<C>(width, height, data).unwrap();
     })
-}
-
-/// The fields of a grey page of so many bits, by hand; photometric 0 is white at zero.
-fn grey_fields(width: u32, height: u32, bits: u32, photometric: u32) -> Vec<(u16, u16, u32)> {
-    vec![
-        (256, 3, width),
-        (257, 3, height),
-        (258, 3, bits),
-        (259, 3, 1),
-        (262, 3, photometric),
-        (277, 3, 1),
-        (278, 3, height),
-    ]
 }
 
 #[test]
@@ -51,6 +41,46 @@ fn every_compression_and_depth_gives_the_same_pixels() {
         assert_eq!(bytes_of(&frames[0]), pixels);
         assert_eq!(words_of(&frames[1]), words);
     }
+}
+
+#[test]
+fn tiles_and_big_files_are_read() {
+    let tile: [u8; 256] = std::array::from_fn(|i| (i * 3) as u8);
+    let frame = only_frame(&tiled_tiff(11, 7, &tile), "a.tif");
+    let due: Vec<u8> = tile
+        .chunks(16)
+        .take(7)
+        .flat_map(|row| &row[..11])
+        .copied()
+        .collect();
+    assert_eq!(bytes_of(&frame), due);
+    let pixels = pattern(12, 9);
+    assert_eq!(
+        bytes_of(&only_frame(&big_tiff(12, 9, &pixels), "a.tif")),
+        pixels
+    );
+}
+
+#[test]
+fn predicted_rows_are_read() {
+    let (pixels, words) = (pattern(19, 11), [5u16, 500, 40_000, 3]);
+    let file = predicted_tiff(|encoder| {
+        encoder.write_image::<Gray8>(19, 11, &pixels).unwrap();
+        encoder.write_image::<Gray16>(2, 2, &words).unwrap();
+    });
+    let frames = decode_frames(&file, "a.tif").unwrap();
+    assert_eq!(bytes_of(&frames[0]), pixels);
+    assert_eq!(words_of(&frames[1]), words);
+}
+
+#[test]
+fn pages_in_a_circle_are_refused() {
+    let mut file = raw_tiff(&grey_fields(2, 1, 8, 1), &[1, 2]);
+    let end = file.len();
+    // The next directory is this one, which begins after the header and the strip.
+    file[end - 4..].copy_from_slice(&10u32.to_le_bytes());
+    let error = decode_frames(&file, "a.tif").unwrap_err();
+    assert!(error.to_string().contains("circle"), "{error}");
 }
 
 #[test]

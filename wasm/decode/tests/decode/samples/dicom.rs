@@ -183,7 +183,7 @@ impl Builder {
         match self.syntax == DEFLATED {
             true => {
                 let mut deflater =
-                    flate2::write::DeflateEncoder::new(&mut file, flate2::Compression::best());
+                    flate2::write::DeflateEncoder::new(&mut file, flate2::Compression::fast());
                 std::io::Write::write_all(&mut deflater, &self.data_set).unwrap();
                 deflater.finish().unwrap();
             }

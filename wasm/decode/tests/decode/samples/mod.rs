@@ -7,7 +7,7 @@ pub(crate) mod models;
 use std::io::Cursor;
 
 use fluoropose_decode::{GreyFrame, Pixels, decode_frames};
-use tiff::encoder::{Compression, TiffEncoder};
+use tiff::encoder::{Compression, Predictor, TiffEncoder};
 
 /// A PNG of raw rows.
 pub(crate) fn png(
@@ -77,15 +77,34 @@ pub(crate) fn tiff(
     file
 }
 
+/// A TIFF whose rows are stored as differences, in LZW.
+pub(crate) fn predicted_tiff(
+    write: impl FnOnce(&mut TiffEncoder<Cursor<&mut Vec<u8>>>),
+) -> Vec<u8> {
+    let mut file = Vec::new();
+    let encoder = TiffEncoder::new(Cursor::new(&mut file)).unwrap();
+    write(
+        &mut encoder
+            .with_compression(Compression::Lzw)
+            .with_predictor(Predictor::Horizontal),
+    );
+    file
+}
+
 /// A TIFF by hand: little endian, one strip, these fields (tag, type, value) besides the strip's own.
 pub(crate) fn raw_tiff(fields: &[(u16, u16, u32)], strip: &[u8]) -> Vec<u8> {
+    raw_tiff_in(fields, strip, [273, 279])
+}
+
+/// The same with the tags of the place and length of its data: of a strip or of a tile.
+pub(crate) fn raw_tiff_in(fields: &[(u16, u16, u32)], data: &[u8], tags: [u16; 2]) -> Vec<u8> {
     let mut fields = fields.to_vec();
-    fields.extend([(273, 4, 8), (279, 4, strip.len() as u32)]);
+    fields.extend([(tags[0], 4, 8), (tags[1], 4, data.len() as u32)]);
     fields.sort_unstable();
-    let directory = 8 + strip.len().next_multiple_of(2) as u32;
+    let directory = 8 + data.len().next_multiple_of(2) as u32;
     let mut file = b"II*\0".to_vec();
     file.extend(directory.to_le_bytes());
-    file.extend(strip);
+    file.extend(data);
     file.resize(directory as usize, 0);
     file.extend((fields.len() as u16).to_le_bytes());
     for (tag, kind, value) in fields {
@@ -95,6 +114,40 @@ pub(crate) fn raw_tiff(fields: &[(u16, u16, u32)], strip: &[u8]) -> Vec<u8> {
         file.extend(value.to_le_bytes());
     }
     file.extend(0u32.to_le_bytes());
+    file
+}
+
+/// The fields of a grey TIFF page of so many bits, without rows per strip; photometric 0 is white at zero.
+pub(crate) fn grey_fields(
+    width: u32,
+    height: u32,
+    bits: u32,
+    photometric: u32,
+) -> Vec<(u16, u16, u32)> {
+    vec![
+        (256, 3, width),
+        (257, 3, height),
+        (258, 3, bits),
+        (259, 3, 1),
+        (262, 3, photometric),
+        (277, 3, 1),
+    ]
+}
+
+/// A grey TIFF page in one tile of 16 x 16.
+pub(crate) fn tiled_tiff(width: u32, height: u32, tile: &[u8; 256]) -> Vec<u8> {
+    let mut fields = grey_fields(width, height, 8, 1);
+    fields.extend([(322, 3, 16), (323, 3, 16)]);
+    raw_tiff_in(&fields, tile, [324, 325])
+}
+
+/// A BigTIFF of one grey page.
+pub(crate) fn big_tiff(width: u32, height: u32, pixels: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = TiffEncoder::new_big(Cursor::new(&mut file)).unwrap();
+    encoder
+        .write_image::<tiff::encoder::colortype::Gray8>(width, height, pixels)
+        .unwrap();
     file
 }
 

@@ -5,6 +5,8 @@
 //! finite value to 0 and 65535 (NaN becomes 0), and the frame's notes say so. Thumbnails (reduced pages) are left
 //! out.
 
+mod directory;
+
 use std::io::Cursor;
 
 use tiff::ColorType;
@@ -13,7 +15,7 @@ use tiff::tags::Tag;
 
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
-use crate::limits::{MAX_FRAMES, MAX_SIDE};
+use crate::limits::MAX_SIDE;
 use crate::luminance::{grey_from_u8, grey_from_u16};
 
 const FORMAT: &str = "TIFF";
@@ -44,14 +46,13 @@ fn open(bytes: &[u8]) -> Result<Reader<'_>, Problem> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = MAX_PAGE_BYTES;
     limits.intermediate_buffer_size = MAX_PAGE_BYTES;
-    // No list in a directory can be longer than the file.
-    limits.ifd_value_size = bytes.len();
     let decoder = Decoder::new(Cursor::new(bytes)).map_err(|e| failed(0, e))?;
     Ok(decoder.with_limits(limits))
 }
 
 /// The directories that hold frames, in the file's order; each has been checked for its size.
 pub(crate) fn pages(bytes: &[u8]) -> Result<Vec<usize>, Problem> {
+    directory::check(bytes)?;
     let mut decoder = open(bytes)?;
     let mut pages = Vec::new();
     for index in 0.. {
@@ -64,10 +65,6 @@ pub(crate) fn pages(bytes: &[u8]) -> Result<Vec<usize>, Problem> {
         }
         if !decoder.more_images() {
             break;
-        }
-        if index + 1 >= MAX_FRAMES {
-            let detail = format!("it has more than {MAX_FRAMES} pages");
-            return Err(Problem::damaged(FORMAT, detail));
         }
         decoder.next_image().map_err(|e| failed(index + 1, e))?;
     }
