@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, ensure};
 use wasm_bindgen_cli_support::Bindgen;
 
+use crate::demo;
 use crate::setup::rust_target::{self, Toolchain};
 use crate::setup::{announce, command, node};
-use crate::workspace;
+use crate::workspace::{self, Stamp};
 
 /// The page's WASM modules: package, and the folder of `web/src/pkg` for its JavaScript.
 ///
@@ -64,6 +65,25 @@ fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {
 }
 
 /// The demonstration that the page opens, made again when the code that makes it has changed.
-fn write_demonstration(_web: &Path) -> Result<()> {
-    Ok(())
+fn write_demonstration(web: &Path) -> Result<()> {
+    let folder = web.join("public/demo");
+    let stamp = Stamp::new(folder.join(".made-from"), &demonstration_sources())?;
+    if stamp.is_current() {
+        return Ok(());
+    }
+    announce("drawing the demonstration");
+    if folder.exists() {
+        let cannot = || format!("cannot empty {}", folder.display());
+        std::fs::remove_dir_all(&folder).with_context(cannot)?;
+    }
+    demo::write(&demo::Options::default(), &folder)?;
+    stamp.write()
+}
+
+/// The code that decides what is in the demonstration.
+fn demonstration_sources() -> Vec<PathBuf> {
+    let ours = ["demo.rs", "film", "implant", "models.rs", "stl.rs"];
+    let root = workspace::root();
+    let ours = ours.map(|name| root.join("xtask/src").join(name));
+    ours.into_iter().chain([root.join("core/src")]).collect()
 }

@@ -7,15 +7,18 @@ use anyhow::Result;
 use crate::page;
 use crate::static_server::Server;
 
+/// The port when none is asked for.
+const USUAL_PORT: u16 = 8080;
+
 /// Options of `serve`.
 ///
 /// Gets what is missing (the WASM target, npm packages), builds the page with the demonstration data, serves
 /// it on 127.0.0.1 and opens the browser where there is a display. Ctrl-C ends it.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Port to listen on; 0 takes a free one
-    #[arg(long, default_value_t = 8080)]
-    port: u16,
+    /// Port to listen on; 0 takes a free one [default: 8080, or a free one where that is taken]
+    #[arg(long)]
+    port: Option<u16>,
     /// Build the page into web/dist and stop
     #[arg(long)]
     build_only: bool,
@@ -28,7 +31,10 @@ pub fn run(args: Args) -> Result<()> {
         println!("The page is in {}", dist.display());
         return Ok(());
     }
-    let server = Server::start(&dist, args.port)?;
+    let server = match args.port {
+        Some(port) => Server::start(&dist, port)?,
+        None => Server::start(&dist, USUAL_PORT).or_else(|_| Server::start(&dist, 0))?,
+    };
     println!("The page is at {} (Ctrl-C ends it)", server.url());
     if has_display() {
         // Without a browser the line above is enough.
