@@ -33,3 +33,4 @@ pub mod pose;
 pub mod raster;
 pub mod region;
 pub mod scan;
+pub mod verify;

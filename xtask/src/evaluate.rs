@@ -170,14 +170,15 @@ fn locate_source(
     views: &ViewOptions,
     distance: f64,
 ) -> Result<Vec<EulerPose>> {
-    let built = build_library(mesh_of(model)?, source.camera, views, distance)?;
-    let mut locator = Locator::open(&built.bytes)?;
+    let mesh = mesh_of(model)?;
+    let built = build_library(mesh, source.camera, views, distance)?;
+    let mut locator = Locator::open(&built.bytes, mesh)?;
     let bar = progress(source.masks.len(), &source.name);
     let poses = source.masks.iter().map(|(path, buffer)| {
         bar.inc(1);
         locator
-            .pose(&buffer.mask(), &source.camera)
-            .map(EulerPose::from)
+            .best(&buffer.mask(), &source.camera)
+            .map(|best| EulerPose::from(best.located.pose))
             .with_context(|| format!("no pose for {}", path.display()))
     });
     poses.collect()

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use fluoropose::pose::EulerPose;
+use fluoropose::verify::Verified;
 
 use crate::pipeline::build::progress;
 use crate::pipeline::files::{
@@ -47,15 +48,9 @@ const RIVAL_RATIO: f64 = 1.3;
 /// without a pose: the file is named, and nothing is written.
 pub fn run(args: Args) -> Result<()> {
     let bytes = read(&args.library)?;
-    let mut locator = Locator::open(&bytes).with_context(|| args.library.display().to_string())?;
     let model = read_model(&args.model)?;
-    if mesh_of(&model)?.digest() != locator.library().info().model {
-        bail!(
-            "{} was not made from {}: build the library again",
-            args.library.display(),
-            args.model.display()
-        );
-    }
+    let mut locator = Locator::open(&bytes, mesh_of(&model)?)
+        .with_context(|| args.library.display().to_string())?;
     let calibration = read_calibration(&args.calibration)?;
     let files = files_in(&args.masks)?;
     let bar = progress(files.len(), "masks");
@@ -67,8 +62,8 @@ pub fn run(args: Args) -> Result<()> {
         let found = locator
             .locate(&mask, &camera)
             .with_context(|| format!("no pose for {}", path.display()))?;
-        bar.suspend(|| describe(path, &found.poses));
-        poses.extend(found.poses.first().map(|best| EulerPose::from(best.pose)));
+        bar.suspend(|| describe(path, &found));
+        poses.extend(found.first().map(|best| EulerPose::from(best.located.pose)));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -76,15 +71,15 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// Prints the best pose and the rivals that fit nearly as well.
-fn describe(path: &std::path::Path, poses: &[fluoropose::locate::Located]) {
-    let Some(best) = poses.first() else { return };
+fn describe(path: &std::path::Path, rivals: &[Verified]) {
+    let Some(best) = rivals.first() else { return };
     println!("{}", path.file_name().unwrap_or_default().display());
-    let limit = f64::from(best.fine.unmatched) * RIVAL_RATIO;
-    for located in poses {
-        if f64::from(located.fine.unmatched) > limit {
+    let limit = best.unmatched as f64 * RIVAL_RATIO;
+    for rival in rivals {
+        if rival.unmatched as f64 > limit {
             break;
         }
-        let pose = EulerPose::from(located.pose);
+        let pose = EulerPose::from(rival.located.pose);
         println!(
             "  x {:8.2} y {:8.2} z {:9.2} mm   z {:8.2} x {:7.2} y {:7.2} deg   {} px unmatched{}{}",
             pose.x_mm,
@@ -93,9 +88,9 @@ fn describe(path: &std::path::Path, poses: &[fluoropose::locate::Located]) {
             pose.z_rot_deg,
             pose.x_rot_deg,
             pose.y_rot_deg,
-            located.fine.unmatched,
-            if located == best { "" } else { "  (rival)" },
-            if located.fine.at_border {
+            rival.unmatched,
+            if rival == best { "" } else { "  (rival)" },
+            if rival.located.fine.at_border {
                 "  (at the border of the library)"
             } else {
                 ""

@@ -123,7 +123,7 @@ pub fn measure(
     seed: u64,
 ) -> Result<Accuracy> {
     let built = build_library(mesh, camera, views, distance)?;
-    let mut locator = Locator::open(&built.bytes)?;
+    let mut locator = Locator::open(&built.bytes, mesh)?;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
     let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
@@ -133,9 +133,9 @@ pub fn measure(
         let reference = random_pose(&mut random, &views.grid(), &mesh, distance);
         buffer.draw(|mask| render(&mesh, &camera, &reference, &mut scratch, mask))?;
         let found = locator
-            .pose(&buffer.mask(), &camera)
+            .best(&buffer.mask(), &camera)
             .with_context(|| format!("at {:?}", EulerPose::from(reference)))?;
-        errors.push(Errors::of(&found, &reference));
+        errors.push(Errors::of(&found.located.pose, &reference));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -152,9 +152,9 @@ fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: 
     };
     let mut draw = |(middle, reach): (f64, f64)| middle + reach * random.random_range(-1.0..=1.0);
     let mut pose = Pose::from(EulerPose {
-        x_mm: draw((0.0, std::env::var("LAT").map_or(40.0,|v|v.parse().unwrap()))),
-        y_mm: draw((0.0, std::env::var("LAT").map_or(40.0,|v|v.parse().unwrap()))),
-        z_mm: draw((-distance, std::env::var("DEP").map_or(50.0,|v|v.parse().unwrap()))),
+        x_mm: draw((0.0, LATERAL_MM)),
+        y_mm: draw((0.0, LATERAL_MM)),
+        z_mm: draw((-distance, DEPTH_MM)),
         z_rot_deg: draw((0.0, 180.0)),
         x_rot_deg: draw(inside(&grid.x)),
         y_rot_deg: draw(inside(&grid.y)),

@@ -1,0 +1,70 @@
+//! Choosing between rival poses: draw the model at each and count the pixels that differ.
+//!
+//! The scores of [`crate::matching`] are those of whole views; two rivals may differ by less
+//! than the distance of their poses from the nearest view. Drawn at its own pose, each rival
+//! answers for itself.
+
+use heapless::Vec;
+
+use crate::camera::Camera;
+use crate::locate::Located;
+use crate::mask::{Mask, MaskMut};
+use crate::mesh::Mesh;
+use crate::pose::Pose;
+use crate::raster::{Projected, RenderError, render};
+
+/// A located pose and how well the model drawn at it covers the silhouette.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verified {
+    /// The pose and the view that led to it.
+    pub located: Located,
+    /// Frame pixels in the silhouette or in the drawing but not in both.
+    pub unmatched: u64,
+}
+
+/// Frame pixels that differ between `mask` and the model drawn at `pose`. `scratch` and `drawn`
+/// are working memory as for [`render`]; `drawn` holds the drawing afterwards.
+///
+/// # Errors
+/// Those of [`render`]; [`RenderError::Size`] also where `mask` has another size.
+pub fn unmatched_at(
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    mask: &Mask<'_>,
+    scratch: &mut [Projected],
+    drawn: &mut MaskMut<'_>,
+) -> Result<u64, RenderError> {
+    drawn.clear();
+    render(mesh, camera, pose, scratch, drawn)?;
+    drawn.as_mask().unmatched(mask).ok_or(RenderError::Size)
+}
+
+/// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
+/// more than `K` poses the first `K` are looked at.
+///
+/// # Errors
+/// Those of [`unmatched_at`].
+pub fn verify<const K: usize>(
+    poses: &[Located],
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    mask: &Mask<'_>,
+    scratch: &mut [Projected],
+    drawn: &mut MaskMut<'_>,
+) -> Result<Vec<Verified, K>, RenderError> {
+    let mut verified: Vec<Verified, K> = Vec::new();
+    for located in poses.iter().take(K) {
+        let unmatched = unmatched_at(mesh, camera, &located.pose, mask, scratch, drawn)?;
+        let place = verified.partition_point(|other| other.unmatched <= unmatched);
+        // At most K poses are looked at, so there is room.
+        let _ = verified.insert(
+            place,
+            Verified {
+                located: *located,
+                unmatched,
+            },
+        );
+    }
+    Ok(verified)
+}
