@@ -3,6 +3,7 @@
 pub mod ci;
 pub mod demo;
 pub mod evaluate;
+pub mod film;
 pub mod firmware;
 pub mod implant;
 pub mod kinematics;

@@ -14,7 +14,7 @@ pub(super) const LAST_CUT: f64 = 5.0;
 
 /// Corners of the box that the bone is cut to, `[x, y]` in mm, one at each whole `s`.
 const BOX: [[f64; 2]; 6] = [
-    [34.9, 37.0],
+    [36.4, 37.0],
     [31.5, -2.0],
     [17.0, -15.0],
     [-4.5, -15.0],

@@ -1,0 +1,244 @@
+//! The demonstration: its motion is a deep knee bend, its files agree with each other and with the poses.
+#![allow(clippy::unwrap_used, reason = "a refusal fails the test")]
+
+use fluoropose::kinematics::{joint_angles, relative_pose};
+use fluoropose::pose::{EulerPose, Pose};
+use std::fs;
+use std::path::{Path, PathBuf};
+use xtask::demo::{Options, write};
+use xtask::film::motion::{DEEPEST_DEG, Position, deep_knee_bend};
+use xtask::implant::{Parameters, Side, Triangles, femur, tibia};
+use xtask::pipeline::files::{read_mask, read_poses};
+use xtask::pipeline::study::Study;
+
+fn parts(side: Side) -> (Triangles, Triangles) {
+    let parameters = Parameters {
+        side,
+        ..Parameters::default()
+    };
+    (femur(&parameters).unwrap(), tibia(&parameters).unwrap())
+}
+
+fn bend(side: Side, frames: usize, seed: u64) -> Vec<Position> {
+    deep_knee_bend(frames, side, &parts(side).0, 70.0, seed)
+}
+
+fn six(position: &Position, side: fluoropose::kinematics::Side) -> [f64; 6] {
+    let (femur, tibia) = (Pose::from(position.femur), Pose::from(position.tibia));
+    let joint = joint_angles(&relative_pose(&femur, &tibia), side);
+    [
+        joint.anterior_mm,
+        joint.superior_mm,
+        joint.lateral_mm,
+        joint.flexion_deg,
+        joint.abduction_deg,
+        joint.internal_deg,
+    ]
+}
+
+#[test]
+fn motion_is_a_deep_knee_bend_in_the_fields_numbers() {
+    let numbers: Vec<_> = bend(Side::Left, 12, 3)
+        .iter()
+        .map(|p| six(p, fluoropose::kinematics::Side::Left))
+        .collect();
+    assert!(numbers[0][3].abs() < 1e-6 && (numbers[11][3] - DEEPEST_DEG).abs() < 1e-6);
+    for pair in numbers.windows(2) {
+        assert!(pair[1][3] > pair[0][3] + 1.0, "flexion grows");
+        assert!(pair[1][5] > pair[0][5], "the tibia turns inwards");
+    }
+    let gained = numbers[11][5] - numbers[0][5];
+    assert!(
+        (8.0..15.0).contains(&gained),
+        "internal rotation gains {gained} degrees"
+    );
+    // Rollback: the posterior condyles' axis ends further back than at mid-flexion.
+    assert!(
+        numbers[11][0] < numbers[5][0] - 3.0,
+        "{} to {} mm",
+        numbers[5][0],
+        numbers[11][0]
+    );
+}
+
+#[test]
+fn a_right_knee_has_the_same_joint_motion() {
+    let left = bend(Side::Left, 5, 3);
+    let right = bend(Side::Right, 5, 3);
+    for (l, r) in left.iter().zip(&right) {
+        let l = six(l, fluoropose::kinematics::Side::Left);
+        let r = six(r, fluoropose::kinematics::Side::Right);
+        for (a, b) in l.iter().zip(&r) {
+            assert!((a - b).abs() < 1e-6, "{l:?} and {r:?}");
+        }
+    }
+}
+
+#[test]
+fn every_pose_lies_in_the_range_of_a_library_and_in_the_frame() {
+    for side in [Side::Left, Side::Right] {
+        for seed in 0..20 {
+            for position in bend(side, 9, seed) {
+                for EulerPose {
+                    x_mm,
+                    y_mm,
+                    z_mm,
+                    x_rot_deg,
+                    y_rot_deg,
+                    ..
+                } in [position.femur, position.tibia]
+                {
+                    assert!(
+                        x_rot_deg.abs() <= 8.0 && y_rot_deg.abs() <= 10.0,
+                        "{position:?}"
+                    );
+                    assert!(x_mm.abs() < 40.0 && y_mm.abs() < 45.0 && (z_mm + 1080.0).abs() < 15.0);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_femur_rests_on_the_insert_and_stays_clear_of_the_tray() {
+    let (femur, _) = parts(Side::Left);
+    for position in bend(Side::Left, 9, 1) {
+        let tibia_from_femur = Pose::from(position.tibia)
+            .inverse()
+            .compose(&Pose::from(position.femur));
+        let heights = femur
+            .vertices
+            .iter()
+            .map(|v| tibia_from_femur.transform(&v.map(f64::from))[1]);
+        let lowest = heights.fold(f64::INFINITY, f64::min);
+        assert!(
+            (lowest - 9.4).abs() < 1e-6,
+            "{lowest} mm above the plate's middle"
+        );
+    }
+}
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path =
+            std::env::temp_dir().join(format!("fluoropose-demo-{name}-{}", std::process::id()));
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Leaving files behind in a temporary folder is no reason to fail.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn grey(path: &Path) -> Vec<u8> {
+    let picture = image::open(path).unwrap();
+    assert_eq!((picture.width(), picture.height()), (1024, 1024));
+    assert_eq!(picture.color(), image::ColorType::L8);
+    picture.into_luma8().into_raw()
+}
+
+#[test]
+fn files_agree_with_each_other_and_repeat_bit_for_bit() {
+    let (one, two, other) = (Folder::new("one"), Folder::new("two"), Folder::new("other"));
+    let options = Options {
+        frames: 2,
+        seed: 5,
+        side: Side::Right,
+    };
+    write(&options, &one.0).unwrap();
+    write(&options, &two.0).unwrap();
+    write(&Options { seed: 6, ..options }, &other.0).unwrap();
+
+    let study = Study::read(&one.0.join("study.toml")).unwrap();
+    assert_eq!(study.side, Some(Side::Right));
+    for component in &study.components {
+        let poses = read_poses(component.reference.as_ref().unwrap()).unwrap();
+        assert_eq!(poses.len(), 2);
+    }
+    for name in [
+        "frames/0001.png",
+        "frames/0002.png",
+        "masks/femur/0002.png",
+        "femur.stl",
+        "tibia.jts",
+        "demo.json",
+    ] {
+        let bytes = fs::read(one.0.join(name)).unwrap();
+        assert_eq!(bytes, fs::read(two.0.join(name)).unwrap(), "{name}");
+        if name.starts_with("frames") {
+            assert_ne!(
+                bytes,
+                fs::read(other.0.join(name)).unwrap(),
+                "the seed does not matter in {name}"
+            );
+        }
+    }
+    implants_are_dark_exactly_where_their_masks_are(&one.0);
+}
+
+fn implants_are_dark_exactly_where_their_masks_are(folder: &Path) {
+    let frame = grey(&folder.join("frames/0002.png"));
+    let masks = ["femur", "tibia"]
+        .map(|name| read_mask(&folder.join("masks").join(name).join("0002.png")).unwrap());
+    let covered = |column: usize, row: usize| masks.iter().any(|mask| mask.mask().get(column, row));
+    // Within three pixels of an edge blur mixes both; further off, every covered pixel is darker than every
+    // uncovered one of the round field's inner part.
+    let (mut inside, mut outside) = (Vec::new(), Vec::new());
+    for row in 200..824 {
+        for column in 200..824 {
+            let near = |d: usize| {
+                [
+                    covered(column - d, row),
+                    covered(column + d, row),
+                    covered(column, row - d),
+                    covered(column, row + d),
+                ]
+            };
+            match (covered(column, row), near(3)) {
+                (true, [true, true, true, true]) => inside.push(frame[row * 1024 + column]),
+                (false, [false, false, false, false]) => outside.push(frame[row * 1024 + column]),
+                _ => {}
+            }
+        }
+    }
+    let mean =
+        |values: &[u8]| values.iter().map(|&v| f64::from(v)).sum::<f64>() / values.len() as f64;
+    assert!(inside.len() > 10_000 && outside.len() > 10_000);
+    assert!(
+        mean(&outside) - mean(&inside) > 70.0,
+        "{} against {}",
+        mean(&outside),
+        mean(&inside)
+    );
+    let bright_metal = inside.iter().filter(|&&v| v > 120).count();
+    let dark_tissue = outside.iter().filter(|&&v| v < 75).count();
+    assert!(
+        bright_metal * 200 < inside.len(),
+        "{bright_metal} of {}",
+        inside.len()
+    );
+    assert!(
+        dark_tissue * 200 < outside.len(),
+        "{dark_tissue} of {}",
+        outside.len()
+    );
+}
+
+#[test]
+fn no_frames_are_refused() {
+    let folder = Folder::new("none");
+    let error = write(
+        &Options {
+            frames: 0,
+            ..Options::default()
+        },
+        &folder.0,
+    )
+    .unwrap_err();
+    assert!(error.to_string().contains("1 to 9999"));
+}
