@@ -82,7 +82,7 @@ export class Librarian {
     const worker = libraryWorker();
     const cancel = () => abort.abort();
     try {
-      return await asJob(store, { title: `Library of the ${component}`, unit: 'views', total: 0, cancel }, async (report) => {
+      return await asJob(store, { title: `${titleOf(component)} library`, unit: 'views', total: 0, cancel }, async (report) => {
         const bytes = await worker.call('build', { mesh, camera, spec }, {
           signal: abort.signal,
           onProgress: ({ done, total }) => report(done, total),

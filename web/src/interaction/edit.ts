@@ -1,7 +1,7 @@
 import { deletePoint, insertPoint, movePoint } from '../document/commands';
 import { canvasPoint, distance, type CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
-import { hitTest } from './hit';
+import { hitTest, type Hit } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /** Moving, inserting and deleting the points of an outline. */
@@ -15,13 +15,17 @@ export type EditState =
 
 const IDLE: EditState = { name: 'idle' };
 
-export const edit: Machine<EditState> = { start: IDLE, next };
+export const edit: Machine<EditState> = {
+  start: IDLE,
+  next: (state, input, scene) => nextEdit(state, input, scene, hitTest(scene.outline, scene.viewport, input.at)),
+};
 
-function next(state: EditState, input: Input, scene: Scene): Outcome<EditState> {
+/** The same with what lies under the pointer told by the tool. */
+export function nextEdit(state: EditState, input: Input, scene: Scene, hit: Hit): Outcome<EditState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
   switch (state.name) {
     case 'idle':
-      return input.type === 'down' && input.button === 'primary' ? press(input, scene) : outcome(state);
+      return input.type === 'down' && input.button === 'primary' ? press(input, scene, hit) : outcome(state);
     case 'pressed':
       return whilePressed(state, input, scene);
     case 'moving':
@@ -31,8 +35,7 @@ function next(state: EditState, input: Input, scene: Scene): Outcome<EditState> 
   }
 }
 
-function press(input: Input, scene: Scene): Outcome<EditState> {
-  const hit = hitTest(scene.outline, scene.viewport, input.at);
+function press(input: Input, scene: Scene, hit: Hit): Outcome<EditState> {
   switch (hit.kind) {
     case 'vertex':
       if (input.alt) {

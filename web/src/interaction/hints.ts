@@ -1,7 +1,6 @@
 import type { Outline } from '../document/types';
-import type { Hit } from './hit';
+import { FEWEST_POINTS, type Hit } from './hit';
 import type { ToolName } from './tools';
-import { FEWEST_POINTS } from './trace';
 
 /** One line: what the next click does. */
 export function hint(tool: ToolName, component: string, outline: Outline | null, hit: Hit): string {

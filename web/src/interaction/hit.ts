@@ -12,20 +12,34 @@ export type Hit =
 /** Wide enough to hit with a mouse on a bad day. */
 export const VERTEX_REACH = 9;
 export const EDGE_REACH = 6;
+/** While a draft grows: points are often set close together, and a click must not be lost to its neighbour. */
+export const DRAFT_REACH = 3;
 
 const NOTHING: Hit = { kind: 'nothing' };
 
 export function hitTest(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
   if (!outline || outline.points.length === 0) return NOTHING;
   const points = outline.points.map((point) => canvasFromFrame(viewport, point));
-  return hitVertex(points, at) ?? hitEdge(points, outline.closed, viewport, at) ?? NOTHING;
+  return hitVertex(points, at, () => VERTEX_REACH) ?? hitEdge(points, outline.closed, viewport, at) ?? NOTHING;
 }
 
-function hitVertex(points: readonly CanvasPoint[], at: CanvasPoint): Hit | null {
+/** While tracing: only the point that closes the draft is easy to hit; no edges. */
+export function hitDraft(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
+  const points = (outline?.points ?? []).map((point) => canvasFromFrame(viewport, point));
+  const closes = points.length >= FEWEST_POINTS;
+  return hitVertex(points, at, (index) => (index === 0 && closes ? VERTEX_REACH : DRAFT_REACH)) ?? NOTHING;
+}
+
+/** An outline with fewer points encloses nothing. */
+export const FEWEST_POINTS = 3;
+
+type Reach = (index: number) => number;
+
+function hitVertex(points: readonly CanvasPoint[], at: CanvasPoint, reach: Reach): Hit | null {
   let best: { index: number; away: number } | null = null;
   points.forEach((point, index) => {
     const away = distance(point, at);
-    if (away <= VERTEX_REACH && (best === null || away < best.away)) best = { index, away };
+    if (away <= reach(index) && (best === null || away < best.away)) best = { index, away };
   });
   const found = best as { index: number } | null;
   return found && { kind: 'vertex', index: found.index };

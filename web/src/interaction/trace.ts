@@ -1,7 +1,7 @@
 import { addPoint, closeOutline } from '../document/commands';
 import { frameFromCanvas } from '../geometry/viewport';
-import { edit, type EditState } from './edit';
-import { hitTest } from './hit';
+import { edit, nextEdit, type EditState } from './edit';
+import { FEWEST_POINTS, hitDraft, hitTest } from './hit';
 import { outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /**
@@ -16,8 +16,6 @@ const IDLE: TraceState = { name: 'editing', edit: edit.start, maybeClosing: fals
 
 export const trace: Machine<TraceState> = { start: IDLE, next };
 
-export const FEWEST_POINTS = 3;
-
 function next(state: TraceState, input: Input, scene: Scene): Outcome<TraceState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
   if (input.type === 'double' && isDraft(scene)) return outcome(IDLE, ...close(scene));
@@ -29,13 +27,14 @@ function whileEditing(
   input: Input,
   scene: Scene,
 ): Outcome<TraceState> {
-  const hit = hitTest(scene.outline, scene.viewport, input.at);
+  const find = isDraft(scene) ? hitDraft : hitTest;
+  const hit = find(scene.outline, scene.viewport, input.at);
   const fresh = input.type === 'down' && input.button === 'primary' && state.edit.name === 'idle';
   if (fresh && isDraft(scene) && hit.kind !== 'vertex') return whileAdding(input, scene);
   if (input.type === 'up' && state.maybeClosing && state.edit.name === 'pressed') {
     return outcome(IDLE, ...close(scene));
   }
-  const edited = edit.next(state.edit, input, scene);
+  const edited = nextEdit(state.edit, input, scene, hit);
   const onFirst = hit.kind === 'vertex' && hit.index === 0 && isDraft(scene) && !input.alt;
   const maybeClosing = fresh ? onFirst : state.maybeClosing;
   return { state: { name: 'editing', edit: edited.state, maybeClosing }, effects: edited.effects };

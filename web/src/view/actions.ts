@@ -8,7 +8,7 @@ import { sentenceOf, type Services } from '../engine/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
 import type { Action } from '../interaction/bindings';
-import { FEWEST_POINTS } from '../interaction/trace';
+import { FEWEST_POINTS } from '../interaction/hit';
 import { download, pickFiles } from './files';
 
 /** What buttons and keys do. */

@@ -7,8 +7,10 @@ const CANONICAL_AREA = '15 000';
 export function Candidates({ cell }: { cell: Cell }) {
   const { actions, poser } = useApp();
   const result = cell.result?.kind === 'posed' ? cell.result : null;
-  const area = poser.findings(cell.outline)?.canonicalArea ?? 0;
+  const findings = poser.findings(cell.outline);
+  const area = findings?.canonicalArea ?? 0;
   const chosen = result?.candidates[result.chosen] ?? null;
+  const beyondBorder = result !== null && (findings?.atBorder[result.chosen] ?? false);
   return (
     <section class="card candidates" aria-label="Score and candidates">
       <div class="number score">
@@ -29,7 +31,7 @@ export function Candidates({ cell }: { cell: Cell }) {
           />
         ))}
       </div>
-      <p class="card-note">{result ? reason(result.candidates, result.chosen) : ''}</p>
+      <p class="card-note">{result ? (beyondBorder ? BORDER_NOTE : reason(result.candidates, result.chosen)) : ''}</p>
     </section>
   );
 }
@@ -61,6 +63,9 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
     </button>
   );
 }
+
+const BORDER_NOTE =
+  'The best view lies at the border of the library: the true rotation may lie beyond it. Choose another nominal view under the component above.';
 
 /** Below this ratio of scores the better one is not to be relied on. */
 const DECISIVE = 1.3;

@@ -17,7 +17,7 @@ export function ComponentSheet({ state, component }: { state: State; component: 
       </p>
       <div class="sheet-buttons">
         <button type="button" class="button" onClick={() => void actions.openPicked(component)}>
-          Open a model or library
+          Open a model, library or poses
         </button>
         <button type="button" class="button" disabled={library.state !== 'stopped'} onClick={() => librarian.retry(component)}>
           Build the library
@@ -73,7 +73,7 @@ function LibraryForm({ component, spec }: { component: ComponentName; spec: Libr
           label="Distance"
           unit="mm"
           value={draft.distance ?? NaN}
-          placeholder="automatic"
+          placeholder="auto"
           onChange={(value) => setDraft({ ...draft, distance: Number.isNaN(value) ? null : value })}
         />
         <NumberField label="Canonical area" unit="px" value={draft.area} onChange={set('area')} />

@@ -15,6 +15,7 @@ export function Display({ state }: { state: State }) {
     <section class="card display" aria-label="Display">
       <Slider
         label="Overlay opacity"
+        shown="Overlay"
         text={`${Math.round(state.ui.overlayOpacity * 100)} %`}
         min={0}
         max={1}
@@ -51,6 +52,8 @@ export function Display({ state }: { state: State }) {
 
 interface SliderProps {
   readonly label: string;
+  /** A shorter label for the eye. */
+  readonly shown?: string;
   readonly text: string;
   readonly min: number;
   readonly max: number;
@@ -60,11 +63,10 @@ interface SliderProps {
   readonly onInput: (value: number) => void;
 }
 
-function Slider({ label, text, min, max, step, value, disabled, onInput }: SliderProps) {
+function Slider({ label, shown, text, min, max, step, value, disabled, onInput }: SliderProps) {
   return (
     <label class="slider">
-      <span class="slider-label">{label}</span>
-      <span class="slider-value">{text}</span>
+      <span class="slider-label">{shown ?? label}</span>
       <input
         type="range"
         aria-label={label}
@@ -76,6 +78,7 @@ function Slider({ label, text, min, max, step, value, disabled, onInput }: Slide
         disabled={disabled ?? false}
         onInput={(event) => onInput(event.currentTarget.valueAsNumber)}
       />
+      <span class="slider-value">{text}</span>
     </label>
   );
 }

@@ -3,7 +3,7 @@ const PATHS = {
   pointer: 'M5 3l10 7-4.6 1L8 16z',
   polygon: 'M4 7l7-4 6 6-4 8-7-2z',
   hand: 'M10 2v16M2 10h16M10 2L7.5 4.5M10 2l2.5 2.5M10 18l-2.5-2.5M10 18l2.5-2.5M2 10l2.500-2.500M2 10l2.500 2.500M18 10l-2.500-2.500M18 10l-2.500 2.500',
-  contrast: 'M10 3a7 7 0 100 14zM10 3a7 7 0 010 14',
+  contrast: 'M10 3a7 7 0 110 14a7 7 0 010-14',
   fit: 'M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4',
   undo: 'M7 4L3 8l4 4M3 8h8a5 5 0 010 10H8',
   redo: 'M13 4l4 4-4 4M17 8H9a5 5 0 000 10h3',
@@ -18,10 +18,10 @@ const PATHS = {
 export type IconName = keyof typeof PATHS;
 
 export function Icon({ name }: { name: IconName }) {
-  const half = name === 'contrast';
   return (
-    <svg class={half ? 'icon half' : 'icon'} viewBox="0 0 20 20" width="20" height="20" aria-hidden="true">
+    <svg class="icon" viewBox="0 0 20 20" width="20" height="20" aria-hidden="true">
       <path d={PATHS[name]} />
+      {name === 'contrast' && <path class="solid" d="M10 3a7 7 0 010 14z" />}
     </svg>
   );
 }

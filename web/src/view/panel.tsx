@@ -36,8 +36,8 @@ export function Panel({ state }: { state: State }) {
       <Unmatched state={state} />
       <Display state={state} />
       <div class="panel-foot">
-        <button type="button" class="button" disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
-          Save {component} poses (.jts)
+        <button type="button" class="button" title="As a .jts file, a row a frame" disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
+          Save {component} poses
         </button>
         <button type="button" class="button" disabled={!frame || !cell.outline} title="Shift+Delete" onClick={() => actions.deleteOutline()}>
           Delete outline

@@ -92,8 +92,9 @@ function useFlash(text: string): boolean {
     last.current = { text, at: now };
     if (!quiet || text === '–') return undefined;
     setFlashing(true);
-    const timer = setTimeout(() => setFlashing(false), FLASH_LENGTH);
-    return () => clearTimeout(timer);
+    // Not cleared when the text changes again: the flash ends all the same.
+    setTimeout(() => setFlashing(false), FLASH_LENGTH);
+    return undefined;
   }, [text]);
   return flashing;
 }

@@ -1,6 +1,6 @@
 import { useState } from 'preact/hooks';
 import type { State } from '../document/store';
-import { COMPONENT_NAMES } from '../document/types';
+import { COMPONENT_NAMES, titleOf } from '../document/types';
 import { useApp } from './app';
 
 /** The whole work as one file, or the poses of one component. */
@@ -27,7 +27,7 @@ export function SessionSheet({ state }: { state: State }) {
             disabled={!actions.hasPoses(component)}
             onClick={() => actions.savePoses(component)}
           >
-            Save {component} poses
+            {titleOf(component)} poses (.jts)
           </button>
         ))}
       </div>

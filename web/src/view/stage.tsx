@@ -4,7 +4,7 @@ import { titleOf } from '../document/types';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
 import { frameFromCanvas, recentre } from '../geometry/viewport';
 import { Controller } from '../interaction/controller';
-import { hitTest, type Hit } from '../interaction/hit';
+import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import type { Effect, Input } from '../interaction/machine';
 import { wheelZoom } from '../interaction/navigate';
 import { TOOLS } from '../interaction/tools';
@@ -73,7 +73,8 @@ function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement)
   const hover = (event: MouseEvent) => {
     const at = pointOf(event);
     const { outline } = currentCell(store.state);
-    const hit: Hit = hitTest(outline, view.viewport(store.state), at);
+    const drafting = store.ui.tool === 'trace' && outline?.closed !== true;
+    const hit: Hit = (drafting ? hitDraft : hitTest)(outline, view.viewport(store.state), at);
     view.setHover({ at, hit });
     pointerStore.set(currentFrame(store.state) && { at: frameFromCanvas(view.viewport(store.state), at), hit });
   };

@@ -11,8 +11,8 @@ export function Timeline({ state }: { state: State }) {
   const last = Math.max(0, frames.length - 1);
   const frame = frames[frameIndex];
   return (
-    <section class="timeline" aria-label="Frames">
-      <div class="frame-control">
+    <section class="timeline" aria-label="Frames" style={{ '--count': Math.max(1, frames.length) }}>
+      <div class="frame-steps">
         <button type="button" class="button square" aria-label="Previous frame" title="Previous frame (D)" disabled={frameIndex <= 0} onClick={() => actions.run({ name: 'previous-frame' })}>
           <Icon name="previous" />
         </button>
@@ -22,7 +22,8 @@ export function Timeline({ state }: { state: State }) {
         <span class="frame-count">
           {frames.length === 0 ? '–' : frameIndex + 1} / {frames.length}
         </span>
-        <input
+      </div>
+      <input
           type="range"
           class="frame-slider"
           aria-label="Frame"
@@ -34,8 +35,7 @@ export function Timeline({ state }: { state: State }) {
           disabled={frames.length < 2}
           onInput={(event) => services.store.goTo(event.currentTarget.valueAsNumber)}
         />
-        <span class="frame-name">{frame?.name ?? ''}</span>
-      </div>
+      <span class="frame-name">{frame?.name ?? ''}</span>
       <table class="cells" aria-label="Frames and components">
         <tbody>
           {COMPONENT_NAMES.map((component) => (
@@ -43,7 +43,29 @@ export function Timeline({ state }: { state: State }) {
           ))}
         </tbody>
       </table>
+      <CellKey />
     </section>
+  );
+}
+
+const CELL_KEY = [
+  ['draft', 'draft'],
+  ['posed', 'posed'],
+  ['pose-loaded', 'loaded'],
+  ['no-pose', 'no pose'],
+] as const;
+
+/** What a cell's look means; shapes, not colours alone. */
+function CellKey() {
+  return (
+    <div class="cell-key" aria-hidden="true">
+      {CELL_KEY.map(([look, word]) => (
+        <span key={look}>
+          <i class={`cell is-${look}`} />
+          {word}
+        </span>
+      ))}
+    </div>
   );
 }
 
@@ -76,7 +98,7 @@ function CellButton({ state, component, frame, index }: CellButtonProps) {
   return (
     <button
       type="button"
-      class={`cell ${word.replace(' ', '-')}${current ? ' column' : ''}`}
+      class={`cell is-${word.replace(' ', '-')}${current ? ' column' : ''}`}
       aria-label={`Frame ${index + 1}, ${component}: ${word}`}
       aria-current={selected ? 'true' : undefined}
       title={`Frame ${index + 1}, ${component}: ${word}`}
