@@ -186,7 +186,7 @@ mod tests {
         let bytes = fs::read(folder.join("femur.outline")).unwrap();
         let count = bytes.len() / 16;
         assert!(
-            (100..=MAX_POINTS).contains(&count) && bytes.len() % 16 == 0,
+            (100..=MAX_POINTS).contains(&count) && bytes.len().is_multiple_of(16),
             "{count}"
         );
         let library = fs::read(folder.join("femur.library")).unwrap();
