@@ -1,11 +1,15 @@
 //! Outlines matched against an open library.
 
+use fluoropose::camera::Camera;
 use fluoropose::canonical::reverse;
 use fluoropose::contour::{Outline, Point};
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
-use fluoropose::mask::{MaskMut, Word, words_needed};
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mesh::Mesh;
 use fluoropose::pose::EulerPose;
+use fluoropose::raster::Projected;
+use fluoropose::verify::unmatched_at;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::camera;
@@ -21,8 +25,11 @@ self_cell::self_cell!(
     }
 );
 
+/// Local minima of the score surface that are looked at.
+const MINIMA: usize = 4;
+
 /// Poses that are offered: the best and one rival.
-const CANDIDATES: usize = 2;
+const OFFERED: usize = 2;
 
 /// A rival with more than this many times the unmatched pixels of the best is none.
 const RIVAL_WITHIN: f64 = 2.0;
@@ -31,10 +38,19 @@ const RIVAL_WITHIN: f64 = 2.0;
 #[wasm_bindgen]
 pub struct Matcher {
     library: OpenLibrary,
+    model: Option<LentModel>,
     mask: Vec<Word>,
+    drawn: Vec<Word>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
+}
+
+/// The model that the library was made from, with the working memory to draw it.
+struct LentModel {
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    projected: Vec<Projected>,
 }
 
 #[wasm_bindgen]
@@ -49,11 +65,34 @@ impl Matcher {
         let (words, scores) = workspace_needed(library.borrow_dependent());
         Ok(Self {
             library,
+            model: None,
             mask: Vec::new(),
+            drawn: Vec::new(),
             canonical: vec![0; words],
             turned: vec![0; words],
             scores: vec![0; scores],
         })
+    }
+
+    /// Lends the model, so that rival poses are told apart by drawing it at each.
+    ///
+    /// # Errors
+    /// A sentence when the library was made from another model.
+    #[wasm_bindgen(js_name = lendModel)]
+    pub fn lend_model(&mut self, vertices: &[f32], triangles: &[u32]) -> Result<(), JsError> {
+        let model = LentModel {
+            projected: vec![Projected::default(); vertices.len() / 3],
+            vertices: vertices.as_chunks().0.to_vec(),
+            triangles: triangles.as_chunks().0.to_vec(),
+        };
+        let mesh = Mesh::new(&model.vertices, &model.triangles).map_err(sentence)?;
+        if mesh.digest() != self.library.borrow_dependent().info().model {
+            return Err(JsError::new(
+                "The library was made from another model: open the model that belongs to it, or build it again",
+            ));
+        }
+        self.model = Some(model);
+        Ok(())
     }
 
     /// Number of views.
@@ -105,17 +144,24 @@ impl Matcher {
             turned: &mut self.turned,
             scores: &mut self.scores,
         };
-        let found =
-            locate::<CANDIDATES>(&mask.as_mask(), &camera, library, work).map_err(sentence)?;
+        let mask = mask.into_mask();
+        let found = locate::<MINIMA>(&mask, &camera, library, work).map_err(sentence)?;
         let (poses, clipped) = (found.poses, found.form.clipped);
-        let limit = poses
-            .first()
-            .map_or(0.0, |best| f64::from(best.fine.unmatched) * RIVAL_WITHIN);
-        let near = |located: &&Located| f64::from(located.fine.unmatched) <= limit;
-        let candidates = poses
+        let near = within(&poses, |located| f64::from(located.fine.unmatched));
+        let ranked = match &mut self.model {
+            Some(model) => model.rank(near, &camera, &mask, &mut self.drawn)?,
+            None => near
+                .iter()
+                .map(|&located| Ranked {
+                    located,
+                    drawn: None,
+                })
+                .collect(),
+        };
+        let candidates = ranked
             .iter()
-            .filter(near)
-            .map(|located| self.candidate(located))
+            .take(OFFERED)
+            .map(|ranked| self.candidate(ranked))
             .collect();
         Ok(Match {
             candidates,
@@ -124,8 +170,57 @@ impl Matcher {
     }
 }
 
+/// The first of `items` and those that come near it: at most [`RIVAL_WITHIN`] times its score.
+fn within<T: Copy>(items: &[T], score: impl Fn(&T) -> f64) -> Vec<T> {
+    let limit = items.first().map_or(0.0, &score) * RIVAL_WITHIN;
+    items
+        .iter()
+        .copied()
+        .filter(|item| score(item) <= limit)
+        .collect()
+}
+
+/// A pose, and the frame pixels that differ from the outline when the model is drawn there.
+#[derive(Clone, Copy)]
+struct Ranked {
+    located: Located,
+    drawn: Option<u64>,
+}
+
+impl LentModel {
+    /// Puts rivals in order by drawing the model at each. A pose that cannot be drawn comes last, without a figure.
+    fn rank(
+        &mut self,
+        rivals: Vec<Located>,
+        camera: &Camera,
+        mask: &Mask<'_>,
+        drawn: &mut Vec<Word>,
+    ) -> Result<Vec<Ranked>, JsError> {
+        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
+        drawn.resize(words_needed(mask.width(), mask.height()), 0);
+        let mut drawn = MaskMut::new(drawn, mask.width(), mask.height()).map_err(sentence)?;
+        let mut draw = |located: Located| Ranked {
+            located,
+            drawn: unmatched_at(
+                &mesh,
+                camera,
+                &located.pose,
+                mask,
+                &mut self.projected,
+                &mut drawn,
+            )
+            .ok(),
+        };
+        let mut ranked: Vec<Ranked> = rivals.into_iter().map(&mut draw).collect();
+        ranked.sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
+        Ok(within(&ranked, |ranked| {
+            ranked.drawn.map_or(f64::MAX, |count| count as f64)
+        }))
+    }
+}
+
 impl Matcher {
-    fn candidate(&self, located: &Located) -> Candidate {
+    fn candidate(&self, &Ranked { located, drawn }: &Ranked) -> Candidate {
         let mut input = self.canonical.clone();
         if located.fine.reversed {
             reverse(&self.canonical, &mut input);
@@ -134,6 +229,7 @@ impl Matcher {
         Candidate {
             pose: to_numbers(&EulerPose::from(located.pose)),
             unmatched: located.fine.unmatched,
+            drawn,
             view: [located.fine.record.x_deg, located.fine.record.y_deg],
             at_border: located.fine.at_border,
             input: input.iter().flat_map(|word| word.to_le_bytes()).collect(),
@@ -145,6 +241,7 @@ impl Matcher {
 struct Candidate {
     pose: PoseNumbers,
     unmatched: u32,
+    drawn: Option<u64>,
     view: [f64; 2],
     at_border: bool,
     input: Vec<u8>,
@@ -152,7 +249,7 @@ struct Candidate {
 }
 
 /// What was found for one outline: the best pose first, then its rival, if there is one. Asked beyond `count`, the
-/// getters answer as for the last.
+/// methods answer nothing.
 #[wasm_bindgen]
 pub struct Match {
     candidates: Vec<Candidate>,
@@ -185,6 +282,12 @@ impl Match {
         self.candidates
             .get(index)
             .map(|candidate| candidate.unmatched)
+    }
+
+    /// Frame pixels that differ from the outline when the model is drawn at the pose; nothing without the model.
+    pub fn drawn(&self, index: usize) -> Option<f64> {
+        let drawn = self.candidates.get(index)?.drawn?;
+        Some(drawn as f64)
     }
 
     /// Rotations about x and y of the view that fits, between the library's own, degrees.

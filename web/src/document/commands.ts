@@ -121,7 +121,7 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
         if (!pose) return changed;
         const place = { frameId: frame.id, component };
         const { outline } = cellOf(changed, frame.id, component);
-        const candidates = [{ pose, unmatched: null }];
+        const candidates = [{ pose, unmatched: null, drawn: null }];
         const result = { kind: 'posed', from: 'file', origin: fileName, candidates, chosen: 0 } as const;
         return withCell(changed, place, { outline, result, resultOf: outline });
       }, doc),
@@ -146,7 +146,7 @@ export function setCalibration(calibration: Calibration | null): Command {
 }
 
 export function setModel(name: ComponentName, model: FileReference): Command {
-  return onComponent(`open a model of the ${name}`, name, (component) => ({ ...component, model, libraryFile: null }));
+  return onComponent(`open a model of the ${name}`, name, (component) => ({ ...component, model }));
 }
 
 export function setLibraryFile(name: ComponentName, libraryFile: FileReference | null): Command {

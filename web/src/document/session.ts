@@ -111,7 +111,7 @@ const readOutline = object<Outline>({ points: list(readPoint), closed: flag });
 
 const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
 
-const readCandidate = object<Candidate>({ pose: readPose, unmatched: nullable(number) });
+const readCandidate = object<Candidate>({ pose: readPose, unmatched: nullable(number), drawn: nullable(number) });
 
 const readPosed = object<Posed>({
   kind: oneOf('posed'),

@@ -103,6 +103,8 @@ export interface Candidate {
   readonly pose: PoseNumbers;
   /** Unmatched pixels in the canonical frame; null for a pose read from a file. */
   readonly unmatched: number | null;
+  /** Frame pixels that differ from the outline when the model is drawn at the pose; null where it was not drawn. */
+  readonly drawn: number | null;
 }
 
 export interface PoseNumbers {

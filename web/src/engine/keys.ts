@@ -7,7 +7,7 @@ import type { CameraInput } from './protocol';
  */
 export function libraryKey(doc: Doc, component: ComponentName): string | null {
   const { model, libraryFile, librarySpec } = doc.components[component];
-  if (libraryFile) return `library ${libraryFile.sha256}`;
+  if (libraryFile) return `library ${libraryFile.sha256}${model ? ` model ${model.sha256}` : ''}`;
   const camera = cameraOf(doc, doc.frames[0] ?? null);
   if (!model || !camera) return null;
   const { width, height, text } = camera;

@@ -45,8 +45,9 @@ export class Librarian {
   #inputsAreHere(component: ComponentName): boolean {
     const { store, studio, assets } = this.#services;
     const { model, libraryFile } = store.doc.components[component];
-    if (libraryFile) return assets.get(libraryFile.sha256) !== undefined;
-    return model !== null && studio.meshOf(component, model.sha256) !== null;
+    const modelIsHere = model !== null && studio.meshOf(component, model.sha256) !== null;
+    if (libraryFile) return assets.get(libraryFile.sha256) !== undefined && (model === null || modelIsHere);
+    return modelIsHere;
   }
 
   async #obtain(component: ComponentName, key: string): Promise<void> {
@@ -58,7 +59,7 @@ export class Librarian {
     try {
       const { libraryFile } = store.doc.components[component];
       const facts = libraryFile
-        ? await this.#openFile(component, libraryFile.sha256, abort.signal)
+        ? await this.#openFile(component, libraryFile.sha256, store.doc, abort.signal)
         : await this.#build(component, store.doc, abort);
       const seconds = libraryFile ? null : (performance.now() - startedAt) / 1000;
       if (!abort.signal.aborted) store.setLibrary(component, { state: 'ready', key, ...facts, seconds });
@@ -67,10 +68,13 @@ export class Librarian {
     }
   }
 
-  #openFile(component: ComponentName, sha256: string, signal: AbortSignal): Promise<LibraryFacts> {
-    const asset = this.#services.assets.get(sha256);
+  #openFile(component: ComponentName, sha256: string, doc: Doc, signal: AbortSignal): Promise<LibraryFacts> {
+    const { assets, studio } = this.#services;
+    const asset = assets.get(sha256);
     if (!asset) throw new Error('the library file is not at hand');
-    return this.#poser.call('open', { component, bytes: asset.bytes.slice() }, { signal });
+    const { model } = doc.components[component];
+    const mesh = model && studio.meshOf(component, model.sha256);
+    return this.#poser.call('open', { component, bytes: asset.bytes, mesh }, { signal });
   }
 
   async #build(component: ComponentName, doc: Doc, abort: AbortController): Promise<LibraryFacts> {
@@ -87,7 +91,7 @@ export class Librarian {
           signal: abort.signal,
           onProgress: ({ done, total }) => report(done, total),
         });
-        return this.#poser.call('open', { component, bytes }, { signal: abort.signal, transfer: [bytes.buffer] });
+        return this.#poser.call('open', { component, bytes, mesh }, { signal: abort.signal, transfer: [bytes.buffer] });
       });
     } finally {
       worker.dispose();

@@ -60,8 +60,13 @@ async function attempt(
   try {
     opened.push(await open());
   } catch (error) {
-    if (!(error instanceof Aborted)) failed.push(`${file.name}: ${sentenceOf(error)}`);
+    if (!(error instanceof Aborted)) failed.push(named(file.name, sentenceOf(error)));
   }
+}
+
+/** The sentence with the file's name, which some begin with already. */
+function named(name: string, sentence: string): string {
+  return sentence.startsWith(name) ? sentence : `${name}: ${sentence}`;
 }
 
 function tell({ store }: Services, opened: readonly string[], failed: readonly string[]): void {

@@ -151,7 +151,7 @@ function turned(a: Candidate, b: Candidate): number {
 }
 
 function posed(match: Match, origin: string): Result {
-  const candidates = match.candidates.map(({ pose, unmatched }) => ({ pose, unmatched }));
+  const candidates = match.candidates.map(({ pose, unmatched, drawn }) => ({ pose, unmatched, drawn }));
   return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0 };
 }
 

@@ -52,6 +52,7 @@ export interface Match {
 export interface MatchedCandidate {
   readonly pose: PoseNumbers;
   readonly unmatched: number;
+  readonly drawn: number | null;
   /** The view lies at the border of the library: the truth may lie beyond it. */
   readonly atBorder: boolean;
   readonly picture: Picture;
@@ -91,7 +92,12 @@ export interface LibraryProtocol {
 }
 
 export interface PoseProtocol {
-  open: { input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer> }; output: LibraryFacts; progress: never };
+  /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
+  open: {
+    input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer>; mesh: ModelMesh | null };
+    output: LibraryFacts;
+    progress: never;
+  };
   match: {
     /** Columns and rows of the outline's points, by turns. */
     input: { component: ComponentName; outline: Float64Array<ArrayBuffer>; camera: CameraInput };

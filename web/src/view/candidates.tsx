@@ -15,9 +15,9 @@ export function Candidates({ cell }: { cell: Cell }) {
     <section class="card candidates" aria-label="Score and candidates">
       <div class="number score">
         <span class="label">Unmatched</span>
-        <output class="value" aria-label="Unmatched pixels">
+        <span class="value" role="group" aria-label="Unmatched pixels">
           {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
-        </output>
+        </span>
         <span class="unit">px of {area > 0 ? grouped(area) : CANONICAL_AREA}</span>
       </div>
       <div class="rivals" role="radiogroup" aria-label="Candidate poses">
@@ -44,7 +44,7 @@ interface CandidateButtonProps {
 }
 
 function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButtonProps) {
-  const name = index === 0 ? 'Best' : 'Rival';
+  const name = index === 0 ? (candidate && candidate.unmatched === null ? 'Loaded' : 'Best') : 'Rival';
   const { pose, unmatched } = candidate ?? {};
   return (
     <button
@@ -75,11 +75,13 @@ function reason(candidates: readonly Candidate[], chosen: number): string {
   if (best?.unmatched == null) return '';
   if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
   if (chosen !== 0) return 'Chosen by hand. Tab goes back to the one with fewer unmatched pixels.';
-  const ratio = rival.unmatched / Math.max(1, best.unmatched);
+  const drawn = best.drawn !== null && rival.drawn !== null;
+  const ratio = drawn ? rival.drawn / Math.max(1, best.drawn) : rival.unmatched / Math.max(1, best.unmatched);
   const times = ratio.toFixed(2);
+  const what = drawn ? 'Drawn at its pose, the rival' : 'The rival';
   return ratio >= DECISIVE
-    ? `Chosen for its score: the rival leaves ${times} times as much unmatched.`
-    : `Close: the rival leaves only ${times} times as much unmatched. Compare both overlays with Tab.`;
+    ? `${what} misses ${times} times as many pixels: the choice is clear.`
+    : `${what} misses only ${times} times as many pixels: compare both overlays with Tab.`;
 }
 
 function degrees(value: number): string {

@@ -7,7 +7,8 @@ import { NumberField } from './number_field';
 
 /** A component's model and library. */
 export function ComponentSheet({ state, component }: { state: State; component: ComponentName }) {
-  const { actions, librarian } = useApp();
+  const { actions, librarian, services } = useApp();
+  const { store } = services;
   const { model, libraryFile, librarySpec } = state.history.present.components[component];
   const library = state.ui.libraries[component];
   return (
@@ -19,9 +20,15 @@ export function ComponentSheet({ state, component }: { state: State; component: 
         <button type="button" class="button" onClick={() => void actions.openPicked(component)}>
           Open a model, library or poses
         </button>
-        <button type="button" class="button" disabled={library.state !== 'stopped'} onClick={() => librarian.retry(component)}>
-          Build the library
-        </button>
+        {libraryFile ? (
+          <button type="button" class="button" disabled={!model} onClick={() => store.perform(commands.setLibraryFile(component, null))}>
+            Build from the model instead
+          </button>
+        ) : (
+          <button type="button" class="button" disabled={library.state !== 'stopped'} onClick={() => librarian.retry(component)}>
+            Build the library
+          </button>
+        )}
       </div>
       <LibraryForm key={JSON.stringify(librarySpec)} component={component} spec={librarySpec} />
     </div>

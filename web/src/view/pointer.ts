@@ -17,6 +17,7 @@ class PointerStore {
   }
 
   set(place: PointerPlace | null): void {
+    if (place === null && this.#place === null) return;
     this.#place = place;
     for (const listener of this.#listeners) listener();
   }

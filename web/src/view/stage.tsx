@@ -2,16 +2,14 @@ import { useEffect, useRef } from 'preact/hooks';
 import { currentCell, currentFrame, currentPlace, type State, type Store } from '../document/store';
 import { titleOf } from '../document/types';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
-import { frameFromCanvas, recentre } from '../geometry/viewport';
+import { recentre } from '../geometry/viewport';
 import { Controller } from '../interaction/controller';
-import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import type { Effect, Input } from '../interaction/machine';
 import { wheelZoom } from '../interaction/navigate';
 import { TOOLS } from '../interaction/tools';
 import { useApp, type App } from './app';
 import { EmptyState } from './empty_state';
-import { pointerStore } from './pointer';
-import { NO_HOVER, StageView } from './stage_view';
+import { StageView } from './stage_view';
 
 /** The frame with everything on it, and the pointer's way into the document. */
 export function Stage({ state }: { state: State }) {
@@ -70,14 +68,7 @@ function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement)
     const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey };
     for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(store, effect);
   };
-  const hover = (event: MouseEvent) => {
-    const at = pointOf(event);
-    const { outline } = currentCell(store.state);
-    const drafting = store.ui.tool === 'trace' && outline?.closed !== true;
-    const hit: Hit = (drafting ? hitDraft : hitTest)(outline, view.viewport(store.state), at);
-    view.setHover({ at, hit });
-    pointerStore.set(currentFrame(store.state) && { at: frameFromCanvas(view.viewport(store.state), at), hit });
-  };
+  const hover = (event: MouseEvent) => view.setPointer(pointOf(event));
 
   const listeners: { [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void } = {
     pointerdown: (event) => {
@@ -98,10 +89,7 @@ function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement)
       hover(event);
     },
     pointercancel: (event) => send('cancel', event),
-    pointerleave: () => {
-      view.setHover(NO_HOVER);
-      pointerStore.set(null);
-    },
+    pointerleave: () => view.setPointer(null),
     dblclick: (event) => send('double', event),
     contextmenu: (event) => event.preventDefault(),
     wheel: (event) => {

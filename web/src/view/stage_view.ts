@@ -1,4 +1,4 @@
-import { currentFrame, currentPlace, type State, type Store } from '../document/store';
+import { currentCell, currentFrame, type State, type Store } from '../document/store';
 import {
   cellOf,
   chosenCandidate,
@@ -12,18 +12,13 @@ import {
 import { cameraOf } from '../engine/keys';
 import type { Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
-import { canvasFromFrame, fit, type Size, type Viewport } from '../geometry/viewport';
-import type { Hit } from '../interaction/hit';
+import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
+import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { FilmLayer, OverlayLayer } from './layers';
+import { pointerStore } from './pointer';
 
-/** What the pointer is doing over the stage; no part of the store, it changes with every move. */
-export interface Hover {
-  readonly at: CanvasPoint | null;
-  readonly hit: Hit;
-}
-
-export const NO_HOVER: Hover = { at: null, hit: { kind: 'nothing' } };
+const NOTHING: Hit = { kind: 'nothing' };
 
 const FALLBACK_WINDOW: GreyWindow = { centre: 128, width: 256 };
 
@@ -38,7 +33,8 @@ export class StageView {
   readonly #vectors: HTMLCanvasElement;
   readonly #filmLayer = new FilmLayer();
   readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
-  #hover = NO_HOVER;
+  /** Where the pointer is; what lies under it is found anew whenever something changes. */
+  #pointer: CanvasPoint | null = null;
   #size: Size = { width: 1, height: 1 };
   #drawnFilm = '';
   #scheduled = 0;
@@ -65,8 +61,8 @@ export class StageView {
     this.draw();
   }
 
-  setHover(hover: Hover): void {
-    this.#hover = hover;
+  setPointer(pointer: CanvasPoint | null): void {
+    this.#pointer = pointer;
     this.schedule();
   }
 
@@ -91,10 +87,19 @@ export class StageView {
     const { state } = this.#store;
     const frame = currentFrame(state);
     const view = this.viewport(state);
+    const hit = this.#hit(state, view);
+    pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit });
     if (frame) this.#drawFilm(state, frame, view);
     else clear(this.#film, () => (this.#drawnFilm = ''));
     const context = prepare(this.#vectors);
-    if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view);
+    if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
+  }
+
+  #hit(state: State, view: Viewport): Hit {
+    const { outline } = currentCell(state);
+    if (!this.#pointer || !handlesShown(state)) return NOTHING;
+    const drafting = state.ui.tool === 'trace' && outline?.closed !== true;
+    return (drafting ? hitDraft : hitTest)(outline, view, this.#pointer);
   }
 
   #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
@@ -110,7 +115,7 @@ export class StageView {
     if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, view);
   }
 
-  #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+  #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport, hit: Hit): void {
     const { component: active, overlayOpacity } = state.ui;
     const { present: doc } = state.history;
     // The selected component lies on top.
@@ -121,7 +126,7 @@ export class StageView {
     }
     for (const { component } of order) {
       const { outline } = cellOf(doc, frame.id, component);
-      if (outline) this.#drawOutline(context, state, view, component, outline);
+      if (outline) this.#drawOutline(context, state, view, component, outline, hit);
     }
   }
 
@@ -140,18 +145,23 @@ export class StageView {
     view: Viewport,
     component: ComponentName,
     outline: Outline,
+    hit: Hit,
   ): void {
     const active = component === state.ui.component;
     const { tool, selectedPoint } = state.ui;
     const points = outline.points.map((point) => canvasFromFrame(view, point));
-    const handles = active && (tool === 'edit' || tool === 'trace');
-    const hit: Hit = handles ? this.#hover.hit : NO_HOVER.hit;
-    drawOutline(context, component, points, { closed: outline.closed, active, handles, hit, selected: handles ? selectedPoint : null });
+    const handles = active && handlesShown(state);
+    const selected = handles ? selectedPoint : null;
+    drawOutline(context, component, points, { closed: outline.closed, active, handles, hit: handles ? hit : NOTHING, selected });
     const last = points.at(-1);
-    if (active && tool === 'trace' && !outline.closed && last && this.#hover.at && currentPlace(state)) {
-      drawRubberBand(context, component, last, hit.kind === 'vertex' ? points[hit.index]! : this.#hover.at);
+    if (active && tool === 'trace' && !outline.closed && last && this.#pointer) {
+      drawRubberBand(context, component, last, (hit.kind === 'vertex' && points[hit.index]) || this.#pointer);
     }
   }
+}
+
+function handlesShown({ ui }: State): boolean {
+  return ui.tool === 'edit' || ui.tool === 'trace';
 }
 
 /** Cleared, and scaled so that one unit is one CSS pixel. */

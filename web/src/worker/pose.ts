@@ -9,9 +9,10 @@ const ready = init({ module_or_path: wasmAddress });
 const matchers = new Map<ComponentName, Matcher>();
 
 serve<PoseProtocol>({
-  open: async ({ component, bytes }) => {
+  open: async ({ component, bytes, mesh }) => {
     await ready;
     const matcher = new Matcher(bytes);
+    if (mesh) matcher.lendModel(mesh.vertices, mesh.triangles);
     matchers.get(component)?.free();
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
@@ -41,6 +42,7 @@ function candidateOf(found: RawMatch, index: number, size: number): MatchedCandi
   return {
     pose: { x, y, z, zRot, xRot, yRot },
     unmatched: found.unmatched(index) ?? 0,
+    drawn: found.drawn(index) ?? null,
     atBorder: found.atBorder(index) ?? false,
     picture: { size, input: bits(found.inputBits(index)), view: bits(found.viewBits(index)) },
   };
