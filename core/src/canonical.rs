@@ -153,16 +153,13 @@ pub fn canonicalise(
 ) -> Result<CanonicalForm, CanonicalError> {
     let mut form = measure(mask, spec.area, aspect)?;
     let mut canonical = MaskMut::new(out, spec.size, spec.size)?;
-    let sampler = Sampler::new(&form);
+    let sampler = Sampler::new(&form, mask);
     let half = spec.size as f64 / 2.0;
     for row in 0..spec.size {
         let up = half - (row as f64 + 0.5);
-        let mut at = sampler.start(0.5 - half, up);
-        for word in canonical.row_mut(row) {
-            for bit in 0..WORD_BITS {
-                *word |= Word::from(at.covered(mask)) << bit;
-                at.advance(&sampler);
-            }
+        for (index, word) in canonical.row_mut(row).iter_mut().enumerate() {
+            let right = (index * WORD_BITS) as f64 + 0.5 - half;
+            *word = sampler.word(mask, right, up);
         }
     }
     form.clipped = touches_border(&canonical.into_mask());
@@ -197,6 +194,9 @@ const PLACES: u32 = 16;
 
 /// The affine map from canonical pixels to frame pixels, and its step to the right.
 struct Sampler {
+    /// Positions outside this rectangle (columns, rows; in 1/65 536 pixel) see no set pixel.
+    columns: core::ops::Range<i32>,
+    rows: core::ops::Range<i32>,
     centre: Point,
     right: [f64; 2],
     up: [f64; 2],
@@ -204,16 +204,39 @@ struct Sampler {
 }
 
 impl Sampler {
-    fn new(form: &CanonicalForm) -> Self {
+    fn new(form: &CanonicalForm, mask: &Mask<'_>) -> Self {
+        // A position reads the pixels at its floor and one further.
+        let reach = |pixels: core::ops::Range<usize>| {
+            let fixed = |pixel: usize| (pixel as i32) << PLACES;
+            fixed(pixels.start) - (1 << PLACES)..fixed(pixels.end)
+        };
+        let (columns, rows) = mask.bounds();
         let (sin, cos) = ranking::sin_cos(form.angle);
         let (x, y) = (1.0 / form.scale, 1.0 / (form.scale * form.aspect));
         let right = [cos * x, -sin * y];
         Self {
+            columns: reach(columns),
+            rows: reach(rows),
             centre: form.centroid,
             right,
             up: [-sin * x, -cos * y],
             step: right.map(to_fixed),
         }
+    }
+
+    /// One word of canonical pixels, from `right` and `up` of the canonical centre.
+    fn word(&self, mask: &Mask<'_>, right: f64, up: f64) -> Word {
+        let mut at = self.start(right, up);
+        let last = self.start(right + WORD_BITS as f64, up);
+        if beyond(at.column, last.column, &self.columns) || beyond(at.row, last.row, &self.rows) {
+            return 0;
+        }
+        let mut word = 0;
+        for bit in 0..WORD_BITS {
+            word |= Word::from(at.covered(mask)) << bit;
+            at.advance(self);
+        }
+        word
     }
 
     /// The frame position `right` and `up` canonical pixels from the canonical centre.
@@ -225,6 +248,11 @@ impl Sampler {
             row: to_fixed(row - 0.5),
         }
     }
+}
+
+/// Whether everything between two positions lies on one side of a range.
+fn beyond(a: i32, b: i32, range: &core::ops::Range<i32>) -> bool {
+    a.max(b) < range.start || a.min(b) >= range.end
 }
 
 /// Rounds to 1/65 536; saturates beyond +-32 768, where no frame has pixels.
@@ -262,11 +290,17 @@ impl Position {
 
 /// Two neighbouring pixels of a row as numbers; outside the mask they are 0.
 fn pair(mask: &Mask<'_>, column: i32, row: i32) -> [u32; 2] {
-    let at = |column: i32| {
-        let inside = usize::try_from(column).ok().zip(usize::try_from(row).ok());
-        u32::from(inside.is_some_and(|(column, row)| mask.get(column, row)))
+    let row = usize::try_from(row).map_or(&[][..], |row| mask.row(row));
+    // Beyond the last column of a row the padding bits are 0.
+    let bit = |column: i32| {
+        let word = usize::try_from(column / WORD_BITS as i32).ok();
+        let word = word.and_then(|word| row.get(word)).copied();
+        word.map_or(0, |word| word >> (column as u32 % WORD_BITS as u32) & 1)
     };
-    [at(column), at(column + 1)]
+    if column < 0 {
+        return [0, if column == -1 { bit(0) } else { 0 }];
+    }
+    [bit(column), bit(column + 1)]
 }
 
 #[cfg(test)]

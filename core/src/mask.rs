@@ -214,6 +214,30 @@ impl<'a> Mask<'a> {
         })
     }
 
+    /// The smallest rectangle that holds every set pixel, as ranges of columns and rows; empty
+    /// ranges for an empty mask.
+    #[must_use]
+    pub fn bounds(&self) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
+        let (mut columns, mut rows) = (usize::MAX..0, usize::MAX..0);
+        for row in 0..self.height {
+            let words = self.row(row);
+            let first = next_bit(words, 0, true);
+            if first == words.len() * WORD_BITS {
+                continue;
+            }
+            let last = words.iter().rposition(|&word| word != 0).map_or(0, |at| {
+                (at + 1) * WORD_BITS - words[at].leading_zeros() as usize
+            });
+            columns = columns.start.min(first)..columns.end.max(last);
+            rows = rows.start.min(row)..row + 1;
+        }
+        if rows.end == 0 {
+            (0..0, 0..0)
+        } else {
+            (columns, rows)
+        }
+    }
+
     /// Area and first and second moments, exact: each run of pixels adds closed-form sums.
     #[must_use]
     pub fn moments(&self) -> Moments {
@@ -454,6 +478,18 @@ mod tests {
             }
         }
         assert_eq!(mask.moments(), sum);
+        let set = |column: usize, row: usize| mask.get(column, row);
+        let (columns, rows) = mask.bounds();
+        for row in 0..H {
+            for column in 0..W {
+                let inside = columns.contains(&column) && rows.contains(&row);
+                assert!(inside || !set(column, row));
+            }
+        }
+        assert!(rows.clone().any(|row| set(columns.start, row)));
+        assert!(rows.clone().any(|row| set(columns.end - 1, row)));
+        assert!(columns.clone().any(|column| set(column, rows.start)));
+        assert!(columns.clone().any(|column| set(column, rows.end - 1)));
         assert_eq!(mask.area(), sum.area);
     }
 
