@@ -1,4 +1,6 @@
 //! Other programs: found on the PATH, run, and their failures told in words.
+//!
+//! None of them gets our standard input: cargo hands it on to a `rustc -`, which would take it for source.
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
@@ -39,6 +41,7 @@ fn is_executable(file: &std::path::Path) -> bool {
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
 pub fn run(command: &mut Command) -> Result<()> {
     let status = command
+        .stdin(Stdio::null())
         .status()
         .with_context(|| format!("cannot start {}", shown(command)))?;
     if !status.success() {
@@ -50,6 +53,7 @@ pub fn run(command: &mut Command) -> Result<()> {
 /// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
 pub fn output(command: &mut Command) -> Result<String> {
     let output = command
+        .stdin(Stdio::null())
         .output()
         .with_context(|| format!("cannot start {}", shown(command)))?;
     if !output.status.success() {
@@ -69,6 +73,7 @@ pub fn output(command: &mut Command) -> Result<String> {
 /// Returns whether it succeeded and what it wrote there.
 pub fn tee(command: &mut Command) -> Result<(bool, String)> {
     let mut child = command
+        .stdin(Stdio::null())
         .stdout(Stdio::piped())
         .spawn()
         .with_context(|| format!("cannot start {}", shown(command)))?;
