@@ -1,14 +1,14 @@
 //! What can be wrong with a file, as sentences a person can act on.
 
-use std::error::Error;
-use std::fmt;
+use thiserror::Error;
 
 use crate::limits::{MAX_PIXEL_BYTES_AT_ONCE, MAX_SIDE, MAX_TRIANGLES, MAX_VERTICES};
 
 /// Why a file could not be decoded: its name and the problem.
 ///
 /// `Display` is one or two sentences: the file, what is wrong and where, what to do.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{file}: {problem}.")]
 pub struct DecodeError {
     /// The name the file was given with.
     pub file: String,
@@ -17,22 +17,26 @@ pub struct DecodeError {
 }
 
 /// What is wrong with a file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Problem {
     /// The file has no bytes.
+    #[error("the file is empty. Choose another or copy it again")]
     Empty,
     /// The content is not a frame of a kind that is read here; `found` says what it looks like.
+    #[error("this is {found}, not a frame. Frames are PNG, JPEG, TIFF or DICOM files")]
     NotAFrame {
         /// What the content looks like, as a noun.
         found: &'static str,
     },
     /// The content is not a model of a kind that is read here; `found` says what it looks like.
+    #[error("this is {found}, not a model. Models are STL, OBJ or PLY files")]
     NotAModel {
         /// What the content looks like, as a noun.
         found: &'static str,
     },
     /// The content breaks the rules of its format or ends too early.
+    #[error("this {format} file is damaged or incomplete: {detail}. Copy or export it again")]
     Damaged {
         /// The format, as people call it.
         format: &'static str,
@@ -40,6 +44,7 @@ pub enum Problem {
         detail: String,
     },
     /// The content is sound but of a kind that is not read.
+    #[error("this {format} file holds {detail}, which is not read. {remedy}")]
     Unsupported {
         /// The format, as people call it.
         format: &'static str,
@@ -49,6 +54,10 @@ pub enum Problem {
         remedy: &'static str,
     },
     /// A frame has no pixels, or more than [`MAX_SIDE`] along one side.
+    #[error(
+        "a frame of {width} x {height} pixels cannot be opened: each side must be 1 to {MAX_SIDE}. Crop or scale it \
+         first"
+    )]
     FrameSize {
         /// Stated width, pixels.
         width: u64,
@@ -56,11 +65,16 @@ pub enum Problem {
         height: u64,
     },
     /// All frames together do not fit [`MAX_PIXEL_BYTES_AT_ONCE`].
+    #[error(
+        "its {frames} frames do not fit {} MiB when opened all at once. Open them one at a time",
+        MAX_PIXEL_BYTES_AT_ONCE >> 20
+    )]
     TooManyPixels {
         /// Frames in the file.
         frames: usize,
     },
     /// A frame was asked for that the file does not have.
+    #[error("there is no frame {} in a file of {count}. Ask for 1 to {count}", index + 1)]
     NoSuchFrame {
         /// The index asked for, from 0.
         index: usize,
@@ -68,18 +82,31 @@ pub enum Problem {
         count: usize,
     },
     /// A mask file holds more than one frame.
+    #[error(
+        "a mask file holds one image and this one holds {count}. Save each mask as its own file"
+    )]
     SeveralMasks {
         /// How many frames there are.
         count: usize,
     },
     /// A model without a single triangle of some area.
+    #[error(
+        "the model has no triangle with three different corners. Export it again as a surface mesh"
+    )]
     EmptyModel,
     /// A vertex coordinate is NaN or infinite.
+    #[error(
+        "vertex {} has a coordinate that is not a finite number. Repair or export the model again",
+        vertex + 1
+    )]
     NonFiniteVertex {
         /// Index of the vertex in the file, from 0.
         vertex: usize,
     },
     /// A triangle names a vertex that is not there.
+    #[error(
+        "a face names vertex {index} (counted from 0) but there are only {vertices}. Export the model again"
+    )]
     VertexIndex {
         /// The index that was named, from 0; a damaged file may name a negative one.
         index: i64,
@@ -87,11 +114,17 @@ pub enum Problem {
         vertices: usize,
     },
     /// More than [`MAX_TRIANGLES`] triangles.
+    #[error(
+        "{triangles} triangles are more than the {MAX_TRIANGLES} that are read. Simplify the model first"
+    )]
     TooManyTriangles {
         /// How many triangles are stated or found.
         triangles: u64,
     },
     /// More than [`MAX_VERTICES`] vertices.
+    #[error(
+        "{vertices} vertices are more than the {MAX_VERTICES} that are read. Simplify the model first"
+    )]
     TooManyVertices {
         /// How many vertices are stated or found.
         vertices: u64,
@@ -145,80 +178,3 @@ fn tidy(detail: &str) -> String {
     }
     short
 }
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Empty => write!(f, "the file is empty. Choose another or copy it again"),
-            Self::NotAFrame { found } => write!(
-                f,
-                "this is {found}, not a frame. Frames are PNG, JPEG, TIFF or DICOM files"
-            ),
-            Self::NotAModel { found } => write!(
-                f,
-                "this is {found}, not a model. Models are STL, OBJ or PLY files"
-            ),
-            Self::Damaged { format, detail } => write!(
-                f,
-                "this {format} file is damaged or incomplete: {detail}. Copy or export it again"
-            ),
-            Self::Unsupported {
-                format,
-                detail,
-                remedy,
-            } => write!(
-                f,
-                "this {format} file holds {detail}, which is not read. {remedy}"
-            ),
-            Self::FrameSize { width, height } => write!(
-                f,
-                "a frame of {width} x {height} pixels cannot be opened: each side must be 1 to {MAX_SIDE}. \
-                 Crop or scale it first"
-            ),
-            Self::TooManyPixels { frames } => write!(
-                f,
-                "its {frames} frames do not fit {} MiB when opened all at once. Open them one at a time",
-                MAX_PIXEL_BYTES_AT_ONCE >> 20
-            ),
-            Self::NoSuchFrame { index, count } => write!(
-                f,
-                "there is no frame {} in a file of {count}. Ask for 1 to {count}",
-                index + 1
-            ),
-            Self::SeveralMasks { count } => write!(
-                f,
-                "a mask file holds one image and this one holds {count}. Save each mask as its own file"
-            ),
-            Self::EmptyModel => write!(
-                f,
-                "the model has no triangle with three different corners. Export it again as a surface mesh"
-            ),
-            Self::NonFiniteVertex { vertex } => write!(
-                f,
-                "vertex {} has a coordinate that is not a finite number. Repair or export the model again",
-                vertex + 1
-            ),
-            Self::VertexIndex { index, vertices } => write!(
-                f,
-                "a face names vertex {index} (counted from 0) but there are only {vertices}. Export the model \
-                 again"
-            ),
-            Self::TooManyTriangles { triangles } => write!(
-                f,
-                "{triangles} triangles are more than the {MAX_TRIANGLES} that are read. Simplify the model first"
-            ),
-            Self::TooManyVertices { vertices } => write!(
-                f,
-                "{vertices} vertices are more than the {MAX_VERTICES} that are read. Simplify the model first"
-            ),
-        }
-    }
-}
-
-impl fmt::Display for DecodeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}.", self.file, self.problem)
-    }
-}
-
-impl Error for DecodeError {}

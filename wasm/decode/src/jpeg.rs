@@ -1,7 +1,8 @@
 //! JPEG: baseline, progressive and lossless, grey or colour.
 //!
 //! The markers are walked before the decoder sees a byte: it fills what is missing from a cut file with grey, and
-//! a wrong measure is worse here than no measure.
+//! a wrong measure is worse here than no measure. A camera's wish to have its picture turned (Exif) is not followed:
+//! pixels are as stored.
 
 use jpeg_decoder::{Decoder, PixelFormat};
 

@@ -2,7 +2,6 @@
 //!
 //! Which of the two is told by length, not by the first word: a binary header may begin with `solid`.
 
-use std::borrow::Cow;
 use std::io::Cursor;
 
 use stl_io::{Triangle, create_stl_reader};
@@ -69,11 +68,11 @@ fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
 
 /// Reads every solid of an ASCII file; keywords may be in capitals.
 fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
-    let text = as_text(bytes);
+    let text = String::from_utf8_lossy(bytes).to_ascii_lowercase();
     let mut raw = Raw::default();
     let mut solid: Option<String> = None;
     for line in text.lines() {
-        let line = line.trim().to_ascii_lowercase();
+        let line = line.trim();
         match (line.split_ascii_whitespace().next(), &mut solid) {
             (None, _) => {}
             // The library wants a name; names are of no use here and may be in any encoding.
@@ -84,7 +83,7 @@ fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
                 push_solid(whole.into_bytes(), &mut raw)?;
             }
             (Some(_), Some(body)) => {
-                body.push_str(&line);
+                body.push_str(line);
                 body.push('\n');
             }
             (Some(_), None) => {
@@ -98,10 +97,6 @@ fn read_ascii(bytes: &[u8]) -> Result<Raw, Problem> {
         Some(_) => Err(Problem::damaged(FORMAT, "it ends before the word endsolid")),
         None => Ok(raw),
     }
-}
-
-fn as_text(bytes: &[u8]) -> Cow<'_, str> {
-    String::from_utf8_lossy(bytes)
 }
 
 /// Lets the library read one solid.

@@ -24,6 +24,9 @@ const REMEDY: &str = "Save it as 8- or 16-bit grey";
 /// Most bytes of one decoded page: colour of 16 bits with transparency.
 const MAX_PAGE_BYTES: usize = 8 * (MAX_SIDE as usize).pow(2);
 
+/// Value of the PlanarConfiguration field: all of the first colour, then all of the second.
+const SEPARATE_PLANES: u16 = 2;
+
 /// Bit of the NewSubfileType field: a smaller copy of another page.
 const REDUCED_COPY: u32 = 1;
 
@@ -36,7 +39,8 @@ fn damaged(page: usize, error: impl std::fmt::Display) -> Problem {
 fn failed(page: usize, error: tiff::TiffError) -> Problem {
     match error {
         tiff::TiffError::UnsupportedError(what) => {
-            Problem::unsupported(FORMAT, what.to_string(), REMEDY)
+            let what = format!("a rare variant on page {} ({what})", page + 1);
+            Problem::unsupported(FORMAT, what, REMEDY)
         }
         other => damaged(page, other),
     }
@@ -114,6 +118,11 @@ pub(crate) fn decode(bytes: &[u8], page: usize) -> Result<GreyFrame, Problem> {
     }
     let layout = channels(color)?;
     check_extents(&mut decoder, page, bytes.len())?;
+    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
+    if color.num_samples() > 1 && planes.map_err(|e| failed(page, e))? == Some(SEPARATE_PLANES) {
+        let what = "colours stored one after the other";
+        return Err(Problem::unsupported(FORMAT, what, REMEDY));
+    }
     let samples = decoder.read_image().map_err(|e| failed(page, e))?;
 
     let mut notes = Vec::new();

@@ -211,7 +211,7 @@ fn run_lengths_are_read() {
     let second: Vec<u8> = first.iter().rev().copied().collect();
     let frames = [
         run_lengths(&[first.clone()]),
-        run_lengths(&[second.clone()]),
+        run_lengths(std::slice::from_ref(&second)),
     ];
     let file = Builder::image(RLE, 25, 10, 8, 2).fragments(&[], &[&frames[0], &frames[1]]);
     let decoded = decode_frames(&file, "a.dcm").unwrap();

@@ -73,10 +73,27 @@ fn frames_are_grey_bytes() {
 }
 
 #[test]
+fn cut_files_are_refused() {
+    let Some(folder) = left8() else { return };
+    let frame = files(&folder.join("frames"), "tif").remove(0);
+    let models = files(&folder, "stl");
+    for path in models.iter().chain([&frame]) {
+        let (bytes, name) = read(path);
+        for part in 0..40 {
+            let cut = &bytes[..bytes.len() * part / 40];
+            assert!(decode_frames(cut, &name).is_err(), "{name}: {part}/40");
+            assert!(decode_model(cut, &name).is_err(), "{name}: {part}/40");
+        }
+    }
+}
+
+#[test]
 fn masks_cover_an_implant() {
     let Some(folder) = left8() else { return };
-    for part in ["fem", "tib"] {
-        for path in files(&folder.join("labels").join(part), "tif") {
+    for part in ["labels/fem", "labels/tib", "cnn/fem", "cnn/tib"] {
+        let masks = files(&folder.join(part), "tif");
+        assert_eq!(masks.len(), 16);
+        for path in masks {
             let (bytes, name) = read(&path);
             let mask = decode_mask(&bytes, &name).unwrap();
             assert_eq!((mask.width, mask.height), (1024, 1024));

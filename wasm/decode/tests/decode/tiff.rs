@@ -212,6 +212,9 @@ fn what_is_not_read_is_refused_in_words() {
         matches!(error.problem, Problem::Unsupported { .. }),
         "{error}"
     );
+    let planar = planar_tiff();
+    let error = decode_frames(&planar, "a.tif").unwrap_err();
+    assert!(error.to_string().contains("one after the other"), "{error}");
     let mut fax = grey_fields(2, 1, 1, 1);
     fax[3].2 = 4;
     let error = decode_frames(&raw_tiff(&fax, &[1, 2]), "a.tif").unwrap_err();
@@ -233,4 +236,30 @@ fn pixels_beyond_the_end_are_noticed() {
         error.to_string().contains("beyond the end of the file"),
         "{error}"
     );
+}
+
+/// Two pixels of three colours, a strip each: the lists of strips lie after the directory.
+fn planar_tiff() -> Vec<u8> {
+    let fields: [(u16, u16, u32, u32); 9] = [
+        (256, 3, 1, 2),
+        (257, 3, 1, 1),
+        (258, 3, 1, 8),
+        (262, 3, 1, 2),
+        (273, 4, 3, 128),
+        (277, 3, 1, 3),
+        (278, 3, 1, 1),
+        (279, 4, 3, 140),
+        (284, 3, 1, 2),
+    ];
+    let mut file = b"II*\0\x08\0\0\0\x09\0".to_vec();
+    for (tag, kind, count, value) in fields {
+        file.extend([tag.to_le_bytes(), kind.to_le_bytes()].as_flattened());
+        file.extend([count.to_le_bytes(), value.to_le_bytes()].as_flattened());
+    }
+    file.resize(128, 0);
+    for number in [152u32, 154, 156, 2, 2, 2] {
+        file.extend(number.to_le_bytes());
+    }
+    file.extend([1, 2, 3, 4, 5, 6]);
+    file
 }
