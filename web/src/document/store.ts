@@ -129,11 +129,6 @@ export class Store {
     this.#show(step?.place ?? null);
   }
 
-  /** Another document takes the place of this one; nothing of the old is undone into. */
-  replace(doc: Doc): void {
-    this.#set({ history: history.startHistory(doc), ui: { ...this.ui, frameIndex: 0, viewport: null, selectedPoint: null } });
-  }
-
   /** What is there now is where undo ends, and nothing that needs saving. */
   settle(): void {
     this.#toHistory(history.startHistory(this.doc));

@@ -1,6 +1,6 @@
 import * as commands from '../document/commands';
 import { list, object, oneOf, text, type Reader } from '../document/reader';
-import type { ComponentName } from '../document/types';
+import { EMPTY_DOC, type ComponentName } from '../document/types';
 import { openFiles, type Incoming } from './opener';
 import type { Services } from './services';
 
@@ -25,6 +25,7 @@ const readManifest: Reader<Manifest> = object<Manifest>({
 /** Opens the built-in sequence with its calibration and models, and no outlines: those are for the person to trace. */
 export async function openDemonstration(services: Services): Promise<void> {
   const { store } = services;
+  const untouched = store.doc === EMPTY_DOC;
   store.say('info', 'Fetching the demonstration ...');
   const manifest = readManifest(await (await fetched('demo.json')).json(), 'demo.json');
   const names = [manifest.calibration, ...manifest.frames];
@@ -37,7 +38,7 @@ export async function openDemonstration(services: Services): Promise<void> {
   store.perform(commands.rename(manifest.name));
   store.perform(commands.setSide(manifest.side));
   store.goTo(0);
-  store.settle();
+  if (untouched) store.settle();
 }
 
 async function incoming(name: string, component?: ComponentName): Promise<Incoming> {

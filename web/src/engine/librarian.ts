@@ -45,7 +45,7 @@ export class Librarian {
   #inputsAreHere(component: ComponentName): boolean {
     const { store, studio, assets } = this.#services;
     const { model, libraryFile } = store.doc.components[component];
-    const modelIsHere = model !== null && studio.meshOf(component, model.sha256) !== null;
+    const modelIsHere = model !== null && studio.meshOf(model.sha256) !== null;
     if (libraryFile) return assets.get(libraryFile.sha256) !== undefined && (model === null || modelIsHere);
     return modelIsHere;
   }
@@ -73,14 +73,14 @@ export class Librarian {
     const asset = assets.get(sha256);
     if (!asset) throw new Error('the library file is not at hand');
     const { model } = doc.components[component];
-    const mesh = model && studio.meshOf(component, model.sha256);
+    const mesh = model && studio.meshOf(model.sha256);
     return this.#poser.call('open', { component, bytes: asset.bytes, mesh }, { signal });
   }
 
   async #build(component: ComponentName, doc: Doc, abort: AbortController): Promise<LibraryFacts> {
     const { store, studio } = this.#services;
     const { model, librarySpec: spec } = doc.components[component];
-    const mesh = model && studio.meshOf(component, model.sha256);
+    const mesh = model && studio.meshOf(model.sha256);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera) throw new Error('the model or the calibration is not at hand');
     const worker = libraryWorker();

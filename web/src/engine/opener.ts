@@ -1,7 +1,7 @@
 import * as commands from '../document/commands';
 import type { Asset } from '../document/assets';
 import { readSession } from '../document/session';
-import { titleOf, type ComponentName, type Doc, type FrameEntry } from '../document/types';
+import { COMPONENT_NAMES, titleOf, type ComponentName, type Doc, type FrameEntry } from '../document/types';
 import { Aborted } from '../worker/bridge';
 import { componentFor } from './guess';
 import type { FileKind } from './protocol';
@@ -104,17 +104,17 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
-  await holdModel(services, component, asset);
+  await holdModel(services, asset);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
   return `${file.name} as the model of the ${component}`;
 }
 
 /** Decodes a model and lends it to the studio; the document is left alone. */
-export async function holdModel(services: Services, component: ComponentName, asset: Asset): Promise<void> {
-  if (services.studio.meshOf(component, asset.sha256)) return;
+async function holdModel(services: Services, asset: Asset): Promise<void> {
+  if (services.studio.meshOf(asset.sha256)) return;
   const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });
-  services.studio.setModel(component, asset.sha256, mesh);
+  services.studio.addModel(asset.sha256, mesh);
 }
 
 async function openLibrary({ store, assets }: Services, file: Incoming): Promise<string> {
@@ -216,8 +216,10 @@ async function openSession(services: Services, file: Incoming): Promise<string> 
   }
   const missing = await restore(services, session.doc);
   const { store } = services;
-  store.replace(session.doc);
-  store.show({ ...session.view, savedAt: null });
+  // A command like any other: undo brings back what was open before.
+  store.perform({ label: 'open a session', apply: () => session.doc });
+  store.markSaved(session.doc);
+  store.show({ ...session.view, viewport: null, selectedPoint: null, savedAt: null });
   for (const name of [...damaged, ...missing]) {
     store.say('error', `${name} is not in the session, or was changed: drop the original file on the page.`);
   }
@@ -240,10 +242,10 @@ async function restore(services: Services, doc: Doc): Promise<string[]> {
       report(++done, total);
     }
   });
-  for (const component of ['femur', 'tibia'] as const) {
+  for (const component of COMPONENT_NAMES) {
     const { model } = doc.components[component];
     const asset = model && services.assets.get(model.sha256);
-    if (asset) await holdModel(services, component, asset);
+    if (asset) await holdModel(services, asset);
     else if (model) missing.push(`${titleOf(component)} model ${model.name}`);
   }
   return missing;

@@ -8,7 +8,7 @@ import init, {
   writeJts,
 } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
-import type { ComponentName, GreyWindow, PoseNumbers } from '../document/types';
+import type { GreyWindow, PoseNumbers } from '../document/types';
 import type { Size } from '../geometry/viewport';
 import type { CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture } from './protocol';
 
@@ -25,7 +25,6 @@ interface HeldFilm {
 }
 
 interface HeldModel {
-  readonly sha256: string;
   readonly mesh: ModelMesh;
   readonly model: Model;
 }
@@ -36,7 +35,8 @@ interface HeldModel {
  */
 export class Studio {
   readonly #films = new Map<string, HeldFilm>();
-  readonly #models = new Map<ComponentName, HeldModel>();
+  /** By the file's SHA-256: undo may go back to an earlier one. */
+  readonly #models = new Map<string, HeldModel>();
 
   static async open(): Promise<Studio> {
     await init({ module_or_path: wasmAddress });
@@ -74,30 +74,26 @@ export class Studio {
 
   // --- Models -------------------------------------------------------------------------------------------------
 
-  setModel(component: ComponentName, sha256: string, mesh: ModelMesh): void {
-    const model = new Model(mesh.vertices, mesh.triangles);
-    this.#models.get(component)?.model.free();
-    this.#models.set(component, { sha256, mesh, model });
+  addModel(sha256: string, mesh: ModelMesh): void {
+    if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, model: new Model(mesh.vertices, mesh.triangles) });
   }
 
-  /** The mesh of the model with this digest, if it is the one that is held. */
-  meshOf(component: ComponentName, sha256: string): ModelMesh | null {
-    const held = this.#models.get(component);
-    return held?.sha256 === sha256 ? held.mesh : null;
+  meshOf(sha256: string): ModelMesh | null {
+    return this.#models.get(sha256)?.mesh ?? null;
   }
 
   /**
-   * Paints the silhouette of a component at a pose and returns its border in frame coordinates, columns and rows by
+   * Paints the silhouette of a model at a pose and returns its border in frame coordinates, columns and rows by
    * turns. Null without the model.
    */
   paintSilhouette(
     context: CanvasRenderingContext2D,
-    component: ComponentName,
+    sha256: string,
     camera: CameraInput,
     pose: PoseNumbers,
     rgb: number,
   ): Float64Array | null {
-    const model = this.#models.get(component)?.model;
+    const model = this.#models.get(sha256)?.model;
     if (!model) return null;
     const { text, width, height } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));

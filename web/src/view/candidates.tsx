@@ -54,12 +54,13 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
       aria-checked={chosen}
       aria-label={`${name} candidate`}
       disabled={!candidate}
-      title={index === 1 ? 'The second-best pose that is not a neighbour of the best (Tab switches)' : 'The pose with the fewest unmatched pixels'}
+      title={index === 1 ? 'The next best pose that is not a neighbour of the best (Tab switches)' : 'The pose that leaves the fewest pixels unmatched when the model is drawn on the film'}
       onClick={onChoose}
     >
       <span>{name}</span>
       <span class="rival-score">{unmatched == null ? '–' : `${grouped(unmatched)} px`}</span>
-      <span class="rival-pose">{pose ? `${degrees(pose.xRot)}, ${degrees(pose.yRot)}` : 'none'}</span>
+      <span class="rival-pose">{pose ? `x ${degrees(pose.xRot)}, y ${degrees(pose.yRot)}` : 'none'}</span>
+      <span class="rival-pose">{candidate?.drawn == null ? '' : `${grouped(candidate.drawn)} px on the film`}</span>
     </button>
   );
 }
@@ -74,7 +75,7 @@ function reason(candidates: readonly Candidate[], chosen: number): string {
   const [best, rival] = candidates;
   if (best?.unmatched == null) return '';
   if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
-  if (chosen !== 0) return 'Chosen by hand. Tab goes back to the one with fewer unmatched pixels.';
+  if (chosen !== 0) return 'Chosen by hand; Tab goes back to the best.';
   const drawn = best.drawn !== null && rival.drawn !== null;
   const ratio = drawn ? rival.drawn / Math.max(1, best.drawn) : rival.unmatched / Math.max(1, best.unmatched);
   const times = ratio.toFixed(2);

@@ -22,7 +22,7 @@ export function drawSilhouette(context: Context, view: Viewport, overlay: Overla
   context.globalAlpha = Math.min(1, opacity * 2);
   context.lineJoin = 'round';
   context.lineWidth = 1.25 / view.scale;
-  context.strokeStyle = COMPONENT_COLOURS[overlay.component].css;
+  context.strokeStyle = COMPONENT_COLOURS[overlay.component].light;
   context.stroke(overlay.border);
   context.restore();
 }

@@ -62,7 +62,7 @@ export class OverlayLayer extends Layer {
     this.resize(camera.width, camera.height);
     try {
       const { rgb } = COMPONENT_COLOURS[this.component];
-      const corners = studio.paintSilhouette(this.context, this.component, camera, candidate.pose, rgb);
+      const corners = studio.paintSilhouette(this.context, model, camera, candidate.pose, rgb);
       this.border = corners && polygon(corners);
       return null;
     } catch (error) {

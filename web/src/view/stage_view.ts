@@ -133,7 +133,7 @@ export class StageView {
   #updateOverlay(overlay: OverlayLayer, doc: Doc, frame: FrameEntry): void {
     const { component } = overlay;
     const { model } = doc.components[component];
-    const held = model && this.#studio.meshOf(component, model.sha256) ? model.sha256 : null;
+    const held = model && this.#studio.meshOf(model.sha256) ? model.sha256 : null;
     const candidate = chosenCandidate(cellOf(doc, frame.id, component));
     const trouble = overlay.update(this.#studio, cameraOf(doc, frame), held, candidate);
     if (trouble) queueMicrotask(() => this.#store.say('error', `The ${component} cannot be shown: ${trouble}`));
