@@ -60,7 +60,7 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
       <span>{name}</span>
       <span class="rival-score">{unmatched == null ? '–' : `${grouped(unmatched)} px`}</span>
       <span class="rival-pose">{pose ? `x ${degrees(pose.xRot)}, y ${degrees(pose.yRot)}` : 'none'}</span>
-      <span class="rival-pose">{candidate?.drawn == null ? '' : `${grouped(candidate.drawn)} px on the film`}</span>
+      <span class="rival-pose">{candidate?.drawn == null ? '' : `${grouped(candidate.drawn)} px drawn`}</span>
     </button>
   );
 }

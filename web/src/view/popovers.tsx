@@ -58,12 +58,12 @@ function Sheet({ name, title, children }: { name: Popover; title: string; childr
   }, []);
   return (
     <section ref={sheet} class={`sheet ${name}-sheet`} role="dialog" aria-label={title} tabIndex={-1}>
-      <header class="sheet-head">
+      <div class="sheet-head">
         <h2>{title}</h2>
         <button type="button" class="button square small" aria-label={`Close ${title}`} title="Close (Esc)" onClick={() => store.show({ popover: null })}>
           <Icon name="close" />
         </button>
-      </header>
+      </div>
       {children}
     </section>
   );

@@ -11,6 +11,7 @@ export function TopBar({ state }: { state: State }) {
   const redoStep = nextRedo(state.history);
   return (
     <header class="top-bar" aria-label="Study">
+      <h1 class="for-readers">fluoropose</h1>
       <StudyName state={state} />
       <div class="chips">
         <CalibrationChip state={state} />
@@ -99,13 +100,12 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
     <button
       type="button"
       class={`chip${missing ? ' missing' : ''}${tint ? ` ${tint}` : ''}`}
-      aria-label={`${label}: ${text}`}
       aria-haspopup="dialog"
       aria-expanded={state.ui.popover === popover}
       title={`${label}: ${text}`}
       onClick={() => toggle(store, popover)}
     >
-      <span class="chip-label">{label}</span>
+      <span class="chip-label">{label}:</span>{' '}
       <span class="chip-text">{text}</span>
     </button>
   );
