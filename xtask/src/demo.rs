@@ -192,7 +192,7 @@ fn frame_name(index: usize) -> String {
 fn write_png(pixels: &[u8], path: &Path) -> Result<()> {
     let describe = || format!("cannot write {}", path.display());
     let file = BufWriter::new(File::create(path).with_context(describe)?);
-    PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive)
+    PngEncoder::new_with_quality(file, CompressionType::Default, FilterType::Adaptive)
         .write_image(pixels, FRAME as u32, FRAME as u32, ExtendedColorType::L8)
         .with_context(describe)
 }

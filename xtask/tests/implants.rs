@@ -1,6 +1,7 @@
 //! The built-in implants: closed surfaces of the promised size, mirrored between sides, written as readable STL.
 #![allow(clippy::unwrap_used, reason = "a refusal fails the test")]
 
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use xtask::implant::check::{MeshFault, closed_volume};
 use xtask::implant::{ImplantError, Parameters, SIZES_MM, Side, Size, Triangles, femur, tibia};
@@ -235,4 +236,19 @@ fn stl_holds_every_triangle() {
             assert_eq!(read, mesh.vertices[vertex as usize]);
         }
     }
+}
+
+/// The same on every machine, and a change of shape is a change of this line: accuracy figures belong to these shapes.
+#[test]
+fn default_meshes_are_the_ones_that_were_measured() {
+    let digests = parts(&Parameters::default()).map(|(_, mesh)| {
+        let mut bytes = Vec::new();
+        stl::write(&mesh, &mut bytes).unwrap();
+        let digest = Sha256::digest(&bytes);
+        digest[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect::<String>()
+    });
+    assert_eq!(digests, ["01d832088fcb3a32", "f2072ded0b311913"]);
 }

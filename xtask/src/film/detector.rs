@@ -60,7 +60,7 @@ impl Collimator {
         }
     }
 
-    fn from_centre(&self, row: usize, column: usize) -> f64 {
+    fn distance(&self, row: usize, column: usize) -> f64 {
         hypot(
             column as f64 + 0.5 - self.centre[0],
             row as f64 + 0.5 - self.centre[1],
@@ -69,13 +69,13 @@ impl Collimator {
 
     /// Strength of the open beam: a little weaker towards the window's edge.
     fn beam(&self, row: usize, column: usize) -> f64 {
-        let part = (self.from_centre(row, column) / self.radius).min(1.0);
+        let part = (self.distance(row, column) / self.radius).min(1.0);
         1.0 - 0.16 * part * part
     }
 
     /// What the window lets through.
     fn open(&self, row: usize, column: usize) -> f64 {
-        let beyond = self.from_centre(row, column) - self.radius;
+        let beyond = self.distance(row, column) - self.radius;
         1.0 / (1.0 + exp(beyond / (COLLIMATOR_EDGE / 4.0)))
     }
 }

@@ -194,7 +194,7 @@ mod tests {
     fn path_through_a_slab_is_its_thickness() {
         let mesh = slab();
         let pose = Pose {
-            translation: [0.0, 0.0, -1000.0],
+            translation: [0.0, 0.0, -990.0],
             ..Pose::IDENTITY
         };
         let camera = Camera::from_principal_distance(64, 64, 1000.0, 0.5, [0.0, 0.0]).unwrap();
@@ -207,8 +207,55 @@ mod tests {
         let middle = picture.values[32 * 64 + 32];
         assert!((-middle.ln() / 0.1 - 7.0).abs() < 1e-3, "{middle}");
         assert_eq!(picture.values[5 * 64 + 5], 1.0);
-        // The slab's near face is 20 mm wide at 996.5 mm: 40.14 pixels, so its edge pixel is partly covered.
+        // The slab's near face is 20 mm wide at 986.5 mm: 40.5 pixels, so its edge pixel is partly covered.
         let edge = picture.values[32 * 64 + 11];
         assert!(edge > middle && edge < 1.0, "{edge}");
+    }
+
+    /// The shadow of an opaque part and the core's silhouette of it have one centroid: no half pixel is lost between them.
+    #[test]
+    fn shadow_lies_where_the_silhouette_does() {
+        let mesh = slab();
+        let camera = Camera::from_principal_distance(96, 80, 1000.0, 0.5, [1.3, -0.7]).unwrap();
+        for (x, y) in [(0.0, 0.0), (3.17, -5.4), (-4.03, 2.71)] {
+            let turned = fluoropose::pose::EulerPose {
+                x_mm: x,
+                y_mm: y,
+                z_mm: -950.0,
+                z_rot_deg: 31.0,
+                x_rot_deg: 8.0,
+                y_rot_deg: -11.0,
+            };
+            let placed = Placed {
+                mesh: &mesh,
+                pose: Pose::from(turned),
+            };
+            let mut picture = Plane {
+                width: 96,
+                height: 80,
+                values: vec![1.0; 96 * 80],
+            };
+            shade(&mut picture, &camera, &placed, 1000.0).unwrap();
+            let (mut sum, mut right, mut down) = (0.0, 0.0, 0.0);
+            for (index, value) in picture.values.iter().enumerate() {
+                sum += 1.0 - value;
+                right += (1.0 - value) * ((index % 96) as f64 + 0.5);
+                down += (1.0 - value) * ((index / 96) as f64 + 0.5);
+            }
+            let buffer = silhouette(&camera, &placed).unwrap();
+            let truth = buffer.mask().moments().centroid();
+            assert!(
+                (right / sum - truth.column).abs() < 0.05,
+                "{} {}",
+                right / sum,
+                truth.column
+            );
+            assert!(
+                (down / sum - truth.row).abs() < 0.05,
+                "{} {}",
+                down / sum,
+                truth.row
+            );
+        }
     }
 }
