@@ -1,1 +1,71 @@
 //! Shared helpers of the tests that cross crates.
+
+use std::path::{Path, PathBuf};
+
+use fluoropose::camera::Camera;
+use fluoropose::mesh::Mesh;
+use xtask::implant::{self, Parameters, Triangles};
+
+/// Set to 1 to rewrite golden masks and snapshots instead of comparing with them.
+pub const REGENERATE: &str = "FLUOROPOSE_REGENERATE";
+
+/// Whether expectations are to be rewritten.
+pub fn regenerating() -> bool {
+    std::env::var_os(REGENERATE).is_some_and(|value| value == "1")
+}
+
+/// The folder of this package.
+pub fn home() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// A study that is not part of the project: in the folder that `FLUOROPOSE_STUDIES` names, or in
+/// `../shared/studies` beside the project. `None`, with a line that says so, where it is absent.
+pub fn study(name: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("FLUOROPOSE_STUDIES")
+        .map_or_else(|| home().join("../../shared/studies"), PathBuf::from);
+    let study = folder.join(name).join("study.toml");
+    if study.is_file() {
+        return Some(study);
+    }
+    println!("skipped: the study {name} is not on this machine");
+    None
+}
+
+/// Compares `text` with the committed file `snapshots/NAME`, or rewrites it.
+///
+/// # Panics
+/// When they differ: the message shows both.
+pub fn assert_snapshot(name: &str, text: &str) {
+    let path = home().join("snapshots").join(name);
+    if regenerating() {
+        std::fs::write(&path, text).expect("the snapshot can be written");
+        return;
+    }
+    let expected = std::fs::read_to_string(&path)
+        .unwrap_or_else(|_| panic!("no snapshot {name}; make it with {REGENERATE}=1"));
+    assert!(
+        expected == text,
+        "{name} changed; if it should have, run again with {REGENERATE}=1 and review the difference\n--- committed\n{expected}\n--- now\n{text}"
+    );
+}
+
+/// The built-in femur, left, of the usual size.
+pub fn femur() -> Triangles {
+    implant::femur(&Parameters::default()).expect("the usual size is possible")
+}
+
+/// The built-in tibia, left, of the usual size.
+pub fn tibia() -> Triangles {
+    implant::tibia(&Parameters::default()).expect("the usual size is possible")
+}
+
+/// A mesh of the core over a built-in implant.
+pub fn mesh(triangles: &Triangles) -> Mesh<'_> {
+    Mesh::new(&triangles.vertices, &triangles.triangles).expect("built-in implants are valid")
+}
+
+/// The camera of a usual single-plane study: 1200 mm, 0.373 mm a pixel, 1024 x 1024.
+pub fn camera() -> Camera {
+    Camera::from_principal_distance(1024, 1024, 1200.0, 0.373, [0.0, 0.0]).expect("valid")
+}

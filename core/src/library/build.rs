@@ -72,9 +72,10 @@ pub struct Builder<'m> {
     view_camera: Camera,
 }
 
-/// Views are drawn this many times as finely as the canonical frame, so that sampling them
-/// adds little to the error of the silhouette itself.
-const FINENESS: usize = 2;
+/// Side of a view before canonical form, in eighths of the canonical frame's: somewhat finer,
+/// so that sampling adds little to the error of the silhouette itself. Twice as fine took twice
+/// as long and gave poses of the built-in femur no better, of its tibia 0.15 mm better in z.
+const VIEW_SIDE_EIGHTHS: usize = 10;
 
 impl<'m> Builder<'m> {
     /// A plan for the views of `mesh` at `distance` mm. `camera` is recorded; the views
@@ -95,7 +96,7 @@ impl<'m> Builder<'m> {
             return Err(BuildError::TooNear { distance, radius });
         }
         // A sphere at `distance` on the axis has an image of radius f r / sqrt(d^2 - r^2).
-        let side = FINENESS * canonical.size();
+        let side = VIEW_SIDE_EIGHTHS * canonical.size() / 8;
         let room = side as f64 / 2.0 - 2.0;
         let focal = room * sqrt(distance * distance - radius * radius) / radius;
         let middle = side as f64 / 2.0;
