@@ -17,6 +17,8 @@ const MODULES: [(&str, &str); 2] = [("fluoropose-wasm", "core"), ("fluoropose-de
 
 /// Sets up what is missing, builds everything and returns the folder to serve (`web/dist`).
 pub fn build() -> Result<PathBuf> {
+    // Said now rather than after a minute of building.
+    node::npm()?;
     let web = workspace::root().join("web");
     build_wasm(&web)?;
     write_demonstration(&web)?;

@@ -41,7 +41,11 @@ pub fn run(report: &mut Report) {
         quiet(own_cargo().args(lint))
     });
     report.step("native: tests", || {
-        tests(own_cargo().args(["test", "--workspace"]).args(CHECKED))
+        tests(
+            own_cargo()
+                .args(["test", "--workspace", "--no-fail-fast"])
+                .args(CHECKED),
+        )
     });
     report.step("native: tests of the core with micromath", || {
         let core = ["test", "--package", "fluoropose", "--features", "micromath"];
