@@ -76,6 +76,15 @@ describe('history', () => {
     expect(cellOf(h.present, 'f', 'femur').result).toBe(result);
   });
 
+  it('keeps a result for another cell that arrives during a gesture', () => {
+    const other = { frameId: 'g', component: 'tibia' } as const;
+    const result: Result = { kind: 'failed', origin: 'k', sentence: 's' };
+    let h = history.preview(traced(1, 2), movePoint(place, 0, at(5)));
+    h = history.amend(h, (doc) => withCell(doc, other, { ...cellOf(doc, 'g', 'tibia'), result }));
+    h = history.commitPreview(history.preview(h, movePoint(place, 0, at(6))), movePoint(place, 0, at(6)));
+    expect(cellOf(h.present, 'g', 'tibia').result).toBe(result);
+  });
+
   it('deletes the outline with its last point', () => {
     const h = history.perform(traced(1), deletePoint(place, 0));
     expect(outlineIn(h)).toBeNull();

@@ -56,12 +56,17 @@ export function cancelPreview(history: History): History {
   return history.gestureStart === null ? history : { ...history, present: history.gestureStart, gestureStart: null };
 }
 
-/** Takes in what the machine worked out. No undo unit, and no unsaved work by itself. */
+/**
+ * Takes in what the machine worked out. No undo unit, and no unsaved work by itself. A gesture under way goes on from
+ * it, too.
+ */
 export function amend(history: History, change: (doc: Doc) => Doc): History {
   const present = change(history.present);
-  if (present === history.present) return history;
-  const saved = history.saved === history.present ? present : history.saved;
-  return { ...history, present, saved };
+  const gestureStart = history.gestureStart && change(history.gestureStart);
+  if (present === history.present && gestureStart === history.gestureStart) return history;
+  const amended = (doc: Doc) =>
+    doc === history.present ? present : doc === history.gestureStart && gestureStart ? gestureStart : doc;
+  return { ...history, present, gestureStart, saved: amended(history.saved) };
 }
 
 export function undo(history: History): History {

@@ -95,7 +95,8 @@ async function openOne(services: Services, file: Recognised): Promise<string> {
 
 async function openCalibration({ store, studio }: Services, { name, bytes }: Incoming): Promise<string> {
   const text = new TextDecoder().decode(bytes);
-  studio.calibrationFacts(text, null);
+  // Against the frames' size, where it is known.
+  studio.calibrationFacts(text, store.doc.frames[0] ?? null);
   store.perform(commands.setCalibration({ name, text }));
   return `the calibration ${name}`;
 }

@@ -29,6 +29,8 @@ export interface Findings {
   readonly canonicalArea: number;
   /** By candidate: the view lies at the library's border. */
   readonly atBorder: readonly boolean[];
+  /** The outline's canonical silhouette reaches the border of its frame. */
+  readonly clipped: boolean;
   readonly milliseconds: number;
 }
 
@@ -82,7 +84,7 @@ export class Poser {
     const key = poseKey(doc, component, frame);
     if (!key) return null;
     const place = { frameId: frame.id, component };
-    const needed = isStale(cell, key) || (shown && this.#findings.get(outline)?.key !== key);
+    const needed = isStale(cell, key) || (shown && !isLoaded(cell) && this.#findings.get(outline)?.key !== key);
     return needed ? { place, frame, outline, key } : null;
   }
 
@@ -98,7 +100,7 @@ export class Poser {
       this.#apply(task, posed(match, key));
     } catch (error) {
       if (error instanceof Aborted) return;
-      this.#findings.set(outline, { key, pictures: [], canonicalArea: 0, atBorder: [], milliseconds: 0 });
+      this.#findings.set(outline, { key, pictures: [], canonicalArea: 0, atBorder: [], clipped: false, milliseconds: 0 });
       this.#apply(task, { kind: 'failed', origin: key, sentence: sentenceOf(error) });
     } finally {
       this.#busy = false;
@@ -107,10 +109,10 @@ export class Poser {
   }
 
   #keep({ outline, key }: Task, match: Match): void {
-    const { candidates, canonicalArea, milliseconds } = match;
+    const { candidates, canonicalArea, clipped, milliseconds } = match;
     const pictures = candidates.map((candidate) => candidate.picture);
     const atBorder = candidates.map((candidate) => candidate.atBorder);
-    this.#findings.set(outline, { key, pictures, canonicalArea, atBorder, milliseconds });
+    this.#findings.set(outline, { key, pictures, canonicalArea, atBorder, clipped, milliseconds });
   }
 
   /** Takes the result in if it is still wanted: the same outline, the same inputs. */
@@ -129,8 +131,11 @@ export class Poser {
 /** Does the cell's result still have to be found from its outline? Poses from a file stay until the outline changes. */
 function isStale({ outline, result, resultOf }: Cell, key: string): boolean {
   if (!result || resultOf !== outline) return true;
-  const fromFile = result.kind === 'posed' && result.from === 'file';
-  return !fromFile && result.origin !== key;
+  return !isLoaded({ result }) && result.origin !== key;
+}
+
+function isLoaded({ result }: Pick<Cell, 'result'>): boolean {
+  return result?.kind === 'posed' && result.from === 'file';
 }
 
 /**

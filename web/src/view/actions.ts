@@ -11,12 +11,21 @@ import type { Action } from '../interaction/bindings';
 import { FEWEST_POINTS } from '../interaction/hit';
 import { download, pickFiles } from './files';
 
+/** What actions need of the stage. */
+export interface StageControls {
+  size(): Size;
+  viewport(): Viewport;
+  /** A gesture of the mouse is under way. */
+  busy(): boolean;
+  cancel(): void;
+}
+
 /** What buttons and keys do. */
 export class Actions {
   readonly #services: Services;
   readonly #store: Store;
   /** Lent by the stage: what "fit" and "zoom" refer to. */
-  stage: { size(): Size; viewport(): Viewport } | null = null;
+  stage: StageControls | null = null;
 
   constructor(services: Services) {
     this.#services = services;
@@ -26,6 +35,11 @@ export class Actions {
   /** Runs what a key or a button asks for. Returns false when there is nothing to do. */
   run(action: Action): boolean {
     const store = this.#store;
+    if (this.stage?.busy()) {
+      // The hand is in the middle of something: Esc lets go of it, everything else waits.
+      if (action.name === 'leave') this.stage.cancel();
+      return true;
+    }
     switch (action.name) {
       case 'tool':
         store.show({ tool: action.tool });

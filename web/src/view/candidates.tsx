@@ -77,12 +77,13 @@ function reason(candidates: readonly Candidate[], chosen: number): string {
   if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
   if (chosen !== 0) return 'Chosen by hand; Tab goes back to the best.';
   const drawn = best.drawn !== null && rival.drawn !== null;
-  const ratio = drawn ? rival.drawn / Math.max(1, best.drawn) : rival.unmatched / Math.max(1, best.unmatched);
-  const times = ratio.toFixed(2);
+  const [least, more] = drawn ? [best.drawn, rival.drawn] : [best.unmatched, rival.unmatched];
+  const ratio = more / Math.max(1, least);
+  const as = ratio < 1.005 ? 'just as many pixels' : `only ${ratio.toFixed(2)} times as many pixels`;
   const what = drawn ? 'Drawn at its pose, the rival' : 'The rival';
   return ratio >= DECISIVE
-    ? `${what} misses ${times} times as many pixels: the choice is clear.`
-    : `${what} misses only ${times} times as many pixels: compare both overlays with Tab.`;
+    ? `${what} misses ${ratio.toFixed(2)} times as many pixels: the choice is clear.`
+    : `${what} misses ${as}: compare both overlays with Tab.`;
 }
 
 function degrees(value: number): string {

@@ -4,7 +4,7 @@ import { titleOf } from '../document/types';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
 import { recentre } from '../geometry/viewport';
 import { Controller } from '../interaction/controller';
-import type { Effect, Input } from '../interaction/machine';
+import type { Effect, Input, Scene } from '../interaction/machine';
 import { wheelZoom } from '../interaction/navigate';
 import { TOOLS } from '../interaction/tools';
 import { useApp, type App } from './app';
@@ -38,8 +38,14 @@ export function Stage({ state }: { state: State }) {
 function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): () => void {
   const { store, studio } = app.services;
   const view = new StageView(store, studio, film, canvas);
-  app.actions.stage = { size: () => view.size, viewport: () => view.viewport(store.state) };
-  const stopPointer = attachPointer(store, view, canvas);
+  const controller = new Controller();
+  app.actions.stage = {
+    size: () => view.size,
+    viewport: () => view.viewport(store.state),
+    busy: () => controller.busy,
+    cancel: () => cancelGesture(store, view, controller),
+  };
+  const stopPointer = attachPointer(store, view, canvas, controller);
   const unsubscribe = store.subscribe(() => view.schedule());
   const observer = new ResizeObserver(([entry]) => {
     if (!entry) return;
@@ -58,15 +64,19 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
 }
 
 /** Turns DOM events into inputs of the controller, and its effects into changes of the store. */
-function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement): () => void {
-  const controller = new Controller();
+function attachPointer(
+  store: Store,
+  view: StageView,
+  canvas: HTMLCanvasElement,
+  controller: Controller,
+): () => void {
   const pointOf = (event: MouseEvent): CanvasPoint => canvasPoint(event.offsetX, event.offsetY);
 
   const send = (type: Input['type'], event: MouseEvent) => {
     const scene = sceneOf(store, view);
     if (!scene) return;
     const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey };
-    for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(store, effect);
+    act(store, controller, input, scene);
   };
   const hover = (event: MouseEvent) => view.setPointer(pointOf(event));
 
@@ -107,9 +117,18 @@ function attachPointer(store: Store, view: StageView, canvas: HTMLCanvasElement)
   };
 }
 
+function act(store: Store, controller: Controller, input: Input, scene: Scene): void {
+  for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(store, effect);
+}
+
+function cancelGesture(store: Store, view: StageView, controller: Controller): void {
+  const scene = sceneOf(store, view);
+  if (scene) act(store, controller, { type: 'cancel', at: canvasPoint(0, 0), button: 'primary', alt: false }, scene);
+}
+
 const BUTTONS = ['primary', 'middle', 'secondary'] as const;
 
-function sceneOf(store: Store, view: StageView) {
+function sceneOf(store: Store, view: StageView): Scene | null {
   const { state } = store;
   const frame = currentFrame(state);
   const place = currentPlace(state);

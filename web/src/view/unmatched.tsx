@@ -1,16 +1,23 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { currentCell, type State } from '../document/store';
+import type { Findings } from '../engine/poser';
 import { useApp } from './app';
 
 const SIZE = 256;
+
+function described({ clipped, milliseconds }: Findings): string {
+  return `${clipped ? 'cut at the border · ' : ''}found in ${milliseconds.toFixed(1)} ms`;
+}
 
 /** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
 export function Unmatched({ state }: { state: State }) {
   const { poser, services } = useApp();
   const canvas = useRef<HTMLCanvasElement>(null);
   const { outline, result } = currentCell(state);
-  const findings = result?.kind === 'posed' ? poser.findings(outline) : null;
-  const chosen = result?.kind === 'posed' ? result.chosen : 0;
+  // A pose from a file has no match of its own to show.
+  const matched = result?.kind === 'posed' && result.from === 'outline';
+  const findings = matched ? poser.findings(outline) : null;
+  const chosen = matched ? result.chosen : 0;
   const picture = findings?.pictures[chosen] ?? null;
   useEffect(() => {
     const context = canvas.current?.getContext('2d');
@@ -29,7 +36,7 @@ export function Unmatched({ state }: { state: State }) {
       />
       <p class="card-note">
         <span class="key-swatch" aria-hidden="true" /> differs
-        <span class="timing">{findings && findings.milliseconds > 0 ? `found in ${findings.milliseconds.toFixed(1)} ms` : ''}</span>
+        <span class="timing">{findings && findings.pictures.length > 0 ? described(findings) : ''}</span>
       </p>
     </section>
   );
