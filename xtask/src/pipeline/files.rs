@@ -9,6 +9,7 @@ use fluoropose::jts;
 use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::EulerPose;
+use fluoropose::region::largest_region;
 use fluoropose_decode::{Model, decode_mask, decode_model};
 
 /// Reads a whole file.
@@ -58,6 +59,9 @@ pub fn read_calibration(path: &Path) -> Result<Calibration> {
     Calibration::parse(&read_text(path)?).with_context(|| format!("in {}", path.display()))
 }
 
+/// Specks are at most this part of the silhouette, percent.
+const SPECK_SHARE: u64 = 10;
+
 /// A silhouette with its own memory.
 pub struct MaskBuffer {
     words: Vec<Word>,
@@ -87,6 +91,27 @@ impl MaskBuffer {
         draw(&mut mask)
     }
 
+    /// The mask without specks: its largest region alone where all else is at most a tenth of
+    /// it, as a network or a threshold leaves it; otherwise unchanged, because a silhouette in
+    /// two halves is no matter of specks. Returns the number of pixels dropped.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn drop_specks(&mut self) -> Result<u64> {
+        let blank = || Self::new(self.width, self.height);
+        let (mut rest, mut current, mut largest) = (blank()?, blank()?, blank()?);
+        let dropped = rest.draw(|rest| {
+            current.draw(|current| {
+                largest.draw(|out| largest_region(&self.mask(), rest, current, out))
+            })
+        });
+        if dropped > SPECK_SHARE * (self.mask().area() - dropped) / 100 {
+            return Ok(0);
+        }
+        *self = largest;
+        Ok(dropped)
+    }
+
     /// What has been drawn.
     pub fn mask(&self) -> Mask<'_> {
         Mask::new(&self.words, self.width, self.height)
@@ -94,7 +119,8 @@ impl MaskBuffer {
     }
 }
 
-/// Reads a mask image.
+/// Reads a mask image and drops its specks ([`MaskBuffer::drop_specks`]), which is said on
+/// standard error.
 ///
 /// # Errors
 /// Names the file and what is wrong with it.
@@ -109,6 +135,10 @@ pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
             }
         }
     });
+    let dropped = buffer.drop_specks()?;
+    if dropped > 0 {
+        eprintln!("{}: {dropped} pixels of specks left out", path.display());
+    }
     Ok(buffer)
 }
 
@@ -166,4 +196,33 @@ pub fn write_json(path: Option<&Path>, table: &impl serde::Serialize) -> Result<
     let mut text = serde_json::to_string_pretty(table)?;
     text.push('\n');
     fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn squares(sides: &[usize]) -> MaskBuffer {
+        let mut buffer = MaskBuffer::new(200, 100).unwrap();
+        buffer.draw(|mask| {
+            for (index, &side) in sides.iter().enumerate() {
+                for pixel in 0..side * side {
+                    mask.set(70 * index + pixel % side, 5 + pixel / side, true);
+                }
+            }
+        });
+        buffer
+    }
+
+    #[test]
+    fn specks_go_and_halves_stay() {
+        let mut specked = squares(&[50, 3]);
+        assert_eq!(specked.drop_specks().unwrap(), 9);
+        assert_eq!(specked.mask().area(), 2500);
+        let mut halves = squares(&[50, 40]);
+        assert_eq!(halves.drop_specks().unwrap(), 0);
+        assert_eq!(halves.mask().area(), 4100);
+        let mut empty = squares(&[]);
+        assert_eq!(empty.drop_specks().unwrap(), 0);
+    }
 }
