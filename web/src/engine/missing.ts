@@ -1,5 +1,6 @@
-import { currentCell, type State } from '../document/store';
+import { currentCell, currentFrame, type State } from '../document/store';
 import type { ComponentName } from '../document/types';
+import { poseKey } from './keys';
 
 /** What a pose still needs, in the order in which a person would bring it; empty when nothing is missing. */
 export function missingForPose(state: State, component: ComponentName): readonly string[] {
@@ -16,6 +17,14 @@ export function missingForPose(state: State, component: ComponentName): readonly
   if (!outline) missing.push(`an outline of the ${component}`);
   else if (!outline.closed) missing.push('the outline closed');
   return missing;
+}
+
+/** Does the pose on view come from a model, calibration or library that is no longer the document's? */
+export function isOutdated(state: State): boolean {
+  const frame = currentFrame(state);
+  const { result } = currentCell(state);
+  if (!frame || result?.kind !== 'posed' || result.from === 'file') return false;
+  return result.origin !== poseKey(state.history.present, state.ui.component, frame);
 }
 
 export function inWords(items: readonly string[]): string {

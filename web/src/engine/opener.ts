@@ -1,9 +1,10 @@
 import * as commands from '../document/commands';
 import type { Asset } from '../document/assets';
 import { readSession } from '../document/session';
-import { COMPONENT_NAMES, titleOf, type ComponentName, type Doc, type FrameEntry } from '../document/types';
+import { COMPONENT_NAMES, type ComponentName, type Doc, type FrameEntry } from '../document/types';
 import { Aborted } from '../worker/bridge';
 import { componentFor } from './guess';
+import { inWords } from './missing';
 import type { FileKind } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
 
@@ -31,7 +32,7 @@ export async function openFiles(services: Services, files: readonly Incoming[]):
   const failed: string[] = [];
   const frames = recognised.filter((file) => file.kind === 'frames');
   for (const file of recognised.filter((file) => file.kind !== 'frames' && file.kind !== 'poses')) {
-    await attempt(file, () => openOne(services, file), opened, failed);
+    await attempt(file, () => openOne(services, file, failed), opened, failed);
   }
   if (frames.length > 0) await openFrames(services, frames, opened, failed);
   for (const file of recognised.filter((file) => file.kind === 'poses')) {
@@ -74,7 +75,8 @@ function tell({ store }: Services, opened: readonly string[], failed: readonly s
   for (const sentence of failed) store.say('error', sentence);
 }
 
-async function openOne(services: Services, file: Recognised): Promise<string> {
+/** Says what was opened; what is amiss all the same goes to `remarks`. */
+async function openOne(services: Services, file: Recognised, remarks: string[]): Promise<string> {
   switch (file.kind) {
     case 'calibration':
       return openCalibration(services, file);
@@ -83,7 +85,7 @@ async function openOne(services: Services, file: Recognised): Promise<string> {
     case 'library':
       return openLibrary(services, file);
     case 'session':
-      return openSession(services, file);
+      return openSession(services, file, remarks);
     default:
       throw new Error(
         'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, .jts poses, libraries and sessions',
@@ -207,7 +209,7 @@ function studyName(frame: FrameEntry): string {
 
 // --- Sessions -----------------------------------------------------------------------------------------------------
 
-async function openSession(services: Services, file: Incoming): Promise<string> {
+async function openSession(services: Services, file: Incoming, remarks: string[]): Promise<string> {
   const session = readSession(new TextDecoder().decode(file.bytes));
   const damaged: string[] = [];
   for (const included of session.files) {
@@ -221,9 +223,8 @@ async function openSession(services: Services, file: Incoming): Promise<string> 
   store.perform({ label: 'open a session', apply: () => session.doc });
   store.markSaved(session.doc);
   store.show({ ...session.view, viewport: null, selectedPoint: null, savedAt: null });
-  for (const name of [...damaged, ...missing]) {
-    store.say('error', `${name} is not in the session, or was changed: drop the original file on the page.`);
-  }
+  for (const name of damaged) remarks.push(`${name}: the copy in the session was changed; drop the original on the page`);
+  if (missing.length > 0) remarks.push(`The session only names ${inWords(missing)}: drop ${missing.length === 1 ? 'it' : 'them'} on the page`);
   return `the session ${file.name}`;
 }
 
@@ -244,10 +245,11 @@ async function restore(services: Services, doc: Doc): Promise<string[]> {
     }
   });
   for (const component of COMPONENT_NAMES) {
-    const { model } = doc.components[component];
+    const { model, libraryFile } = doc.components[component];
     const asset = model && services.assets.get(model.sha256);
     if (asset) await holdModel(services, asset);
-    else if (model) missing.push(`${titleOf(component)} model ${model.name}`);
+    else if (model) missing.push(model.name);
+    if (libraryFile && !services.assets.get(libraryFile.sha256)) missing.push(libraryFile.name);
   }
   return missing;
 }

@@ -1,6 +1,6 @@
 import { currentCell, currentFrame, type State } from '../document/store';
 import { cellOf, COMPONENT_NAMES, titleOf } from '../document/types';
-import { missingForPose } from '../engine/missing';
+import { isOutdated, missingForPose } from '../engine/missing';
 import { useApp } from './app';
 import { Display } from './display';
 import { PoseNumbersCard } from './pose_card';
@@ -31,7 +31,7 @@ export function Panel({ state }: { state: State }) {
           </button>
         ))}
       </div>
-      <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} />
+      <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
       <Candidates cell={cell} />
       <Unmatched state={state} />
       <Display state={state} />

@@ -24,9 +24,17 @@ const ROTATIONS: readonly Quantity[] = [
   { field: 'yRot', name: 'y rotation', label: 'y rot', unit: '°', decimals: 2 },
 ];
 
-export function PoseNumbersCard({ cell, missing }: { cell: Cell; missing: readonly string[] }) {
+interface PoseNumbersCardProps {
+  readonly cell: Cell;
+  /** What a new pose would need. */
+  readonly missing: readonly string[];
+  readonly outdated: boolean;
+}
+
+export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
   const pose = chosenCandidate(cell)?.pose ?? null;
-  const source = cell.result?.kind === 'posed' && cell.result.from === 'file' ? `from ${cell.result.origin}` : '';
+  const loaded = cell.result?.kind === 'posed' && cell.result.from === 'file' ? `From ${cell.result.origin}.` : '';
+  const source = outdated ? `Found with another model, calibration or library. ${needs(cell, missing)}` : loaded;
   return (
     <section class="card pose" aria-label="Pose numbers">
       <dl class="numbers">
@@ -41,7 +49,7 @@ export function PoseNumbersCard({ cell, missing }: { cell: Cell; missing: readon
 
 function needs(cell: Cell, missing: readonly string[]): string {
   if (missing.length > 0) return `For a pose: ${inWords(missing)}.`;
-  return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding the pose ...';
+  return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding it ...';
 }
 
 function NumberRow({ quantity, value }: { quantity: Quantity; value: number | null }) {

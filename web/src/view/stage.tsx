@@ -31,6 +31,9 @@ export function Stage({ state }: { state: State }) {
       <canvas ref={film} class="film" aria-hidden="true" />
       <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={`${label}. ${titleOf(component)} outline`} />
       {!frame && <EmptyState />}
+      {frame && !app.services.studio.hasFilm(frame.id) && (
+        <p class="absent">{frame.name} is not here: drop the file on the page.</p>
+      )}
     </main>
   );
 }

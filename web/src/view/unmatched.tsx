@@ -6,7 +6,7 @@ import { useApp } from './app';
 const SIZE = 256;
 
 function described({ clipped, milliseconds }: Findings): string {
-  return `${clipped ? 'cut at the border · ' : ''}found in ${milliseconds.toFixed(1)} ms`;
+  return `${clipped ? 'cut at the border · ' : 'found in '}${milliseconds.toFixed(1)} ms`;
 }
 
 /** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
