@@ -147,7 +147,7 @@ export class Store {
   goTo(frameIndex: number): void {
     const last = Math.max(0, this.doc.frames.length - 1);
     const index = Math.min(last, Math.max(0, frameIndex));
-    if (index !== this.ui.frameIndex) this.show({ frameIndex: index, selectedPoint: null });
+    if (index !== this.ui.frameIndex || this.ui.selectedPoint !== null) this.show({ frameIndex: index, selectedPoint: null });
   }
 
   selectComponent(component: ComponentName): void {

@@ -120,7 +120,8 @@ async function holdModel(services: Services, asset: Asset): Promise<void> {
   services.studio.addModel(asset.sha256, mesh);
 }
 
-async function openLibrary({ store, assets }: Services, file: Incoming): Promise<string> {
+async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {
+  studio.checkLibrary(file.bytes);
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
@@ -222,7 +223,9 @@ async function openSession(services: Services, file: Incoming, remarks: string[]
   // A command like any other: undo brings back what was open before.
   store.perform({ label: 'open a session', apply: () => session.doc });
   store.markSaved(session.doc);
-  store.show({ ...session.view, viewport: null, selectedPoint: null, savedAt: null });
+  const { frameIndex, component, overlayOpacity } = session.view;
+  store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
+  store.goTo(frameIndex);
   for (const name of damaged) remarks.push(`${name}: the copy in the session was changed; drop the original on the page`);
   if (missing.length > 0) remarks.push(`The session only names ${inWords(missing)}: drop ${missing.length === 1 ? 'it' : 'them'} on the page`);
   return `the session ${file.name}`;

@@ -2,6 +2,7 @@ import init, {
   CalibrationText,
   Film,
   jtIntcalibText,
+  Matcher,
   Model,
   paintUnmatched,
   readJts,
@@ -104,6 +105,11 @@ export class Studio {
 
   paintUnmatched(context: CanvasRenderingContext2D, picture: Picture): void {
     paintUnmatched(context, picture.input, picture.view, picture.size);
+  }
+
+  /** Throws the core's sentence for a library that is damaged, before it takes the place of a sound one. */
+  checkLibrary(bytes: Uint8Array): void {
+    new Matcher(bytes).free();
   }
 
   // --- Texts --------------------------------------------------------------------------------------------------

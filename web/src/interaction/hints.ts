@@ -17,7 +17,7 @@ export function hint(tool: ToolName, component: string, outline: Outline | null,
 }
 
 function editHint(outline: Outline, hit: Hit): string {
-  if (hit.kind === 'vertex') return 'Drag to move this point; Alt-click or Delete removes it.';
+  if (hit.kind === 'vertex') return `Point ${hit.index + 1}: drag to move it; Alt-click or Delete removes it.`;
   if (hit.kind === 'edge') return 'Click to insert a point here; keep the button down to place it.';
   if (!outline.closed) return 'The outline is open: press P to go on tracing, Enter to close it.';
   return 'Drag a point to move it, click an edge to insert one, Alt-click a point to delete it.';

@@ -17,6 +17,7 @@ export interface StageControls {
   viewport(): Viewport;
   /** A gesture of the mouse is under way. */
   busy(): boolean;
+  focus(): void;
   cancel(): void;
 }
 

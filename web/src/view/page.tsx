@@ -13,9 +13,16 @@ import { TopBar } from './top_bar';
 export function Page() {
   const state = useAppState();
   const dropping = useDropTarget();
+  const { actions } = useApp();
   useKeys();
+  // The mouse leaves the keyboard with the film; who works by keyboard keeps the focus where it is.
+  const giveBack = (event: MouseEvent) => {
+    const target = event.target instanceof Element ? event.target.closest('button, input[type=range]') : null;
+    const elsewhere = target?.closest('[role=dialog]') || target?.hasAttribute('aria-haspopup');
+    if (target && !elsewhere && event.detail > 0) actions.stage?.focus();
+  };
   return (
-    <div class={dropping ? 'page dropping' : 'page'}>
+    <div class={dropping ? 'page dropping' : 'page'} onClick={giveBack}>
       <TopBar state={state} />
       <Rail state={state} />
       <Stage state={state} />

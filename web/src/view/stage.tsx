@@ -46,6 +46,7 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
     size: () => view.size,
     viewport: () => view.viewport(store.state),
     busy: () => controller.busy,
+    focus: () => canvas.focus({ preventScroll: true }),
     cancel: () => cancelGesture(store, view, controller),
   };
   const stopPointer = attachPointer(store, view, canvas, controller);

@@ -82,7 +82,7 @@ export class Bridge<P extends Protocol<P>> {
     if (this.#port) return this.#port;
     const port = this.#start();
     port.onmessage = (event) => this.#receive(event.data);
-    port.onerror = (event) => this.#crashed(event.message);
+    port.onerror = (event) => this.#crashed(event.message || 'it could not be loaded');
     this.#port = port;
     return port;
   }
