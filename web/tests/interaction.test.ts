@@ -109,8 +109,10 @@ describe('tracing', () => {
 
   it('takes points set close together, each of them', () => {
     const bench = new Bench();
-    for (let x = 100; x <= 130; x += 5) bench.click(x, 200);
-    expect(bench.columns.length).toBe(7);
+    for (let x = 100; x <= 130; x += 2) bench.click(x, 200);
+    expect(bench.columns.length).toBe(16);
+    bench.click(130.5, 200);
+    expect(bench.columns.length).toBe(16);
   });
 
   it('moves a point of the draft', () => {
@@ -240,7 +242,7 @@ describe('hit tests', () => {
   });
 
   it('has the first point easier to hit than the others while drafting', () => {
-    expect(hitDraft(outline, viewport, canvasPoint(56, 50)).kind).toBe('vertex');
-    expect(hitDraft(outline, viewport, canvasPoint(156, 50)).kind).toBe('nothing');
+    expect(hitDraft(outline, viewport, canvasPoint(55, 50)).kind).toBe('vertex');
+    expect(hitDraft(outline, viewport, canvasPoint(155, 50)).kind).toBe('nothing');
   });
 });

@@ -12,8 +12,12 @@ export type Hit =
 /** Wide enough to hit with a mouse on a bad day. */
 export const VERTEX_REACH = 9;
 export const EDGE_REACH = 6;
-/** While a draft grows: points are often set close together, and a click must not be lost to its neighbour. */
+/** The point that closes a draft: as large as it is drawn. */
+export const CLOSING_REACH = 7;
+/** While a draft grows its other points can be dragged from this near ... */
 export const DRAFT_REACH = 3;
+/** ... but a click beside one sets another: points are often set close together. */
+export const SAME_SPOT = 1.5;
 
 const NOTHING: Hit = { kind: 'nothing' };
 
@@ -27,7 +31,7 @@ export function hitTest(outline: Outline | null, viewport: Viewport, at: CanvasP
 export function hitDraft(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
   const points = (outline?.points ?? []).map((point) => canvasFromFrame(viewport, point));
   const closes = points.length >= FEWEST_POINTS;
-  return hitVertex(points, at, (index) => (index === 0 && closes ? VERTEX_REACH : DRAFT_REACH)) ?? NOTHING;
+  return hitVertex(points, at, (index) => (index === 0 && closes ? CLOSING_REACH : DRAFT_REACH)) ?? NOTHING;
 }
 
 /** An outline with fewer points encloses nothing. */

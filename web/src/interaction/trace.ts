@@ -1,7 +1,8 @@
 import { addPoint, closeOutline } from '../document/commands';
-import { frameFromCanvas } from '../geometry/viewport';
+import { distance } from '../geometry/points';
+import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
 import { edit, nextEdit, type EditState } from './edit';
-import { FEWEST_POINTS, hitDraft, hitTest } from './hit';
+import { FEWEST_POINTS, hitDraft, hitTest, SAME_SPOT } from './hit';
 import { outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /**
@@ -34,8 +35,13 @@ function whileEditing(
   if (input.type === 'up' && state.maybeClosing && state.edit.name === 'pressed') {
     return outcome(IDLE, ...close(scene));
   }
+  if (input.type === 'up' && isDraft(scene) && isBeside(state.edit, input, scene)) {
+    const command = addPoint(scene.place, frameFromCanvas(scene.viewport, input.at));
+    return outcome(IDLE, { type: 'perform', command }, { type: 'select', index: null });
+  }
   const edited = nextEdit(state.edit, input, scene, hit);
-  const onFirst = hit.kind === 'vertex' && hit.index === 0 && isDraft(scene) && !input.alt;
+  const canClose = isDraft(scene) && (scene.outline?.points.length ?? 0) >= FEWEST_POINTS;
+  const onFirst = hit.kind === 'vertex' && hit.index === 0 && canClose && !input.alt;
   const maybeClosing = fresh ? onFirst : state.maybeClosing;
   return { state: { name: 'editing', edit: edited.state, maybeClosing }, effects: edited.effects };
 }
@@ -44,6 +50,12 @@ function whileAdding(input: Input, scene: Scene): Outcome<TraceState> {
   const command = addPoint(scene.place, frameFromCanvas(scene.viewport, input.at));
   if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
   return outcome({ name: 'adding' }, { type: 'preview', command });
+}
+
+/** A click near a point of the draft, but not on it. */
+function isBeside(pressed: EditState, input: Input, scene: Scene): boolean {
+  const vertex = pressed.name === 'pressed' ? scene.outline?.points[pressed.index] : undefined;
+  return vertex !== undefined && distance(canvasFromFrame(scene.viewport, vertex), input.at) > SAME_SPOT;
 }
 
 /** Too few points to close: nothing happens, the status line says why. */
