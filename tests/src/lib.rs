@@ -69,3 +69,8 @@ pub fn mesh(triangles: &Triangles) -> Mesh<'_> {
 pub fn camera() -> Camera {
     Camera::from_principal_distance(1024, 1024, 1200.0, 0.373, [0.0, 0.0]).expect("valid")
 }
+
+/// The README's example, compiled as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

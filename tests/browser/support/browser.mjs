@@ -1,0 +1,131 @@
+/**
+ * One Chromium for a test file and a fresh page for each test. The runner serves the page and names both:
+ * `cargo xtask test --browser`.
+ */
+import assert from 'node:assert/strict';
+import { mkdir } from 'node:fs/promises';
+import { fileURLToPath } from 'node:url';
+import { after, test } from 'node:test';
+import { chromium } from 'playwright-core';
+
+/** Long enough for two libraries on a busy machine; nothing is asserted about time. */
+export const PATIENCE = 60_000;
+
+const WINDOW = { width: 1440, height: 900 };
+const ARGUMENTS = [
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
+const SCREENSHOTS = fileURLToPath(new URL('../../../target/screenshots/', import.meta.url));
+
+/** Where the runner serves the page, with a slash at its end. */
+export const ADDRESS = setting('FLUOROPOSE_URL');
+
+/** @param {string} name */
+function setting(name) {
+  const value = process.env[name];
+  if (!value) throw new Error(`${name} is not set: run these tests with \`cargo xtask test --browser\``);
+  return value;
+}
+
+/** @type {Promise<import('playwright-core').Browser> | undefined} */
+let launched;
+
+function browser() {
+  launched ??= chromium.launch({ executablePath: setting('FLUOROPOSE_CHROMIUM'), args: ARGUMENTS });
+  return launched;
+}
+
+after(async () => (await launched)?.close());
+
+/**
+ * A test with a page of its own. Whatever the test does, the page must not throw, log an error, or ask another
+ * computer for anything.
+ *
+ * @param {string} name
+ * @param {(page: import('playwright-core').Page, t: import('node:test').TestContext) => Promise<void>} body
+ */
+export function pageTest(name, body) {
+  test(name, { timeout: 3 * PATIENCE }, async (t) => {
+    const { page, troubles } = await freshPage();
+    try {
+      await body(page, t);
+    } catch (error) {
+      await screenshot(page, `failed ${name}`);
+      throw error;
+    } finally {
+      await page.context().close();
+    }
+    assert.deepEqual(troubles, [], 'the page threw, logged an error, or asked another computer');
+  });
+}
+
+/** An empty page, and the list of what goes wrong in it. */
+export async function freshPage() {
+  const context = await (await browser()).newContext({
+    viewport: WINDOW,
+    reducedMotion: 'reduce',
+    permissions: ['clipboard-read', 'clipboard-write'],
+  });
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  /** @type {string[]} */
+  const troubles = [];
+  page.on('pageerror', (error) => troubles.push(`thrown: ${error.stack ?? error.message}`));
+  page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
+  page.on('request', (request) => isOurs(request.url()) || troubles.push(`asked: ${request.url()}`));
+  // Playwright answers "leave" to the question of a page with unsaved work.
+  await page.goto(ADDRESS);
+  return { page, troubles };
+}
+
+/** @param {string} url */
+function isOurs(url) {
+  return url.startsWith(ADDRESS) || url.startsWith('blob:') || url.startsWith('data:');
+}
+
+/**
+ * Writes what the page looks like to `target/screenshots`.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {string} name
+ */
+export async function screenshot(page, name) {
+  await mkdir(SCREENSHOTS, { recursive: true });
+  const file = `${name.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
+  await page.screenshot({ path: SCREENSHOTS + file });
+}
+
+/**
+ * Waits until a question about the page has the wanted answer, and gives that answer.
+ *
+ * @template T
+ * @param {() => Promise<T>} ask
+ * @param {(answer: T) => boolean} wanted
+ * @param {string} what completes "waited in vain for ..."
+ * @returns {Promise<T>}
+ */
+export async function until(ask, wanted, what) {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    const answer = await ask();
+    if (wanted(answer)) return answer;
+    if (Date.now() > end) throw new Error(`waited in vain for ${what}; the last answer was ${JSON.stringify(answer)}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+/** Until the page has drawn what it knows: its views update at most once a screen frame, one after another.
+ *
+ * @param {import('playwright-core').Page} page
+ */
+export async function drawn(page) {
+  await page.evaluate(async () => {
+    for (let frame = 0; frame < 4; frame++) await new Promise((resolve) => requestAnimationFrame(resolve));
+  });
+}

@@ -1,0 +1,136 @@
+/** What the page says in words and numbers, by role and accessible name. */
+import assert from 'node:assert/strict';
+import { until } from './browser.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('./study.mjs').Pose} Pose */
+
+const QUANTITIES = /** @type {const} */ ([
+  ['x', 'x', 'mm'],
+  ['y', 'y', 'mm'],
+  ['z', 'z', 'mm'],
+  ['zRot', 'z rotation', 'degrees'],
+  ['xRot', 'x rotation', 'degrees'],
+  ['yRot', 'y rotation', 'degrees'],
+]);
+
+/** The six numbers by their accessible names; null while there is no pose. @param {Page} page @returns {Promise<Pose | null>} */
+export async function shownPose(page) {
+  const snapshot = await page.getByRole('region', { name: 'Pose numbers' }).ariaSnapshot();
+  const texts = QUANTITIES.map(([, name, unit]) => {
+    const found = new RegExp(`button "${name} (\\S+) ${unit}"`).exec(snapshot);
+    assert(found, `no button named "${name} ... ${unit}" in\n${snapshot}`);
+    return found[1];
+  });
+  if (texts.every((text) => text === '–')) return null;
+  // The page writes a true minus sign.
+  const values = texts.map((text) => Number(text.replace('\u2212', '-')));
+  assert(values.every(Number.isFinite), `not numbers: ${texts.join(', ')}`);
+  return /** @type {Pose} */ (Object.fromEntries(QUANTITIES.map(([field], index) => [field, values[index]])));
+}
+
+/** @param {Page} page */
+export async function waitForPose(page) {
+  const pose = await until(() => shownPose(page), (pose) => pose !== null, 'a pose');
+  return /** @type {Pose} */ (pose);
+}
+
+/** The next pose that differs from one shown before, once it has come to rest. @param {Page} page @param {Pose} before */
+export async function waitForOtherPose(page, before) {
+  const differs = (/** @type {Pose | null} */ pose) => pose !== null && !samePose(pose, before);
+  await until(() => shownPose(page), differs, 'the pose to change');
+  let last = await shownPose(page);
+  for (;;) {
+    await page.waitForTimeout(200);
+    const now = await shownPose(page);
+    if (now && last && samePose(now, last)) return now;
+    last = now;
+  }
+}
+
+/** @param {Page} page @param {Pose} wanted */
+export async function waitForThePose(page, wanted) {
+  await until(() => shownPose(page), (pose) => pose !== null && samePose(pose, wanted), `the pose ${JSON.stringify(wanted)}`);
+}
+
+/** @param {Pose} a @param {Pose} b */
+export function samePose(a, b) {
+  return QUANTITIES.every(([field]) => a[field] === b[field]);
+}
+
+/**
+ * Asserts that each number lies within its tolerance of the wanted one.
+ *
+ * @param {Pose} pose
+ * @param {Pose} wanted
+ * @param {Pose} tolerance
+ */
+export function assertNear(pose, wanted, tolerance) {
+  const far = QUANTITIES.filter(([field]) => !(Math.abs(pose[field] - wanted[field]) <= tolerance[field]));
+  const words = far.map(([field]) => `${field} ${pose[field]} for ${wanted[field]} (within ${tolerance[field]})`);
+  assert.equal(far.length, 0, words.join('; '));
+}
+
+/** Signed differences, for diagnostics. @param {Pose} pose @param {Pose} wanted */
+export function differences(pose, wanted) {
+  return QUANTITIES.map(([field]) => `${field} ${(pose[field] - wanted[field]).toFixed(3)}`).join(', ');
+}
+
+/** Half of the last decimal shown. @type {Pose} */
+export const ROUNDING = { x: 0.00501, y: 0.00501, z: 0.0501, zRot: 0.00501, xRot: 0.00501, yRot: 0.00501 };
+
+/** Unmatched pixels of the chosen candidate. @param {Page} page */
+export async function unmatched(page) {
+  const text = await page.getByRole('group', { name: 'Unmatched pixels' }).innerText();
+  return Number(text.replace(/\s/g, ''));
+}
+
+/** What the bottom line says. @param {Page} page */
+export function said(page) {
+  return page.getByRole('status').innerText();
+}
+
+/** Waits until the bottom line says something. @param {Page} page @param {RegExp} pattern */
+export function waitForWords(page, pattern) {
+  return until(() => said(page), (text) => pattern.test(text), `the status line to say ${pattern}`);
+}
+
+/** Everything that was said, the latest first, by the log. @param {Page} page @returns {Promise<string[]>} */
+export async function log(page) {
+  const button = page.getByRole('button', { name: 'Log', exact: true });
+  await button.click();
+  const lines = await page.getByRole('dialog', { name: 'Log' }).getByRole('listitem').allInnerTexts();
+  await button.click();
+  return lines;
+}
+
+/** The states of the cells: `Frame 1, femur: posed` and so on. @param {Page} page */
+export async function cells(page) {
+  const buttons = page.getByRole('table', { name: 'Frames and components' }).getByRole('button');
+  const names = await buttons.evaluateAll((all) => all.map((button) => button.getAttribute('aria-label') ?? ''));
+  return names;
+}
+
+/** @param {Page} page @param {'Frame' | 'Window width' | 'Window level' | 'Overlay opacity'} name */
+export async function slider(page, name) {
+  return Number(await page.getByRole('slider', { name, exact: true }).inputValue());
+}
+
+/** Waits until frames are open. @param {Page} page @param {number} count */
+export async function waitForFrames(page, count) {
+  await page.getByRole('application', { name: new RegExp(`frame \\d+ of ${count}\\b`) }).waitFor();
+}
+
+/** Waits until libraries have been built. @param {Page} page @param {...('Femur' | 'Tibia')} components */
+export async function waitForLibraries(page, ...components) {
+  for (const component of components) {
+    await page.getByRole('button', { name: new RegExp(`^${component}: \\S+$`) }).waitFor();
+  }
+  await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'no work to be under way');
+}
+
+/** @param {Page} page */
+export async function openDemonstration(page) {
+  await page.getByRole('button', { name: 'Open the demonstration' }).click();
+  await waitForFrames(page, 8);
+}
