@@ -23,8 +23,8 @@ pub enum Toolchain {
     Debian {
         /// The target triple.
         target: &'static str,
-        /// WASM linker of Debian's `lld`, where the target is WASM.
-        linker: Option<PathBuf>,
+        /// The target's linker, from Debian's `lld`.
+        linker: PathBuf,
     },
 }
 
@@ -40,9 +40,7 @@ impl Toolchain {
                 cargo.arg("--target-dir").arg(target_dir);
                 cargo
             }
-            Self::Debian { target, linker } => {
-                debian_cargo(subcommand, target, linker.as_deref(), target_dir)
-            }
+            Self::Debian { target, linker } => debian_cargo(subcommand, target, linker, target_dir),
         }
     }
 
@@ -67,12 +65,7 @@ fn debian_dir(target_dir: &Path) -> PathBuf {
     target_dir.join("debian")
 }
 
-fn debian_cargo(
-    subcommand: &str,
-    target: &str,
-    linker: Option<&Path>,
-    target_dir: &Path,
-) -> Command {
+fn debian_cargo(subcommand: &str, target: &str, linker: &Path, target_dir: &Path) -> Command {
     let mut cargo = Command::new("/usr/bin/cargo");
     cargo.current_dir(workspace::root());
     // What rustup and the outer cargo set for themselves would lead Debian's cargo to the wrong compiler.
@@ -88,9 +81,8 @@ fn debian_cargo(
     cargo
         .env("RUSTC", "/usr/bin/rustc")
         .env("RUSTC_BOOTSTRAP", "1");
-    if let Some(linker) = linker {
-        cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker);
-    }
+    let variable = target.to_uppercase().replace('-', "_");
+    cargo.env(format!("CARGO_TARGET_{variable}_LINKER"), linker);
     let library = if target == WASM {
         "-Zbuild-std=std,panic_abort"
     } else {
@@ -160,27 +152,43 @@ fn debian_toolchain(target: &'static str) -> Result<Toolchain, Missing> {
     if !Path::new("/usr/lib/rustlib/src").exists() || !Path::new("/usr/bin/cargo").exists() {
         debian::install(&format!("a Rust compiler for {target}"), &packages)?;
     }
-    let linker = command::find(&[
-        "wasm-ld",
-        "wasm-ld-19",
-        "wasm-ld-16",
-        "wasm-ld-15",
-        "wasm-ld-14",
-    ]);
-    if target == WASM && linker.is_none() {
-        return Err(Missing {
-            what: "WASM linker".into(),
-            why: "lld brought no wasm-ld".into(),
-            remedy: "install lld".into(),
-            tried: true,
-        });
-    }
+    let name = if target == WASM { "wasm-ld" } else { "ld.lld" };
+    let linker = linker(Path::new("/usr/bin"), name).ok_or_else(|| Missing {
+        what: "linker".into(),
+        why: format!("lld brought no {name}"),
+        remedy: "install lld".into(),
+        tried: true,
+    })?;
     Ok(Toolchain::Debian { target, linker })
+}
+
+/// The linker of this name, which Debian also ends with the version of its `lld`.
+fn linker(folder: &Path, name: &str) -> Option<PathBuf> {
+    let files = folder.read_dir().ok()?.flatten();
+    let versioned = format!("{name}-");
+    let is_linker = |file: &str| file == name || file.starts_with(&versioned);
+    let mut linkers: Vec<PathBuf> = files
+        .filter(|file| file.file_name().to_str().is_some_and(is_linker))
+        .map(|file| file.path())
+        .collect();
+    linkers.sort();
+    linkers.into_iter().next()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_linker_is_found_whatever_its_version() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-linker-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("wasm-merge"), "").unwrap();
+        assert_eq!(linker(&folder, "wasm-ld"), None);
+        std::fs::write(folder.join("wasm-ld-21"), "").unwrap();
+        assert_eq!(linker(&folder, "wasm-ld"), Some(folder.join("wasm-ld-21")));
+        std::fs::remove_dir_all(folder).unwrap();
+    }
 
     fn words(command: &Command) -> Vec<String> {
         command
@@ -202,7 +210,7 @@ mod tests {
     fn debian_builds_the_library_apart_from_the_main_output() {
         let toolchain = Toolchain::Debian {
             target: WASM,
-            linker: Some("/usr/bin/wasm-ld-14".into()),
+            linker: "/usr/bin/wasm-ld-14".into(),
         };
         let cargo = toolchain.cargo("build", Path::new("out"));
         let words = words(&cargo);
