@@ -65,8 +65,27 @@ export function pageTest(name, body) {
   });
 }
 
+/**
+ * A step of a test that shares its page with the steps before it.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {import('node:test').TestContext} t
+ * @param {string} name
+ * @param {(t: import('node:test').TestContext) => Promise<void>} body
+ */
+export async function step(page, t, name, body) {
+  await t.test(name, async (inner) => {
+    try {
+      await body(inner);
+    } catch (error) {
+      await screenshot(page, `failed ${name}`);
+      throw error;
+    }
+  });
+}
+
 /** An empty page, and the list of what goes wrong in it. */
-export async function freshPage() {
+async function freshPage() {
   const context = await (await browser()).newContext({
     viewport: WINDOW,
     reducedMotion: 'reduce',
@@ -79,7 +98,6 @@ export async function freshPage() {
   page.on('pageerror', (error) => troubles.push(`thrown: ${error.stack ?? error.message}`));
   page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
   page.on('request', (request) => isOurs(request.url()) || troubles.push(`asked: ${request.url()}`));
-  // Playwright answers "leave" to the question of a page with unsaved work.
   await page.goto(ADDRESS);
   return { page, troubles };
 }
@@ -94,11 +112,12 @@ function isOurs(url) {
  *
  * @param {import('playwright-core').Page} page
  * @param {string} name
+ * @param {import('playwright-core').Locator} [part] of the page; the whole window without it
  */
-export async function screenshot(page, name) {
+export async function screenshot(page, name, part) {
   await mkdir(SCREENSHOTS, { recursive: true });
   const file = `${name.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
-  await page.screenshot({ path: SCREENSHOTS + file });
+  await (part ?? page).screenshot({ path: SCREENSHOTS + file });
 }
 
 /**
@@ -111,7 +130,7 @@ export async function screenshot(page, name) {
  * @returns {Promise<T>}
  */
 export async function until(ask, wanted, what) {
-  const end = Date.now() + PATIENCE;
+  const end = Date.now() + PATIENCE / 2;
   for (;;) {
     const answer = await ask();
     if (wanted(answer)) return answer;
@@ -120,7 +139,8 @@ export async function until(ask, wanted, what) {
   }
 }
 
-/** Until the page has drawn what it knows: its views update at most once a screen frame, one after another.
+/**
+ * Until the page has drawn what it knows: its views update at most once a screen frame, one after another.
  *
  * @param {import('playwright-core').Page} page
  */

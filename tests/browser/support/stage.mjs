@@ -96,17 +96,17 @@ export class Stage {
     await this.click(points[0]);
   }
 
-  /** What the film and everything on it look like with the mouse elsewhere. */
+  /** What the film and everything on it look like with the mouse elsewhere, but for the ring of the keyboard's focus. */
   async picture() {
     await this.page.mouse.move(1, 1);
     await drawn(this.page);
-    return this.canvas.screenshot();
+    const { x, y, width, height } = await this.box();
+    const clip = { x: x + INSET, y: y + INSET, width: width - 2 * INSET, height: height - 2 * INSET };
+    return this.page.screenshot({ clip });
   }
 
   /** Waits until the film looks as in a picture taken before. @param {Buffer} before @param {string} what */
   async looksLike(before, what) {
-    await until(() => this.picture(), (now) => now.equals(before), `${what} to look as before`).catch((error) => {
-      throw new Error(String(error.message).slice(0, 200));
-    });
+    await until(async () => before.equals(await this.picture()), (same) => same, `${what} to look as before`);
   }
 }

@@ -7,8 +7,8 @@ import { ADDRESS } from './browser.mjs';
 /** @typedef {{ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number }} Pose mm and degrees */
 /** @typedef {[number, number]} Point column and row on the frame */
 
-/** How far a traced polygon may leave the true outline, px: a careful hand. */
-const HAND = 1;
+/** How far a traced polygon may leave the true border, px: a careful hand, 50 to 60 clicks. */
+const HAND = 0.8;
 
 /**
  * One file of the demonstration.
