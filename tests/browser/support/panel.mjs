@@ -111,7 +111,7 @@ export async function cells(page) {
   return names;
 }
 
-/** @param {Page} page @param {'Frame' | 'Window width' | 'Window level' | 'Overlay opacity'} name */
+/** @param {Page} page @param {string} name such as `Window width` */
 export async function slider(page, name) {
   return Number(await page.getByRole('slider', { name, exact: true }).inputValue());
 }

@@ -1,0 +1,134 @@
+/** What leaves the page comes back into it: poses as .jts, the whole work as a session. */
+import assert from 'node:assert/strict';
+import { ADDRESS, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { choose, downloaded, drop } from './support/files.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { demoFile, framePath, readJts, trueOutline, truePose } from './support/study.mjs';
+
+/** As in tracing.test.mjs. */
+const HAND_TRACED = { x: 0.4, y: 0.4, z: 5, zRot: 0.75, xRot: 0.75, yRot: 0.75 };
+const TRACED = [2, 3];
+const FRAMES = 3;
+const NAME = 'knee 7';
+const DISPLAY = { 'Window width': 150, 'Window level': 90, 'Overlay opacity': 0.6 };
+
+pageTest('poses and sessions come back as they left', async (page, t) => {
+  const stage = new Stage(page);
+  const frames = await Promise.all(Array.from({ length: FRAMES }, (_, index) => demoFile(framePath(index + 1))));
+  /** @type {Awaited<ReturnType<typeof traceFrames>>} */
+  let traced = [];
+  /** @type {import('./support/files.mjs').FileToOpen[]} */
+  const saved = [];
+
+  await step(page, t, 'two frames are traced', async () => {
+    await choose(page, ...frames, await demoFile('calibration.txt'), await demoFile('femur.stl'));
+    await panel.waitForFrames(page, FRAMES);
+    await panel.waitForLibraries(page, 'Femur');
+    traced = await traceFrames(page, stage);
+  });
+
+  await step(page, t, 'the .jts file holds the numbers that are shown', async () => {
+    const jts = await downloaded(page, 'Save femur poses');
+    assert.match(jts.name, /_femur\.jts$/);
+    await checkRows(readJts(jts.buffer.toString()), traced);
+    saved.push(jts);
+  });
+
+  await step(page, t, 'a number is copied with all its decimals', async () => {
+    await page.getByRole('button', { name: /^x rotation / }).click();
+    const copied = await page.evaluate(() => navigator.clipboard.readText());
+    const rows = readJts(saved[0].buffer.toString());
+    assert(rows.some(({ xRot }) => xRot === Number(copied)), `${copied} is the x rotation of no row`);
+  });
+
+  await step(page, t, 'a session is saved', async () => {
+    await page.getByRole('textbox', { name: 'Name of the study' }).fill(NAME);
+    for (const [name, value] of Object.entries(DISPLAY)) await page.getByRole('slider', { name }).fill(String(value));
+    for (const work of traced) work.picture = await pictureOf(page, stage, work.frame);
+    await page.getByRole('button', { name: 'Save session', exact: true }).click();
+    await screenshot(page, 'save-sheet');
+    const session = await downloaded(page, 'Save session file');
+    assert.equal(session.name, 'knee_7.fluoropose.json');
+    saved.push(session);
+  });
+
+  await step(page, t, 'the .jts file is read back into a fresh page', async () => {
+    await page.goto(ADDRESS);
+    await choose(page, ...frames);
+    await panel.waitForFrames(page, FRAMES);
+    await choose(page, saved[0]);
+    await panel.waitForWords(page, /as poses of the femur/);
+    for (const { frame, pose } of traced) {
+      await goTo(page, frame);
+      await panel.waitForThePose(page, pose);
+    }
+    await goTo(page, 1);
+    await until(() => panel.shownPose(page), (pose) => pose === null, 'frame 1 to be without a pose');
+  });
+
+  await step(page, t, 'a session brings everything back into a fresh page', async () => {
+    const leaving = page.waitForEvent('dialog').then(async (dialog) => {
+      assert.equal(dialog.type(), 'beforeunload', 'the page asks before unsaved work is lost');
+      await dialog.accept();
+    });
+    await Promise.all([leaving, page.goto(ADDRESS)]);
+    await drop(page, saved[1]);
+    await panel.waitForFrames(page, FRAMES);
+    await panel.waitForLibraries(page, 'Femur');
+    await sameWork(page, stage, traced);
+  });
+});
+
+/** @param {import('playwright-core').Page} page @param {Stage} stage */
+async function traceFrames(page, stage) {
+  const done = [];
+  for (const frame of TRACED) {
+    await goTo(page, frame);
+    const outline = await trueOutline('femur', frame);
+    await stage.zoomTo(outline);
+    await stage.trace(outline);
+    const pose = await panel.waitForPose(page);
+    panel.assertNear(pose, await truePose('femur', frame), HAND_TRACED);
+    await page.keyboard.press('0');
+    done.push({ frame, pose, picture: Buffer.alloc(0) });
+  }
+  return done;
+}
+
+/** @param {import('./support/study.mjs').Pose[]} rows @param {Awaited<ReturnType<typeof traceFrames>>} traced */
+async function checkRows(rows, traced) {
+  assert.equal(rows.length, FRAMES);
+  for (const { frame, pose } of traced) {
+    panel.assertNear(rows[frame - 1], pose, panel.ROUNDING);
+    panel.assertNear(rows[frame - 1], await truePose('femur', frame), HAND_TRACED);
+  }
+  assert(Object.values(rows[0]).every((value) => value === 0), 'a frame without a pose is a row of zeros');
+}
+
+/** @param {import('playwright-core').Page} page @param {Stage} stage @param {Awaited<ReturnType<typeof traceFrames>>} traced */
+async function sameWork(page, stage, traced) {
+  const femur = (await panel.cells(page)).filter((name) => name.includes('femur'));
+  assert.deepEqual(femur, ['Frame 1, femur: empty', 'Frame 2, femur: posed', 'Frame 3, femur: posed']);
+  for (const [name, value] of Object.entries(DISPLAY)) assert.equal(await panel.slider(page, name), value);
+  assert.equal(await page.getByRole('textbox', { name: 'Name of the study' }).inputValue(), NAME);
+  const header = await page.getByRole('banner', { name: 'Study' }).innerText();
+  assert.doesNotMatch(header, /not saved/, 'opening a session leaves nothing to save');
+  for (const { frame, pose, picture } of traced) {
+    await goTo(page, frame);
+    await panel.waitForThePose(page, pose);
+    await stage.looksLike(picture, `frame ${frame}`);
+  }
+}
+
+/** The whole film with outline and silhouette. @param {import('playwright-core').Page} page @param {Stage} stage @param {number} frame */
+async function pictureOf(page, stage, frame) {
+  await goTo(page, frame);
+  return stage.picture();
+}
+
+/** @param {import('playwright-core').Page} page @param {number} frame from 1 */
+async function goTo(page, frame) {
+  await page.getByRole('slider', { name: 'Frame', exact: true }).fill(String(frame - 1));
+  await page.getByRole('application', { name: new RegExp(`frame ${frame} of`) }).waitFor();
+}
