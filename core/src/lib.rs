@@ -31,6 +31,7 @@ pub mod median;
 pub mod mesh;
 pub mod pose;
 pub mod raster;
+pub mod refine;
 pub mod region;
 pub mod scan;
 pub mod verify;

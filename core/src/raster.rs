@@ -56,14 +56,28 @@ pub fn render(
     }
     let projected = project_all(mesh, camera, pose, scratch)?;
     let height = out.height();
+    for_each_span(mesh, projected, height, |_, row, from, to| {
+        out.fill_span(row, from, to);
+    });
+    Ok(())
+}
+
+/// Calls `visit(triangle, row, from, to)` for each row of each triangle that covers pixel
+/// centres: columns `from..to`, not yet cut to the frame's width. `projected` holds the vertices
+/// as [`render`] left them in its working memory.
+pub(crate) fn for_each_span(
+    mesh: &Mesh<'_>,
+    projected: &[Projected],
+    height: usize,
+    mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
+) {
     for triangle in mesh.triangles() {
         // Indices were checked when the mesh was made.
         let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
         triangle_spans(corners, height, |row, from, to| {
-            out.fill_span(row, from, to);
+            visit(triangle, row, from, to)
         });
     }
-    Ok(())
 }
 
 fn project_all<'s>(

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
-use fluoropose::camera::Camera;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_decode::Model;
 use serde::Serialize;
@@ -12,10 +11,10 @@ use serde::Serialize;
 use crate::pipeline::accuracy::{Errors, is_wrong_side, median_absolute, rms};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, progress};
 use crate::pipeline::files::{
-    MaskBuffer, files_in, mesh_of, read_calibration, read_mask, read_model, read_poses, write_json,
-    write_poses,
+    mesh_of, read_calibration, read_model, read_poses, write_json, write_poses,
 };
-use crate::pipeline::locator::Locator;
+use crate::pipeline::finder::{Finder, Method};
+use crate::pipeline::source::Source;
 use crate::pipeline::study::{Component, Study};
 
 /// Options of `evaluate`.
@@ -30,6 +29,9 @@ pub struct Args {
     /// Study file
     #[arg(long)]
     study: PathBuf,
+    /// How poses are found
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
     /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -55,7 +57,7 @@ pub struct Row {
     pub component: String,
     /// Name of the mask source, or of the other method's pose file.
     pub source: String,
-    /// `library`, or `peer` for another method's file.
+    /// The method's word, or `peer` for another method's file.
     pub method: String,
     /// Number of frames, all of which count.
     pub frames: usize,
@@ -72,7 +74,7 @@ pub struct Row {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
-    let table = evaluate(&args.study, args.poses.as_deref())?;
+    let table = evaluate(&args.study, args.method, args.poses.as_deref())?;
     print_table(&table);
     write_json(args.json.as_deref(), &table)
 }
@@ -82,19 +84,19 @@ pub fn run(args: Args) -> Result<()> {
 ///
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
-pub fn evaluate(study: &Path, poses: Option<&Path>) -> Result<Table> {
+pub fn evaluate(study: &Path, method: Method, poses: Option<&Path>) -> Result<Table> {
     let study = Study::read(study)?;
     let calibration = read_calibration(&study.calibration)?;
     let mut rows = Vec::new();
     for component in &study.components {
         let reference = component.reference.as_deref().map(read_poses).transpose()?;
-        for (source, found) in locate_component(component, &calibration)? {
+        for (source, found) in locate_component(component, &calibration, method)? {
             if let Some(folder) = poses.or(reference.is_none().then_some(Path::new(""))) {
                 let path = folder.join(format!("{}-{source}.jts", component.name));
                 write_poses(&path, &found)?;
             }
             if let Some(reference) = &reference {
-                rows.push(row(component, &source, "library", &found, reference)?);
+                rows.push(row(component, &source, method.word(), &found, reference)?);
             }
         }
         for (source, path) in &component.peer {
@@ -110,36 +112,11 @@ pub fn evaluate(study: &Path, poses: Option<&Path>) -> Result<Table> {
     })
 }
 
-/// The masks of one source and the camera that saw them.
-struct Source {
-    name: String,
-    masks: Vec<(PathBuf, MaskBuffer)>,
-    camera: Camera,
-}
-
-fn read_source(name: &str, folder: &Path, calibration: &Calibration) -> Result<Source> {
-    let masks: Vec<_> = files_in(folder)?
-        .into_iter()
-        .map(|path| read_mask(&path).map(|mask| (path, mask)))
-        .collect::<Result<_>>()?;
-    let (_, first) = masks.first().context("a folder of masks is never empty")?;
-    let (width, height) = (first.mask().width(), first.mask().height());
-    for (path, mask) in &masks {
-        if (mask.mask().width(), mask.mask().height()) != (width, height) {
-            bail!("{} differs in size from the first mask", path.display());
-        }
-    }
-    Ok(Source {
-        name: name.to_owned(),
-        camera: calibration.camera(width, height)?,
-        masks,
-    })
-}
-
 /// Poses of every mask source of a component, in the order of their names.
 fn locate_component(
     component: &Component,
     calibration: &Calibration,
+    method: Method,
 ) -> Result<Vec<(String, Vec<EulerPose>)>> {
     let model = read_model(&component.model)
         .with_context(|| format!("for the component {}", component.name))?;
@@ -151,34 +128,38 @@ fn locate_component(
     };
     let mut all = Vec::new();
     for (name, folder) in &component.masks {
-        let source = read_source(name, folder, calibration)?;
-        let first_guess = views.distance_for(calibration);
-        let mut poses = locate_source(&source, &model, &views, first_guess)?;
+        let source = Source::read(folder, calibration)?;
         // Perspective depends on the distance: where nobody told it, the masks do, once.
-        if views.distance.is_none() {
-            let distance = median_absolute(&poses.iter().map(|p| p.z_mm).collect::<Vec<_>>());
-            poses = locate_source(&source, &model, &views, distance)?;
-        }
+        let distance = match views.distance {
+            Some(distance) => distance,
+            None => {
+                let guess = views.distance_for(calibration);
+                let poses = find_poses(&source, &model, &views, guess, Method::Library)?;
+                median_absolute(&poses.iter().map(|p| p.z_mm).collect::<Vec<_>>())
+            }
+        };
+        let poses = find_poses(&source, &model, &views, distance, method)?;
         all.push((name.clone(), poses));
     }
     Ok(all)
 }
 
-fn locate_source(
+fn find_poses(
     source: &Source,
     model: &Model,
     views: &ViewOptions,
     distance: f64,
+    method: Method,
 ) -> Result<Vec<EulerPose>> {
     let mesh = mesh_of(model)?;
     let built = build_library(mesh, source.camera, views, distance)?;
-    let mut locator = Locator::open(&built.bytes, mesh)?;
-    let bar = progress(source.masks.len(), &source.name);
+    let mut finder = Finder::open(&built.bytes, mesh, source.camera, method)?;
+    let bar = progress(source.masks.len(), "masks");
     let poses = source.masks.iter().map(|(path, buffer)| {
         bar.inc(1);
-        locator
-            .best(&buffer.mask(), &source.camera)
-            .map(|best| EulerPose::from(best.located.pose))
+        finder
+            .best(&buffer.mask())
+            .map(|best| EulerPose::from(best.pose))
             .with_context(|| format!("no pose for {}", path.display()))
     });
     poses.collect()

@@ -3,5 +3,8 @@
 pub mod accuracy;
 pub mod build;
 pub mod files;
+pub mod finder;
 pub mod locator;
+pub mod refiner;
+pub mod source;
 pub mod study;

@@ -1,16 +1,14 @@
 //! Verb `pose`: the pose of an implant in each mask of a folder.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fluoropose::pose::EulerPose;
-use fluoropose::verify::Verified;
 
 use crate::pipeline::build::progress;
-use crate::pipeline::files::{
-    files_in, mesh_of, read, read_calibration, read_mask, read_model, write_poses,
-};
-use crate::pipeline::locator::Locator;
+use crate::pipeline::files::{mesh_of, read, read_calibration, read_model, write_poses};
+use crate::pipeline::finder::{Answer, Finder, Method};
+use crate::pipeline::source::Source;
 
 /// Options of `pose`.
 #[derive(clap::Args)]
@@ -32,13 +30,15 @@ pub struct Args {
     /// Folder of mask images
     #[arg(long)]
     masks: PathBuf,
+    /// How poses are found
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
     /// Pose file to write, a row a mask
     #[arg(long)]
     out: PathBuf,
 }
 
-/// A rival pose is mentioned when it leaves at most this many times the unmatched pixels of
-/// the best.
+/// A rival pose is mentioned when it fits at most this many times as badly as the best.
 const RIVAL_RATIO: f64 = 1.3;
 
 /// Runs the verb.
@@ -49,21 +49,17 @@ const RIVAL_RATIO: f64 = 1.3;
 pub fn run(args: Args) -> Result<()> {
     let bytes = read(&args.library)?;
     let model = read_model(&args.model)?;
-    let mut locator = Locator::open(&bytes, mesh_of(&model)?)
+    let source = Source::read(&args.masks, &read_calibration(&args.calibration)?)?;
+    let mut finder = Finder::open(&bytes, mesh_of(&model)?, source.camera, args.method)
         .with_context(|| args.library.display().to_string())?;
-    let calibration = read_calibration(&args.calibration)?;
-    let files = files_in(&args.masks)?;
-    let bar = progress(files.len(), "masks");
+    let bar = progress(source.masks.len(), "masks");
     let mut poses = Vec::new();
-    for path in &files {
-        let buffer = read_mask(path)?;
-        let mask = buffer.mask();
-        let camera = calibration.camera(mask.width(), mask.height())?;
-        let found = locator
-            .locate(&mask, &camera)
+    for (path, buffer) in &source.masks {
+        let answers = finder
+            .all(&buffer.mask())
             .with_context(|| format!("no pose for {}", path.display()))?;
-        bar.suspend(|| describe(path, &found));
-        poses.extend(found.first().map(|best| EulerPose::from(best.located.pose)));
+        bar.suspend(|| describe(path, &answers));
+        poses.extend(answers.first().map(|best| EulerPose::from(best.pose)));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -71,30 +67,39 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// Prints the best pose and the rivals that fit nearly as well.
-fn describe(path: &std::path::Path, rivals: &[Verified]) {
-    let Some(best) = rivals.first() else { return };
+fn describe(path: &Path, answers: &[Answer]) {
     println!("{}", path.file_name().unwrap_or_default().display());
-    let limit = best.unmatched as f64 * RIVAL_RATIO;
-    for rival in rivals {
-        if rival.unmatched as f64 > limit {
-            break;
+    let least = answers.iter().map(misfit).fold(f64::MAX, f64::min);
+    for (rank, answer) in answers.iter().enumerate() {
+        if misfit(answer) > least * RIVAL_RATIO {
+            continue;
         }
-        let pose = EulerPose::from(rival.located.pose);
+        let pose = EulerPose::from(answer.pose);
+        let residual = match answer.refined {
+            Some(refined) => format!("{:.3} px residual", refined.residual_px),
+            None => format!("{} px unmatched", answer.located.unmatched),
+        };
         println!(
-            "  x {:8.2} y {:8.2} z {:9.2} mm   z {:8.2} x {:7.2} y {:7.2} deg   {} px unmatched{}{}",
+            "  x {:8.2} y {:8.2} z {:9.2} mm   z {:8.2} x {:7.2} y {:7.2} deg   {residual}{}{}",
             pose.x_mm,
             pose.y_mm,
             pose.z_mm,
             pose.z_rot_deg,
             pose.x_rot_deg,
             pose.y_rot_deg,
-            rival.unmatched,
-            if rival == best { "" } else { "  (rival)" },
-            if rival.located.fine.at_border {
+            if rank == 0 { "" } else { "  (rival)" },
+            if answer.located.located.fine.at_border {
                 "  (at the border of the library)"
             } else {
                 ""
             },
         );
     }
+}
+
+/// How badly a pose fits: its residual after refinement, or unmatched pixels.
+fn misfit(answer: &Answer) -> f64 {
+    answer
+        .refined
+        .map_or(answer.located.unmatched as f64, |r| r.residual_px)
 }

@@ -12,10 +12,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-use crate::pipeline::accuracy::{Errors, mean_absolute};
+use crate::pipeline::accuracy::{Errors, mean_absolute, rms};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, progress};
 use crate::pipeline::files::{MaskBuffer, mesh_of, read_calibration, read_model, write_json};
-use crate::pipeline::locator::Locator;
+use crate::pipeline::finder::{Finder, Method};
 
 /// Options of `synthetic`.
 #[derive(clap::Args)]
@@ -41,6 +41,9 @@ pub struct Args {
     /// Seed of the random poses
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// How poses are found
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
     #[command(flatten)]
     views: ViewOptions,
     /// Write the table as JSON
@@ -58,6 +61,19 @@ const DEPTH_MM: f64 = 50.0;
 /// the axis in x and y is seen from a direction that differs by up to 3 degrees.
 const MARGIN_DEG: f64 = 3.5;
 
+/// What is drawn and how it is found again.
+#[derive(Clone, Copy, Debug)]
+pub struct Protocol {
+    /// How poses are found.
+    pub method: Method,
+    /// Middle of the range of z, and distance of the library's views, mm.
+    pub distance: f64,
+    /// Number of poses.
+    pub poses: usize,
+    /// Seed of the random poses.
+    pub seed: u64,
+}
+
 /// The means of the protocol.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Accuracy {
@@ -73,6 +89,8 @@ pub struct Accuracy {
     pub in_plane_mm: f64,
     /// Mean absolute error of z, mm.
     pub out_of_plane_mm: f64,
+    /// Root mean square errors of all poses, failures among them.
+    pub rms: Errors,
 }
 
 /// Runs the verb.
@@ -91,13 +109,20 @@ pub fn run(args: Args) -> Result<()> {
     };
     let distance = args.views.distance_for(&calibration);
     let mesh = mesh_of(&model)?;
-    let accuracy = measure(mesh, camera, &args.views, distance, args.poses, args.seed)?;
+    let protocol = Protocol {
+        method: args.method,
+        distance,
+        poses: args.poses,
+        seed: args.seed,
+    };
+    let accuracy = measure(mesh, camera, &args.views, &protocol)?;
     println!(
-        "{} poses, seed {}, {} triangles, library of {} views at {distance} mm, interpolated",
+        "{} poses, seed {}, {} triangles, library of {} views at {distance} mm, method {}",
         args.poses,
         args.seed,
         model.triangles.len(),
         args.views.grid().views(),
+        args.method.word(),
     );
     println!("in-plane rotation      {:.3} deg", accuracy.in_plane_deg);
     println!(
@@ -107,10 +132,20 @@ pub fn run(args: Args) -> Result<()> {
     println!("in-plane translation   {:.3} mm", accuracy.in_plane_mm);
     println!("out-of-plane           {:.3} mm", accuracy.out_of_plane_mm);
     println!("failures (over {FAILURE_DEG} deg) {}", accuracy.failures);
+    let Errors {
+        x_mm,
+        y_mm,
+        z_mm,
+        geodesic_deg,
+        ..
+    } = accuracy.rms;
+    println!(
+        "RMS of all poses: x {x_mm:.4}, y {y_mm:.4}, z {z_mm:.3} mm, rotation {geodesic_deg:.4} deg"
+    );
     write_json(args.json.as_deref(), &accuracy)
 }
 
-/// Builds a library of `mesh` and measures `poses` random poses against it.
+/// Builds a library of `mesh` and finds random poses again.
 ///
 /// # Errors
 /// Those of the core's builder, rasteriser and locator.
@@ -118,24 +153,23 @@ pub fn measure(
     mesh: Mesh<'_>,
     camera: Camera,
     views: &ViewOptions,
-    distance: f64,
-    poses: usize,
-    seed: u64,
+    protocol: &Protocol,
 ) -> Result<Accuracy> {
+    let distance = protocol.distance;
     let built = build_library(mesh, camera, views, distance)?;
-    let mut locator = Locator::open(&built.bytes, mesh)?;
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut finder = Finder::open(&built.bytes, mesh, camera, protocol.method)?;
+    let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
     let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
     let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
-    let bar = progress(poses, "poses");
-    let mut errors = Vec::with_capacity(poses);
-    for _ in 0..poses {
+    let bar = progress(protocol.poses, "poses");
+    let mut errors = Vec::with_capacity(protocol.poses);
+    for _ in 0..protocol.poses {
         let reference = random_pose(&mut random, &views.grid(), &mesh, distance);
         buffer.draw(|mask| render(&mesh, &camera, &reference, &mut scratch, mask))?;
-        let found = locator
-            .best(&buffer.mask(), &camera)
+        let found = finder
+            .best(&buffer.mask())
             .with_context(|| format!("at {:?}", EulerPose::from(reference)))?;
-        errors.push(Errors::of(&found.located.pose, &reference));
+        errors.push(Errors::of(&found.pose, &reference));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -180,5 +214,6 @@ fn means(errors: &[Errors]) -> Accuracy {
         out_of_plane_deg: (mean.x_rot_deg + mean.y_rot_deg) / 2.0,
         in_plane_mm: (mean.x_mm + mean.y_mm) / 2.0,
         out_of_plane_mm: mean.z_mm,
+        rms: Errors::summarise(errors, rms),
     }
 }

@@ -1,6 +1,6 @@
 //! A library and its model with the working memory to find poses of silhouettes.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
@@ -71,14 +71,5 @@ impl<'l> Locator<'l> {
             verify::<RIVALS>(&found.poses, &self.mesh, camera, mask, scratch, drawn)
         })?;
         Ok(rivals.to_vec())
-    }
-
-    /// The best pose of a mask.
-    ///
-    /// # Errors
-    /// Those of [`Self::locate`].
-    pub fn best(&mut self, mask: &Mask<'_>, camera: &Camera) -> Result<Verified> {
-        let rivals = self.locate(mask, camera)?;
-        rivals.first().copied().context("the library has no views")
     }
 }
