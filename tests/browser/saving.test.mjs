@@ -1,6 +1,6 @@
 /** What leaves the page comes back into it: poses as .jts, the whole work as a session. */
 import assert from 'node:assert/strict';
-import { ADDRESS, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
 import { choose, downloaded, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
@@ -54,7 +54,7 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
   });
 
   await step(page, t, 'the .jts file is read back into a fresh page', async () => {
-    await page.goto(ADDRESS);
+    await visit(page);
     await choose(page, ...frames);
     await panel.waitForFrames(page, FRAMES);
     await choose(page, saved[0]);
@@ -72,7 +72,7 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
       assert.equal(dialog.type(), 'beforeunload', 'the page asks before unsaved work is lost');
       await dialog.accept();
     });
-    await Promise.all([leaving, page.goto(ADDRESS)]);
+    await Promise.all([leaving, visit(page)]);
     await drop(page, saved[1]);
     await panel.waitForFrames(page, FRAMES);
     await panel.waitForLibraries(page, 'Femur');

@@ -98,8 +98,15 @@ async function freshPage() {
   page.on('pageerror', (error) => troubles.push(`thrown: ${error.stack ?? error.message}`));
   page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
   page.on('request', (request) => isOurs(request.url()) || troubles.push(`asked: ${request.url()}`));
-  await page.goto(ADDRESS);
+  await visit(page);
   return { page, troubles };
+}
+
+/** Opens the page anew, and waits until it listens. @param {import('playwright-core').Page} page */
+export async function visit(page) {
+  await page.goto(ADDRESS);
+  await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+  await drawn(page);
 }
 
 /** @param {string} url */

@@ -116,6 +116,14 @@ export async function slider(page, name) {
   return Number(await page.getByRole('slider', { name, exact: true }).inputValue());
 }
 
+/** Window width and level as the sliders say them in words. @param {Page} page */
+export async function windowAndLevel(page) {
+  const texts = ['Window width', 'Window level'].map((name) =>
+    page.getByRole('slider', { name, exact: true }).getAttribute('aria-valuetext'),
+  );
+  return (await Promise.all(texts)).map(Number);
+}
+
 /** Waits until frames are open. @param {Page} page @param {number} count */
 export async function waitForFrames(page, count) {
   await page.getByRole('application', { name: new RegExp(`frame \\d+ of ${count}\\b`) }).waitFor();

@@ -6,6 +6,8 @@ import { drawn, until } from './browser.mjs';
 
 /** From a corner of the canvas inwards, CSS px, so that the mouse surely is over it. */
 const INSET = 8;
+/** The readout's last decimal, px. */
+const TENTH = 0.1;
 /** Fraction of the canvas that a zoomed outline fills. */
 const FILL = 0.85;
 /** What one notch of the page's zoom multiplies by is `2 ** (NOTCH / 300)`. */
@@ -45,7 +47,9 @@ export class Stage {
     const [column1, row1] = await this.readout();
     const scale = (right - left) / (column1 - column0);
     const down = (bottom - top) / (row1 - row0);
-    assert(Math.abs(scale / down - 1) < 2e-3, `the frame is stretched: ${scale} across, ${down} down`);
+    // Both spans are rounded at both ends.
+    const doubt = TENTH / (column1 - column0) + TENTH / (row1 - row0);
+    assert(Math.abs(scale / down - 1) <= doubt, `the frame is stretched: ${scale} across, ${down} down`);
     this.view = { scale, left: left - column0 * scale, top: top - row0 * scale };
   }
 

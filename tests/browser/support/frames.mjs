@@ -1,0 +1,129 @@
+/** Small frames of every kind the page opens, with a pattern whose grey values are known. */
+import { encode } from 'fast-png';
+import { file } from './files.mjs';
+
+/** Width and height of every small frame. */
+export const SIZE = { width: 24, height: 16 };
+const PIXELS = SIZE.width * SIZE.height;
+
+/** Grey value of a pixel, 0 to 255: no two neighbours alike. @param {number} column @param {number} row */
+export function greyAt(column, row) {
+  return (7 * column + 13 * row + 5) % 256;
+}
+
+/** @param {(grey: number) => number} change @returns {number[]} */
+function pattern(change = (grey) => grey) {
+  return Array.from({ length: PIXELS }, (_, at) => change(greyAt(at % SIZE.width, Math.floor(at / SIZE.width))));
+}
+
+/** @param {number} depth 8 or 16 @param {(grey: number) => number} [change] */
+export function png(depth, change) {
+  const data = depth === 8 ? Uint8Array.from(pattern(change)) : Uint16Array.from(pattern(change));
+  return file(`grey${depth}.png`, encode({ ...SIZE, data, depth, channels: 1 }));
+}
+
+/**
+ * A baseline JPEG by the browser's own encoder. Whole blocks of one grey: a frame that JPEG keeps.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {number} grey
+ */
+export async function jpeg(page, grey) {
+  const address = await page.evaluate(
+    ({ width, height, grey }) => {
+      const canvas = document.createElement('canvas');
+      Object.assign(canvas, { width, height });
+      const context = canvas.getContext('2d');
+      context.fillStyle = `rgb(${grey}, ${grey}, ${grey})`;
+      context.fillRect(0, 0, width, height);
+      return canvas.toDataURL('image/jpeg', 1);
+    },
+    { ...SIZE, grey },
+  );
+  return file('grey.jpg', Buffer.from(address.split(',')[1], 'base64'));
+}
+
+/** Little-endian bytes of 16-bit values. @param {number[]} values */
+function words(values) {
+  const bytes = Buffer.alloc(2 * values.length);
+  values.forEach((value, index) => bytes.writeUInt16LE(value, 2 * index));
+  return bytes;
+}
+
+/** An uncompressed TIFF of 16-bit pages, after TIFF 6.0. @param {((grey: number) => number)[]} pages */
+export function tiff(pages) {
+  const head = Buffer.from([0x49, 0x49, 42, 0, 8, 0, 0, 0]);
+  const parts = [head];
+  let at = head.length;
+  pages.forEach((change, index) => {
+    const pixels = words(pattern(change));
+    const directory = tiffDirectory(at, pixels.length, index === pages.length - 1);
+    parts.push(directory, pixels);
+    at += directory.length + pixels.length;
+  });
+  return file('run.tif', Buffer.concat(parts));
+}
+
+/** A page's directory, its pixels right after it. @param {number} at @param {number} length @param {boolean} last */
+function tiffDirectory(at, length, last) {
+  const [short, long] = [3, 4];
+  const fields = [
+    [256, short, SIZE.width],
+    [257, short, SIZE.height],
+    [258, short, 16],
+    [259, short, 1],
+    [262, short, 1],
+    [273, long, 0],
+    [277, short, 1],
+    [278, short, SIZE.height],
+    [279, long, length],
+  ];
+  const size = 2 + 12 * fields.length + 4;
+  const directory = Buffer.alloc(size);
+  directory.writeUInt16LE(fields.length, 0);
+  fields.forEach(([tag, type, value], index) => {
+    const entry = 2 + 12 * index;
+    directory.writeUInt16LE(tag, entry);
+    directory.writeUInt16LE(type, entry + 2);
+    directory.writeUInt32LE(1, entry + 4);
+    directory.writeUInt32LE(tag === 273 ? at + size : value, entry + 8);
+  });
+  directory.writeUInt32LE(last ? 0 : at + size + length, size - 4);
+  return directory;
+}
+
+/** An uncompressed DICOM file of 12 stored bits, explicit little endian, after PS3.5 and PS3.10. @param {((grey: number) => number)[]} frames */
+export function dicom(frames) {
+  const syntax = element(0x0002, 0x0010, 'UI', '1.2.840.10008.1.2.1\0');
+  const meta = Buffer.concat([element(0x0002, 0x0001, 'OB', Buffer.from([0, 1])), syntax]);
+  const length = Buffer.alloc(4);
+  length.writeUInt32LE(meta.length);
+  const image = [
+    element(0x0028, 0x0002, 'US', words([1])),
+    element(0x0028, 0x0004, 'CS', 'MONOCHROME2 '),
+    element(0x0028, 0x0008, 'IS', `${frames.length}`.padEnd(2)),
+    element(0x0028, 0x0010, 'US', words([SIZE.height])),
+    element(0x0028, 0x0011, 'US', words([SIZE.width])),
+    element(0x0028, 0x0100, 'US', words([16])),
+    element(0x0028, 0x0101, 'US', words([12])),
+    element(0x0028, 0x0102, 'US', words([11])),
+    element(0x0028, 0x0103, 'US', words([0])),
+    element(0x0028, 0x1050, 'DS', '1000'),
+    element(0x0028, 0x1051, 'DS', '600 '),
+    element(0x7fe0, 0x0010, 'OW', words(frames.flatMap((change) => pattern(change)))),
+  ];
+  return file('run.dcm', Buffer.concat([Buffer.alloc(128), Buffer.from('DICM'), element(0x0002, 0x0000, 'UL', length), meta, ...image]));
+}
+
+/** @param {number} group @param {number} number @param {string} representation @param {Buffer | string} value of even length */
+function element(group, number, representation, value) {
+  const bytes = Buffer.from(value);
+  const long = representation === 'OB' || representation === 'OW';
+  const head = Buffer.alloc(long ? 12 : 8);
+  head.writeUInt16LE(group, 0);
+  head.writeUInt16LE(number, 2);
+  head.write(representation, 4, 'latin1');
+  if (long) head.writeUInt32LE(bytes.length, 8);
+  else head.writeUInt16LE(bytes.length, 6);
+  return Buffer.concat([head, bytes]);
+}
