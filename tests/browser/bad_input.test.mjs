@@ -1,0 +1,130 @@
+/** Bad input: a sentence in the bottom line, and the work that was there is still there. */
+import assert from 'node:assert/strict';
+import { pageTest, screenshot, step } from './support/browser.mjs';
+import { choose, drop, file } from './support/files.mjs';
+import { dicom, jpeg, png, tiff } from './support/frames.mjs';
+import { femurLibrary } from './support/library.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { demoFile, framePath, trueOutline } from './support/study.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
+/** @typedef {import('./support/study.mjs').Point} Point */
+
+/** Fractions of a file that are left of it. */
+const CUTS = [0.12, 0.5, 0.9];
+/** What no sentence for a person has in it. */
+const GIBBERISH = /undefined|\[object|panick|unreachable|RuntimeError|TypeError|Error:/;
+/** An outline that crosses itself, on the frame that has none. */
+const BOW_TIE = /** @type {Point[]} */ ([[400, 400], [600, 600], [600, 400], [400, 700]]);
+
+pageTest('bad input', async (page, t) => {
+  const stage = new Stage(page);
+  const work = await begunWork(page, stage);
+
+  for (const { bad, words } of await badFiles(page)) {
+    await step(page, t, bad.name, async (t) => {
+      await choose(page, bad);
+      t.diagnostic(await refused(page, bad.name, words));
+      await stillThere(page, stage, work);
+    });
+  }
+
+  await step(page, t, 'a bad file among good ones', async () => {
+    await drop(page, file('notes.docx', 'PK\u0003\u0004 nothing of ours'), { ...png(8), name: 'good.png' });
+    await panel.waitForFrames(page, 3);
+    await panel.waitForWords(page, /^notes\.docx: not recognised/);
+    await screenshot(page, 'error');
+    await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
+    await stillThere(page, stage, work);
+  });
+
+  await step(page, t, 'an outline that crosses itself', async (t) => {
+    await page.getByRole('button', { name: 'Frame 2, femur: empty' }).click();
+    await stage.learn();
+    await stage.trace(BOW_TIE);
+    t.diagnostic(await panel.waitForWords(page, /cross/));
+    assert.equal(await panel.shownPose(page), null);
+    await screenshot(page, 'crossing');
+    await page.getByRole('button', { name: 'Frame 1, femur: posed' }).click();
+    await stillThere(page, stage, work);
+  });
+
+  await step(page, t, 'a library with one bit flipped', async (t) => {
+    const undo = page.getByRole('button', { name: 'Undo: open a library of the femur' });
+    for (const [bit, bad] of flipped(await femurLibrary({ step: 10 }))) {
+      // A key takes the last sentence away.
+      await page.keyboard.press('Escape');
+      await panel.waitForWords(page, /^Drag a point/);
+      await choose(page, bad);
+      const sentence = await panel.waitForWords(page, /^Femur library: |not recognised/);
+      t.diagnostic(`bit ${bit}: ${sentence}`);
+      assert.doesNotMatch(sentence, GIBBERISH);
+      await stillThere(page, stage, work);
+      if (await undo.count()) await undo.click();
+      await stillThere(page, stage, work);
+    }
+  });
+});
+
+/** An outline with its pose on the first of two frames. @param {Page} page @param {Stage} stage */
+async function begunWork(page, stage) {
+  const files = [framePath(1), framePath(2), 'calibration.txt', 'femur.stl'];
+  await choose(page, ...(await Promise.all(files.map(demoFile))));
+  await panel.waitForFrames(page, 2);
+  await panel.waitForLibraries(page, 'Femur');
+  await stage.learn();
+  await stage.trace(await trueOutline('femur', 1));
+  const pose = await panel.waitForPose(page);
+  return { pose, picture: await stage.picture() };
+}
+
+/** @param {Page} page @param {Stage} stage @param {Awaited<ReturnType<typeof begunWork>>} work */
+async function stillThere(page, stage, work) {
+  assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
+  await panel.waitForThePose(page, work.pose);
+  await stage.looksLike(work.picture, 'the traced frame');
+}
+
+/** The sentence that refuses a file. @param {Page} page @param {string} name @param {RegExp} words */
+async function refused(page, name, words) {
+  const sentence = await panel.waitForWords(page, new RegExp(`^${name}: `));
+  assert.match(sentence, words);
+  assert(sentence.split(' ').length > 6, `a whole sentence: ${sentence}`);
+  assert.doesNotMatch(sentence.slice(name.length), GIBBERISH);
+  return sentence;
+}
+
+/** Files that cannot be used, and a word of what has to be said of each. @param {Page} page */
+async function badFiles(page) {
+  const model = await demoFile('femur.stl');
+  const frames = [await demoFile(framePath(3)), png(16), tiff([(grey) => grey, (grey) => grey]), dicom([(grey) => grey]), await jpeg(page, 99)];
+  const cut = [...frames, model].flatMap((whole) => CUTS.map((left) => ({ bad: shortened(whole, left), words: /damaged|incomplete|ends/ })));
+  return [
+    ...cut,
+    { bad: file('nan.txt', 'JT_INTCALIB\nNaN\n0\n0\n0.373\n'), words: /distance/ },
+    { bad: file('zero.txt', 'JT_INTCALIB\n0\n0\n0\n0.373\n'), words: /distance/ },
+    { bad: file('short.txt', 'JT_INTCALIB\n1200\n0\n'), words: /ends/ },
+    { bad: file('femur-nothing.stl', Buffer.alloc(84)), words: /no triangle/ },
+    { bad: file('femur-solid.stl', 'solid nothing\nendsolid nothing\n'), words: /no triangle/ },
+    { bad: file('femur-empty.stl', ''), words: /empty|not recognised/ },
+    { bad: file('nan.jts', 'JT_EULER_312\nx_tran, y_tran, z_tran, z_rot, x_rot, y_rot\n1, 2, NaN, 4, 5, 6\n'), words: /Line 3 .* six numbers/ },
+    { bad: file('cut.fluoropose.json', '{"kind":"fluoropose-session","version":1,"docu'), words: /cut short|damaged/ },
+  ];
+}
+
+/** @param {FileToOpen} whole @param {number} left fraction */
+function shortened({ name, buffer }, left) {
+  return file(`cut-${Math.round(100 * left)}-${name}`, buffer.subarray(0, Math.floor(left * buffer.length)));
+}
+
+/** The same library, wrong in one bit: of its first bytes, its header, its views and its end. @param {Uint8Array} library */
+function flipped(library) {
+  const last = 8 * library.length - 1;
+  return [3, 8 * 20 + 6, 8 * 200, Math.floor(last / 2), last].map((bit) => {
+    const bytes = Uint8Array.from(library);
+    bytes[bit >> 3] ^= 1 << (bit & 7);
+    return /** @type {const} */ ([bit, file('femur.lib', bytes)]);
+  });
+}

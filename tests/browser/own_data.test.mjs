@@ -1,0 +1,52 @@
+/** One's own data: a frame, a calibration and a model as files, no demonstration. */
+import assert from 'node:assert/strict';
+import { pageTest, step, until } from './support/browser.mjs';
+import { choose, drop } from './support/files.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { demoFile, framePath, trueOutline, truePose } from './support/study.mjs';
+
+/** As in tracing.test.mjs. */
+const HAND_TRACED = { x: 0.4, y: 0.4, z: 5, zRot: 0.75, xRot: 0.75, yRot: 0.75 };
+const FRAME = 6;
+
+pageTest('own files to a pose', async (page, t) => {
+  const stage = new Stage(page);
+  const needs = () => page.getByRole('region', { name: 'Pose numbers' }).innerText();
+
+  await step(page, t, 'the page says what is missing, file by file', async () => {
+    await drop(page, await demoFile(framePath(FRAME)));
+    await panel.waitForFrames(page, 1);
+    await until(needs, (text) => /For a pose: a calibration, a model .* outline/.test(text), 'what is missing');
+    await choose(page, { ...(await demoFile('calibration.txt')), name: 'C-arm 2.txt' });
+    await page.getByRole('button', { name: 'Calibration: C-arm 2.txt' }).waitFor();
+    await until(needs, (text) => /For a pose: a model .* outline/.test(text), 'what is still missing');
+  });
+
+  await step(page, t, 'a library that is being built can be called off', async () => {
+    await choose(page, { ...(await demoFile('femur.stl')), name: 'size 4.stl' });
+    await page.getByRole('button', { name: 'Cancel: Femur library' }).click();
+    await panel.waitForWords(page, /called off/);
+    assert.equal(await page.getByRole('progressbar').count(), 0);
+  });
+
+  await step(page, t, 'and built when asked for', async (t) => {
+    await page.getByRole('button', { name: /^Femur: size 4\.stl/ }).click();
+    const sheet = page.getByRole('dialog', { name: 'Femur' });
+    await sheet.getByRole('button', { name: 'Build the library' }).click();
+    await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
+    const ready = await until(() => sheet.innerText(), (text) => /Library: 1271 views/.test(text), 'the library');
+    t.diagnostic(/Library: .* s\./.exec(ready)?.[0] ?? ready);
+    await sheet.getByRole('button', { name: 'Close Femur' }).click();
+  });
+
+  await step(page, t, 'an outline gives the pose', async (t) => {
+    const outline = await trueOutline('femur', FRAME);
+    await stage.zoomTo(outline);
+    await stage.trace(outline);
+    const pose = await panel.waitForPose(page);
+    const truth = await truePose('femur', FRAME);
+    t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}`);
+    panel.assertNear(pose, truth, HAND_TRACED);
+  });
+});
