@@ -29,6 +29,7 @@ pub mod matching;
 pub mod math;
 pub mod median;
 pub mod mesh;
+pub mod mirror;
 pub mod pose;
 pub mod raster;
 pub mod refine;

@@ -26,11 +26,7 @@ impl Step {
     /// With `u = fx X / D`, `v = -fy Y / D`, `D = -Z`:
     /// `du = fx (dX / D + X dZ / D^2)`, `dv = -fy (dY / D + Y dZ / D^2)`, and a turn `w` moves the
     /// point by `w x (X - c)`.
-    pub(super) fn jacobian(
-        camera: &Camera,
-        centre: &Vector3,
-        sample: &BorderPixel,
-    ) -> [f64; 6] {
+    pub(super) fn jacobian(camera: &Camera, centre: &Vector3, sample: &BorderPixel) -> [f64; 6] {
         let depth = sample.depth();
         let [fx, fy] = camera.focal();
         let [cx, cy] = camera.principal_point();

@@ -1,6 +1,7 @@
 //! Errors of poses against known ones, and their statistics.
 
-use fluoropose::math::{IDENTITY, Matrix3, Vector3, dot, multiply, norm, scale, wrap};
+use fluoropose::math::wrap;
+use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use serde::Serialize;
 
@@ -81,32 +82,13 @@ pub fn median_absolute(values: &[f64]) -> f64 {
 /// Whether `found` lies on the wrong side of the mirror trap: nearer to a mirror image of the
 /// reference than to the reference itself.
 ///
-/// A part that is symmetric about a plane through one of its axes has nearly the same
-/// silhouette at `R' = (I - 2 d d^T) R diag(1, 1, -1)`, `d` the unit ray to it (and alike for its
-/// other axes). Where image and reference are less than 2 degrees apart there is no side.
+/// See [`fluoropose::mirror`]; all three axes are tried. Where image and reference are less than 2 degrees apart there is no side.
 pub fn is_wrong_side(found: &Pose, reference: &Pose) -> bool {
     let own = geodesic_deg(&found.rotation, &reference.rotation);
     (0..3)
-        .map(|axis| mirror_image(reference, axis))
+        .map(|axis| mirror_pose(reference, &[0.0; 3], axis).rotation)
         .filter(|image| geodesic_deg(image, &reference.rotation) > 2.0)
         .any(|image| geodesic_deg(&found.rotation, &image) < own)
-}
-
-/// The rotation whose view is the mirror image of the pose's, for a part symmetric in `axis`.
-fn mirror_image(pose: &Pose, axis: usize) -> Matrix3 {
-    let ray: Vector3 = scale(&pose.translation, 1.0 / norm(&pose.translation));
-    let mut reflection = IDENTITY;
-    for (row, values) in reflection.iter_mut().enumerate() {
-        for (column, value) in values.iter_mut().enumerate() {
-            *value -= 2.0 * ray[row] * ray[column];
-        }
-    }
-    let mut image = multiply(&reflection, &pose.rotation);
-    for row in &mut image {
-        row[axis] = -row[axis];
-    }
-    debug_assert!(dot(&image[0], &image[0]) > 0.99);
-    image
 }
 
 #[cfg(test)]

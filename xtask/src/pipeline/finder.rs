@@ -4,7 +4,7 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::mask::Mask;
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::Pose;
+use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::Refined;
 use fluoropose::verify::Verified;
 use serde::Serialize;
@@ -80,28 +80,27 @@ impl<'l> Finder<'l> {
         };
         let least = rivals.first().map_or(0, |best| best.unmatched);
         let limit = WORTH_REFINING * least as f64;
-        let mut answers = Vec::new();
+        let worth = |rival: &Verified| rival.unmatched as f64 <= limit;
+        let mut answers: Vec<Answer> = Vec::new();
         let mut failure = None;
-        for rival in rivals
-            .iter()
-            .filter(|rival| rival.unmatched as f64 <= limit)
-        {
+        for rival in rivals.iter().filter(|rival| worth(rival)) {
             match refiner.refine(mask, &rival.located.pose) {
-                Ok(refined) => answers.push(Answer {
-                    pose: refined.pose,
-                    located: *rival,
-                    refined: Some(refined),
-                }),
+                Ok(refined) => answers.push(Answer::refined(rival, refined)),
                 Err(error) => failure = Some(error),
             }
         }
+        // The mirror image of a pose may lie between the same views and be no rival of its own.
+        for answer in answers.clone() {
+            let mirrored = refiner.refine_mirrored(mask, &answer.pose);
+            answers.extend(
+                mirrored
+                    .into_iter()
+                    .map(|refined| Answer::refined(&answer.located, refined)),
+            );
+        }
         match (answers.is_empty(), failure) {
             (true, Some(error)) => Err(error.into()),
-            _ => {
-                let loss = |answer: &Answer| answer.refined.map_or(f64::MAX, |r| r.loss);
-                answers.sort_by(|a, b| loss(a).total_cmp(&loss(b)));
-                Ok(answers)
-            }
+            _ => Ok(distinct(answers)),
         }
     }
 
@@ -115,7 +114,32 @@ impl<'l> Finder<'l> {
     }
 }
 
+/// Poses by rising loss, each once: of poses nearer to each other than this, degrees, the best.
+const SAME_DEG: f64 = 0.5;
+
+fn distinct(mut answers: Vec<Answer>) -> Vec<Answer> {
+    let loss = |answer: &Answer| answer.refined.map_or(f64::MAX, |refined| refined.loss);
+    answers.sort_by(|a, b| loss(a).total_cmp(&loss(b)));
+    let mut kept: Vec<Answer> = Vec::new();
+    for answer in answers {
+        let same =
+            |other: &Answer| geodesic_deg(&other.pose.rotation, &answer.pose.rotation) < SAME_DEG;
+        if !kept.iter().any(same) {
+            kept.push(answer);
+        }
+    }
+    kept
+}
+
 impl Answer {
+    fn refined(located: &Verified, refined: Refined) -> Self {
+        Self {
+            pose: refined.pose,
+            located: *located,
+            refined: Some(refined),
+        }
+    }
+
     fn unrefined(located: &Verified) -> Self {
         Self {
             pose: located.located.pose,
