@@ -28,18 +28,18 @@ impl Point {
 /// A traced polygon in fixed memory: at most `N` vertices.
 pub type Contour<const N: usize> = Vec<Point, N>;
 
-/// Why a polygon is not an outline.
+/// Why a polygon is not an outline. Fields count points from 0, sentences from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OutlineError {
     /// Fewer than three vertices.
     #[error("the outline has {0} points; it needs at least 3")]
     TooFewPoints(usize),
     /// A coordinate is NaN or infinite.
-    #[error("point {0} of the outline has a coordinate that is not a number")]
+    #[error("point {} of the outline has a coordinate that is not a number", .0 + 1)]
     NotFinite(usize),
     /// A vertex lies beyond the frame's border.
     #[error(
-        "point {index} of the outline, at column {column:.1}, row {row:.1}, is outside the frame"
+        "point {} of the outline, at column {column:.1}, row {row:.1}, is outside the frame", index + 1
     )]
     OutsideFrame {
         /// Which vertex, from 0.
@@ -51,7 +51,9 @@ pub enum OutlineError {
     },
     /// Two sides meet where they should not.
     #[error(
-        "the outline crosses itself: the side after point {first} meets the side after point {second}; move one of their points"
+        "the outline crosses itself: the side after point {} meets the side after point {}; move one of their points",
+        first + 1,
+        second + 1
     )]
     SelfCrossing {
         /// The side from this vertex to the next, from 0.
