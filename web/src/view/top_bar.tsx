@@ -37,7 +37,15 @@ export function TopBar({ state }: { state: State }) {
           <Icon name="save" /> Save
         </button>
         <SavedState state={state} />
-        <button type="button" class="button round" aria-label="Keys and mouse" title="Keys and mouse (?)" onClick={() => toggle(services.store, 'keys')}>
+        <button
+          type="button"
+          class="button round"
+          aria-label="Keys and mouse"
+          title="Keys and mouse (?)"
+          aria-haspopup="dialog"
+          aria-expanded={state.ui.popover === 'keys'}
+          onClick={() => toggle(services.store, 'keys')}
+        >
           ?
         </button>
       </div>
