@@ -14,6 +14,8 @@ import { demoFile, framePath, trueOutline } from './support/study.mjs';
 
 /** Fractions of a file that are left of it. */
 const CUTS = [0.12, 0.5, 0.9];
+/** A library begins with eight letters. */
+const MAGIC_BITS = 64;
 /** What no sentence for a person has in it. */
 const GIBBERISH = /undefined|\[object|panick|unreachable|RuntimeError|TypeError|Error:/;
 /** An outline that crosses itself, on the frame that has none. */
@@ -52,17 +54,9 @@ pageTest('bad input', async (page, t) => {
   });
 
   await step(page, t, 'a library with one bit flipped', async (t) => {
-    const undo = page.getByRole('button', { name: 'Undo: open a library of the femur' });
     for (const [bit, bad] of flipped(await femurLibrary({ step: 10 }))) {
-      // A key takes the last sentence away.
-      await page.keyboard.press('Escape');
-      await panel.waitForWords(page, /^Drag a point/);
       await choose(page, bad);
-      const sentence = await panel.waitForWords(page, /^Femur library: |not recognised/);
-      t.diagnostic(`bit ${bit}: ${sentence}`);
-      assert.doesNotMatch(sentence, GIBBERISH);
-      await stillThere(page, stage, work);
-      if (await undo.count()) await undo.click();
+      t.diagnostic(await refused(page, bad.name, bit < MAGIC_BITS ? /not recognised/ : /damaged/));
       await stillThere(page, stage, work);
     }
   });
@@ -125,6 +119,6 @@ function flipped(library) {
   return [3, 8 * 20 + 6, 8 * 200, Math.floor(last / 2), last].map((bit) => {
     const bytes = Uint8Array.from(library);
     bytes[bit >> 3] ^= 1 << (bit & 7);
-    return /** @type {const} */ ([bit, file('femur.lib', bytes)]);
+    return /** @type {const} */ ([bit, file(`bit-${bit}.lib`, bytes)]);
   });
 }

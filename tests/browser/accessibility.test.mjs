@@ -1,0 +1,119 @@
+/** Names, roles, contrast and the keyboard's way through the page. */
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { pageTest, screenshot, step } from './support/browser.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { trueOutline } from './support/study.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const AXE = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
+/** The rules of version 2.1 of the web's accessibility guidelines, A and AA. */
+const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa'];
+const CONTROLS = /^(button|radio|checkbox|slider|spinbutton|textbox|combobox|application|img|progressbar|dialog|link|menuitem|tab|switch)$/;
+
+/** Controls that Tab has to reach once there is a pose, in this order. */
+const MAIN_CONTROLS = [
+  'Name of the study',
+  'Side of the body',
+  'Calibration: calibration.txt',
+  'Femur: femur.stl',
+  'Tibia: tibia.stl',
+  'Undo: close the outline',
+  'Open files',
+  'Save session',
+  'Keys and mouse',
+  'Edit points',
+  'Trace points',
+  'Fit the film to the window',
+  /Femur outline$/,
+  'Femur',
+  /^x \S+ mm$/,
+  /^y rotation \S+ degrees$/,
+  'Best candidate',
+  'Overlay opacity',
+  'Window width',
+  'Window level',
+  'Save femur poses',
+  'Delete outline',
+  'Next frame',
+  'Frame',
+  'Frame 1, femur: posed',
+  'Frame 8, tibia: empty',
+  'Log',
+];
+
+pageTest('accessibility', async (page, t) => {
+  await page.addScriptTag({ path: AXE });
+  await step(page, t, 'the empty page', () => isAccessible(page));
+
+  await step(page, t, 'with a pose', async () => {
+    await panel.openDemonstration(page);
+    await isAccessible(page);
+    await panel.waitForLibraries(page, 'Femur', 'Tibia');
+    const stage = new Stage(page);
+    await stage.learn();
+    await stage.trace(await trueOutline('femur', 1));
+    await panel.waitForPose(page);
+    await isAccessible(page);
+  });
+
+  for (const [opener, sheet] of [['Calibration: calibration.txt', 'Calibration'], ['Femur: femur.stl', 'Femur'], ['Save session', 'Save'], ['Keys and mouse', 'Keys and mouse'], ['Log', 'Log']]) {
+    await step(page, t, `the sheet ${sheet}`, async () => {
+      const button = page.getByRole('button', { name: opener, exact: true });
+      await button.press('Enter');
+      await page.getByRole('dialog', { name: sheet }).waitFor();
+      await isAccessible(page);
+      await screenshot(page, `sheet ${sheet}`);
+      await page.keyboard.press('Escape');
+      await page.getByRole('dialog', { name: sheet }).waitFor({ state: 'hidden' });
+      assert.equal(await focused(page), opener, 'the focus goes back to where it was');
+    });
+  }
+
+  await step(page, t, 'Tab reaches the main controls in order', async () => {
+    const reached = await tabThrough(page);
+    let at = -1;
+    for (const control of MAIN_CONTROLS) {
+      const matches = (/** @type {string} */ name) => (typeof control === 'string' ? name === control : control.test(name));
+      const next = reached.findIndex((name, index) => index > at && matches(name));
+      assert(next >= 0, `${control} is not reached after ${reached[at] ?? 'the beginning'}: ${reached.join(' | ')}`);
+      at = next;
+    }
+  });
+});
+
+/** No rule of the guidelines is broken, and every control has a name. @param {Page} page */
+async function isAccessible(page) {
+  const violations = await page.evaluate(async (rules) => {
+    const { violations } = await globalThis.axe.run(document, { runOnly: rules });
+    return violations.map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map((node) => node.html.slice(0, 160)).join(' and ')}`);
+  }, RULES);
+  assert.deepEqual(violations, []);
+  const lines = (await page.locator('body').ariaSnapshot()).split('\n').map((line) => line.trim());
+  const nameless = lines.filter((line) => {
+    const [, role, rest] = /^- '?([a-z]+)(.*)$/.exec(line) ?? [];
+    return role && CONTROLS.test(role) && !rest.startsWith(' "');
+  });
+  assert.deepEqual(nameless, [], 'controls without a name');
+}
+
+/** The name of what has the keyboard's focus. @param {Page} page @returns {Promise<string>} */
+function focused(page) {
+  return page.evaluate(() => {
+    const element = document.activeElement;
+    return element?.getAttribute('aria-label') ?? element?.textContent?.replace(/\s+/g, ' ').trim() ?? '';
+  });
+}
+
+/** Names of everything that Tab reaches, from the first control to the last. @param {Page} page */
+async function tabThrough(page) {
+  await page.getByRole('textbox', { name: 'Name of the study' }).focus();
+  const reached = [await focused(page)];
+  while (reached.at(-1) !== 'Log' && reached.length < 80) {
+    await page.keyboard.press('Tab');
+    reached.push(await focused(page));
+  }
+  return reached;
+}
