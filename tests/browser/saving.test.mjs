@@ -4,10 +4,8 @@ import { pageTest, screenshot, step, until, visit } from './support/browser.mjs'
 import { choose, downloaded, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
-import { demoFile, framePath, readJts, trueOutline, truePose } from './support/study.mjs';
+import { HAND_TRACED, demoFile, framePath, readJts, trueOutline, truePose } from './support/study.mjs';
 
-/** As in tracing.test.mjs. */
-const HAND_TRACED = { x: 0.4, y: 0.4, z: 5, zRot: 0.75, xRot: 0.75, yRot: 0.75 };
 const TRACED = [2, 3];
 const FRAMES = 3;
 const NAME = 'knee 7';

@@ -7,8 +7,16 @@ import { ADDRESS } from './browser.mjs';
 /** @typedef {{ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number }} Pose mm and degrees */
 /** @typedef {[number, number]} Point column and row on the frame */
 
-/** How far a traced polygon may leave the true border, px: a careful hand, 50 to 60 clicks. */
-const HAND = 0.8;
+/** How far a traced polygon may leave the true border, px: a careful hand, 40 to 50 clicks. */
+const HAND = 1;
+
+/**
+ * What such a polygon of the femur, clicked on whole screen pixels of a film that has been zoomed in, has to give: a
+ * little over the worst of the demonstration's 8 frames at scales of 2 and 2.8 (0.17 mm, 3.0 mm, 0.38 degrees).
+ *
+ * @type {Pose}
+ */
+export const HAND_TRACED = { x: 0.25, y: 0.25, z: 4, zRot: 0.5, xRot: 0.5, yRot: 0.5 };
 
 /**
  * One file of the demonstration.
