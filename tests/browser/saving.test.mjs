@@ -1,10 +1,14 @@
 /** What leaves the page comes back into it: poses as .jts, the whole work as a session. */
 import assert from 'node:assert/strict';
-import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
+import { pageTest, step, until, visit } from './support/browser.mjs';
 import { choose, downloaded, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, framePath, readJts, trueOutline, truePose } from './support/study.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('./support/files.mjs').FileToOpen} FileToOpen */
+/** @typedef {Awaited<ReturnType<typeof traceFrames>>} Traced frames with their poses and pictures */
 
 const TRACED = [2, 3];
 const FRAMES = 3;
@@ -14,9 +18,9 @@ const DISPLAY = { 'Window width': 150, 'Window level': 90, 'Overlay opacity': 0.
 pageTest('poses and sessions come back as they left', async (page, t) => {
   const stage = new Stage(page);
   const frames = await Promise.all(Array.from({ length: FRAMES }, (_, index) => demoFile(framePath(index + 1))));
-  /** @type {Awaited<ReturnType<typeof traceFrames>>} */
+  /** @type {Traced} */
   let traced = [];
-  /** @type {import('./support/files.mjs').FileToOpen[]} */
+  /** @type {FileToOpen[]} */
   const saved = [];
 
   await step(page, t, 'two frames are traced', async () => {
@@ -40,30 +44,8 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
     assert(rows.some(({ xRot }) => xRot === Number(copied)), `${copied} is the x rotation of no row`);
   });
 
-  await step(page, t, 'a session is saved', async () => {
-    await page.getByRole('textbox', { name: 'Name of the study' }).fill(NAME);
-    for (const [name, value] of Object.entries(DISPLAY)) await page.getByRole('slider', { name }).fill(String(value));
-    for (const work of traced) work.picture = await pictureOf(page, stage, work.frame);
-    await page.getByRole('button', { name: 'Save session', exact: true }).click();
-    await screenshot(page, 'save-sheet');
-    const session = await downloaded(page, 'Save session file');
-    assert.equal(session.name, 'knee_7.fluoropose.json');
-    saved.push(session);
-  });
-
-  await step(page, t, 'the .jts file is read back into a fresh page', async () => {
-    await visit(page);
-    await choose(page, ...frames);
-    await panel.waitForFrames(page, FRAMES);
-    await choose(page, saved[0]);
-    await panel.waitForWords(page, /as poses of the femur/);
-    for (const { frame, pose } of traced) {
-      await goTo(page, frame);
-      await panel.waitForThePose(page, pose);
-    }
-    await goTo(page, 1);
-    await until(() => panel.shownPose(page), (pose) => pose === null, 'frame 1 to be without a pose');
-  });
+  await step(page, t, 'a session is saved', async () => saved.push(await savedSession(page, stage, traced)));
+  await step(page, t, 'the .jts file is read back into a fresh page', () => readBack(page, frames, saved[0], traced));
 
   await step(page, t, 'a session brings everything back into a fresh page', async () => {
     const leaving = page.waitForEvent('dialog').then(async (dialog) => {
@@ -78,7 +60,33 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
   });
 });
 
-/** @param {import('playwright-core').Page} page @param {Stage} stage */
+/** @param {Page} page @param {Stage} stage @param {Traced} traced gains pictures of the frames */
+async function savedSession(page, stage, traced) {
+  await page.getByRole('textbox', { name: 'Name of the study' }).fill(NAME);
+  for (const [name, value] of Object.entries(DISPLAY)) await page.getByRole('slider', { name }).fill(String(value));
+  for (const work of traced) work.picture = await pictureOf(page, stage, work.frame);
+  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  const session = await downloaded(page, 'Save session file');
+  assert.equal(session.name, 'knee_7.fluoropose.json');
+  return session;
+}
+
+/** @param {Page} page @param {FileToOpen[]} frames @param {FileToOpen} jts @param {Traced} traced */
+async function readBack(page, frames, jts, traced) {
+  await visit(page);
+  await choose(page, ...frames);
+  await panel.waitForFrames(page, FRAMES);
+  await choose(page, jts);
+  await panel.waitForWords(page, /as poses of the femur/);
+  for (const { frame, pose } of traced) {
+    await goTo(page, frame);
+    await panel.waitForThePose(page, pose);
+  }
+  await goTo(page, 1);
+  await until(() => panel.shownPose(page), (pose) => pose === null, 'frame 1 to be without a pose');
+}
+
+/** @param {Page} page @param {Stage} stage */
 async function traceFrames(page, stage) {
   const done = [];
   for (const frame of TRACED) {
@@ -94,7 +102,7 @@ async function traceFrames(page, stage) {
   return done;
 }
 
-/** @param {import('./support/study.mjs').Pose[]} rows @param {Awaited<ReturnType<typeof traceFrames>>} traced */
+/** @param {import('./support/study.mjs').Pose[]} rows @param {Traced} traced */
 async function checkRows(rows, traced) {
   assert.equal(rows.length, FRAMES);
   for (const { frame, pose } of traced) {
@@ -104,7 +112,7 @@ async function checkRows(rows, traced) {
   assert(Object.values(rows[0]).every((value) => value === 0), 'a frame without a pose is a row of zeros');
 }
 
-/** @param {import('playwright-core').Page} page @param {Stage} stage @param {Awaited<ReturnType<typeof traceFrames>>} traced */
+/** @param {Page} page @param {Stage} stage @param {Traced} traced */
 async function sameWork(page, stage, traced) {
   const femur = (await panel.cells(page)).filter((name) => name.includes('femur'));
   assert.deepEqual(femur, ['Frame 1, femur: empty', 'Frame 2, femur: posed', 'Frame 3, femur: posed']);
@@ -119,13 +127,13 @@ async function sameWork(page, stage, traced) {
   }
 }
 
-/** The whole film with outline and silhouette. @param {import('playwright-core').Page} page @param {Stage} stage @param {number} frame */
+/** The whole film with outline and silhouette. @param {Page} page @param {Stage} stage @param {number} frame */
 async function pictureOf(page, stage, frame) {
   await goTo(page, frame);
   return stage.picture();
 }
 
-/** @param {import('playwright-core').Page} page @param {number} frame from 1 */
+/** @param {Page} page @param {number} frame from 1 */
 async function goTo(page, frame) {
   await page.getByRole('slider', { name: 'Frame', exact: true }).fill(String(frame - 1));
   await page.getByRole('application', { name: new RegExp(`frame ${frame} of`) }).waitFor();

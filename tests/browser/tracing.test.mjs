@@ -1,13 +1,15 @@
 /** The whole way: demonstration, outline by mouse, pose; a point dragged; undo and redo. */
 import assert from 'node:assert/strict';
 import { decode } from 'fast-png';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, trueOutline, truePose } from './support/study.mjs';
 
 /** How far a point is dragged off the border, px of the frame. */
 const OFF = 6;
+/** A changed number flashes for less, ms. */
+const FLASH = 700;
 
 pageTest('from the demonstration to a pose', async (page, t) => {
   const stage = new Stage(page);
@@ -34,8 +36,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}; ${await panel.unmatched(page)} px unmatched`);
     panel.assertNear(pose, truth, HAND_TRACED);
     assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
-    await page.mouse.move(1, 1);
-    await drawn(page);
+    await atRest(page);
     await screenshot(page, 'traced');
   });
 
@@ -43,7 +44,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
 
   await step(page, t, 'the film fits again and the silhouette lies on the implant', async () => {
     await page.getByRole('button', { name: 'Fit the film to the window' }).click();
-    await drawn(page);
+    await atRest(page);
     await screenshot(page, 'traced-fitted');
   });
 
@@ -94,8 +95,7 @@ async function tibiaCandidates(page, stage, t) {
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const best = await panel.waitForPose(page);
-  await page.mouse.move(1, 1);
-  await drawn(page);
+  await atRest(page);
   await screenshot(page, 'candidates');
   const chosen = (/** @type {string} */ name) => page.getByRole('radio', { name: `${name} candidate`, checked: true });
   await chosen('Best').waitFor();
@@ -111,6 +111,12 @@ async function tibiaCandidates(page, stage, t) {
   const nearer = [best, rival].sort((a, b) => Math.abs(a.xRot - truth.xRot) - Math.abs(b.xRot - truth.xRot))[0];
   // A small round tray says little about its turn round the leg.
   panel.assertNear(nearer, truth, { ...HAND_TRACED, yRot: 1.5 });
+}
+
+/** The mouse away, and the flash of a changed number over. @param {import('playwright-core').Page} page */
+async function atRest(page) {
+  await page.mouse.move(1, 1);
+  await page.waitForTimeout(FLASH);
 }
 
 /** Pixels that differ in the view of the unmatched pixels, as the screen shows them. @param {import('playwright-core').Page} page */

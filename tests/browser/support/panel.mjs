@@ -95,20 +95,10 @@ export function waitForWords(page, pattern) {
   return until(() => said(page), (text) => pattern.test(text), `the status line to say ${pattern}`);
 }
 
-/** Everything that was said, the latest first, by the log. @param {Page} page @returns {Promise<string[]>} */
-export async function log(page) {
-  const button = page.getByRole('button', { name: 'Log', exact: true });
-  await button.click();
-  const lines = await page.getByRole('dialog', { name: 'Log' }).getByRole('listitem').allInnerTexts();
-  await button.click();
-  return lines;
-}
-
 /** The states of the cells: `Frame 1, femur: posed` and so on. @param {Page} page */
 export async function cells(page) {
   const buttons = page.getByRole('table', { name: 'Frames and components' }).getByRole('button');
-  const names = await buttons.evaluateAll((all) => all.map((button) => button.getAttribute('aria-label') ?? ''));
-  return names;
+  return buttons.evaluateAll((all) => all.map((button) => button.getAttribute('aria-label') ?? ''));
 }
 
 /** @param {Page} page @param {string} name such as `Window width` */
