@@ -309,7 +309,7 @@ mod tests {
     use crate::contour::Outline;
     use proptest::prelude::*;
 
-    const SIDE: usize = 400;
+    const SIDE: usize = 480;
 
     /// A shape without symmetry, turned, scaled and shifted.
     fn shape(deg: f64, size: f64, at: (f64, f64), aspect: f64) -> std::vec::Vec<Word> {
@@ -354,8 +354,8 @@ mod tests {
         ) {
             let spec = CanonicalSpec::default();
             let (mut a, mut b) = (std::vec![0; spec.words_needed()], std::vec![0; spec.words_needed()]);
-            let first = form_of(&shape(0.0, 110.0, (200.0, 200.0), 1.0), 1.0, &mut a);
-            let second = form_of(&shape(deg, size, (200.0 + dx, 200.0 + dy), aspect), aspect, &mut b);
+            let first = form_of(&shape(0.0, 110.0, (240.0, 240.0), 1.0), 1.0, &mut a);
+            let second = form_of(&shape(deg, size, (240.0 + dx, 240.0 + dy), aspect), aspect, &mut b);
             let mut turned = std::vec![0; b.len()];
             reverse(&b, &mut turned);
             let (straight, reversed) = (unmatched(&a, &b), unmatched(&a, &turned));
@@ -373,7 +373,7 @@ mod tests {
     fn the_area_is_the_one_asked_for() {
         let spec = CanonicalSpec::default();
         let mut out = std::vec![0; spec.words_needed()];
-        let form = form_of(&shape(33.0, 120.0, (200.0, 200.0), 1.0), 1.0, &mut out);
+        let form = form_of(&shape(33.0, 120.0, (240.0, 240.0), 1.0), 1.0, &mut out);
         let area = Mask::new(&out, 256, 256).expect("valid").area();
         assert!((area as f64 - 15_000.0).abs() < 40.0, "{area}");
         assert!(!form.clipped);
@@ -383,7 +383,7 @@ mod tests {
     fn reversing_twice_changes_nothing() {
         let spec = CanonicalSpec::default();
         let mut out = std::vec![0; spec.words_needed()];
-        form_of(&shape(70.0, 120.0, (200.0, 200.0), 1.0), 1.0, &mut out);
+        form_of(&shape(70.0, 120.0, (240.0, 240.0), 1.0), 1.0, &mut out);
         let (mut once, mut twice) = (out.clone(), out.clone());
         reverse(&out, &mut once);
         reverse(&once, &mut twice);

@@ -151,7 +151,8 @@ fn first_crossing(points: &[Point]) -> Option<(usize, usize)> {
             let touch = if neighbours {
                 folds_back(a, b)
             } else {
-                segments_meet(a, b)
+                // Most pairs are far apart: boxes are compared before anything is multiplied.
+                boxes_meet(a, b) && segments_meet(a, b)
             };
             if touch {
                 return Some((first, second));
@@ -159,6 +160,11 @@ fn first_crossing(points: &[Point]) -> Option<(usize, usize)> {
         }
     }
     None
+}
+
+fn boxes_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let overlap = |a: f64, b: f64, c: f64, d: f64| a.max(b) >= c.min(d) && c.max(d) >= a.min(b);
+    overlap(a.row, b.row, c.row, d.row) && overlap(a.column, b.column, c.column, d.column)
 }
 
 /// Twice the signed area of the triangle `a b c`.

@@ -218,7 +218,7 @@ impl<'a> Mask<'a> {
     /// ranges for an empty mask.
     #[must_use]
     pub fn bounds(&self) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
-        let (mut columns, mut rows) = (usize::MAX..0, usize::MAX..0);
+        let (mut left, mut right, mut rows) = (usize::MAX, 0, 0..0);
         for row in 0..self.height {
             let words = self.row(row);
             let first = next_bit(words, 0, true);
@@ -228,14 +228,10 @@ impl<'a> Mask<'a> {
             let last = words.iter().rposition(|&word| word != 0).map_or(0, |at| {
                 (at + 1) * WORD_BITS - words[at].leading_zeros() as usize
             });
-            columns = columns.start.min(first)..columns.end.max(last);
-            rows = rows.start.min(row)..row + 1;
+            (left, right) = (left.min(first), right.max(last));
+            rows = if rows.end == 0 { row } else { rows.start }..row + 1;
         }
-        if rows.end == 0 {
-            (0..0, 0..0)
-        } else {
-            (columns, rows)
-        }
+        (left.min(right)..right, rows)
     }
 
     /// Area and first and second moments, exact: each run of pixels adds closed-form sums.

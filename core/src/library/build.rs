@@ -92,7 +92,7 @@ impl<'m> Builder<'m> {
     ) -> Result<Self, BuildError> {
         let bounds = mesh.bounds();
         let radius = bounds.radius;
-        if !(distance > 1.01 * radius) {
+        if distance.is_nan() || distance <= 1.01 * radius {
             return Err(BuildError::TooNear { distance, radius });
         }
         // A sphere at `distance` on the axis has an image of radius f r / sqrt(d^2 - r^2).
@@ -153,7 +153,6 @@ impl<'m> Builder<'m> {
     ///
     /// # Errors
     /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
-    #[expect(clippy::type_complexity, reason = "two chunk iterators, no more")]
     pub fn places<'b>(
         &self,
         bytes: &'b mut [u8],
