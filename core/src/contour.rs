@@ -97,7 +97,9 @@ impl<'a> Outline<'a> {
                 });
             }
         }
-        if signed_area(points) == 0.0 {
+        // Before crossings, because points on one line also fold back; a crossing polygon may
+        // enclose equal areas of both signs, so its area says nothing.
+        if on_one_line(points) {
             return Err(OutlineError::ZeroArea);
         }
         match first_crossing(points) {
@@ -141,6 +143,12 @@ fn signed_area(points: &[Point]) -> f64 {
         })
         .sum();
     twice / 2.0
+}
+
+fn on_one_line(points: &[Point]) -> bool {
+    let first = points.first().copied().unwrap_or_default();
+    let other = points.iter().copied().find(|&point| point != first);
+    other.is_none_or(|other| points.iter().all(|&p| orientation(first, other, p) == 0.0))
 }
 
 fn first_crossing(points: &[Point]) -> Option<(usize, usize)> {
@@ -243,6 +251,15 @@ mod tests {
         );
         assert_eq!(
             error(&points([(1.0, 1.0), (2.0, 2.0), (4.0, 4.0)])),
+            Some(OutlineError::ZeroArea)
+        );
+        let even = points([(1.0, 1.0), (5.0, 5.0), (5.0, 1.0), (1.0, 5.0)]);
+        assert!(matches!(
+            error(&even),
+            Some(OutlineError::SelfCrossing { .. })
+        ));
+        assert_eq!(
+            error(&points([(3.0, 3.0); 4])),
             Some(OutlineError::ZeroArea)
         );
         let bow_tie = points([(1.0, 1.0), (5.0, 5.0), (5.0, 1.0), (1.0, 6.0)]);
