@@ -34,5 +34,6 @@ pub mod pose;
 pub mod raster;
 pub mod refine;
 pub mod region;
+pub mod rivals;
 pub mod scan;
 pub mod verify;

@@ -8,6 +8,7 @@ mod calibration;
 mod error;
 mod film;
 mod jts;
+mod lent_model;
 mod library;
 mod matcher;
 mod model;

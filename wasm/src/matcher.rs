@@ -6,14 +6,12 @@ use fluoropose::contour::{Outline, Point};
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
 use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::mesh::Mesh;
 use fluoropose::pose::EulerPose;
-use fluoropose::raster::Projected;
-use fluoropose::verify::unmatched_at;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::camera;
 use crate::error::sentence;
+use crate::lent_model::{LentModel, Ranked};
 use crate::pose_numbers::{PoseNumbers, to_numbers};
 
 self_cell::self_cell!(
@@ -40,17 +38,9 @@ pub struct Matcher {
     library: OpenLibrary,
     model: Option<LentModel>,
     mask: Vec<Word>,
-    drawn: Vec<Word>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
-}
-
-/// The model that the library was made from, with the working memory to draw it.
-struct LentModel {
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    projected: Vec<Projected>,
 }
 
 #[wasm_bindgen]
@@ -67,7 +57,6 @@ impl Matcher {
             library,
             model: None,
             mask: Vec::new(),
-            drawn: Vec::new(),
             canonical: vec![0; words],
             turned: vec![0; words],
             scores: vec![0; scores],
@@ -80,13 +69,8 @@ impl Matcher {
     /// A sentence when the library was made from another model.
     #[wasm_bindgen(js_name = lendModel)]
     pub fn lend_model(&mut self, vertices: &[f32], triangles: &[u32]) -> Result<(), JsError> {
-        let model = LentModel {
-            projected: vec![Projected::default(); vertices.len() / 3],
-            vertices: vertices.as_chunks().0.to_vec(),
-            triangles: triangles.as_chunks().0.to_vec(),
-        };
-        let mesh = Mesh::new(&model.vertices, &model.triangles).map_err(sentence)?;
-        if mesh.digest() != self.library.borrow_dependent().info().model {
+        let model = LentModel::new(vertices, triangles);
+        if model.mesh()?.digest() != self.library.borrow_dependent().info().model {
             return Err(JsError::new(
                 "The library was made from another model: open the model that belongs to it, or build it again",
             ));
@@ -127,7 +111,62 @@ impl Matcher {
         height: u32,
     ) -> Result<Match, JsError> {
         let camera = camera(calibration, width, height)?;
-        let (width, height) = (width as usize, height as usize);
+        let (near, clipped) = self.locate(outline, &camera)?;
+        let ranked = match &mut self.model {
+            Some(model) => {
+                let mask = held(&self.mask, &camera)?;
+                let ranked = model.rank(near, &camera, &mask)?;
+                within(&ranked, |ranked| {
+                    ranked.drawn.map_or(f64::MAX, |count| count as f64)
+                })
+            }
+            None => near.into_iter().map(Ranked::undrawn).collect(),
+        };
+        Ok(self.offer(&ranked, clipped))
+    }
+
+    /// The same, and then brings the model's outline onto this one: the rivals by rising loss, with their residuals. Takes
+    /// some twenty times as long. Without the model nothing can be refined, and the answer is that of `match_outline`.
+    ///
+    /// # Errors
+    /// Those of `match_outline`, and the core's sentence when no rival can be refined.
+    #[wasm_bindgen(js_name = refineOutline)]
+    pub fn refine_outline(
+        &mut self,
+        outline: &[f64],
+        calibration: &str,
+        width: u32,
+        height: u32,
+    ) -> Result<Match, JsError> {
+        if self.model.is_none() {
+            return self.match_outline(outline, calibration, width, height);
+        }
+        let camera = camera(calibration, width, height)?;
+        let (near, clipped) = self.locate(outline, &camera)?;
+        let mask = held(&self.mask, &camera)?;
+        let refined = match &mut self.model {
+            Some(model) => model.refine(near, &camera, &mask)?,
+            None => Vec::new(),
+        };
+        let near_best = within(&refined, |ranked| ranked.residual_px.unwrap_or(f64::MAX));
+        Ok(self.offer(&near_best, clipped))
+    }
+}
+
+/// The mask of a camera's frames in memory that was filled for it.
+fn held<'w>(words: &'w [Word], camera: &Camera) -> Result<Mask<'w>, JsError> {
+    Mask::new(words, camera.width(), camera.height()).map_err(sentence)
+}
+
+impl Matcher {
+    /// Fills the mask with an outline and looks the library through: the poses that come near the best, and whether the
+    /// canonical silhouette is clipped.
+    fn locate(
+        &mut self,
+        outline: &[f64],
+        camera: &Camera,
+    ) -> Result<(Vec<Located>, bool), JsError> {
+        let (width, height) = (camera.width(), camera.height());
         let points: Vec<Point> = outline
             .as_chunks()
             .0
@@ -144,29 +183,21 @@ impl Matcher {
             turned: &mut self.turned,
             scores: &mut self.scores,
         };
-        let mask = mask.into_mask();
-        let found = locate::<MINIMA>(&mask, &camera, library, work).map_err(sentence)?;
-        let (poses, clipped) = (found.poses, found.form.clipped);
-        let near = within(&poses, |located| f64::from(located.fine.unmatched));
-        let ranked = match &mut self.model {
-            Some(model) => model.rank(near, &camera, &mask, &mut self.drawn)?,
-            None => near
-                .iter()
-                .map(|&located| Ranked {
-                    located,
-                    drawn: None,
-                })
-                .collect(),
-        };
+        let found = locate::<MINIMA>(&mask.into_mask(), camera, library, work).map_err(sentence)?;
+        let near = within(&found.poses, |located| f64::from(located.fine.unmatched));
+        Ok((near, found.form.clipped))
+    }
+
+    fn offer(&self, ranked: &[Ranked], clipped: bool) -> Match {
         let candidates = ranked
             .iter()
             .take(OFFERED)
             .map(|ranked| self.candidate(ranked))
             .collect();
-        Ok(Match {
+        Match {
             candidates,
             clipped,
-        })
+        }
     }
 }
 
@@ -180,56 +211,19 @@ fn within<T: Copy>(items: &[T], score: impl Fn(&T) -> f64) -> Vec<T> {
         .collect()
 }
 
-/// A pose, and the frame pixels that differ from the outline when the model is drawn there.
-#[derive(Clone, Copy)]
-struct Ranked {
-    located: Located,
-    drawn: Option<u64>,
-}
-
-impl LentModel {
-    /// Puts rivals in order by drawing the model at each. A pose that cannot be drawn comes last, without a figure.
-    fn rank(
-        &mut self,
-        rivals: Vec<Located>,
-        camera: &Camera,
-        mask: &Mask<'_>,
-        drawn: &mut Vec<Word>,
-    ) -> Result<Vec<Ranked>, JsError> {
-        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
-        drawn.resize(words_needed(mask.width(), mask.height()), 0);
-        let mut drawn = MaskMut::new(drawn, mask.width(), mask.height()).map_err(sentence)?;
-        let mut draw = |located: Located| Ranked {
-            located,
-            drawn: unmatched_at(
-                &mesh,
-                camera,
-                &located.pose,
-                mask,
-                &mut self.projected,
-                &mut drawn,
-            )
-            .ok(),
-        };
-        let mut ranked: Vec<Ranked> = rivals.into_iter().map(&mut draw).collect();
-        ranked.sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
-        Ok(within(&ranked, |ranked| {
-            ranked.drawn.map_or(f64::MAX, |count| count as f64)
-        }))
-    }
-}
-
 impl Matcher {
-    fn candidate(&self, &Ranked { located, drawn }: &Ranked) -> Candidate {
+    fn candidate(&self, ranked: &Ranked) -> Candidate {
+        let located = ranked.located;
         let mut input = self.canonical.clone();
         if located.fine.reversed {
             reverse(&self.canonical, &mut input);
         }
         let library = self.library.borrow_dependent();
         Candidate {
-            pose: to_numbers(&EulerPose::from(located.pose)),
+            pose: to_numbers(&EulerPose::from(ranked.pose)),
             unmatched: located.fine.unmatched,
-            drawn,
+            drawn: ranked.drawn,
+            residual_px: ranked.residual_px,
             view: [located.fine.record.x_deg, located.fine.record.y_deg],
             at_border: located.fine.at_border,
             input: input.iter().flat_map(|word| word.to_le_bytes()).collect(),
@@ -242,6 +236,7 @@ struct Candidate {
     pose: PoseNumbers,
     unmatched: u32,
     drawn: Option<u64>,
+    residual_px: Option<f64>,
     view: [f64; 2],
     at_border: bool,
     input: Vec<u8>,
@@ -288,6 +283,11 @@ impl Match {
     pub fn drawn(&self, index: usize) -> Option<f64> {
         let drawn = self.candidates.get(index)?.drawn?;
         Some(drawn as f64)
+    }
+
+    /// Root mean square of what remains between the outlines after refinement, pixels; nothing for a pose of the library.
+    pub fn residual(&self, index: usize) -> Option<f64> {
+        self.candidates.get(index)?.residual_px
     }
 
     /// Rotations about x and y of the view that fits, between the library's own, degrees.

@@ -8,13 +8,13 @@ const pose = { x: 4.605862, y: -17.13854, z: -1083.741, zRot: 7.91024, xRot: 5.6
 
 const posed: Cell = {
   outline,
-  result: { kind: 'posed', from: 'outline', origin: 'k', candidates: [{ pose, unmatched: 625, drawn: 41 }], chosen: 0 },
+  result: { kind: 'posed', from: 'outline', origin: 'k', candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21 }], chosen: 0 },
   resultOf: outline,
 };
 const stale: Cell = { outline, result: { kind: 'failed', origin: 'k', sentence: 'crosses itself' }, resultOf: null };
 const loaded: Cell = {
   outline: null,
-  result: { kind: 'posed', from: 'file', origin: 'fem.jts', candidates: [{ pose, unmatched: null, drawn: null }], chosen: 0 },
+  result: { kind: 'posed', from: 'file', origin: 'fem.jts', candidates: [{ pose, unmatched: null, drawn: null, residual: null }], chosen: 0 },
   resultOf: null,
 };
 
@@ -43,6 +43,13 @@ const written = () => writeSession(session, 'fluoropose 0', new Date(0)).join(''
 describe('session', () => {
   it('loses nothing', () => {
     expect(readSession(written())).toEqual(session);
+  });
+
+  it('reads candidates that were saved before poses were refined', () => {
+    const old = written().replace(/,"residual":[^}]*/g, '');
+    expect(old).not.toContain('residual');
+    const result = readSession(old).doc.cells['ab:0/femur']?.result;
+    expect(result?.kind === 'posed' && result.candidates[0]?.residual).toBeNull();
   });
 
   it('knows which results belong to their outlines', () => {

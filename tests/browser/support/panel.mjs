@@ -29,21 +29,34 @@ export async function shownPose(page) {
   return /** @type {Pose} */ (Object.fromEntries(QUANTITIES.map(([field], index) => [field, values[index]])));
 }
 
-/** @param {Page} page */
+/** Is the pose that is shown still to be refined? @param {Page} page */
+async function isProvisional(page) {
+  return (await page.getByRole('group', { name: /^Unmatched pixels.*being refined$/ }).count()) > 0;
+}
+
+/** The pose once it is refined, or cannot be. @param {Page} page */
 export async function waitForPose(page) {
-  const pose = await until(() => shownPose(page), (pose) => pose !== null, 'a pose');
+  const settled = async () => {
+    const before = await shownPose(page);
+    const provisional = await isProvisional(page);
+    const pose = await shownPose(page);
+    // The answers are not of one moment: the refined pose may have come between them.
+    return !provisional && before && pose && samePose(before, pose) ? pose : null;
+  };
+  const pose = await until(settled, (pose) => pose !== null, 'a pose');
   return /** @type {Pose} */ (pose);
 }
 
-/** The next pose that differs from one shown before, once it has come to rest. @param {Page} page @param {Pose} before */
+/** The next pose that differs from one shown before, once it has come to rest and is refined. @param {Page} page @param {Pose} before */
 export async function waitForOtherPose(page, before) {
   const differs = (/** @type {Pose | null} */ pose) => pose !== null && !samePose(pose, before);
   await until(() => shownPose(page), differs, 'the pose to change');
   let last = await shownPose(page);
   for (;;) {
     await page.waitForTimeout(200);
+    const provisional = await isProvisional(page);
     const now = await shownPose(page);
-    if (now && last && samePose(now, last)) return now;
+    if (now && last && samePose(now, last) && !provisional) return now;
     last = now;
   }
 }

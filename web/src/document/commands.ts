@@ -121,7 +121,7 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
         if (!pose) return changed;
         const place = { frameId: frame.id, component };
         const { outline } = cellOf(changed, frame.id, component);
-        const candidates = [{ pose, unmatched: null, drawn: null }];
+        const candidates = [{ pose, unmatched: null, drawn: null, residual: null }];
         const result = { kind: 'posed', from: 'file', origin: fileName, candidates, chosen: 0 } as const;
         return withCell(changed, place, { outline, result, resultOf: outline });
       }, doc),

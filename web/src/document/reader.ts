@@ -38,6 +38,11 @@ export function nullable<T>(reader: Reader<T>): Reader<T | null> {
   return (value, path) => (value === null ? null : reader(value, path));
 }
 
+/** Missing is read as null. */
+export function optional<T>(reader: Reader<T>): Reader<T | null> {
+  return (value, path) => (value === undefined ? null : nullable(reader)(value, path));
+}
+
 export function list<T>(reader: Reader<T>): Reader<readonly T[]> {
   return (value, path) => {
     if (!Array.isArray(value)) throw wrong(path, 'a list', value);

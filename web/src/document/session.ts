@@ -1,5 +1,5 @@
 import { framePoint, type FramePoint } from '../geometry/points';
-import { count, dictionary, flag, list, nullable, number, object, oneOf, ReadError, text, type Reader } from './reader';
+import { count, dictionary, flag, list, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from './reader';
 import type {
   Calibration,
   Candidate,
@@ -111,7 +111,13 @@ const readOutline = object<Outline>({ points: list(readPoint), closed: flag });
 
 const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
 
-const readCandidate = object<Candidate>({ pose: readPose, unmatched: nullable(number), drawn: nullable(number) });
+const readCandidate = object<Candidate>({
+  pose: readPose,
+  unmatched: nullable(number),
+  drawn: nullable(number),
+  // Sessions from before poses were refined do not have it.
+  residual: optional(number),
+});
 
 const readPosed = object<Posed>({
   kind: oneOf('posed'),

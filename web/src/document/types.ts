@@ -105,6 +105,8 @@ export interface Candidate {
   readonly unmatched: number | null;
   /** Frame pixels that differ from the outline when the model is drawn at the pose; null where it was not drawn. */
   readonly drawn: number | null;
+  /** What remains between the outlines after refinement, px of the frame; null for a pose of the library or a file. */
+  readonly residual: number | null;
 }
 
 export interface PoseNumbers {
@@ -159,6 +161,11 @@ export function cellOf(doc: Doc, frameId: string | undefined, component: Compone
 
 export function chosenCandidate(cell: Cell): Candidate | null {
   return cell.result?.kind === 'posed' ? (cell.result.candidates[cell.result.chosen] ?? null) : null;
+}
+
+/** Were the poses brought onto the outline, or are they the library's? */
+export function isRefined(result: Result | null): boolean {
+  return result?.kind === 'posed' && result.candidates.some((candidate) => candidate.residual !== null);
 }
 
 /** The name of a component as a word at the start of a sentence or on a button. */

@@ -1,8 +1,9 @@
 import { withCell, type Place } from '../document/commands';
-import { currentFrame, currentPlace, type Store } from '../document/store';
+import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import {
   cellOf,
   COMPONENT_NAMES,
+  isRefined,
   type Candidate,
   type Cell,
   type ComponentName,
@@ -16,6 +17,8 @@ import type { Match, Picture, PoseProtocol } from './protocol';
 import { sentenceOf } from './services';
 
 interface Task {
+  /** A match gives the library's pose at once; refinement takes longer and makes it better. */
+  readonly method: 'match' | 'refine';
   readonly place: Place;
   readonly frame: FrameEntry;
   readonly outline: Outline;
@@ -32,51 +35,103 @@ export interface Findings {
   /** The outline's canonical silhouette reaches the border of its frame. */
   readonly clipped: boolean;
   readonly milliseconds: number;
+  /** Refinement has been tried; it is not tried again. */
+  readonly tried: boolean;
+  /** Why the tried refinement gave nothing, completes "Not refined: ...". */
+  readonly refusal: string | null;
 }
+
+const NOTHING_FOUND = { pictures: [], canonicalArea: 0, atBorder: [], clipped: false, milliseconds: 0 };
+
+const NO_MODEL = 'the library was opened without its model.';
+
+/** How long the outline on view has to be at rest before poses are refined, ms: refining would hold up a drag. */
+export const REST = 120;
 
 /**
  * Keeps every closed outline's pose up to date: whenever the document changes it looks for a cell whose result does
  * not belong to its outline and asks the pose worker, one at a time, what is on view first. While a vertex is dragged
- * only the latest outline is ever asked for; an answer for an outline that is gone is dropped.
+ * only the latest outline is ever asked for; an answer for an outline that is gone is dropped. Once every outline has
+ * its pose and the one on view is at rest, poses are refined, in the same order.
  */
 export class Poser {
   readonly #store: Store;
-  readonly #worker: Bridge<PoseProtocol>;
+  readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #findings = new WeakMap<Outline, Findings>();
   #busy = false;
+  #shownOutline: Outline | null = null;
+  #changedAt = -Infinity;
+  #timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(store: Store, worker: Bridge<PoseProtocol>) {
+  constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#store = store;
     this.#worker = worker;
-    store.subscribe(() => this.#next());
+    store.subscribe(() => {
+      this.#watch();
+      this.#next();
+    });
   }
 
   findings(outline: Outline | null): Findings | null {
     return (outline && this.#findings.get(outline)) ?? null;
   }
 
-  #next(): void {
-    if (this.#busy) return;
-    const task = this.#find();
-    if (task) void this.#run(task);
+  /** Notes when the outline on view last changed. */
+  #watch(): void {
+    const { outline } = currentCell(this.#store.state);
+    if (outline === this.#shownOutline) return;
+    this.#shownOutline = outline;
+    this.#changedAt = performance.now();
   }
 
-  #find(): Task | null {
+  #next(): void {
+    clearTimeout(this.#timer);
+    if (this.#busy || this.#adopt()) return;
+    const task = this.#find('match') ?? this.#find('refine');
+    if (!task) return;
+    const rest = task.method === 'refine' ? this.#changedAt + REST - performance.now() : 0;
+    if (rest > 0) this.#timer = setTimeout(() => this.#next(), rest);
+    else void this.#run(task);
+  }
+
+  /**
+   * Letting go of a point makes a new outline of the same points: what was found for the old one holds. True if it was
+   * taken over; the store has then told this class already.
+   */
+  #adopt(): boolean {
+    const { doc, state } = this.#store;
+    const place = currentPlace(state);
+    const frame = currentFrame(state);
+    if (!place || !frame) return false;
+    const { outline, result, resultOf } = cellOf(doc, place.frameId, place.component);
+    const key = poseKey(doc, place.component, frame);
+    const findings = this.findings(resultOf);
+    if (!outline || !resultOf || !result || outline === resultOf || !findings) return false;
+    if (findings.key !== key || result.origin !== key || !samePoints(outline, resultOf)) return false;
+    this.#findings.set(outline, findings);
+    this.#store.amend((doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      return cell.outline === outline ? withCell(doc, place, { outline, result, resultOf: outline }) : doc;
+    });
+    return true;
+  }
+
+  #find(method: Task['method']): Task | null {
     const { doc, state } = this.#store;
     const shown = currentPlace(state);
     const frame = currentFrame(state);
-    const first = shown && frame && this.#task(frame, shown.component, true);
+    const first = shown && frame && this.#task(method, frame, shown.component, true);
     if (first) return first;
     for (const frame of doc.frames) {
       for (const component of COMPONENT_NAMES) {
-        const task = this.#task(frame, component, false);
+        const task = this.#task(method, frame, component, false);
         if (task) return task;
       }
     }
     return null;
   }
 
-  #task(frame: FrameEntry, component: ComponentName, shown: boolean): Task | null {
+  #task(method: Task['method'], frame: FrameEntry, component: ComponentName, shown: boolean): Task | null {
     const { doc, ui } = this.#store;
     const cell = cellOf(doc, frame.id, component);
     const { outline } = cell;
@@ -84,43 +139,76 @@ export class Poser {
     const key = poseKey(doc, component, frame);
     if (!key) return null;
     const place = { frameId: frame.id, component };
-    const needed = isStale(cell, key) || (shown && !isLoaded(cell) && this.#findings.get(outline)?.key !== key);
-    return needed ? { place, frame, outline, key } : null;
+    const needed = method === 'match' ? this.#needsMatch(cell, key, shown) : this.#needsRefinement(cell, key, shown);
+    return needed ? { method, place, frame, outline, key } : null;
+  }
+
+  /** The pictures of refined poses come with the refinement. */
+  #needsMatch(cell: Cell, key: string, shown: boolean): boolean {
+    if (isStale(cell, key)) return true;
+    return shown && !isLoaded(cell) && !isRefined(cell.result) && this.findings(cell.outline)?.key !== key;
+  }
+
+  #needsRefinement(cell: Cell, key: string, shown: boolean): boolean {
+    const { outline, result } = cell;
+    if (isStale(cell, key) || isLoaded(cell) || result?.kind !== 'posed') return false;
+    const findings = this.findings(outline);
+    const tried = findings?.key === key && findings.tried;
+    // What was tried for an outline is lost where undo brings back its result from before.
+    if (tried && (isRefined(result) || findings.refusal !== null)) return false;
+    return shown || !isRefined(result);
   }
 
   async #run(task: Task): Promise<void> {
     this.#busy = true;
-    const { place, frame, outline, key } = task;
+    const { method, place, frame, outline } = task;
     try {
       const camera = cameraOf(this.#store.doc, frame);
       if (!camera) return;
       const { component } = place;
-      const match = await this.#worker.call('match', { component, outline: flatten(outline), camera });
-      this.#keep(task, match);
-      this.#apply(task, posed(match, key));
+      const match = await this.#worker.call(method, { component, outline: flatten(outline), camera });
+      this.#take(task, match);
     } catch (error) {
-      if (error instanceof Aborted) return;
-      this.#findings.set(outline, { key, pictures: [], canonicalArea: 0, atBorder: [], clipped: false, milliseconds: 0 });
-      this.#apply(task, { kind: 'failed', origin: key, sentence: sentenceOf(error) });
+      if (!(error instanceof Aborted)) this.#refuse(task, sentenceOf(error));
     } finally {
       this.#busy = false;
       queueMicrotask(() => this.#next());
     }
   }
 
-  #keep({ outline, key }: Task, match: Match): void {
+  #take(task: Task, match: Match): void {
+    const { outline, key } = task;
+    const result = posed(match, key);
+    const refused = task.method === 'refine' && !isRefined(result);
     const { candidates, canonicalArea, clipped, milliseconds } = match;
     const pictures = candidates.map((candidate) => candidate.picture);
     const atBorder = candidates.map((candidate) => candidate.atBorder);
-    this.#findings.set(outline, { key, pictures, canonicalArea, atBorder, clipped, milliseconds });
+    const tried = task.method === 'refine';
+    const refusal = refused ? NO_MODEL : null;
+    this.#findings.set(outline, { key, pictures, canonicalArea, atBorder, clipped, milliseconds, tried, refusal });
+    this.#apply(task, result);
+  }
+
+  #refuse(task: Task, sentence: string): void {
+    const { method, outline, key } = task;
+    if (method === 'match') {
+      this.#findings.set(outline, { ...NOTHING_FOUND, key, tried: false, refusal: null });
+      this.#apply(task, { kind: 'failed', origin: key, sentence });
+      return;
+    }
+    // The library's pose stays.
+    const before = this.findings(outline) ?? NOTHING_FOUND;
+    this.#findings.set(outline, { ...before, key, tried: true, refusal: sentence });
+    this.#store.show({});
   }
 
   /** Takes the result in if it is still wanted: the same outline, the same inputs. */
-  #apply({ place, frame, outline, key }: Task, result: Result): void {
+  #apply({ method, place, frame, outline, key }: Task, result: Result): void {
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.outline !== outline || poseKey(doc, place.component, frame) !== key) return doc;
-      if (!isStale(cell, key)) return doc;
+      const better = method === 'refine' && isRefined(result) && !isLoaded(cell) && !isRefined(cell.result);
+      if (!isStale(cell, key) && !better) return doc;
       return withCell(doc, place, { outline, result: sameChoice(cell.result, result), resultOf: outline });
     });
     // The pictures are no part of the document: the views are told all the same.
@@ -156,8 +244,21 @@ function turned(a: Candidate, b: Candidate): number {
 }
 
 function posed(match: Match, origin: string): Result {
-  const candidates = match.candidates.map(({ pose, unmatched, drawn }) => ({ pose, unmatched, drawn }));
+  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual }) => ({
+    pose,
+    unmatched,
+    drawn,
+    residual,
+  }));
   return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0 };
+}
+
+function samePoints(a: Outline, b: Outline): boolean {
+  return (
+    a.closed === b.closed &&
+    a.points.length === b.points.length &&
+    a.points.every(({ column, row }, index) => column === b.points[index]?.column && row === b.points[index]?.row)
+  );
 }
 
 function flatten(outline: Outline): Float64Array<ArrayBuffer> {

@@ -53,6 +53,8 @@ export interface MatchedCandidate {
   readonly pose: PoseNumbers;
   readonly unmatched: number;
   readonly drawn: number | null;
+  /** Px of the frame; null where the pose is the library's. */
+  readonly residual: number | null;
   /** The view lies at the border of the library: the truth may lie beyond it. */
   readonly atBorder: boolean;
   readonly picture: Picture;
@@ -91,6 +93,13 @@ export interface LibraryProtocol {
   };
 }
 
+export interface MatchInput {
+  readonly component: ComponentName;
+  /** Columns and rows of the outline's points, by turns. */
+  readonly outline: Float64Array<ArrayBuffer>;
+  readonly camera: CameraInput;
+}
+
 export interface PoseProtocol {
   /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
   open: {
@@ -98,10 +107,7 @@ export interface PoseProtocol {
     output: LibraryFacts;
     progress: never;
   };
-  match: {
-    /** Columns and rows of the outline's points, by turns. */
-    input: { component: ComponentName; outline: Float64Array<ArrayBuffer>; camera: CameraInput };
-    output: Match;
-    progress: never;
-  };
+  match: { input: MatchInput; output: Match; progress: never };
+  /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
+  refine: { input: MatchInput; output: Match; progress: never };
 }

@@ -1,5 +1,6 @@
+import type { Findings } from '../engine/poser';
 import { useApp } from './app';
-import type { Candidate, Cell } from '../document/types';
+import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
 const CANONICAL_AREA = '15 000';
 
@@ -15,7 +16,7 @@ export function Candidates({ cell }: { cell: Cell }) {
     <section class="card candidates" aria-label="Score and candidates">
       <div class="number score">
         <span class="label">Unmatched</span>
-        <span class="value" role="group" aria-label="Unmatched pixels">
+        <span class="value" role="group" aria-label={`Unmatched pixels${method(result, findings)}`}>
           {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
         </span>
         <span class="unit">px of {area > 0 ? grouped(area) : CANONICAL_AREA}</span>
@@ -36,6 +37,13 @@ export function Candidates({ cell }: { cell: Cell }) {
   );
 }
 
+/** Completes the name of the score. */
+function method(result: Posed | null, findings: Findings | null): string {
+  if (result?.from !== 'outline') return '';
+  if (isRefined(result)) return ', pose refined';
+  return findings?.refusal ? ', pose of the library' : ', pose of the library, being refined';
+}
+
 interface CandidateButtonProps {
   readonly index: number;
   readonly candidate: Candidate | null;
@@ -45,7 +53,7 @@ interface CandidateButtonProps {
 
 function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButtonProps) {
   const name = index === 0 ? (candidate && candidate.unmatched === null ? 'Loaded' : 'Best') : 'Rival';
-  const { pose, unmatched } = candidate ?? {};
+  const { pose } = candidate ?? {};
   return (
     <button
       type="button"
@@ -54,15 +62,21 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
       aria-checked={chosen}
       aria-label={`${name} candidate`}
       disabled={!candidate}
-      title={index === 1 ? 'The next best pose that is not a neighbour of the best (Tab switches)' : 'The pose that leaves the fewest pixels unmatched when the model is drawn on the film'}
+      title={index === 1 ? 'The next best pose that is not a neighbour of the best (Tab switches)' : 'The pose whose drawn model comes nearest to the outline'}
       onClick={onChoose}
     >
       <span>{name}</span>
-      <span class="rival-score">{unmatched == null ? '–' : `${grouped(unmatched)} px`}</span>
+      <span class="rival-score">{candidate ? scoreOf(candidate) : '–'}</span>
       <span class="rival-pose">{pose ? `x ${degrees(pose.xRot)}, y ${degrees(pose.yRot)}` : 'none'}</span>
       <span class="rival-pose">{candidate?.drawn == null ? '' : `${grouped(candidate.drawn)} px drawn`}</span>
     </button>
   );
+}
+
+/** What remains between the outlines; of a pose of the library, unmatched canonical pixels. */
+function scoreOf({ residual, unmatched }: Candidate): string {
+  if (residual !== null) return `${residual.toFixed(2)} px off`;
+  return unmatched === null ? '–' : `${grouped(unmatched)} px`;
 }
 
 const BORDER_NOTE =
@@ -76,6 +90,7 @@ function reason(candidates: readonly Candidate[], chosen: number): string {
   if (best?.unmatched == null) return '';
   if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
   if (chosen !== 0) return 'Chosen by hand; Tab goes back to the best.';
+  if (best.residual !== null && rival.residual !== null) return refinedReason(best.residual, rival.residual);
   const drawn = best.drawn !== null && rival.drawn !== null;
   const [least, more] = drawn ? [best.drawn, rival.drawn] : [best.unmatched, rival.unmatched];
   const ratio = more / Math.max(1, least);
@@ -84,6 +99,14 @@ function reason(candidates: readonly Candidate[], chosen: number): string {
   return ratio >= DECISIVE
     ? `${what} misses ${ratio.toFixed(2)} times as many pixels: the choice is clear.`
     : `${what} misses ${as}: compare both overlays with Tab.`;
+}
+
+/** Of refined poses: how far each leaves the model's outline from the traced one. */
+function refinedReason(best: number, rival: number): string {
+  const ratio = rival / Math.max(0.01, best);
+  if (ratio >= DECISIVE) return `The rival's outline stays ${ratio.toFixed(2)} times as far off: the choice is clear.`;
+  const as = ratio < 1.005 ? 'comes just as near' : `stays only ${ratio.toFixed(2)} times as far off`;
+  return `The rival's outline ${as}: compare both overlays with Tab.`;
 }
 
 function degrees(value: number): string {

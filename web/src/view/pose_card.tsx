@@ -33,8 +33,10 @@ interface PoseNumbersCardProps {
 
 export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
   const pose = chosenCandidate(cell)?.pose ?? null;
-  const loaded = cell.result?.kind === 'posed' && cell.result.from === 'file' ? `From ${cell.result.origin}.` : '';
-  const source = outdated ? `Found with another model, calibration or library. ${needs(cell, missing)}` : loaded;
+  const refusal = useApp().poser.findings(cell.outline)?.refusal ?? null;
+  const source = outdated
+    ? `Found with another model, calibration or library. ${needs(cell, missing)}`
+    : sourceOf(cell, refusal);
   return (
     <section class="card pose" aria-label="Pose numbers">
       <dl class="numbers">
@@ -45,6 +47,15 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
       <p class="card-note">{pose ? source : needs(cell, missing)}</p>
     </section>
   );
+}
+
+/** Where the pose that is shown comes from. */
+function sourceOf(cell: Cell, refusal: string | null): string {
+  if (cell.result?.kind !== 'posed') return '';
+  if (cell.result.from === 'file') return `From ${cell.result.origin}.`;
+  const residual = chosenCandidate(cell)?.residual ?? null;
+  if (residual !== null) return `refined, ${residual.toFixed(2)} px`;
+  return refusal === null ? 'library' : `library. Not refined: ${refusal}`;
 }
 
 function needs(cell: Cell, missing: readonly string[]): string {

@@ -1,7 +1,7 @@
 import init, { Matcher, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { ComponentName } from '../document/types';
-import type { Match, MatchedCandidate, PoseProtocol } from '../engine/protocol';
+import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from '../engine/protocol';
 import { serve } from './serve';
 
 /** Holds both components' libraries and finds poses in them. */
@@ -17,19 +17,22 @@ serve<PoseProtocol>({
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },
-  match: async ({ component, outline, camera }) => {
-    await ready;
-    const matcher = matchers.get(component);
-    if (!matcher) throw new Error(`The library of the ${component} is not open`);
-    const startedAt = performance.now();
-    const found = matcher.matchOutline(outline, camera.text, camera.width, camera.height);
-    try {
-      return copied(found, matcher, performance.now() - startedAt);
-    } finally {
-      found.free();
-    }
-  },
+  match: (input) => found('matchOutline', input),
+  refine: (input) => found('refineOutline', input),
 });
+
+async function found(how: 'matchOutline' | 'refineOutline', { component, outline, camera }: MatchInput): Promise<Match> {
+  await ready;
+  const matcher = matchers.get(component);
+  if (!matcher) throw new Error(`The library of the ${component} is not open`);
+  const startedAt = performance.now();
+  const match = matcher[how](outline, camera.text, camera.width, camera.height);
+  try {
+    return copied(match, matcher, performance.now() - startedAt);
+  } finally {
+    match.free();
+  }
+}
 
 function copied(found: RawMatch, matcher: Matcher, milliseconds: number): Match {
   const { canonicalSize, canonicalArea } = matcher;
@@ -43,6 +46,7 @@ function candidateOf(found: RawMatch, index: number, size: number): MatchedCandi
     pose: { x, y, z, zRot, xRot, yRot },
     unmatched: found.unmatched(index) ?? 0,
     drawn: found.drawn(index) ?? null,
+    residual: found.residual(index) ?? null,
     atBorder: found.atBorder(index) ?? false,
     picture: { size, input: bits(found.inputBits(index)), view: bits(found.viewBits(index)) },
   };

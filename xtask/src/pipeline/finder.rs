@@ -4,8 +4,9 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::mask::Mask;
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::pose::Pose;
 use fluoropose::refine::Refined;
+use fluoropose::rivals::RefinedRival;
 use fluoropose::verify::Verified;
 use serde::Serialize;
 
@@ -44,10 +45,6 @@ pub struct Answer {
     pub refined: Option<Refined>,
 }
 
-/// Rivals are refined when the model drawn at them leaves at most this many times the unmatched
-/// pixels of the best: the library stage is some pixels off, so near rivals are still open.
-const WORTH_REFINING: f64 = 4.0;
-
 /// A library, its model and a camera, ready for masks.
 pub struct Finder<'l> {
     locator: Locator<'l>,
@@ -78,30 +75,8 @@ impl<'l> Finder<'l> {
         let Some(refiner) = &mut self.refiner else {
             return Ok(rivals.iter().map(Answer::unrefined).collect());
         };
-        let least = rivals.first().map_or(0, |best| best.unmatched);
-        let limit = WORTH_REFINING * least as f64;
-        let worth = |rival: &Verified| rival.unmatched as f64 <= limit;
-        let mut answers: Vec<Answer> = Vec::new();
-        let mut failure = None;
-        for rival in rivals.iter().filter(|rival| worth(rival)) {
-            match refiner.refine(mask, &rival.located.pose) {
-                Ok(refined) => answers.push(Answer::refined(rival, refined)),
-                Err(error) => failure = Some(error),
-            }
-        }
-        // The mirror image of a pose may lie between the same views and be no rival of its own.
-        for answer in answers.clone() {
-            let mirrored = refiner.refine_mirrored(mask, &answer.pose);
-            answers.extend(
-                mirrored
-                    .into_iter()
-                    .map(|refined| Answer::refined(&answer.located, refined)),
-            );
-        }
-        match (answers.is_empty(), failure) {
-            (true, Some(error)) => Err(error.into()),
-            _ => Ok(distinct(answers)),
-        }
+        let answers = refiner.refine(mask, &rivals)?;
+        Ok(answers.map(Answer::refined).collect())
     }
 
     /// The best pose of a mask.
@@ -114,29 +89,12 @@ impl<'l> Finder<'l> {
     }
 }
 
-/// Poses by rising loss, each once: of poses nearer to each other than this, degrees, the best.
-const SAME_DEG: f64 = 0.5;
-
-fn distinct(mut answers: Vec<Answer>) -> Vec<Answer> {
-    let loss = |answer: &Answer| answer.refined.map_or(f64::MAX, |refined| refined.loss);
-    answers.sort_by(|a, b| loss(a).total_cmp(&loss(b)));
-    let mut kept: Vec<Answer> = Vec::new();
-    for answer in answers {
-        let same =
-            |other: &Answer| geodesic_deg(&other.pose.rotation, &answer.pose.rotation) < SAME_DEG;
-        if !kept.iter().any(same) {
-            kept.push(answer);
-        }
-    }
-    kept
-}
-
 impl Answer {
-    fn refined(located: &Verified, refined: Refined) -> Self {
+    fn refined(answer: RefinedRival) -> Self {
         Self {
-            pose: refined.pose,
-            located: *located,
-            refined: Some(refined),
+            pose: answer.refined.pose,
+            located: answer.rival,
+            refined: Some(answer.refined),
         }
     }
 

@@ -1,19 +1,15 @@
 //! Refinement of located poses, with the memory that the core wants lent.
 
 use fluoropose::camera::Camera;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mask::{Mask, Word, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::mirror::mirror_pose;
-use fluoropose::pose::Pose;
 use fluoropose::raster::{Projected, scratch_needed};
-use fluoropose::refine::{BorderPixel, RefineError, RefineMemory, Refined, refine};
-use fluoropose::verify::unmatched_at;
+use fluoropose::refine::{BorderPixel, RefineError, RefineMemory};
+use fluoropose::rivals::{RefinedRival, refine_rivals};
+use fluoropose::verify::Verified;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
-
-/// A part looks symmetric when its mirrored pose leaves at most this part of the mask unmatched.
-const SYMMETRIC_SHARE: f64 = 0.15;
 
 /// A model to be refined in frames of one camera.
 pub struct Refiner<'m> {
@@ -39,36 +35,22 @@ impl<'m> Refiner<'m> {
         }
     }
 
-    /// Refines a pose.
+    /// Refines the rivals that explain a mask; see [`refine_rivals`].
     ///
     /// # Errors
-    /// Those of [`refine`].
-    pub fn refine(&mut self, mask: &Mask<'_>, start: &Pose) -> Result<Refined, RefineError> {
+    /// Those of [`refine_rivals`].
+    pub fn refine(
+        &mut self,
+        mask: &Mask<'_>,
+        rivals: &[Verified],
+    ) -> Result<impl Iterator<Item = RefinedRival>, RefineError> {
         let mut memory = RefineMemory {
             projected: &mut self.projected,
             drawn: &mut self.drawn,
             places: &mut self.places,
             border: &mut self.border,
         };
-        refine(&self.mesh, &self.camera, mask, start, &mut memory)
-    }
-
-    /// Refines the mirror images of a pose, for each axis of the model about which it looks
-    /// symmetric from there: those at which the drawn model covers the mask nearly as well.
-    pub fn refine_mirrored(&mut self, mask: &Mask<'_>, pose: &Pose) -> Vec<Refined> {
-        let middle = self.mesh.bounds().centre;
-        let limit = SYMMETRIC_SHARE * mask.area() as f64;
-        (0..3)
-            .map(|axis| mirror_pose(pose, &middle, axis))
-            .filter_map(|mirrored| {
-                let (width, height) = (mask.width(), mask.height());
-                let mut drawn = MaskMut::new(&mut self.drawn, width, height).ok()?;
-                let scratch = &mut self.projected;
-                let (mesh, camera) = (&self.mesh, &self.camera);
-                let unmatched = unmatched_at(mesh, camera, &mirrored, mask, scratch, &mut drawn);
-                let near = unmatched.is_ok_and(|unmatched| unmatched as f64 <= limit);
-                near.then(|| self.refine(mask, &mirrored).ok()).flatten()
-            })
-            .collect()
+        refine_rivals(&self.mesh, &self.camera, mask, rivals, &mut memory)
+            .map(IntoIterator::into_iter)
     }
 }
