@@ -30,6 +30,7 @@ pub mod math;
 pub mod median;
 pub mod mesh;
 pub mod mirror;
+pub mod moments;
 pub mod pose;
 pub mod raster;
 pub mod refine;

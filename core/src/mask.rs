@@ -62,51 +62,6 @@ pub struct Mask<'a> {
     height: usize,
 }
 
-/// Sums over the pixels of a silhouette, exact. Coordinates are pixel indices.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Moments {
-    /// Number of pixels.
-    pub area: u64,
-    /// Sum of columns.
-    pub column: u64,
-    /// Sum of rows.
-    pub row: u64,
-    /// Sum of squared columns.
-    pub column_column: u64,
-    /// Sum of column times row.
-    pub column_row: u64,
-    /// Sum of squared rows.
-    pub row_row: u64,
-}
-
-impl Moments {
-    /// Centroid in continuous image coordinates (a pixel's centre is its index + 0.5).
-    #[must_use]
-    pub fn centroid(&self) -> crate::contour::Point {
-        let area = self.area.max(1) as f64;
-        crate::contour::Point {
-            column: self.column as f64 / area + 0.5,
-            row: self.row as f64 / area + 0.5,
-        }
-    }
-
-    /// Central second moments divided by the area (column-column, column-row, row-row), in
-    /// square pixels. The difference is taken in integers; only its result is rounded.
-    #[must_use]
-    pub fn covariance(&self) -> [f64; 3] {
-        let area = i128::from(self.area.max(1));
-        let central = |second: u64, a: u64, b: u64| {
-            let scaled = i128::from(second) * area - i128::from(a) * i128::from(b);
-            scaled as f64 / (area as f64 * area as f64)
-        };
-        [
-            central(self.column_column, self.column, self.column),
-            central(self.column_row, self.column, self.row),
-            central(self.row_row, self.row, self.row),
-        ]
-    }
-}
-
 fn check_shape(given: usize, width: usize, height: usize) -> Result<(), MaskError> {
     if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
         return Err(MaskError::Shape { width, height });
@@ -233,36 +188,6 @@ impl<'a> Mask<'a> {
         }
         (left.min(right)..right, rows)
     }
-
-    /// Area and first and second moments, exact: each run of pixels adds closed-form sums.
-    #[must_use]
-    pub fn moments(&self) -> Moments {
-        let mut sum = Moments::default();
-        for row in 0..self.height {
-            let y = row as u64;
-            for run in self.runs(row) {
-                let (n, columns, squares) = run_sums(run.start as u64, run.end as u64);
-                sum.area += n;
-                sum.column += columns;
-                sum.row += y * n;
-                sum.column_column += squares;
-                sum.column_row += y * columns;
-                sum.row_row += y * y * n;
-            }
-        }
-        sum
-    }
-}
-
-/// Number, sum and sum of squares of the integers from `a` up to and without `b`.
-fn run_sums(a: u64, b: u64) -> (u64, u64, u64) {
-    let below = |n: u64| n * n.saturating_sub(1) / 2;
-    let squares_below = |n: u64| n * n.saturating_sub(1) / 2 * (2 * n).saturating_sub(1) / 3;
-    (
-        b - a,
-        below(b) - below(a),
-        squares_below(b) - squares_below(a),
-    )
 }
 
 /// Index of the first bit at or after `from` that equals `wanted`; the number of bits if none.
@@ -441,6 +366,7 @@ fn prefix_parity(row: &mut [Word], tail: Word) {
 mod tests {
     use super::*;
     use crate::contour::Point;
+    use crate::moments::Moments;
 
     const W: usize = 70;
     const H: usize = 40;

@@ -12,7 +12,7 @@ export function missingForPose(state: State, component: ComponentName): readonly
   if (doc.frames.length === 0) missing.push('frames');
   if (!doc.calibration) missing.push('a calibration');
   if (!model && !libraryFile) missing.push(`a model or a library of the ${component}`);
-  if (library.state === 'building') missing.push('its library, which is being built');
+  if (library.state === 'building') missing.push('its library (being built)');
   if (library.state === 'stopped') missing.push(`its library (${library.reason})`);
   if (!outline) missing.push(`an outline of the ${component}`);
   else if (!outline.closed) missing.push('the outline closed');

@@ -87,6 +87,7 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
     case 'session':
       return openSession(services, file, remarks);
     default:
+      if (file.bytes.length === 0) throw new Error('the file is empty; export or copy it again');
       throw new Error(
         'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, .jts poses, libraries and sessions',
       );
