@@ -10,6 +10,8 @@ use crate::pose::Pose;
 
 /// First line of a `JT_INTCALIB` file.
 pub const JT_INTCALIB: &str = "JT_INTCALIB";
+/// The same file as a later program of the field heads it; read, never written.
+const JTA_INTCALIB: &str = "JTA_INTCALIB";
 
 /// Why a text is not a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -90,7 +92,11 @@ impl Calibration {
             .map(|(index, line)| (index + 1, line.trim()))
             .filter(|(_, line)| !line.is_empty());
         match lines.next() {
-            Some((_, first)) if first.starts_with(JT_INTCALIB) => parse_principal(lines),
+            Some((_, first))
+                if first.starts_with(JT_INTCALIB) || first.starts_with(JTA_INTCALIB) =>
+            {
+                parse_principal(lines)
+            }
             Some((_, first)) if first.eq_ignore_ascii_case("image size") => parse_matrix(lines),
             _ => Err(CalibrationError::UnknownKind),
         }
@@ -296,6 +302,8 @@ mod tests {
         assert_eq!(camera.principal_point(), [512.0, 512.0 + 1.5 / 0.373]);
         let spaced = "\u{feff}JT_INTCALIB \r\n\r\n 1198 \r\n0\r\n -1.5,\r\n.373";
         assert_eq!(Calibration::parse(spaced), Ok(calibration));
+        let later = text.replace("JT_", "JTA_");
+        assert_eq!(Calibration::parse(&later), Ok(calibration));
     }
 
     #[test]

@@ -125,7 +125,7 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
     let first = text.lines().next().unwrap_or_default().trim();
     if text.starts_with("JT_EULER_312") {
         Some(Kind::Jts)
-    } else if text.starts_with("JT_INTCALIB") {
+    } else if text.starts_with("JT_INTCALIB") || text.starts_with("JTA_INTCALIB") {
         Some(Kind::Calibration)
     } else if first.eq_ignore_ascii_case("image size") {
         Some(Kind::Mayacam)

@@ -11,7 +11,6 @@ use crate::implant::Side;
 
 /// A sequence of frames with one or more components.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Study {
     /// What the study is called.
     pub name: String,
@@ -24,11 +23,12 @@ pub struct Study {
     /// The components.
     #[serde(rename = "component", default)]
     pub components: Vec<Component>,
+    #[serde(flatten)]
+    others: BTreeMap<String, toml::Value>,
 }
 
 /// One implanted component of a study.
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Component {
     /// What it is called.
     pub name: String,
@@ -47,6 +47,8 @@ pub struct Component {
     /// Pose files of other methods, rows of the same table.
     #[serde(default)]
     pub peer: BTreeMap<String, PathBuf>,
+    #[serde(flatten)]
+    others: BTreeMap<String, toml::Value>,
 }
 
 impl Study {
@@ -57,6 +59,14 @@ impl Study {
     pub fn read(path: &Path) -> Result<Self> {
         let mut study: Self =
             toml::from_str(&read_text(path)?).with_context(|| format!("in {}", path.display()))?;
+        let of_components = study.components.iter().flat_map(|c| c.others.keys());
+        for key in study.others.keys().chain(of_components) {
+            // A misspelt key must not pass unseen; a later format's key must not stop the rest.
+            eprintln!(
+                "{}: the key '{key}' is not known and left out",
+                path.display()
+            );
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
         resolve(&mut study.calibration);
