@@ -119,8 +119,7 @@ impl MaskBuffer {
     }
 }
 
-/// Reads a mask image and drops its specks ([`MaskBuffer::drop_specks`]), which is said on
-/// standard error.
+/// Reads a mask image.
 ///
 /// # Errors
 /// Names the file and what is wrong with it.
@@ -135,10 +134,6 @@ pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
             }
         }
     });
-    let dropped = buffer.drop_specks()?;
-    if dropped > 0 {
-        eprintln!("{}: {dropped} pixels of specks left out", path.display());
-    }
     Ok(buffer)
 }
 

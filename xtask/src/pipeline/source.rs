@@ -8,6 +8,17 @@ use fluoropose::camera::Camera;
 
 use super::files::{MaskBuffer, files_in, read_mask};
 
+/// Reads a mask and drops its specks ([`MaskBuffer::drop_specks`]), which is said on standard
+/// error.
+fn read_whole(path: &Path) -> Result<MaskBuffer> {
+    let mut mask = read_mask(path)?;
+    let dropped = mask.drop_specks()?;
+    if dropped > 0 {
+        eprintln!("{}: {dropped} pixels of specks left out", path.display());
+    }
+    Ok(mask)
+}
+
 /// The masks of a sequence, in the order of their names, all of one size.
 pub struct Source {
     /// Each mask and the file it came from.
@@ -25,7 +36,7 @@ impl Source {
     pub fn read(folder: &Path, calibration: &Calibration) -> Result<Self> {
         let masks: Vec<_> = files_in(folder)?
             .into_iter()
-            .map(|path| read_mask(&path).map(|mask| (path, mask)))
+            .map(|path| read_whole(&path).map(|mask| (path, mask)))
             .collect::<Result<_>>()?;
         let (_, first) = masks.first().context("a folder of masks is never empty")?;
         let (width, height) = (first.mask().width(), first.mask().height());
