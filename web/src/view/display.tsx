@@ -11,6 +11,9 @@ export function Display({ state }: { state: State }) {
   const window = state.history.present.window ?? facts?.window ?? { centre: 128, width: 256 };
   const [least, greatest] = [facts?.least ?? 0, facts?.greatest ?? 255];
   const span = Math.max(1, greatest - least);
+  // The window of the moment, not that of the last drawing: two sliders may move between two drawings.
+  const change = (part: Partial<typeof window>) =>
+    store.perform(commands.setWindow({ ...(store.doc.window ?? window), ...part }));
   return (
     <section class="card display" aria-label="Display">
       <Slider
@@ -31,7 +34,7 @@ export function Display({ state }: { state: State }) {
         step={1}
         value={window.width}
         disabled={!facts}
-        onInput={(width) => store.perform(commands.setWindow({ ...window, width }))}
+        onInput={(width) => change({ width })}
       />
       <Slider
         label="Window level"
@@ -41,7 +44,7 @@ export function Display({ state }: { state: State }) {
         step={1}
         value={window.centre}
         disabled={!facts}
-        onInput={(centre) => store.perform(commands.setWindow({ ...window, centre }))}
+        onInput={(centre) => change({ centre })}
       />
       <button type="button" class="button small" disabled={!state.history.present.window} title="R" onClick={() => actions.run({ name: 'reset-window' })}>
         Reset window and level
