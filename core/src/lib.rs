@@ -37,4 +37,5 @@ pub mod refine;
 pub mod region;
 pub mod rivals;
 pub mod scan;
+pub mod silhouette;
 pub mod verify;

@@ -40,6 +40,9 @@ pub enum MaskError {
     /// No pixel is set.
     #[error("the mask is empty: no pixel belongs to the silhouette")]
     Empty,
+    /// Two masks of one frame differ in size.
+    #[error("two masks of one frame differ in size")]
+    Sizes,
 }
 
 /// Words of one row of `width` pixels.
