@@ -170,6 +170,41 @@ pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Optio
     Some(b)
 }
 
+/// Inverse of a symmetric positive definite matrix, column by column; symmetric to the last bit.
+///
+/// Returns `None` where `a` is not positive definite.
+#[must_use]
+pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut inverse = [[0.0; N]; N];
+    for column in 0..N {
+        let mut unit = [0.0; N];
+        unit[column] = 1.0;
+        inverse[column] = solve_spd(*a, unit)?;
+    }
+    for row in 0..N {
+        for column in 0..row {
+            let mean = (inverse[row][column] + inverse[column][row]) / 2.0;
+            inverse[row][column] = mean;
+            inverse[column][row] = mean;
+        }
+    }
+    Some(inverse)
+}
+
+/// Product `a * b` of square matrices of any size.
+#[must_use]
+pub fn multiply_square<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|row| {
+        core::array::from_fn(|column| (0..N).map(|k| a[row][k] * b[k][column]).sum())
+    })
+}
+
+/// Transpose of a square matrix of any size.
+#[must_use]
+pub fn transpose_square<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|row| core::array::from_fn(|column| a[column][row]))
+}
+
 /// Functions whose error may change the order of candidates, never a reported number.
 pub mod ranking {
     /// Sine and cosine of an angle in radians. With the feature `micromath` the error is up to
