@@ -175,20 +175,16 @@ pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Optio
 /// Returns `None` where `a` is not positive definite.
 #[must_use]
 pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
-    let mut inverse = [[0.0; N]; N];
-    for column in 0..N {
+    let mut columns = [[0.0; N]; N];
+    for (k, column) in columns.iter_mut().enumerate() {
         let mut unit = [0.0; N];
-        unit[column] = 1.0;
-        inverse[column] = solve_spd(*a, unit)?;
+        unit[k] = 1.0;
+        *column = solve_spd(*a, unit)?;
     }
-    for row in 0..N {
-        for column in 0..row {
-            let mean = (inverse[row][column] + inverse[column][row]) / 2.0;
-            inverse[row][column] = mean;
-            inverse[column][row] = mean;
-        }
-    }
-    Some(inverse)
+    let mean = |row: usize, column: usize| (columns[row][column] + columns[column][row]) / 2.0;
+    Some(core::array::from_fn(|row| {
+        core::array::from_fn(|column| mean(row, column))
+    }))
 }
 
 /// Product `a * b` of square matrices of any size.
