@@ -17,6 +17,7 @@ pub mod calibration;
 pub mod camera;
 pub mod canonical;
 pub mod contour;
+pub mod covariance;
 pub mod estimate;
 pub mod frame;
 pub mod interpolate;

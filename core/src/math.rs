@@ -176,6 +176,37 @@ pub fn solve_spd<const N: usize>(mut a: [[f64; N]; N], mut b: [f64; N]) -> Optio
     Some(b)
 }
 
+/// Inverse of a symmetric positive definite matrix, column by column; symmetric to the last bit.
+///
+/// Returns `None` where `a` is not positive definite.
+#[must_use]
+pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+    let mut columns = [[0.0; N]; N];
+    for (k, column) in columns.iter_mut().enumerate() {
+        let mut unit = [0.0; N];
+        unit[k] = 1.0;
+        *column = solve_spd(*a, unit)?;
+    }
+    let mean = |row: usize, column: usize| (columns[row][column] + columns[column][row]) / 2.0;
+    Some(core::array::from_fn(|row| {
+        core::array::from_fn(|column| mean(row, column))
+    }))
+}
+
+/// Product `a * b` of square matrices of any size.
+#[must_use]
+pub fn multiply_square<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|row| {
+        core::array::from_fn(|column| (0..N).map(|k| a[row][k] * b[k][column]).sum())
+    })
+}
+
+/// Transpose of a square matrix of any size.
+#[must_use]
+pub fn transpose_square<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+    core::array::from_fn(|row| core::array::from_fn(|column| a[column][row]))
+}
+
 /// Functions whose error may change the order of candidates, never a reported number.
 pub mod ranking {
     /// Sine and cosine of an angle in radians. With the feature `micromath` the error is up to
