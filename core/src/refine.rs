@@ -98,6 +98,8 @@ pub struct Refined {
 /// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
 const OWN_RANGE: f64 = 3.0;
 
+const POLISHING: usize = 10;
+
 /// What is the same for every step.
 struct Problem<'a> {
     mesh: &'a Mesh<'a>,
@@ -152,6 +154,8 @@ pub fn refine(
         pass.index = index;
         pass.spread = problem.run(&pass, &mut state, memory)?;
     }
+    pass.index = STAGES - 1;
+    problem.polish(&pass, &mut state, memory)?;
     Ok(state)
 }
 
@@ -289,6 +293,41 @@ impl Problem<'_> {
         state.loss = equations.loss();
         state.residual_px = equations.residual_px();
         Ok(equations.spread_px())
+    }
+
+    /// Undamped steps to the zero of the gradient. The loss of a pose is known no better than the
+    /// pixels of its outline allow, and near its minimum that hides the way down; the gradient
+    /// still shows it.
+    fn polish(
+        &self,
+        pass: &Pass,
+        state: &mut Refined,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<(), RefineError> {
+        let mut next = *state;
+        let mut shorten = 1.0;
+        let mut last = f64::INFINITY;
+        for _ in 0..POLISHING {
+            let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
+            state.renders += self.views.len();
+            let Some((step, more)) = equations.step(0.0, pass.free) else { break };
+            let size = step.size();
+            if size > last { shorten *= 0.6; }
+            last = size;
+            next.pose = step.scaled(shorten).apply(&next.pose, &self.middle);
+            next.offset_px += shorten * more;
+            if step.is_small() {
+                break;
+            }
+        }
+        let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
+        if equations.loss() < state.loss * 1.02 + 1e-6 {
+            state.pose = next.pose;
+            state.offset_px = next.offset_px;
+            state.loss = equations.loss();
+            state.residual_px = equations.residual_px();
+        }
+        Ok(())
     }
 
     /// Draws the model in every view and measures how far its outline is from the target's.

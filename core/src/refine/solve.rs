@@ -63,6 +63,18 @@ impl Step {
         }
     }
 
+    pub(super) fn scaled(&self, factor: f64) -> Self {
+        Self {
+            turn: scale(&self.turn, factor),
+            shift: scale(&self.shift, factor),
+        }
+    }
+
+    /// Degrees and mm in one number, as much as they move an outline.
+    pub(super) fn size(&self) -> f64 {
+        degrees(norm(&self.turn)) + norm(&self.shift) / 5.0
+    }
+
     pub(super) fn is_small(&self) -> bool {
         degrees(norm(&self.turn)) < SMALL_DEG && norm(&self.shift) < SMALL_MM
     }

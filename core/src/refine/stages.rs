@@ -39,7 +39,7 @@ impl Stage {
             (Target::Image(_), 0) => stage(10.0, Loss::Tukey(8.0)),
             (Target::Image(_), 1) => stage(7.0, Loss::Tukey(4.0)),
             (Target::Image(_), 2) => stage(5.0, Loss::Tukey(2.5)),
-            (Target::Image(_), _) => stage(4.0, Loss::Tukey(1.5)),
+            (Target::Image(_), _) => stage(4.0, Loss::Tukey(2.5)),
         }
     }
 }
