@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod build;
+pub mod disturb;
 pub mod files;
 pub mod finder;
 pub mod locator;
