@@ -227,6 +227,41 @@ impl<'a, P: Pixel> Frame<'a, P> {
     }
 }
 
+/// Something with grey values between its pixels' centres: a [`Frame`] of any pixel type.
+pub trait Grey {
+    /// Columns and rows.
+    fn size(&self) -> (usize, usize);
+
+    /// Grey value at continuous image coordinates, linear between the four nearest centres;
+    /// `None` beyond the outermost centres.
+    fn at(&self, column: f64, row: f64) -> Option<f64>;
+}
+
+impl<P: Pixel> Grey for Frame<'_, P> {
+    fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    fn at(&self, column: f64, row: f64) -> Option<f64> {
+        let (column, row) = (column - 0.5, row - 0.5);
+        let last = |side: usize| side as f64 - 1.0;
+        // A NaN is in no range.
+        if !(0.0..=last(self.width)).contains(&column) || !(0.0..=last(self.height)).contains(&row)
+        {
+            return None;
+        }
+        let (left, above) = (column as usize, row as usize);
+        let (right, down) = (column - left as f64, row - above as f64);
+        let grey = |column: usize, row: usize| {
+            let value: u32 = self.nearest(column as isize, row as isize).into();
+            f64::from(value)
+        };
+        let upper = grey(left, above) * (1.0 - right) + grey(left + 1, above) * right;
+        let lower = grey(left, above + 1) * (1.0 - right) + grey(left + 1, above + 1) * right;
+        Some(upper * (1.0 - down) + lower * down)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

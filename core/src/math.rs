@@ -43,6 +43,12 @@ pub fn floor(x: f64) -> f64 {
     libm::floor(x)
 }
 
+/// Exponential function.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
 /// Nearest whole number, halves away from zero.
 #[must_use]
 pub fn round(x: f64) -> f64 {

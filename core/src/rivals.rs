@@ -1,20 +1,20 @@
-//! Refinement of several rival poses, and which of them explains the mask best.
+//! Refinement of several rival poses, and which of them explains what was seen best.
 
 use heapless::Vec;
 
-use crate::camera::Camera;
-use crate::mask::{Mask, MaskMut};
+use crate::mask::{MaskMut, words_needed};
 use crate::mesh::Mesh;
 use crate::mirror::mirror_pose;
 use crate::pose::{Pose, geodesic_deg};
-use crate::refine::{RefineError, RefineMemory, Refined, refine};
-use crate::verify::{Verified, unmatched_at};
+use crate::raster::render;
+use crate::refine::{RefineError, RefineMemory, Refined, Target, View, refine};
+use crate::verify::Verified;
 
-/// Rivals that are refined at most.
-pub const RIVALS: usize = 4;
+/// Poses to start from that are refined at most.
+pub const STARTS: usize = 6;
 
-/// Refined poses that may come of them: each rival's own and its three mirror images.
-pub const ANSWERS: usize = 4 * RIVALS;
+/// Refined poses that may come of them: each start's own and its three mirror images.
+pub const ANSWERS: usize = 4 * STARTS;
 
 /// Rivals are refined when the model drawn at them leaves at most this many times the unmatched
 /// pixels of the best: the library stage is some pixels off, so near rivals are still open.
@@ -26,39 +26,45 @@ const SYMMETRIC_SHARE: f64 = 0.15;
 /// Of poses nearer to each other than this, degrees, the best is kept.
 const SAME_DEG: f64 = 0.5;
 
-/// A refined pose and the rival that led to it.
+/// A refined pose and what it was refined from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RefinedRival {
-    /// The rival that was refined, or whose mirror image was.
-    pub rival: Verified,
+    /// Which of the poses to start from led to it, from 0.
+    pub start: usize,
+    /// Whether it was refined from the mirror image of what that start became.
+    pub mirrored: bool,
     /// What refinement made of it.
     pub refined: Refined,
 }
 
-/// Refines those of the first [`RIVALS`] rivals that are near the best, then their mirror images
-/// about each axis of the model about which it looks symmetric from there: such an image may lie
-/// between the same views and be no rival of its own. The poses by rising loss, each once; empty
-/// only where there is no rival.
-///
-/// `rivals` come best first, as [`crate::verify::verify`] puts them.
-///
-/// # Errors
-/// That of [`refine`] for the last rival, when none can be refined.
-pub fn refine_rivals(
-    mesh: &Mesh<'_>,
-    camera: &Camera,
-    mask: &Mask<'_>,
-    rivals: &[Verified],
-    memory: &mut RefineMemory<'_>,
-) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
+/// The first of `rivals` that are near enough to the best to be worth refining. They come best
+/// first, as [`crate::verify::verify`] puts them.
+#[must_use]
+pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
     let least = rivals.first().map_or(0, |best| best.unmatched);
     let limit = WORTH_REFINING * least as f64;
-    let worth = |rival: &&Verified| rival.unmatched as f64 <= limit;
+    let count = rivals.partition_point(|rival| rival.unmatched as f64 <= limit);
+    &rivals[..count.min(STARTS)]
+}
+
+/// Refines the first [`STARTS`] poses of `starts`, then their mirror images
+/// about each axis of the model about which it looks symmetric from there: such an image may lie
+/// between the same views of a library and be no rival of its own. The poses by rising loss,
+/// each once; empty only where there is no start.
+///
+/// # Errors
+/// That of [`refine`] for the last start, when none can be refined.
+pub fn refine_rivals(
+    mesh: &Mesh<'_>,
+    views: &[View<'_>],
+    starts: &[Pose],
+    memory: &mut RefineMemory<'_>,
+) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
     let mut answers = Vec::new();
     let mut failure = None;
-    for rival in rivals.iter().take(RIVALS).filter(worth) {
-        match refine(mesh, camera, mask, &rival.located.pose, memory) {
-            Ok(refined) => add(&mut answers, rival, refined),
+    for (start, pose) in starts.iter().take(STARTS).enumerate() {
+        match refine(mesh, views, pose, memory) {
+            Ok(refined) => add(&mut answers, start, false, refined),
             Err(error) => failure = Some(error),
         }
     }
@@ -66,44 +72,54 @@ pub fn refine_rivals(
         return Err(error);
     }
     let middle = mesh.bounds().centre;
-    for RefinedRival { rival, refined } in answers.clone() {
+    for RefinedRival { start, refined, .. } in distinct(&answers) {
         for axis in 0..3 {
             let mirrored = mirror_pose(&refined.pose, &middle, axis);
-            if !is_near(mesh, camera, mask, &mirrored, memory) {
+            if !views
+                .iter()
+                .all(|view| is_near(mesh, view, &mirrored, memory))
+            {
                 continue;
             }
-            if let Ok(refined) = refine(mesh, camera, mask, &mirrored, memory) {
-                add(&mut answers, &rival, refined);
+            if let Ok(refined) = refine(mesh, views, &mirrored, memory) {
+                add(&mut answers, start, true, refined);
             }
         }
     }
     Ok(distinct(&answers))
 }
 
-/// Whether the model drawn at a mirrored pose covers the mask nearly as well.
-fn is_near(
-    mesh: &Mesh<'_>,
-    camera: &Camera,
-    mask: &Mask<'_>,
-    pose: &Pose,
-    memory: &mut RefineMemory<'_>,
-) -> bool {
-    let Ok(mut drawn) = MaskMut::new(memory.drawn, mask.width(), mask.height()) else {
+/// Whether the model drawn at a mirrored pose covers the silhouette nearly as well. A grey frame
+/// cannot say.
+fn is_near(mesh: &Mesh<'_>, view: &View<'_>, pose: &Pose, memory: &mut RefineMemory<'_>) -> bool {
+    let Target::Silhouette(silhouette) = &view.target else {
+        return true;
+    };
+    let (width, height) = (silhouette.mask().width(), silhouette.mask().height());
+    let Some(words) = memory.drawn.get_mut(..words_needed(width, height)) else {
         return false;
     };
-    let limit = SYMMETRIC_SHARE * mask.area() as f64;
-    unmatched_at(mesh, camera, pose, mask, memory.projected, &mut drawn)
-        .is_ok_and(|unmatched| unmatched as f64 <= limit)
+    let Ok(mut drawn) = MaskMut::new(words, width, height) else {
+        return false;
+    };
+    let pose = view.placement.compose(pose);
+    if render(mesh, view.camera, &pose, memory.projected, &mut drawn).is_err() {
+        return false;
+    }
+    let limit = SYMMETRIC_SHARE * silhouette.mask().area() as f64;
+    let unmatched = silhouette.unmatched(&drawn.as_mask());
+    unmatched.is_some_and(|unmatched| unmatched as f64 <= limit)
 }
 
 /// Puts a pose in its place by rising loss.
-fn add(answers: &mut Vec<RefinedRival, ANSWERS>, rival: &Verified, refined: Refined) {
+fn add(answers: &mut Vec<RefinedRival, ANSWERS>, start: usize, mirrored: bool, refined: Refined) {
     let place = answers.partition_point(|other| other.refined.loss <= refined.loss);
-    // Each of the rivals gives four poses at most, so there is room.
+    // Each of the starts gives four poses at most, so there is room.
     let _ = answers.insert(
         place,
         RefinedRival {
-            rival: *rival,
+            start,
+            mirrored,
             refined,
         },
     );

@@ -8,36 +8,39 @@ use heapless::Vec;
 
 use crate::camera::Camera;
 use crate::locate::Located;
-use crate::mask::{Mask, MaskMut};
+use crate::mask::MaskMut;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::raster::{Projected, RenderError, render};
+use crate::silhouette::Silhouette;
 
 /// A located pose and how well the model drawn at it covers the silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verified {
     /// The pose and the view that led to it.
     pub located: Located,
-    /// Frame pixels in the silhouette or in the drawing but not in both.
+    /// Known frame pixels in the silhouette or in the drawing but not in both.
     pub unmatched: u64,
 }
 
-/// Frame pixels that differ between `mask` and the model drawn at `pose`. `scratch` and `drawn`
+/// Known frame pixels that differ between `silhouette` and the model drawn at `pose`. `scratch` and `drawn`
 /// are working memory as for [`render`]; `drawn` holds the drawing afterwards.
 ///
 /// # Errors
-/// Those of [`render`]; [`RenderError::Size`] also where `mask` has another size.
+/// Those of [`render`]; [`RenderError::Size`] also where `silhouette` has another size.
 pub fn unmatched_at(
     mesh: &Mesh<'_>,
     camera: &Camera,
     pose: &Pose,
-    mask: &Mask<'_>,
+    silhouette: &Silhouette<'_>,
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<u64, RenderError> {
     drawn.clear();
     render(mesh, camera, pose, scratch, drawn)?;
-    drawn.as_mask().unmatched(mask).ok_or(RenderError::Size)
+    silhouette
+        .unmatched(&drawn.as_mask())
+        .ok_or(RenderError::Size)
 }
 
 /// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
@@ -49,13 +52,13 @@ pub fn verify<const K: usize>(
     poses: &[Located],
     mesh: &Mesh<'_>,
     camera: &Camera,
-    mask: &Mask<'_>,
+    silhouette: &Silhouette<'_>,
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Verified, K>, RenderError> {
     let mut verified: Vec<Verified, K> = Vec::new();
     for located in poses.iter().take(K) {
-        let unmatched = unmatched_at(mesh, camera, &located.pose, mask, scratch, drawn)?;
+        let unmatched = unmatched_at(mesh, camera, &located.pose, silhouette, scratch, drawn)?;
         let place = verified.partition_point(|other| other.unmatched <= unmatched);
         // At most K poses are looked at, so there is room.
         let _ = verified.insert(

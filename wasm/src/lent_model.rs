@@ -6,8 +6,8 @@ use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
 use fluoropose::raster::Projected;
-use fluoropose::refine::{BorderPixel, RefineMemory};
-use fluoropose::rivals::{RefinedRival, refine_rivals};
+use fluoropose::refine::{BorderPixel, RefineMemory, View};
+use fluoropose::rivals::{RefinedRival, refine_rivals, worth_refining};
 use fluoropose::verify::{Verified, unmatched_at};
 use wasm_bindgen::JsError;
 
@@ -120,12 +120,14 @@ impl LentModel {
             places: &mut self.places,
             border: &mut self.border,
         };
-        let answers =
-            refine_rivals(&mesh, camera, mask, &verified, &mut memory).map_err(sentence)?;
+        let worth = worth_refining(&verified);
+        let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
+        let view = View::only(camera, mask);
+        let answers = refine_rivals(&mesh, &[view], &starts, &mut memory).map_err(sentence)?;
         let mut ranked = Vec::with_capacity(answers.len());
-        for RefinedRival { rival, refined } in answers {
+        for RefinedRival { start, refined, .. } in answers {
             ranked.push(Ranked {
-                located: rival.located,
+                located: worth[start].located,
                 pose: refined.pose,
                 drawn: self.draw(&refined.pose, camera, mask)?,
                 residual_px: Some(refined.residual_px),
@@ -146,6 +148,6 @@ impl LentModel {
         let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
         let mut drawn = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
         let scratch = &mut self.projected;
-        Ok(unmatched_at(&mesh, camera, pose, mask, scratch, &mut drawn).ok())
+        Ok(unmatched_at(&mesh, camera, pose, &mask.into(), scratch, &mut drawn).ok())
     }
 }

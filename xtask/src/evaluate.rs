@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::silhouette::Silhouette;
 use fluoropose_decode::Model;
 use serde::Serialize;
 
@@ -158,7 +159,7 @@ fn find_poses(
     let poses = source.masks.iter().map(|(path, buffer)| {
         bar.inc(1);
         finder
-            .best(&buffer.mask())
+            .best(&Silhouette::from(&buffer.mask()).into())
             .map(|best| EulerPose::from(best.pose))
             .with_context(|| format!("no pose for {}", path.display()))
     });

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fluoropose::pose::EulerPose;
+use fluoropose::silhouette::Silhouette;
 
 use crate::pipeline::build::progress;
 use crate::pipeline::files::{mesh_of, read, read_calibration, read_model, write_poses};
@@ -56,7 +57,7 @@ pub fn run(args: Args) -> Result<()> {
     let mut poses = Vec::new();
     for (path, buffer) in &source.masks {
         let answers = finder
-            .all(&buffer.mask())
+            .all(&Silhouette::from(&buffer.mask()).into())
             .with_context(|| format!("no pose for {}", path.display()))?;
         bar.suspend(|| describe(path, &answers));
         poses.extend(answers.first().map(|best| EulerPose::from(best.pose)));

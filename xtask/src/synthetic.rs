@@ -8,6 +8,7 @@ use fluoropose::library::{Grid, GridAxis};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::silhouette::Silhouette;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -167,7 +168,7 @@ pub fn measure(
         let reference = random_pose(&mut random, &views.grid(), &mesh, distance);
         buffer.draw(|mask| render(&mesh, &camera, &reference, &mut scratch, mask))?;
         let found = finder
-            .best(&buffer.mask())
+            .best(&Silhouette::from(&buffer.mask()).into())
             .with_context(|| format!("at {:?}", EulerPose::from(reference)))?;
         errors.push(Errors::of(&found.pose, &reference));
         bar.inc(1);

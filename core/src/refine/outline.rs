@@ -23,9 +23,16 @@ pub struct BorderPixel {
     /// Least and greatest distance of the surface from the camera plane, mm.
     near: f32,
     far: f32,
+    /// How far the target's outline is beyond the model's, pixels; NaN where it was not found.
+    pub(super) residual: f32,
 }
 
 impl BorderPixel {
+    /// Continuous image coordinates of the pixel's centre.
+    pub(super) fn place(&self) -> [f64; 2] {
+        [f64::from(self.column) + 0.5, f64::from(self.row) + 0.5]
+    }
+
     /// Distance of the contour from the camera plane, mm.
     pub(super) fn depth(&self) -> f64 {
         f64::from(self.near + self.far) / 2.0
@@ -47,11 +54,12 @@ impl Outliner<'_> {
         projected: &[Projected],
         places: &mut [u16],
         border: &'b mut [BorderPixel],
-    ) -> impl Iterator<Item = &'b BorderPixel> {
+    ) -> impl Iterator<Item = &'b mut BorderPixel> {
         places.fill(0);
         let count = self.find(places, border);
         self.measure_depth(projected, places, border);
-        border.iter().take(count).filter(|pixel| pixel.far > 0.0)
+        let found = border.iter_mut().take(count);
+        found.filter(|pixel| pixel.far > 0.0)
     }
 
     /// Lists border pixels and writes their number, from 1, to their places.
@@ -171,6 +179,7 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         weight: weight as f32,
         near: f32::INFINITY,
         far: 0.0,
+        residual: f32::NAN,
     })
 }
 

@@ -1,47 +1,71 @@
-//! Where a mask's outline crosses a normal.
+//! Where a silhouette's outline crosses a normal.
 
 use super::outline::BorderPixel;
-use crate::mask::Mask;
+use crate::silhouette::Silhouette;
 
 /// Distance between readings along a normal, pixels.
 const STEP: f64 = 0.5;
 
-/// Distance in pixels along a sample's outward normal, from the middle of its pixel, at which the
-/// outline of `mask` crosses; negative inwards. `None` where it does not cross within `range`, or
-/// only beyond the frame.
+/// What a reading along a normal found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Found {
+    /// The outline, at this distance in pixels along the outward normal from the middle of the
+    /// sample's pixel; negative inwards.
+    At(f64),
+    /// No outline within the range.
+    Nothing,
+    /// An unknown pixel, or the frame's border, before any outline.
+    Unknown,
+}
+
+/// Where the outline of `silhouette` crosses the normal of a sample, within `range` pixels.
 ///
 /// The mask is read by bilinear interpolation between pixel centres; the outline is where it is
 /// one half. From inside the first crossing outwards is taken, from outside the first inwards.
-pub(super) fn crossing(mask: &Mask<'_>, sample: &BorderPixel, range: f64) -> Option<f64> {
+pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range: f64) -> Found {
     let normal = sample.normal.map(f64::from);
     let at = |t: f64| {
         let column = f64::from(sample.column) + t * normal[0];
         let row = f64::from(sample.row) + t * normal[1];
-        coverage(mask, column, row)
+        coverage(silhouette, column, row)
     };
-    let mut value = at(0.0)?;
+    let Some(mut value) = at(0.0) else {
+        return Found::Unknown;
+    };
     let direction = if value >= 0.5 { 1.0 } else { -1.0 };
     let steps = (range / STEP) as usize;
     for step in 1..=steps {
         let t = direction * STEP * step as f64;
-        let next = at(t)?;
+        let Some(next) = at(t) else {
+            return Found::Unknown;
+        };
         if (next >= 0.5) != (value >= 0.5) {
             let share = (value - 0.5) / (value - next);
-            return Some(t - direction * STEP * (1.0 - share));
+            return Found::At(t - direction * STEP * (1.0 - share));
         }
         value = next;
     }
-    None
+    Found::Nothing
 }
 
 /// The mask between the centres of four pixels; coordinates are relative to the centre of the
-/// first pixel. `None` beyond the outermost centres.
-fn coverage(mask: &Mask<'_>, column: f64, row: f64) -> Option<f64> {
+/// first pixel. `None` beyond the outermost centres and where one of the four is unknown.
+fn coverage(silhouette: &Silhouette<'_>, column: f64, row: f64) -> Option<f64> {
+    let mask = silhouette.mask();
     let last = |side: usize| side as f64 - 1.0;
     if !(0.0..last(mask.width())).contains(&column) || !(0.0..last(mask.height())).contains(&row) {
         return None;
     }
     let (left, above) = (column as usize, row as usize);
+    if let Some(unknown) = silhouette.unknown() {
+        let square = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        if square
+            .iter()
+            .any(|(right, down)| unknown.get(left + right, above + down))
+        {
+            return None;
+        }
+    }
     let (right, down) = (column - left as f64, row - above as f64);
     let pixel = |column: usize, row: usize| f64::from(u8::from(mask.get(column, row)));
     let upper = pixel(left, above) * (1.0 - right) + pixel(left + 1, above) * right;

@@ -4,6 +4,7 @@ use super::outline::BorderPixel;
 use crate::camera::Camera;
 use crate::math::{
     Matrix3, Vector3, add, apply, cross, degrees, multiply, norm, scale, sin_cos, solve_spd, sqrt,
+    transpose,
 };
 use crate::pose::Pose;
 
@@ -19,6 +20,14 @@ const SMALL_DEG: f64 = 1e-4;
 const SMALL_MM: f64 = 1e-3;
 
 impl Step {
+    /// A Jacobian in the camera's axes, turned into those of the world that the camera stands in.
+    pub(super) fn in_world(jacobian: [f64; 6], placement: &Pose) -> [f64; 6] {
+        let [a, b, c, x, y, z] = jacobian;
+        let back = transpose(&placement.rotation);
+        let ([a, b, c], [x, y, z]) = (apply(&back, &[a, b, c]), apply(&back, &[x, y, z]));
+        [a, b, c, x, y, z]
+    }
+
     /// How fast the image of the contour behind `sample` moves along the sample's normal
     /// (pixels) for each parameter: three turns about `centre`, the middle of the model in camera
     /// coordinates (per radian), three shifts (per mm).
@@ -75,47 +84,98 @@ fn rotation_by(turn: &Vector3) -> Matrix3 {
     ]
 }
 
-/// Normal equations of robust least squares: Cauchy's loss `c^2 / 2 ln(1 + (r / c)^2)`.
+/// Parameters of a step, and the offset of the target's edges from the model's outline.
+const UNKNOWNS: usize = 7;
+const OFFSET: usize = 6;
+
+/// Histogram of absolute residuals: bins of this many pixels.
+const BIN: f64 = 1.0 / 32.0;
+const BINS: usize = 128;
+
+/// How the pull of a residual fades with its size. Both are scaled in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Loss {
+    /// `c^2 / 2 ln(1 + (r / c)^2)`
+    Cauchy(f64),
+    /// `c^2 / 6 (1 - (1 - (r / c)^2)^3)`, constant beyond `c` (Beaton and Tukey, Technometrics
+    /// 16, 1974)
+    Tukey(f64),
+}
+
+impl Loss {
+    /// Loss (square pixels) and weight of a residual: the weight is that of the least squares
+    /// that the loss is to first order.
+    pub(super) fn at(self, residual: f64) -> (f64, f64) {
+        match self {
+            Self::Cauchy(c) => {
+                let ratio = (residual / c) * (residual / c);
+                (0.5 * c * c * libm::log1p(ratio), 1.0 / (1.0 + ratio))
+            }
+            Self::Tukey(c) => {
+                let rest = (1.0 - (residual / c) * (residual / c)).max(0.0);
+                (c * c / 6.0 * (1.0 - rest * rest * rest), rest * rest)
+            }
+        }
+    }
+}
+
+/// Normal equations of robust least squares.
 pub(super) struct Equations {
-    normal: [[f64; 6]; 6],
-    right: [f64; 6],
-    weight: f64,
+    normal: [[f64; UNKNOWNS]; UNKNOWNS],
+    right: [f64; UNKNOWNS],
+    /// Length of the outline, and of what is known of it.
+    length: f64,
+    known: f64,
     loss: f64,
     used: f64,
     squares: f64,
-    scale: f64,
-    range: f64,
+    histogram: [f64; BINS],
 }
 
-/// At least this part of the outline, by length, must have a counterpart in the mask.
+/// At least this part of the outline, by length, must be known.
+const LEAST_KNOWN: f64 = 0.15;
+/// At least this part of what is known must have a counterpart in the target.
 const LEAST_USED: f64 = 0.2;
 
 impl Equations {
-    pub(super) fn new(scale: f64, range: f64) -> Self {
+    pub(super) fn new() -> Self {
         Self {
-            normal: [[0.0; 6]; 6],
-            right: [0.0; 6],
-            weight: 0.0,
+            normal: [[0.0; UNKNOWNS]; UNKNOWNS],
+            right: [0.0; UNKNOWNS],
+            length: 0.0,
+            known: 0.0,
             loss: 0.0,
             used: 0.0,
             squares: 0.0,
-            scale,
-            range,
+            histogram: [0.0; BINS],
         }
     }
 
-    /// Adds a sample: how far the mask's outline is beyond the model's (pixels), or `None` where
-    /// it was not found, which costs as much as the farthest that is looked for.
-    pub(super) fn add(&mut self, jacobian: &[f64; 6], residual: Option<f64>, length: f64) {
-        let c = self.scale;
-        let r = residual.unwrap_or(self.range);
-        let ratio = (r / c) * (r / c);
-        self.weight += length;
-        self.loss += length * 0.5 * c * c * libm::log1p(ratio);
-        let Some(residual) = residual else { return };
-        let w = length / (1.0 + ratio);
+    /// A sample of which the target says nothing: only its length counts.
+    pub(super) fn add_unknown(&mut self, length: f64) {
+        self.length += length;
+    }
+
+    /// A sample without a counterpart within `range`, which costs as much as one there.
+    pub(super) fn add_missing(&mut self, loss: Loss, range: f64, length: f64) {
+        self.length += length;
+        self.known += length;
+        self.loss += length * loss.at(range).0;
+    }
+
+    /// Adds a sample: how far the target's outline is beyond the model's (pixels).
+    pub(super) fn add(&mut self, loss: Loss, jacobian: &[f64; 6], residual: f64, length: f64) {
+        let (cost, weight) = loss.at(residual);
+        self.length += length;
+        self.known += length;
+        self.loss += length * cost;
+        let w = length * weight;
         self.used += length;
         self.squares += w * residual * residual;
+        let bin = (residual.abs() / BIN) as usize;
+        self.histogram[bin.min(BINS - 1)] += length;
+        let [a, b, c, x, y, z] = *jacobian;
+        let jacobian = [a, b, c, x, y, z, 1.0];
         for (row, &a) in jacobian.iter().enumerate() {
             self.right[row] += w * a * residual;
             for (column, &b) in jacobian.iter().enumerate() {
@@ -124,30 +184,60 @@ impl Equations {
         }
     }
 
-    /// The damped step; `None` where too little of the outline was found or it does not
-    /// determine the pose.
-    pub(super) fn step(&self, damping: f64) -> Option<Step> {
-        if self.used < LEAST_USED * self.weight {
+    /// Whether enough of the outline is known and was found to say where the model is.
+    fn is_enough(&self) -> bool {
+        self.known >= LEAST_KNOWN * self.length && self.used >= LEAST_USED * self.known
+    }
+
+    /// The damped step and the change of the offset, which stays where it is unless `free`;
+    /// `None` where too little of the outline was found or it does not determine the pose.
+    pub(super) fn step(&self, damping: f64, free: bool) -> Option<(Step, f64)> {
+        if !self.is_enough() {
             return None;
         }
-        let mut normal = self.normal;
+        let (mut normal, mut right) = (self.normal, self.right);
+        if !free {
+            normal.iter_mut().for_each(|row| row[OFFSET] = 0.0);
+            normal[OFFSET] = [0.0; UNKNOWNS];
+            (normal[OFFSET][OFFSET], right[OFFSET]) = (1.0, 0.0);
+        }
         for (k, row) in normal.iter_mut().enumerate() {
             row[k] *= 1.0 + damping;
         }
-        let [a, b, c, x, y, z] = solve_spd(normal, self.right)?;
-        Some(Step {
+        let [a, b, c, x, y, z, offset] = solve_spd(normal, right)?;
+        let step = Step {
             turn: [a, b, c],
             shift: [x, y, z],
-        })
+        };
+        Some((step, offset))
     }
 
-    /// Mean loss over the outline, square pixels.
+    /// Mean loss over what is known of the outline, square pixels; infinite where that is too
+    /// little.
     pub(super) fn loss(&self) -> f64 {
-        self.loss / self.weight.max(1.0)
+        if self.is_enough() {
+            self.loss / self.known
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Root mean square residual of what was found, pixels.
     pub(super) fn residual_px(&self) -> f64 {
         sqrt(self.squares / self.used.max(1.0))
+    }
+
+    /// Standard deviation of the residuals, pixels, from their median absolute value as if they
+    /// were normal: what lies far out does not count (Hampel, JASA 69, 1974).
+    pub(super) fn spread_px(&self) -> f64 {
+        let half = self.used / 2.0;
+        let mut below = 0.0;
+        for (bin, &length) in self.histogram.iter().enumerate() {
+            if below + length >= half && length > 0.0 {
+                return 1.4826 * BIN * (bin as f64 + (half - below) / length);
+            }
+            below += length;
+        }
+        1.4826 * BIN * BINS as f64
     }
 }

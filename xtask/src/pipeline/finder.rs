@@ -1,12 +1,13 @@
-//! From a mask to its poses by the method asked for.
+//! From what a camera saw to the poses that explain it, by the method asked for.
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::mask::Mask;
+use fluoropose::frame::Grey;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::refine::Refined;
-use fluoropose::rivals::RefinedRival;
+use fluoropose::refine::{ImageTarget, Polarity, Refined, View};
+use fluoropose::rivals::{RefinedRival, worth_refining};
+use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::Verified;
 use serde::Serialize;
 
@@ -22,6 +23,8 @@ pub enum Method {
     Library,
     /// That, then the model's outline brought onto the mask's
     Refined,
+    /// That, then onto the edges of the grey frame
+    Image,
 }
 
 impl Method {
@@ -30,11 +33,30 @@ impl Method {
         match self {
             Self::Library => "library",
             Self::Refined => "refined",
+            Self::Image => "image",
         }
     }
 }
 
-/// A pose that explains a mask.
+/// What is known of one frame.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The silhouette that was traced.
+    pub silhouette: Silhouette<'a>,
+    /// The frame, for the method `image`.
+    pub frame: Option<&'a dyn Grey>,
+}
+
+impl<'a> From<Silhouette<'a>> for Seen<'a> {
+    fn from(silhouette: Silhouette<'a>) -> Self {
+        Self {
+            silhouette,
+            frame: None,
+        }
+    }
+}
+
+/// A pose that explains a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer {
     /// `camera_from_model`, as good as the method makes it.
@@ -45,11 +67,12 @@ pub struct Answer {
     pub refined: Option<Refined>,
 }
 
-/// A library, its model and a camera, ready for masks.
+/// A library, its model and a camera, ready for frames.
 pub struct Finder<'l> {
     locator: Locator<'l>,
-    refiner: Option<Refiner<'l>>,
+    refiner: Refiner<'l>,
     camera: Camera,
+    method: Method,
 }
 
 impl<'l> Finder<'l> {
@@ -60,40 +83,78 @@ impl<'l> Finder<'l> {
     pub fn open(bytes: &'l [u8], mesh: Mesh<'l>, camera: Camera, method: Method) -> Result<Self> {
         Ok(Self {
             locator: Locator::open(bytes, mesh)?,
-            refiner: (method == Method::Refined).then(|| Refiner::new(mesh, camera)),
+            refiner: Refiner::new(mesh, &[camera]),
             camera,
+            method,
         })
     }
 
-    /// All poses that explain a mask, best first: by the loss after refinement, or by the
+    /// All poses that explain a frame, best first: by the loss after refinement, or by the
     /// pixels that differ when the model is drawn.
     ///
     /// # Errors
-    /// Those of [`Locator::locate`], and of refinement where no rival can be refined.
-    pub fn all(&mut self, mask: &Mask<'_>) -> Result<Vec<Answer>> {
-        let rivals = self.locator.locate(mask, &self.camera)?;
-        let Some(refiner) = &mut self.refiner else {
+    /// Those of [`Locator::locate`], of refinement where no rival can be refined, and where the
+    /// method needs a frame and there is none.
+    pub fn all(&mut self, seen: &Seen<'_>) -> Result<Vec<Answer>> {
+        let rivals = self.locator.locate(&seen.silhouette, &self.camera)?;
+        if self.method == Method::Library {
             return Ok(rivals.iter().map(Answer::unrefined).collect());
+        }
+        let worth = worth_refining(&rivals);
+        let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
+        let view = View::only(&self.camera, seen.silhouette);
+        let refined = self.refiner.refine(&[view], &starts)?;
+        let answers = refined.iter().map(|answer| Answer::refined(answer, worth));
+        if self.method == Method::Refined {
+            return Ok(answers.collect());
+        }
+        let answers: Vec<Answer> = answers.collect();
+        let poses: Vec<Pose> = answers.iter().map(|answer| answer.pose).collect();
+        let image = self.refine_on_image(seen, &poses)?;
+        let of = |found: &RefinedRival| Answer {
+            pose: found.refined.pose,
+            located: answers[found.start].located,
+            refined: Some(found.refined),
         };
-        let answers = refiner.refine(mask, &rivals)?;
-        Ok(answers.map(Answer::refined).collect())
+        Ok(image.iter().map(of).collect())
     }
 
-    /// The best pose of a mask.
+    /// Brings poses onto the edges of the frame; best first.
+    ///
+    /// # Errors
+    /// Where there is no frame, and where none can be refined.
+    pub fn refine_on_image(
+        &mut self,
+        seen: &Seen<'_>,
+        starts: &[Pose],
+    ) -> Result<Vec<RefinedRival>> {
+        let frame = seen
+            .frame
+            .context("the method image needs the grey frames, not only masks")?;
+        let target = ImageTarget {
+            frame,
+            unknown: seen.silhouette.unknown(),
+            polarity: Polarity::DarkImplant,
+        };
+        let view = View::only(&self.camera, target);
+        Ok(self.refiner.refine(&[view], starts)?)
+    }
+
+    /// The best pose of a frame.
     ///
     /// # Errors
     /// Those of [`Self::all`].
-    pub fn best(&mut self, mask: &Mask<'_>) -> Result<Answer> {
-        let answers = self.all(mask)?;
+    pub fn best(&mut self, seen: &Seen<'_>) -> Result<Answer> {
+        let answers = self.all(seen)?;
         answers.first().copied().context("the library has no views")
     }
 }
 
 impl Answer {
-    fn refined(answer: RefinedRival) -> Self {
+    fn refined(answer: &RefinedRival, rivals: &[Verified]) -> Self {
         Self {
             pose: answer.refined.pose,
-            located: answer.rival,
+            located: rivals[answer.start],
             refined: Some(answer.refined),
         }
     }

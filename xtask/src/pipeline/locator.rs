@@ -4,9 +4,10 @@ use anyhow::{Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
-use fluoropose::mask::{Mask, Word};
+use fluoropose::mask::Word;
 use fluoropose::mesh::Mesh;
 use fluoropose::raster::{Projected, scratch_needed};
+use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::{Verified, verify};
 
 use super::files::MaskBuffer;
@@ -53,22 +54,22 @@ impl<'l> Locator<'l> {
         &self.library
     }
 
-    /// All poses that explain a mask, best first: local minima of the score surface, put in
+    /// All poses that explain a silhouette, best first: local minima of the score surface, put in
     /// order by drawing the model at each.
     ///
     /// # Errors
     /// Those of [`locate`] and [`verify`].
-    pub fn locate(&mut self, mask: &Mask<'_>, camera: &Camera) -> Result<Rivals> {
+    pub fn locate(&mut self, silhouette: &Silhouette<'_>, camera: &Camera) -> Result<Rivals> {
         let work = Workspace {
             canonical: &mut self.canonical,
             turned: &mut self.turned,
             scores: &mut self.scores,
         };
-        let found = locate::<RIVALS>(mask, camera, &self.library, work)?;
+        let found = locate::<RIVALS>(silhouette.mask(), camera, &self.library, work)?;
         let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;
         let rivals = drawn.draw(|drawn| {
             let scratch = &mut self.projected;
-            verify::<RIVALS>(&found.poses, &self.mesh, camera, mask, scratch, drawn)
+            verify::<RIVALS>(&found.poses, &self.mesh, camera, silhouette, scratch, drawn)
         })?;
         Ok(rivals.to_vec())
     }

@@ -1,20 +1,19 @@
-//! Refinement of located poses, with the memory that the core wants lent.
+//! Refinement of poses, with the memory that the core wants lent.
 
 use fluoropose::camera::Camera;
-use fluoropose::mask::{Mask, Word, words_needed};
+use fluoropose::mask::{Word, words_needed};
 use fluoropose::mesh::Mesh;
+use fluoropose::pose::Pose;
 use fluoropose::raster::{Projected, scratch_needed};
-use fluoropose::refine::{BorderPixel, RefineError, RefineMemory};
+use fluoropose::refine::{BorderPixel, RefineError, RefineMemory, View};
 use fluoropose::rivals::{RefinedRival, refine_rivals};
-use fluoropose::verify::Verified;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
 
-/// A model to be refined in frames of one camera.
+/// A model to be refined, with working memory.
 pub struct Refiner<'m> {
     mesh: Mesh<'m>,
-    camera: Camera,
     projected: Vec<Projected>,
     drawn: Vec<Word>,
     places: Vec<u16>,
@@ -22,35 +21,41 @@ pub struct Refiner<'m> {
 }
 
 impl<'m> Refiner<'m> {
-    /// Working memory for a model and a camera.
-    pub fn new(mesh: Mesh<'m>, camera: Camera) -> Self {
-        let (width, height) = (camera.width(), camera.height());
+    /// Working memory for a model and frames as large as those of `cameras`.
+    pub fn new(mesh: Mesh<'m>, cameras: &[Camera]) -> Self {
+        let largest = |size: fn(usize, usize) -> usize| {
+            let sizes = cameras.iter().map(|c| size(c.width(), c.height()));
+            sizes.max().unwrap_or(0)
+        };
         Self {
             mesh,
-            camera,
             projected: vec![Projected::default(); scratch_needed(&mesh)],
-            drawn: vec![0; words_needed(width, height)],
-            places: vec![0; width * height],
+            drawn: vec![0; largest(words_needed)],
+            places: vec![0; largest(|width, height| width * height)],
             border: vec![BorderPixel::default(); BORDER],
         }
     }
 
-    /// Refines the rivals that explain a mask; see [`refine_rivals`].
+    /// The working memory, lent.
+    pub fn memory(&mut self) -> RefineMemory<'_> {
+        RefineMemory {
+            projected: &mut self.projected,
+            drawn: &mut self.drawn,
+            places: &mut self.places,
+            border: &mut self.border,
+        }
+    }
+
+    /// Refines poses; see [`refine_rivals`].
     ///
     /// # Errors
     /// Those of [`refine_rivals`].
     pub fn refine(
         &mut self,
-        mask: &Mask<'_>,
-        rivals: &[Verified],
-    ) -> Result<impl Iterator<Item = RefinedRival>, RefineError> {
-        let mut memory = RefineMemory {
-            projected: &mut self.projected,
-            drawn: &mut self.drawn,
-            places: &mut self.places,
-            border: &mut self.border,
-        };
-        refine_rivals(&self.mesh, &self.camera, mask, rivals, &mut memory)
-            .map(IntoIterator::into_iter)
+        views: &[View<'_>],
+        starts: &[Pose],
+    ) -> Result<Vec<RefinedRival>, RefineError> {
+        let mesh = self.mesh;
+        refine_rivals(&mesh, views, starts, &mut self.memory()).map(|found| found.to_vec())
     }
 }

@@ -1,0 +1,134 @@
+//! Where a grey frame has the edge that a model's outline predicts.
+//!
+//! A profile is read along the outline's normal, averaged a little along its tangent, and
+//! differentiated by the derivative of a Gaussian (Canny, IEEE PAMI 8, 1986). Of its maxima of
+//! the right sign the one is taken that is strongest after a Gaussian prior on the distance.
+
+use super::outline::BorderPixel;
+use super::probe::Found;
+use super::view::{ImageTarget, Polarity};
+use crate::math::exp;
+
+/// Distance between readings along the normal, pixels.
+const STEP: f64 = 0.5;
+/// Readings to each side of the outline at most: the longest range and the filter's reach.
+const REACH: usize = 32;
+/// Weights of the readings along the tangent, one pixel apart.
+const TANGENT: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
+/// Half width of the derivative's filter, readings.
+const HALF_FILTER: usize = 6;
+/// Width of the Gaussian whose derivative is taken, pixels.
+const BLUR: f64 = 1.0;
+
+/// An edge on a normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Edge {
+    /// Where it is.
+    pub(super) found: Found,
+    /// Grey values a pixel; zero where there is none.
+    pub(super) strength: f64,
+}
+
+impl Edge {
+    const UNKNOWN: Self = Self {
+        found: Found::Unknown,
+        strength: 0.0,
+    };
+    const NOTHING: Self = Self {
+        found: Found::Nothing,
+        strength: 0.0,
+    };
+}
+
+/// The edge nearest to expectation on the normal of a sample: `expected` pixels from the middle
+/// of its pixel, at most `range` from there.
+pub(super) fn edge(
+    image: &ImageTarget<'_>,
+    sample: &BorderPixel,
+    expected: f64,
+    range: f64,
+) -> Edge {
+    let half = ((range / STEP) as usize).min(REACH - HALF_FILTER - 1);
+    let mut profile = [0.0; 2 * REACH + 1];
+    let reach = half + HALF_FILTER;
+    for (index, value) in profile.iter_mut().take(2 * reach + 1).enumerate() {
+        let t = expected + STEP * (index as f64 - reach as f64);
+        match reading(image, sample, t) {
+            Some(grey) => *value = grey,
+            None => return Edge::UNKNOWN,
+        }
+    }
+    let mut slopes = [0.0; 2 * REACH + 1];
+    differentiate(&profile, &mut slopes[..=2 * half]);
+    if image.polarity == Polarity::BrightImplant {
+        slopes.iter_mut().for_each(|slope| *slope = -*slope);
+    }
+    strongest(&slopes[..=2 * half], half, expected)
+}
+
+/// Grey value at a distance along a sample's normal, averaged along its tangent. `None` where
+/// one of the pixels is unknown or beyond the frame.
+fn reading(image: &ImageTarget<'_>, sample: &BorderPixel, t: f64) -> Option<f64> {
+    let [right, down] = sample.normal.map(f64::from);
+    let [column, row] = sample.place();
+    let (column, row) = (column + t * right, row + t * down);
+    if let Some(unknown) = image.unknown
+        && column >= 0.0
+        && row >= 0.0
+        && unknown.get(column as usize, row as usize)
+    {
+        return None;
+    }
+    let mut sum = 0.0;
+    for (k, weight) in TANGENT.iter().enumerate() {
+        let along = k as f64 - (TANGENT.len() / 2) as f64;
+        sum += weight * image.frame.at(column - along * down, row + along * right)?;
+    }
+    Some(sum / TANGENT.iter().sum::<f64>())
+}
+
+/// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides.
+fn differentiate(profile: &[f64], slopes: &mut [f64]) {
+    let mut weights = [0.0; HALF_FILTER + 1];
+    let mut norm = 0.0;
+    for (k, weight) in weights.iter_mut().enumerate() {
+        let t = STEP * k as f64;
+        *weight = t * exp(-t * t / (2.0 * BLUR * BLUR));
+        // A slope of one must come out as one.
+        norm += 2.0 * *weight * t;
+    }
+    for (index, slope) in slopes.iter_mut().enumerate() {
+        let middle = index + HALF_FILTER;
+        let pairs =
+            (1..=HALF_FILTER).map(|k| weights[k] * (profile[middle + k] - profile[middle - k]));
+        *slope = pairs.sum::<f64>() / norm;
+    }
+}
+
+/// The maximum of rising slopes that is greatest after the prior, to a part of a reading by a
+/// parabola.
+fn strongest(slopes: &[f64], half: usize, expected: f64) -> Edge {
+    let spread = STEP * half as f64 / 2.0;
+    let mut best = (0.0, None);
+    for k in 1..slopes.len().saturating_sub(1) {
+        let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
+        if slope <= 0.0 || slope < before || slope <= after {
+            continue;
+        }
+        let t = STEP * (k as f64 - half as f64);
+        let score = slope * exp(-t * t / (2.0 * spread * spread));
+        if score > best.0 {
+            let bend = before - 2.0 * slope + after;
+            let part = if bend < 0.0 {
+                0.5 * (before - after) / bend
+            } else {
+                0.0
+            };
+            best = (score, Some((t + STEP * part, slope)));
+        }
+    }
+    best.1.map_or(Edge::NOTHING, |(t, strength)| Edge {
+        found: Found::At(expected + t),
+        strength,
+    })
+}

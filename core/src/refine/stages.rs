@@ -1,0 +1,45 @@
+//! From coarse to fine: how far a target's outline is looked for and how the loss flattens.
+
+use super::solve::Loss;
+use super::view::Target;
+
+/// Number of stages of any target.
+pub(super) const STAGES: usize = 4;
+
+/// One stage of refinement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stage {
+    /// Largest distance between the outlines, pixels.
+    pub(super) range: f64,
+    pub(super) loss: Loss,
+}
+
+/// Steps tried in each stage at most.
+pub(super) const STEPS: [usize; STAGES] = [10, 8, 14, 10];
+
+/// Cauchy's loss is 95 % as efficient as least squares on normal noise when its scale is this
+/// many standard deviations (Holland and Welsch, Commun. Stat. A 6, 1977).
+const EFFICIENT: f64 = 2.385;
+/// Least and greatest scale of the last stage's loss, pixels.
+const SCALE: [f64; 2] = [1.0, 4.0];
+
+impl Stage {
+    /// The stage number `index` for a target; `spread` is the standard deviation of the
+    /// residuals of the stage before, pixels.
+    pub(super) fn of(target: &Target<'_>, index: usize, spread: f64) -> Self {
+        let stage = |range, loss| Self { range, loss };
+        match (target, index) {
+            (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
+            (Target::Silhouette(_), 1) => stage(16.0, Loss::Cauchy(2.5)),
+            (Target::Silhouette(_), 2) => stage(10.0, Loss::Cauchy(1.0)),
+            (Target::Silhouette(_), _) => {
+                let scale = (EFFICIENT * spread).clamp(SCALE[0], SCALE[1]);
+                stage(10.0, Loss::Cauchy(scale))
+            }
+            (Target::Image(_), 0) => stage(10.0, Loss::Tukey(8.0)),
+            (Target::Image(_), 1) => stage(7.0, Loss::Tukey(4.0)),
+            (Target::Image(_), 2) => stage(5.0, Loss::Tukey(2.5)),
+            (Target::Image(_), _) => stage(4.0, Loss::Tukey(1.5)),
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What is looked at: cameras, where they stand, and what they saw.
+
+use crate::camera::Camera;
+use crate::frame::Grey;
+use crate::mask::Mask;
+use crate::pose::Pose;
+use crate::silhouette::Silhouette;
+
+/// One camera and what it saw of the implant.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// `camera_from_world`: [`Pose::IDENTITY`] for the only camera, or for that whose frame is
+    /// the world's.
+    pub placement: Pose,
+    /// What the model is brought onto.
+    pub target: Target<'a>,
+}
+
+impl<'a> View<'a> {
+    /// The only camera of a single-plane study: poses are `camera_from_model`.
+    #[must_use]
+    pub fn only(camera: &'a Camera, target: impl Into<Target<'a>>) -> Self {
+        Self {
+            camera,
+            placement: Pose::IDENTITY,
+            target: target.into(),
+        }
+    }
+}
+
+/// What a camera saw.
+#[derive(Clone, Copy, Debug)]
+pub enum Target<'a> {
+    /// A traced silhouette.
+    Silhouette(Silhouette<'a>),
+    /// The grey frame itself.
+    Image(ImageTarget<'a>),
+}
+
+impl Target<'_> {
+    /// Columns and rows.
+    pub(super) fn size(&self) -> (usize, usize) {
+        match self {
+            Self::Silhouette(silhouette) => (silhouette.mask().width(), silhouette.mask().height()),
+            Self::Image(image) => image.frame.size(),
+        }
+    }
+}
+
+impl<'a> From<Silhouette<'a>> for Target<'a> {
+    fn from(silhouette: Silhouette<'a>) -> Self {
+        Self::Silhouette(silhouette)
+    }
+}
+
+impl<'a> From<&'a Mask<'a>> for Target<'a> {
+    fn from(mask: &'a Mask<'a>) -> Self {
+        Self::Silhouette(mask.into())
+    }
+}
+
+impl<'a> From<ImageTarget<'a>> for Target<'a> {
+    fn from(image: ImageTarget<'a>) -> Self {
+        Self::Image(image)
+    }
+}
+
+/// Whether metal is darker or brighter than what surrounds it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Polarity {
+    /// As a fluoroscope shows it: what absorbs is dark.
+    #[default]
+    DarkImplant,
+    /// As a radiograph's film shows it: what absorbs is bright.
+    BrightImplant,
+}
+
+/// A grey frame whose edges the model's outline is brought onto.
+#[derive(Clone, Copy)]
+pub struct ImageTarget<'a> {
+    /// The frame.
+    pub frame: &'a dyn Grey,
+    /// Pixels whose edges are not the implant's: the other component, the frame's diaphragm.
+    pub unknown: Option<&'a Mask<'a>>,
+    /// Which side of an edge the implant is on.
+    pub polarity: Polarity,
+}
+
+impl core::fmt::Debug for ImageTarget<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("ImageTarget")
+            .field("size", &self.frame.size())
+            .field("polarity", &self.polarity)
+            .finish_non_exhaustive()
+    }
+}
