@@ -219,8 +219,9 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
     })
     .unwrap();
     let middle = mesh.bounds().centre;
-    // About a pixel of motion each.
+    // Half a pixel to a pixel of motion each.
     let steps = [0.01, 0.01, 0.01, 0.3, 0.3, 6.0];
+    let unmoved = distances(&mesh, &camera, &pose, &samples);
     let mut slopes = vec![[f64::NAN; 6]; samples.len()];
     for (k, step) in steps.into_iter().enumerate() {
         let at = |sign: f64| {
@@ -228,15 +229,24 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
             motion[k] = sign * step;
             distances(&mesh, &camera, &moved(&pose, &middle, motion), &samples)
         };
-        for ((slope, ahead), behind) in slopes.iter_mut().zip(at(1.0)).zip(at(-1.0)) {
-            slope[k] = (ahead - behind) / (2.0 * step);
+        let both = at(1.0).into_iter().zip(at(-1.0));
+        for ((slope, (ahead, behind)), here) in slopes.iter_mut().zip(both).zip(&unmoved) {
+            // Near a sharp corner another side comes before a sample, and what is measured is no
+            // slope: there and back are not one way.
+            if (ahead + behind - 2.0 * here).abs() < 0.25 {
+                slope[k] = (ahead - behind) / (2.0 * step);
+            }
         }
     }
-    // Sharp corners have no outline along some normal; they are few.
     let whole: Vec<usize> = (0..samples.len())
         .filter(|&k| slopes[k].iter().all(|s| s.is_finite()))
         .collect();
-    assert!(whole.len() * 100 > samples.len() * 97, "{}", whole.len());
+    assert!(
+        whole.len() * 100 > samples.len() * 90,
+        "{} of {}",
+        whole.len(),
+        samples.len()
+    );
     let site = |k: usize, jacobian: [f64; 6]| Site {
         curve: 0,
         along: k as f64,
@@ -249,28 +259,6 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
         .map(|&k| site(k, samples[k].jacobian))
         .collect();
     let numeric: Vec<Site> = whole.iter().map(|&k| site(k, slopes[k])).collect();
-    for k in 0..6 {
-        let mut bad: Vec<(f64, usize)> = whole
-            .iter()
-            .map(|&i| ((samples[i].jacobian[k] - slopes[i][k]).abs() * steps[k], i))
-            .collect();
-        bad.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let rms = (bad.iter().map(|b| b.0 * b.0).sum::<f64>() / bad.len() as f64).sqrt();
-        println!("param {k}: rms {rms:.3} px, n {}", bad.len());
-        for (e, i) in bad.iter().step_by(6).take(9) {
-            let s = &samples[*i];
-            println!(
-                "  err {e:.3} J*h {:.3} fd*h {:.3} at {:.1} {:.1} n {:.2} {:.2} len {:.2}",
-                s.jacobian[k] * steps[k],
-                slopes[*i][k] * steps[k],
-                s.column,
-                s.row,
-                s.normal[0],
-                s.normal[1],
-                s.length
-            );
-        }
-    }
     let (a, b) = (
         white_information(&analytic, ROUNDED),
         white_information(&numeric, ROUNDED),
@@ -280,7 +268,7 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
             let size = (a[row][row] * a[column][column]).sqrt();
             let error = (a[row][column] - b[row][column]).abs() / size;
             assert!(
-                error < 9.05,
+                error < 0.05,
                 "{row} {column}: {} {}",
                 a[row][column],
                 b[row][column]
