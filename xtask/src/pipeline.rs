@@ -8,5 +8,6 @@ pub mod files;
 pub mod finder;
 pub mod locator;
 pub mod refiner;
+pub mod scene;
 pub mod source;
 pub mod study;

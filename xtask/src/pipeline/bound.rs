@@ -232,17 +232,42 @@ pub struct Comparison {
 impl Comparison {
     /// Compares the root mean square errors of poses with the limits of each of them.
     pub fn of(noise: Noise, limits: &[PoseLimits], rms: &Errors) -> Self {
-        let column = |of: fn(&PoseLimits) -> Limit| {
-            let all: Vec<Limit> = limits.iter().map(of).collect();
-            Limit::rms(&all)
-        };
-        let (bound, least_squares) = (column(|l| l.bound), column(|l| l.least_squares));
+        let PoseLimits {
+            bound,
+            least_squares,
+        } = PoseLimits::rms(limits);
         Self {
             noise,
             bound,
             least_squares,
             ratio_to_bound: bound.ratio(rms),
             ratio_to_least_squares: least_squares.ratio(rms),
+        }
+    }
+}
+
+impl Comparison {
+    /// Prints errors, limits and ratios, a line each.
+    pub fn print(&self, rms: &Errors, median: &Errors) {
+        let errors = |e: &Errors| Limit {
+            x_mm: e.x_mm,
+            y_mm: e.y_mm,
+            z_mm: e.z_mm,
+            geodesic_deg: e.geodesic_deg,
+        };
+        let line = |name: &str, l: &Limit| {
+            println!(
+                "{name:<24} x {:8.4}  y {:8.4}  z {:8.3}  rotation {:8.4}",
+                l.x_mm, l.y_mm, l.z_mm, l.geodesic_deg
+            );
+        };
+        line("RMS error (mm, deg)", &errors(rms));
+        line("median absolute error", &errors(median));
+        line("bound", &self.bound);
+        line("RMS error / bound", &self.ratio_to_bound);
+        if self.noise.jitter_px > 0.0 {
+            line("plain least squares", &self.least_squares);
+            line("RMS error / that", &self.ratio_to_least_squares);
         }
     }
 }
@@ -254,6 +279,20 @@ pub struct PoseLimits {
     pub bound: Limit,
     /// What plain least squares reaches.
     pub least_squares: Limit,
+}
+
+impl PoseLimits {
+    /// Root mean square of the limits of many poses.
+    pub fn rms(all: &[Self]) -> Self {
+        let column = |of: fn(&Self) -> Limit| {
+            let column: Vec<Limit> = all.iter().map(of).collect();
+            Limit::rms(&column)
+        };
+        Self {
+            bound: column(|limits| limits.bound),
+            least_squares: column(|limits| limits.least_squares),
+        }
+    }
 }
 
 #[cfg(test)]

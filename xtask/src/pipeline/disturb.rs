@@ -4,6 +4,7 @@
 
 pub mod curve;
 pub mod fill;
+pub mod frame_cut;
 pub mod jitter;
 pub mod occluder;
 
@@ -59,8 +60,10 @@ impl Default for DisturbanceOptions {
 pub struct Disturbed {
     /// The mask.
     pub mask: MaskBuffer,
-    /// Pixels of which the mask says nothing.
+    /// Pixels that are told to say nothing.
     pub unknown: Option<MaskBuffer>,
+    /// Pixels that say nothing, told or not.
+    pub hidden: Option<MaskBuffer>,
 }
 
 impl Disturbed {
@@ -150,10 +153,12 @@ impl DisturbanceOptions {
     ) -> Result<Disturbed> {
         let mut disturbed = self.disturb_drawn(mask, 1, frame)?;
         if let Some(unknown) = unknown.map(MaskBuffer::copy_of) {
-            disturbed.unknown = Some(match disturbed.unknown {
-                Some(hidden) => hidden.combined(&unknown, |a, b| a | b)?,
-                None => unknown,
-            });
+            let with = |mask: Option<MaskBuffer>| match mask {
+                Some(mask) => mask.combined(&unknown, |a, b| a | b),
+                None => Ok(unknown.clone()),
+            };
+            disturbed.unknown = Some(with(disturbed.unknown)?);
+            disturbed.hidden = Some(with(disturbed.hidden)?);
         }
         Ok(disturbed)
     }
@@ -165,11 +170,15 @@ impl DisturbanceOptions {
     /// For outlines of more corners than are kept.
     pub fn disturb_drawn(&self, fine: &Mask<'_>, factor: usize, frame: u64) -> Result<Disturbed> {
         let mut mask = MaskBuffer::copy_of(fine);
-        let mut unknown = None;
+        let mut hidden = None;
         let mut random = self.random(frame);
         let size = [fine.width() / factor, fine.height() / factor];
         if self.is_none() && factor == 1 {
-            return Ok(Disturbed { mask, unknown });
+            return Ok(Disturbed {
+                mask,
+                unknown: None,
+                hidden,
+            });
         }
         let curves = self.curves(fine, factor)?;
         if self.jitter > 0.0 || factor > 1 {
@@ -178,11 +187,15 @@ impl DisturbanceOptions {
         if self.occlude > 0.0
             && let Some(occluder) = Occluder::draw(&curves, self.occlude, size, &mut random)
         {
-            let hidden = occluder.hidden(size[0], size[1])?;
-            mask = occluder.before(&mask.mask(), &hidden)?;
-            unknown = (!self.unmarked).then_some(hidden);
+            let pixels = occluder.hidden(size[0], size[1])?;
+            mask = occluder.before(&mask.mask(), &pixels)?;
+            hidden = Some(pixels);
         }
-        Ok(Disturbed { mask, unknown })
+        Ok(Disturbed {
+            mask,
+            unknown: hidden.clone().filter(|_| !self.unmarked),
+            hidden,
+        })
     }
 
     /// The outlines of a mask `factor` times as fine as the frame, in the frame's pixels; they go
