@@ -109,10 +109,11 @@ impl Occluder {
         let (columns, rows) = mask.bounds();
         let room = (ROOM * columns.len().max(rows.len()) as f64) as usize;
         let mut near = MaskBuffer::new(mask.width(), mask.height())?;
+        let pixels = hidden.mask();
         near.draw(|near| {
             for row in rows.start.saturating_sub(room)..rows.end + room {
                 for column in columns.start.saturating_sub(room)..columns.end + room {
-                    near.set(column, row, hidden.mask().get(column, row));
+                    near.set(column, row, pixels.get(column, row));
                 }
             }
         });

@@ -101,9 +101,10 @@ fn specks_and_what_the_frame_cuts_off_survive_tracing() {
 /// Radii of a mask at 720 directions from a centre, and the way between two, pixels.
 fn radii(mask: &MaskBuffer, centre: [f64; 2], from: f64) -> Vec<f64> {
     let step = 0.02;
+    let mask = mask.mask();
     let inside = |sine: f64, cosine: f64, radius: f64| {
         let (c, r) = (centre[0] + radius * cosine, centre[1] + radius * sine);
-        mask.mask().get(c as usize, r as usize)
+        mask.get(c as usize, r as usize)
     };
     let at = |k: u32| {
         let (sine, cosine) = libm::sincos(f64::from(k) * std::f64::consts::PI / 360.0);
@@ -126,9 +127,13 @@ fn a_discs_radius_is_displaced_as_was_asked_for() {
     // Whole numbers of directions nearest to 0, 10, 14 and 30 px.
     let lags = [0usize, 7, 10, 21];
     let (mut sums, mut mean, drawings) = ([0.0; 4], 0.0, 60);
+    let curves = options.curves(&fine.mask(), FINE).unwrap();
     for frame in 0..drawings {
-        let found = options.disturb_drawn(&fine.mask(), FINE, frame).unwrap();
-        let radii = radii(&found.mask, centre, radius - 20.0);
+        let mut random = options.random(frame);
+        let found = options
+            .jittered(&curves, [SIDE, SIDE], &mut random)
+            .unwrap();
+        let radii = radii(&found, centre, radius - 20.0);
         let off = |k: usize| radii[k % 720] - radius;
         mean += (0..720).map(off).sum::<f64>() / (720.0 * drawings as f64);
         for (sum, lag) in sums.iter_mut().zip(lags) {
