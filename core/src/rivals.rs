@@ -8,6 +8,7 @@ use crate::mirror::mirror_pose;
 use crate::pose::{Pose, geodesic_deg};
 use crate::raster::render;
 use crate::refine::{RefineError, RefineMemory, Refined, Target, View, refine};
+use crate::symmetry::symmetry_planes;
 use crate::verify::Verified;
 
 /// Poses to start from that are refined at most.
@@ -48,7 +49,7 @@ pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
 }
 
 /// Refines the first [`STARTS`] poses of `starts`, then their mirror images
-/// about each axis of the model about which it looks symmetric from there: such an image may lie
+/// in each plane of the model in which it looks symmetric from there: such an image may lie
 /// between the same views of a library and be no rival of its own. The poses by rising loss,
 /// each once; empty only where there is no start.
 ///
@@ -71,10 +72,10 @@ pub fn refine_rivals(
     if let (true, Some(error)) = (answers.is_empty(), failure) {
         return Err(error);
     }
-    let middle = mesh.bounds().centre;
+    let planes = symmetry_planes(mesh);
     for RefinedRival { start, refined, .. } in distinct(&answers) {
-        for axis in 0..3 {
-            let mirrored = mirror_pose(&refined.pose, &middle, axis);
+        for plane in &planes {
+            let mirrored = mirror_pose(&refined.pose, plane);
             if !views
                 .iter()
                 .all(|view| is_near(mesh, view, &mirrored, memory))

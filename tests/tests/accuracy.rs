@@ -7,6 +7,7 @@ use fluoropose_tests::{assert_snapshot, camera, femur, mesh, study, tibia};
 use xtask::evaluate::{Row, evaluate};
 use xtask::implant::Triangles;
 use xtask::pipeline::build::ViewOptions;
+use xtask::pipeline::disturb::DisturbanceOptions;
 use xtask::pipeline::finder::Method;
 use xtask::synthetic::{Accuracy, Protocol, measure};
 
@@ -19,6 +20,7 @@ fn accuracy_of(model: &Triangles, method: Method) -> Accuracy {
         distance: 1084.0,
         poses: POSES,
         seed: SEED,
+        disturbance: DisturbanceOptions::default(),
     };
     let views = ViewOptions::default();
     measure(mesh(model), camera(), &views, &protocol).expect("poses are found")
@@ -105,11 +107,12 @@ fn assert_within(row: &Row, [xy, z, geodesic]: [f64; 3]) {
 #[test]
 fn the_real_study_stays_within_its_bounds() {
     let Some(study) = study("left8") else { return };
-    let table = evaluate(&study, Method::Library, None).expect("the study is complete");
+    let none = DisturbanceOptions::default();
+    let table = evaluate(&study, Method::Library, &none, None).expect("the study is complete");
     assert_within(find(&table.rows, "femur", "labels"), [0.10, 3.0, 0.25]);
     assert_within(find(&table.rows, "femur", "cnn"), [0.35, 8.0, 0.9]);
     assert_eq!(find(&table.rows, "tibia", "labels").wrong_side, 0);
-    let refined = evaluate(&study, Method::Refined, None).expect("the study is complete");
+    let refined = evaluate(&study, Method::Refined, &none, None).expect("the study is complete");
     assert_within(find(&refined.rows, "femur", "labels"), [0.02, 0.25, 0.04]);
     assert_within(find(&refined.rows, "tibia", "labels"), [0.02, 0.45, 0.05]);
     assert_eq!(find(&refined.rows, "tibia", "labels").wrong_side, 0);

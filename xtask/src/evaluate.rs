@@ -4,15 +4,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
+use fluoropose::camera::Camera;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::silhouette::Silhouette;
+use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose_decode::Model;
 use serde::Serialize;
 
 use crate::pipeline::accuracy::{Errors, is_wrong_side, median_absolute, rms};
+use crate::pipeline::bound::{Comparison, Limit, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, progress};
+use crate::pipeline::disturb::{DisturbanceOptions, Disturbed};
 use crate::pipeline::files::{
-    mesh_of, read_calibration, read_model, read_poses, write_json, write_poses,
+    MaskBuffer, mesh_of, read_calibration, read_model, read_poses, write_json, write_poses,
 };
 use crate::pipeline::finder::{Finder, Method};
 use crate::pipeline::source::Source;
@@ -24,6 +27,10 @@ use crate::pipeline::study::{Component, Study};
     after_help = "For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
 the reference poses, and the other methods' pose files named there in the same table. wrong_side counts frames whose pose is nearer to the \
 reference's mirror image than to the reference. No frame is left out. A component without a reference has its poses written and no row.\n\n\
+Under each row of poses found here stand the bound of Cramer and Rao at the reference poses, for masks that are rounded to pixels and \
+err in nothing else, and the error divided by it: masks traced by a hand or a network err more, and their ratio says how much. \
+--jitter S and --occlude F disturb each mask as they do in `pose`; the bound is then that for rounding and jitter, for the \
+part of the outline that is not hidden. Tables unknown.SOURCE = \"folder\" of a component name masks of pixels of which nothing is known.\n\n\
 Example:\n  cargo xtask evaluate --study study.toml --json table.json --poses found"
 )]
 pub struct Args {
@@ -40,6 +47,8 @@ pub struct Args {
     /// components without a reference, to the current folder]
     #[arg(long, value_name = "DIR")]
     poses: Option<PathBuf>,
+    #[command(flatten)]
+    disturbance: DisturbanceOptions,
 }
 
 /// The table of a study.
@@ -68,6 +77,9 @@ pub struct Row {
     pub median: Errors,
     /// Frames nearer to the reference's mirror image than to the reference.
     pub wrong_side: usize,
+    /// Of poses found here: the limits at the reference poses, and the root mean square errors
+    /// against them.
+    pub limits: Option<Comparison>,
 }
 
 /// Runs the verb.
@@ -75,9 +87,36 @@ pub struct Row {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
-    let table = evaluate(&args.study, args.method, args.poses.as_deref())?;
+    let table = evaluate(
+        &args.study,
+        args.method,
+        &args.disturbance,
+        args.poses.as_deref(),
+    )?;
     print_table(&table);
     write_json(args.json.as_deref(), &table)
+}
+
+/// What a component's poses are compared with.
+struct Reference {
+    model: Model,
+    poses: Vec<EulerPose>,
+    /// Planes in which the component is nearly symmetric.
+    planes: Vec<SymmetryPlane>,
+}
+
+impl Reference {
+    fn of(component: &Component) -> Result<Option<Self>> {
+        let Some(path) = &component.reference else {
+            return Ok(None);
+        };
+        let model = read_model(&component.model)?;
+        Ok(Some(Self {
+            poses: read_poses(path)?,
+            planes: symmetry_planes(&mesh_of(&model)?).to_vec(),
+            model,
+        }))
+    }
 }
 
 /// Evaluates a study; poses found are written to `poses`, or, where it is `None`, to the current
@@ -85,19 +124,33 @@ pub fn run(args: Args) -> Result<()> {
 ///
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
-pub fn evaluate(study: &Path, method: Method, poses: Option<&Path>) -> Result<Table> {
+pub fn evaluate(
+    study: &Path,
+    method: Method,
+    disturbance: &DisturbanceOptions,
+    poses: Option<&Path>,
+) -> Result<Table> {
+    disturbance.check()?;
     let study = Study::read(study)?;
     let calibration = read_calibration(&study.calibration)?;
     let mut rows = Vec::new();
     for component in &study.components {
-        let reference = component.reference.as_deref().map(read_poses).transpose()?;
-        for (source, found) in locate_component(component, &calibration, method)? {
+        let reference = Reference::of(component)?;
+        for located in locate_component(component, &calibration, method, disturbance)? {
             if let Some(folder) = poses.or(reference.is_none().then_some(Path::new(""))) {
-                let path = folder.join(format!("{}-{source}.jts", component.name));
-                write_poses(&path, &found)?;
+                let path = folder.join(format!("{}-{}.jts", component.name, located.source));
+                write_poses(&path, &located.poses)?;
             }
             if let Some(reference) = &reference {
-                rows.push(row(component, &source, method.word(), &found, reference)?);
+                let mut row = row(
+                    component,
+                    &located.source,
+                    method.word(),
+                    &located.poses,
+                    reference,
+                )?;
+                row.limits = Some(located.limits(reference, disturbance, &row.rms)?);
+                rows.push(row);
             }
         }
         for (source, path) in &component.peer {
@@ -113,12 +166,45 @@ pub fn evaluate(study: &Path, method: Method, poses: Option<&Path>) -> Result<Ta
     })
 }
 
+/// What was found in the masks of one source.
+struct Located {
+    source: String,
+    camera: Camera,
+    poses: Vec<EulerPose>,
+    /// Pixels of each mask that say nothing.
+    hidden: Vec<Option<MaskBuffer>>,
+}
+
+impl Located {
+    /// The limits at the reference poses, and errors against them.
+    fn limits(
+        &self,
+        reference: &Reference,
+        disturbance: &DisturbanceOptions,
+        rms: &Errors,
+    ) -> Result<Comparison> {
+        let noise = Noise::of(disturbance, 1);
+        let mut outlines = Outlines::new(mesh_of(&reference.model)?, self.camera);
+        let poses = reference.poses.iter().zip(&self.hidden);
+        let limits: Result<Vec<PoseLimits>> = poses
+            .map(|(&pose, hidden)| {
+                let hidden = hidden.as_ref().map(MaskBuffer::mask);
+                outlines
+                    .pose_limits(&in_front(pose), &noise, hidden.as_ref())
+                    .with_context(|| format!("at the reference {pose:?}"))
+            })
+            .collect();
+        Ok(Comparison::of(noise, &limits?, rms))
+    }
+}
+
 /// Poses of every mask source of a component, in the order of their names.
 fn locate_component(
     component: &Component,
     calibration: &Calibration,
     method: Method,
-) -> Result<Vec<(String, Vec<EulerPose>)>> {
+    disturbance: &DisturbanceOptions,
+) -> Result<Vec<Located>> {
     let model = read_model(&component.model)
         .with_context(|| format!("for the component {}", component.name))?;
     let [x, y] = component.nominal;
@@ -129,41 +215,63 @@ fn locate_component(
     };
     let mut all = Vec::new();
     for (name, folder) in &component.masks {
-        let source = Source::read(folder, calibration)?;
+        let unknown = component.unknown.get(name).map(PathBuf::as_path);
+        let source = Source::read(folder, unknown, calibration)?;
+        let seen: Result<Vec<_>> = source.disturbed(disturbance).collect();
+        let seen = Seen {
+            camera: source.camera,
+            masks: seen?,
+        };
         // Perspective depends on the distance: where nobody told it, the masks do, once.
         let distance = match views.distance {
             Some(distance) => distance,
             None => {
                 let guess = views.distance_for(calibration);
-                let poses = find_poses(&source, &model, &views, guess, Method::Library)?;
+                let poses = seen.find_poses(&model, &views, guess, Method::Library)?;
                 median_absolute(&poses.iter().map(|p| p.z_mm).collect::<Vec<_>>())
             }
         };
-        let poses = find_poses(&source, &model, &views, distance, method)?;
-        all.push((name.clone(), poses));
+        let poses = seen.find_poses(&model, &views, distance, method)?;
+        all.push(Located {
+            source: name.clone(),
+            camera: source.camera,
+            poses,
+            hidden: seen
+                .masks
+                .into_iter()
+                .map(|(_, mask)| mask.hidden)
+                .collect(),
+        });
     }
     Ok(all)
 }
 
-fn find_poses(
-    source: &Source,
-    model: &Model,
-    views: &ViewOptions,
-    distance: f64,
-    method: Method,
-) -> Result<Vec<EulerPose>> {
-    let mesh = mesh_of(model)?;
-    let built = build_library(mesh, source.camera, views, distance)?;
-    let mut finder = Finder::open(&built.bytes, mesh, source.camera, method)?;
-    let bar = progress(source.masks.len(), "masks");
-    let poses = source.masks.iter().map(|(path, buffer)| {
-        bar.inc(1);
-        finder
-            .best(&Silhouette::from(&buffer.mask()).into())
-            .map(|best| EulerPose::from(best.pose))
-            .with_context(|| format!("no pose for {}", path.display()))
-    });
-    poses.collect()
+/// The masks of one source as the method gets to see them.
+struct Seen<'s> {
+    camera: Camera,
+    masks: Vec<(&'s Path, Disturbed)>,
+}
+
+impl Seen<'_> {
+    fn find_poses(
+        &self,
+        model: &Model,
+        views: &ViewOptions,
+        distance: f64,
+        method: Method,
+    ) -> Result<Vec<EulerPose>> {
+        let mesh = mesh_of(model)?;
+        let built = build_library(mesh, self.camera, views, distance)?;
+        let mut finder = Finder::open(&built.bytes, mesh, self.camera, method)?;
+        let bar = progress(self.masks.len(), "masks");
+        let poses = self.masks.iter().map(|(path, mask)| {
+            bar.inc(1);
+            mask.see(|silhouette| finder.best(&silhouette.into()))
+                .map(|best| EulerPose::from(best.pose))
+                .with_context(|| format!("no pose for {}", path.display()))
+        });
+        poses.collect()
+    }
 }
 
 fn row(
@@ -171,19 +279,19 @@ fn row(
     source: &str,
     method: &str,
     found: &[EulerPose],
-    reference: &[EulerPose],
+    reference: &Reference,
 ) -> Result<Row> {
-    if found.len() != reference.len() {
+    if found.len() != reference.poses.len() {
         bail!(
             "{} {source}: {} poses but {} reference poses; both must be of the same frames",
             component.name,
             found.len(),
-            reference.len()
+            reference.poses.len()
         );
     }
     let pairs: Vec<(Pose, Pose)> = found
         .iter()
-        .zip(reference)
+        .zip(&reference.poses)
         .map(|(&found, &reference)| in_frame_of(found, reference))
         .collect();
     let errors: Vec<Errors> = pairs.iter().map(|(a, b)| Errors::of(a, b)).collect();
@@ -194,8 +302,22 @@ fn row(
         frames: errors.len(),
         rms: Errors::summarise(&errors, rms),
         median: Errors::summarise(&errors, median_absolute),
-        wrong_side: pairs.iter().filter(|(a, b)| is_wrong_side(a, b)).count(),
+        wrong_side: pairs
+            .iter()
+            .filter(|(found, known)| is_wrong_side(found, known, &reference.planes))
+            .count(),
+        limits: None,
     })
+}
+
+/// A pose in our camera frame, which looks along -z.
+fn in_front(pose: EulerPose) -> Pose {
+    let own = Pose::from(pose);
+    if pose.z_mm > 0.0 {
+        own.flip_camera_axes()
+    } else {
+        own
+    }
 }
 
 /// Both poses in the reference's own camera frame. A reference in front of a camera that looks
@@ -206,6 +328,22 @@ fn in_frame_of(found: EulerPose, reference: EulerPose) -> (Pose, Pose) {
         (found.flip_camera_axes(), reference_pose)
     } else {
         (found, reference_pose)
+    }
+}
+
+/// Limits and ratios in the columns of the table.
+fn print_limits(limits: &Comparison) {
+    let line = |name: &str, l: &Limit| {
+        println!(
+            "{name:>39} {:7.3} {:7.3} {:7.2} {:26} {:9.3}",
+            l.x_mm, l.y_mm, l.z_mm, "", l.geodesic_deg
+        );
+    };
+    line("bound", &limits.bound);
+    line("RMS / bound", &limits.ratio_to_bound);
+    if limits.noise.jitter_px > 0.0 {
+        line("plain least squares", &limits.least_squares);
+        line("RMS / that", &limits.ratio_to_least_squares);
     }
 }
 
@@ -246,5 +384,8 @@ fn print_table(table: &Table) {
             row.wrong_side
         );
         println!("{:<39} {}", "", numbers(&row.median));
+        if let Some(limits) = &row.limits {
+            print_limits(limits);
+        }
     }
 }

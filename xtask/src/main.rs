@@ -24,6 +24,8 @@ enum Verb {
     Synthetic(xtask::synthetic::Args),
     /// Compare poses from a study's masks with its reference poses
     Evaluate(xtask::evaluate::Args),
+    /// How well a pose can be known from a noisy outline (Cramer and Rao)
+    Bound(xtask::bound::Args),
     /// Turn femoral and tibial poses into joint kinematics
     Kinematics(xtask::kinematics::Args),
     /// Build the page and serve it on this machine
@@ -53,6 +55,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Pose(args) => xtask::pose::run(args),
         Verb::Synthetic(args) => xtask::synthetic::run(args),
         Verb::Evaluate(args) => xtask::evaluate::run(args),
+        Verb::Bound(args) => xtask::bound::run(args),
         Verb::Kinematics(args) => xtask::kinematics::run(args),
         Verb::Serve(args) => xtask::serve::run(args),
         Verb::Test(args) => xtask::test::run(args),

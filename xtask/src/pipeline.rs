@@ -1,10 +1,13 @@
 //! From files to poses: what the verbs that measure and track share.
 
 pub mod accuracy;
+pub mod bound;
 pub mod build;
+pub mod disturb;
 pub mod files;
 pub mod finder;
 pub mod locator;
 pub mod refiner;
+pub mod scene;
 pub mod source;
 pub mod study;

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fluoropose::pose::EulerPose;
-use fluoropose::silhouette::Silhouette;
 
 use crate::pipeline::build::progress;
+use crate::pipeline::disturb::DisturbanceOptions;
 use crate::pipeline::files::{mesh_of, read, read_calibration, read_model, write_poses};
 use crate::pipeline::finder::{Answer, Finder, Method};
 use crate::pipeline::source::Source;
@@ -16,6 +16,10 @@ use crate::pipeline::source::Source;
 #[command(
     after_help = "Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant; their names' order is \
 the order of the frames. Where two poses fit nearly alike both are printed.\n\n\
+With --unknown, what a mask says of the pixels set in its companion is not believed: they are hidden, cut off or were not traced.\n\n\
+To see what a worse trace would give, --jitter S follows each outline of a mask, smooths its pixel steps, moves it along its normals by \
+Gaussian noise of the standard deviation S and the correlation length --correlation, and fills it again; --occlude F hides the part F of \
+the outline's length behind a half plane, a disc or a band, and what is hidden is left out of the mask or traced as a part of it.\n\n\
 Example:\n  cargo xtask pose --library femur.library --model femur.stl --calibration calibration.txt --masks masks/femur --out femur.jts"
 )]
 pub struct Args {
@@ -31,12 +35,17 @@ pub struct Args {
     /// Folder of mask images
     #[arg(long)]
     masks: PathBuf,
+    /// Folder of mask images of unknown pixels, one for each mask, in the same order of names
+    #[arg(long, value_name = "DIR")]
+    unknown: Option<PathBuf>,
     /// How poses are found
     #[arg(long, value_enum, default_value_t)]
     method: Method,
     /// Pose file to write, a row a mask
     #[arg(long)]
     out: PathBuf,
+    #[command(flatten)]
+    disturbance: DisturbanceOptions,
 }
 
 /// A rival pose is mentioned when it fits at most this many times as badly as the best.
@@ -50,14 +59,17 @@ const RIVAL_RATIO: f64 = 1.3;
 pub fn run(args: Args) -> Result<()> {
     let bytes = read(&args.library)?;
     let model = read_model(&args.model)?;
-    let source = Source::read(&args.masks, &read_calibration(&args.calibration)?)?;
+    args.disturbance.check()?;
+    let calibration = read_calibration(&args.calibration)?;
+    let source = Source::read(&args.masks, args.unknown.as_deref(), &calibration)?;
     let mut finder = Finder::open(&bytes, mesh_of(&model)?, source.camera, args.method)
         .with_context(|| args.library.display().to_string())?;
     let bar = progress(source.masks.len(), "masks");
     let mut poses = Vec::new();
-    for (path, buffer) in &source.masks {
-        let answers = finder
-            .all(&Silhouette::from(&buffer.mask()).into())
+    for mask in source.disturbed(&args.disturbance) {
+        let (path, seen) = mask?;
+        let answers = seen
+            .see(|silhouette| finder.all(&silhouette.into()))
             .with_context(|| format!("no pose for {}", path.display()))?;
         bar.suspend(|| describe(path, &answers));
         poses.extend(answers.first().map(|best| EulerPose::from(best.pose)));

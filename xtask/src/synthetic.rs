@@ -2,21 +2,22 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::library::{Grid, GridAxis};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{Projected, render, scratch_needed};
-use fluoropose::silhouette::Silhouette;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-use crate::pipeline::accuracy::{Errors, mean_absolute, rms};
-use crate::pipeline::build::{Pair, ViewOptions, build_library, progress};
+use crate::pipeline::accuracy::{Errors, mean_absolute, median_absolute, rms};
+use crate::pipeline::bound::{Comparison, Noise, Outlines, PoseLimits};
+use crate::pipeline::build::{Pair, ViewOptions, build_library, camera_for, progress};
+use crate::pipeline::disturb::DisturbanceOptions;
 use crate::pipeline::files::{MaskBuffer, mesh_of, read_calibration, read_model, write_json};
 use crate::pipeline::finder::{Finder, Method};
+use crate::pipeline::scene::Scene;
 
 /// Options of `synthetic`.
 #[derive(clap::Args)]
@@ -24,6 +25,14 @@ use crate::pipeline::finder::{Finder, Method};
     after_help = "Draws N random poses inside the library's range (x and y within 40 mm of the axis, z within 50 mm of the library's \
 distance, z_rot any), renders each as a mask, finds it again and prints mean absolute errors. Poses wrong by more than 4 degrees are \
 failures: they are counted and left out of the means, as in the source.\n\n\
+--jitter S draws the outline as a hand would: the model is drawn four times as finely, its outline followed, smoothed of pixel steps, \
+moved along its normals by Gaussian noise of the standard deviation S and the correlation length --correlation, and filled again. \
+--occlude F hides the part F of the outline's length: behind a half plane, a disc or a band (what is hidden is left out of the mask or \
+traced as a part of it), or beyond the frame's border, to which the pose is then moved; the four are equally likely. The finder is told which \
+pixels are hidden unless --unmarked is given.\n\n\
+Below the errors stand what no unbiased estimator undercuts for this noise (the bound of Cramer and Rao) and what plain least squares \
+reaches, root mean square over the same poses, and the errors divided by them. Without jitter the noise is rounding to pixels, \
+1/12 square pixel for each pixel of outline.\n\n\
 Example:\n  cargo xtask synthetic --model femur.stl --calibration calibration.txt --poses 150 --seed 1"
 )]
 pub struct Args {
@@ -47,6 +56,8 @@ pub struct Args {
     method: Method,
     #[command(flatten)]
     views: ViewOptions,
+    #[command(flatten)]
+    disturbance: DisturbanceOptions,
     /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -73,15 +84,21 @@ pub struct Protocol {
     pub poses: usize,
     /// Seed of the random poses.
     pub seed: u64,
+    /// What is done to each mask before its pose is found.
+    pub disturbance: DisturbanceOptions,
 }
 
-/// The means of the protocol.
+/// What the protocol measures.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Accuracy {
     /// Number of poses drawn.
     pub poses: usize,
-    /// Poses wrong by more than 4 degrees, not in the means.
+    /// Of these, masks of which no pose was found.
+    pub not_found: usize,
+    /// Poses wrong by more than 4 degrees or not found: not in the means.
     pub failures: usize,
+    /// Poses wrong by at most 1 degree.
+    pub within_1_deg: usize,
     /// Mean absolute error of z_rot, degrees.
     pub in_plane_deg: f64,
     /// Mean absolute error of x_rot and y_rot, degrees.
@@ -90,8 +107,12 @@ pub struct Accuracy {
     pub in_plane_mm: f64,
     /// Mean absolute error of z, mm.
     pub out_of_plane_mm: f64,
-    /// Root mean square errors of all poses, failures among them.
+    /// Root mean square errors of all poses found, those over 4 degrees among them.
     pub rms: Errors,
+    /// Median absolute errors of the same poses.
+    pub median: Errors,
+    /// The limits of the same poses, and the root mean square errors against them.
+    pub limits: Comparison,
 }
 
 /// Runs the verb.
@@ -101,13 +122,7 @@ pub struct Accuracy {
 pub fn run(args: Args) -> Result<()> {
     let model = read_model(&args.model)?;
     let calibration = read_calibration(&args.calibration)?;
-    let Pair([width, height]) = args.frame;
-    let camera = match calibration {
-        fluoropose::calibration::Calibration::CameraMatrix { size, .. } => {
-            calibration.camera(size.0, size.1)?
-        }
-        _ => calibration.camera(width as usize, height as usize)?,
-    };
+    let camera = camera_for(&calibration, args.frame)?;
     let distance = args.views.distance_for(&calibration);
     let mesh = mesh_of(&model)?;
     let protocol = Protocol {
@@ -115,6 +130,7 @@ pub fn run(args: Args) -> Result<()> {
         distance,
         poses: args.poses,
         seed: args.seed,
+        disturbance: args.disturbance,
     };
     let accuracy = measure(mesh, camera, &args.views, &protocol)?;
     println!(
@@ -125,6 +141,11 @@ pub fn run(args: Args) -> Result<()> {
         args.views.grid().views(),
         args.method.word(),
     );
+    print(&accuracy);
+    write_json(args.json.as_deref(), &accuracy)
+}
+
+fn print(accuracy: &Accuracy) {
     println!("in-plane rotation      {:.3} deg", accuracy.in_plane_deg);
     println!(
         "out-of-plane rotation  {:.3} deg",
@@ -133,23 +154,18 @@ pub fn run(args: Args) -> Result<()> {
     println!("in-plane translation   {:.3} mm", accuracy.in_plane_mm);
     println!("out-of-plane           {:.3} mm", accuracy.out_of_plane_mm);
     println!("failures (over {FAILURE_DEG} deg) {}", accuracy.failures);
-    let Errors {
-        x_mm,
-        y_mm,
-        z_mm,
-        geodesic_deg,
-        ..
-    } = accuracy.rms;
-    println!(
-        "RMS of all poses: x {x_mm:.4}, y {y_mm:.4}, z {z_mm:.3} mm, rotation {geodesic_deg:.4} deg"
-    );
-    write_json(args.json.as_deref(), &accuracy)
+    println!("within 1 deg           {}", accuracy.within_1_deg);
+    if accuracy.not_found > 0 {
+        println!("no pose found          {}", accuracy.not_found);
+    }
+    accuracy.limits.print(&accuracy.rms, &accuracy.median);
 }
 
 /// Builds a library of `mesh` and finds random poses again.
 ///
 /// # Errors
-/// Those of the core's builder, rasteriser and locator.
+/// Those of the core's builder and rasteriser, and for an impossible disturbance. A mask of which
+/// no pose is found is counted, and named on standard error.
 pub fn measure(
     mesh: Mesh<'_>,
     camera: Camera,
@@ -157,24 +173,28 @@ pub fn measure(
     protocol: &Protocol,
 ) -> Result<Accuracy> {
     let distance = protocol.distance;
+    let mut scene = Scene::new(mesh, camera, protocol.disturbance)?;
     let built = build_library(mesh, camera, views, distance)?;
     let mut finder = Finder::open(&built.bytes, mesh, camera, protocol.method)?;
+    let mut outlines = Outlines::new(mesh, camera);
     let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
-    let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
-    let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
     let bar = progress(protocol.poses, "poses");
-    let mut errors = Vec::with_capacity(protocol.poses);
-    for _ in 0..protocol.poses {
-        let reference = random_pose(&mut random, &views.grid(), &mesh, distance);
-        buffer.draw(|mask| render(&mesh, &camera, &reference, &mut scratch, mask))?;
-        let found = finder
-            .best(&Silhouette::from(&buffer.mask()).into())
-            .with_context(|| format!("at {:?}", EulerPose::from(reference)))?;
-        errors.push(Errors::of(&found.pose, &reference));
+    let (mut errors, mut limits) = (Vec::new(), Vec::new());
+    for frame in 0..protocol.poses {
+        let pose = random_pose(&mut random, &views.grid(), &mesh, distance);
+        let (reference, seen) = scene.observe(&pose, frame as u64)?;
+        match seen.see(|silhouette| finder.best(&silhouette.into())) {
+            Ok(found) => errors.push(Errors::of(&found.pose, &reference)),
+            Err(error) => bar.suspend(|| {
+                eprintln!("no pose for {:?}: {error:#}", EulerPose::from(reference));
+            }),
+        }
+        let hidden = seen.hidden.as_ref().map(MaskBuffer::mask);
+        limits.push(outlines.pose_limits(&reference, &scene.noise(), hidden.as_ref())?);
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(means(&errors))
+    Ok(summary(&errors, scene.noise(), &limits))
 }
 
 /// A pose inside the library's range, with the middle of the model's box near the axis.
@@ -201,20 +221,26 @@ fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: 
     pose
 }
 
-fn means(errors: &[Errors]) -> Accuracy {
+/// Statistics of the poses found; there are as many limits as poses were drawn.
+fn summary(errors: &[Errors], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
     let kept: Vec<Errors> = errors
         .iter()
         .copied()
         .filter(|e| e.geodesic_deg <= FAILURE_DEG)
         .collect();
     let mean = Errors::summarise(&kept, mean_absolute);
+    let rms = Errors::summarise(errors, rms);
     Accuracy {
-        poses: errors.len(),
-        failures: errors.len() - kept.len(),
+        poses: limits.len(),
+        not_found: limits.len() - errors.len(),
+        failures: limits.len() - kept.len(),
+        within_1_deg: errors.iter().filter(|e| e.geodesic_deg <= 1.0).count(),
         in_plane_deg: mean.z_rot_deg,
         out_of_plane_deg: (mean.x_rot_deg + mean.y_rot_deg) / 2.0,
         in_plane_mm: (mean.x_mm + mean.y_mm) / 2.0,
         out_of_plane_mm: mean.z_mm,
-        rms: Errors::summarise(errors, rms),
+        rms,
+        median: Errors::summarise(errors, median_absolute),
+        limits: Comparison::of(noise, limits, &rms),
     }
 }

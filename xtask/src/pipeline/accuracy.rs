@@ -3,6 +3,7 @@
 use fluoropose::math::wrap;
 use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::symmetry::SymmetryPlane;
 use serde::Serialize;
 
 /// Signed differences of one pose from a reference; the geodesic one is not signed.
@@ -82,11 +83,14 @@ pub fn median_absolute(values: &[f64]) -> f64 {
 /// Whether `found` lies on the wrong side of the mirror trap: nearer to a mirror image of the
 /// reference than to the reference itself.
 ///
-/// See [`fluoropose::mirror`]; all three axes are tried. Where image and reference are less than 2 degrees apart there is no side.
-pub fn is_wrong_side(found: &Pose, reference: &Pose) -> bool {
+/// `planes` are those in which the part is nearly symmetric ([`fluoropose::symmetry`]); a part
+/// without any has no side to be wrong about. Where image and reference are less than 2 degrees
+/// apart there is none either.
+pub fn is_wrong_side(found: &Pose, reference: &Pose, planes: &[SymmetryPlane]) -> bool {
     let own = geodesic_deg(&found.rotation, &reference.rotation);
-    (0..3)
-        .map(|axis| mirror_pose(reference, &[0.0; 3], axis).rotation)
+    planes
+        .iter()
+        .map(|plane| mirror_pose(reference, plane).rotation)
         .filter(|image| geodesic_deg(image, &reference.rotation) > 2.0)
         .any(|image| geodesic_deg(&found.rotation, &image) < own)
 }
@@ -124,8 +128,15 @@ mod tests {
     #[test]
     fn the_mirror_image_on_the_axis_negates_both_out_of_plane_rotations() {
         let reference = pose(-84.0, 0.6, -9.0);
-        assert!(is_wrong_side(&pose(-84.0, -0.5, 8.8), &reference));
-        assert!(!is_wrong_side(&pose(-83.0, 1.0, -7.0), &reference));
-        assert!(!is_wrong_side(&reference, &reference));
+        let mediolateral = [SymmetryPlane {
+            point: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            deviation_mm: 0.0,
+        }];
+        let wrong = |found: Pose| is_wrong_side(&found, &reference, &mediolateral);
+        assert!(wrong(pose(-84.0, -0.5, 8.8)));
+        assert!(!wrong(pose(-83.0, 1.0, -7.0)));
+        assert!(!wrong(reference));
+        assert!(!is_wrong_side(&pose(-84.0, -0.5, 8.8), &reference, &[]));
     }
 }

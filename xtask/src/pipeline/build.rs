@@ -63,6 +63,18 @@ impl FromStr for Pair {
     }
 }
 
+/// The camera of a calibration for frames of a size; a camera matrix has its own.
+///
+/// # Errors
+/// Those of [`Calibration::camera`].
+pub fn camera_for(calibration: &Calibration, Pair([width, height]): Pair) -> Result<Camera> {
+    let (width, height) = match *calibration {
+        Calibration::CameraMatrix { size, .. } => size,
+        _ => (width as usize, height as usize),
+    };
+    Ok(calibration.camera(width, height)?)
+}
+
 /// Which views a library holds.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ViewOptions {

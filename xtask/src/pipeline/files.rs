@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
 use fluoropose::jts;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::EulerPose;
 use fluoropose::region::largest_region;
@@ -63,6 +63,7 @@ pub fn read_calibration(path: &Path) -> Result<Calibration> {
 const SPECK_SHARE: u64 = 10;
 
 /// A silhouette with its own memory.
+#[derive(Clone, Debug)]
 pub struct MaskBuffer {
     words: Vec<Word>,
     width: usize,
@@ -81,6 +82,31 @@ impl MaskBuffer {
             words,
             width,
             height,
+        })
+    }
+
+    /// A copy of a mask.
+    pub fn copy_of(mask: &Mask<'_>) -> Self {
+        Self {
+            words: mask.words().to_vec(),
+            width: mask.width(),
+            height: mask.height(),
+        }
+    }
+
+    /// The mask of which each pixel is `rule` of the same pixels of two masks, bit by bit; `rule`
+    /// must leave 0 where both are 0.
+    ///
+    /// # Errors
+    /// Where the two differ in size.
+    pub fn combined(&self, other: &Self, rule: impl Fn(Word, Word) -> Word) -> Result<Self> {
+        if (self.width, self.height) != (other.width, other.height) {
+            bail!(MaskError::Sizes);
+        }
+        let pairs = self.words.iter().zip(&other.words);
+        Ok(Self {
+            words: pairs.map(|(&a, &b)| rule(a, b)).collect(),
+            ..*self
         })
     }
 

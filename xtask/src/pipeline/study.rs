@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
 use super::files::read_text;
@@ -44,6 +44,9 @@ pub struct Component {
     /// Folders of masks by source; a row of the table each.
     #[serde(default)]
     pub masks: BTreeMap<String, PathBuf>,
+    /// Folders of masks of unknown pixels, by the source whose masks they belong to.
+    #[serde(default)]
+    pub unknown: BTreeMap<String, PathBuf>,
     /// Pose files of other methods, rows of the same table.
     #[serde(default)]
     pub peer: BTreeMap<String, PathBuf>,
@@ -75,6 +78,16 @@ impl Study {
             resolve(&mut component.model);
             component.reference.as_mut().map(resolve);
             component.masks.values_mut().for_each(resolve);
+            component.unknown.values_mut().for_each(resolve);
+            for source in component.unknown.keys() {
+                if !component.masks.contains_key(source) {
+                    bail!(
+                        "{}: the component {} has unknown.{source} but no masks.{source}",
+                        path.display(),
+                        component.name
+                    );
+                }
+            }
             component.peer.values_mut().for_each(resolve);
         }
         Ok(study)

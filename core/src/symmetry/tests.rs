@@ -1,0 +1,312 @@
+use super::*;
+use crate::math::{apply, radians};
+use crate::pose::{EulerPose, Pose};
+use proptest::prelude::*;
+use std::vec::Vec as List;
+
+/// A mesh that owns its lists.
+#[derive(Clone)]
+struct Body {
+    vertices: List<[f32; 3]>,
+    triangles: List<[u32; 3]>,
+}
+
+impl Body {
+    fn planes(&self) -> Vec<SymmetryPlane, PLANES> {
+        symmetry_planes(&Mesh::new(&self.vertices, &self.triangles).expect("a valid body"))
+    }
+
+    fn moved(mut self, pose: &Pose) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex = pose.transform(&vertex.map(f64::from)).map(|x| x as f32);
+        }
+        self
+    }
+
+    fn joined(mut self, other: Self) -> Self {
+        let first = self.vertices.len() as u32;
+        let shifted = other.triangles.iter().map(|t| t.map(|v| v + first));
+        self.triangles.extend(shifted);
+        self.vertices.extend(other.vertices);
+        self
+    }
+
+    /// Each triangle that `pick` accepts in four.
+    fn divided(mut self, pick: impl Fn(&Vector3) -> bool) -> Self {
+        let old = core::mem::take(&mut self.triangles);
+        for [a, b, c] in old {
+            let corner = |v: u32| self.vertices[v as usize].map(f64::from);
+            if !pick(&corner(a)) {
+                self.triangles.push([a, b, c]);
+                continue;
+            }
+            let mut middle = |a: u32, b: u32| {
+                let (a, b) = (self.vertices[a as usize], self.vertices[b as usize]);
+                self.vertices
+                    .push(core::array::from_fn(|k| (a[k] + b[k]) / 2.0));
+                self.vertices.len() as u32 - 1
+            };
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            self.triangles
+                .extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        self
+    }
+}
+
+/// A box between two corners: 12 triangles.
+fn cuboid(low: [f64; 3], high: [f64; 3]) -> Body {
+    let corner = |number: usize| {
+        core::array::from_fn(|k| if number >> k & 1 == 1 { high[k] } else { low[k] } as f32)
+    };
+    let sides = [
+        [0, 1, 3, 2],
+        [4, 6, 7, 5],
+        [0, 4, 5, 1],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 5, 7, 3],
+    ];
+    Body {
+        vertices: (0..8).map(corner).collect(),
+        triangles: sides
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect(),
+    }
+}
+
+/// A closed body round the origin: its radius in the direction with the cosines `x`, `y`, `z`.
+fn star(radius: impl Fn(f64, f64, f64) -> f64) -> Body {
+    const ROUND: u32 = 36;
+    const DOWN: u32 = 18;
+    let mut vertices = List::new();
+    for row in 0..=DOWN {
+        for column in 0..ROUND {
+            let (s, c) = sin_cos(radians(180.0 * f64::from(row) / f64::from(DOWN)));
+            let (sine, cosine) = sin_cos(radians(360.0 * f64::from(column) / f64::from(ROUND)));
+            let [x, y, z] = [s * cosine, c, s * sine];
+            vertices.push([x, y, z].map(|k| (k * radius(x, y, z)) as f32));
+        }
+    }
+    let at = |row: u32, column: u32| row * ROUND + column % ROUND;
+    let triangles = (0..DOWN).flat_map(|row| {
+        (0..ROUND).flat_map(move |column| {
+            let (a, b) = (at(row, column), at(row, column + 1));
+            let (c, d) = (at(row + 1, column), at(row + 1, column + 1));
+            [[a, b, c], [b, d, c]]
+        })
+    });
+    Body {
+        vertices,
+        triangles: triangles.collect(),
+    }
+}
+
+/// A plate with a keel and a stem that leans back: symmetric in z alone, as a tibial tray is.
+fn tray() -> Body {
+    cuboid([-20.0, -2.0, -32.0], [24.0, 2.0, 32.0])
+        .joined(cuboid([-20.0, 2.0, -9.0], [-14.0, 9.0, 9.0]))
+        .joined(cuboid([-9.0, -38.0, -6.0], [1.0, -2.0, 6.0]))
+        .joined(cuboid([-14.0, -18.0, -18.0], [-9.0, -2.0, 18.0]))
+}
+
+/// Three bars of their own lengths and thicknesses that meet in a corner.
+fn corner() -> Body {
+    cuboid([0.0, 0.0, 0.0], [60.0, 6.0, 12.0])
+        .joined(cuboid([0.0, 0.0, 0.0], [10.0, 40.0, 5.0]))
+        .joined(cuboid([0.0, 0.0, 0.0], [4.0, 14.0, 25.0]))
+}
+
+fn placement() -> impl Strategy<Value = Pose> {
+    let angle = -180.0..180.0f64;
+    let shift = prop::array::uniform3(-400.0..400.0f64);
+    (angle.clone(), -90.0..90.0f64, angle, shift).prop_map(|(z, x, y, [right, up, away])| {
+        Pose::from(EulerPose {
+            x_mm: right,
+            y_mm: up,
+            z_mm: away,
+            z_rot_deg: z,
+            x_rot_deg: x,
+            y_rot_deg: y,
+        })
+    })
+}
+
+/// Angle between the normal of a plane and a direction of the body before `pose`, degrees.
+fn off_deg(plane: &SymmetryPlane, pose: &Pose, direction: &Vector3) -> f64 {
+    let direction = apply(&pose.rotation, direction);
+    let sine = norm(&crate::math::cross(&plane.normal, &direction));
+    crate::math::degrees(crate::math::asin(sine))
+}
+
+/// Distance of a point of the body before `pose` from a plane, mm.
+fn distance(plane: &SymmetryPlane, pose: &Pose, point: &Vector3) -> f64 {
+    let point = pose.transform(point);
+    (dot(&plane.normal, &point) - dot(&plane.normal, &plane.point)).abs()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn a_box_has_three_planes_wherever_it_is(pose in placement()) {
+        let planes = cuboid([-30.0, -14.0, -20.0], [30.0, 14.0, 20.0]).moved(&pose).planes();
+        prop_assert_eq!(planes.len(), 3);
+        for axis in crate::math::IDENTITY {
+            let plane = planes.iter().min_by(|a, b| {
+                off_deg(a, &pose, &axis).total_cmp(&off_deg(b, &pose, &axis))
+            }).expect("three");
+            prop_assert!(off_deg(plane, &pose, &axis) < 0.02);
+            prop_assert!(distance(plane, &pose, &[0.0; 3]) < 0.01);
+            prop_assert!(plane.deviation_mm < 0.01);
+        }
+    }
+
+    #[test]
+    fn a_cube_has_three_perpendicular_planes(pose in placement()) {
+        let planes = cuboid([-20.0; 3], [20.0; 3]).moved(&pose).planes();
+        prop_assert_eq!(planes.len(), 3);
+        for (k, a) in planes.iter().enumerate() {
+            prop_assert!(a.deviation_mm < 0.01, "{:?}", planes);
+            prop_assert!(distance(a, &pose, &[0.0; 3]) < 0.01);
+            for b in &planes[..k] {
+                prop_assert!(dot(&a.normal, &b.normal).abs() < 1e-3, "{:?}", planes);
+            }
+        }
+    }
+
+    #[test]
+    fn a_body_of_revolution_has_its_equator_and_two_meridians(pose in placement()) {
+        let egg = star(|_, y, _| 30.0 - 12.0 * y * y).moved(&pose);
+        let planes = egg.planes();
+        prop_assert_eq!(planes.len(), 3);
+        let equators = planes.iter().filter(|p| off_deg(p, &pose, &[0.0, 1.0, 0.0]) < 0.5);
+        let meridians = planes.iter().filter(|p| off_deg(p, &pose, &[0.0, 1.0, 0.0]) > 89.5);
+        prop_assert_eq!((equators.count(), meridians.count()), (1, 2));
+        // The body is drawn with flat facets, so not every meridian is exact.
+        prop_assert!(planes.iter().all(|p| p.deviation_mm < 0.2), "{:?}", planes);
+    }
+
+    #[test]
+    fn a_tray_has_its_mediolateral_plane_alone(pose in placement()) {
+        let planes = tray().moved(&pose).planes();
+        prop_assert_eq!(planes.len(), 1, "{:?}", planes);
+        prop_assert!(off_deg(&planes[0], &pose, &[0.0, 0.0, 1.0]) < 0.02);
+        prop_assert!(distance(&planes[0], &pose, &[0.0; 3]) < 0.01);
+        prop_assert!(planes[0].deviation_mm < 0.01);
+    }
+
+    #[test]
+    fn a_body_without_symmetry_has_no_plane(pose in placement()) {
+        prop_assert_eq!(corner().moved(&pose).planes().len(), 0);
+    }
+
+    #[test]
+    fn planes_of_a_near_symmetry_move_with_the_body(pose in placement()) {
+        let uneven = || tray().joined(cuboid([0.0, 2.0, 18.0], [10.0, 6.0, 30.0]));
+        let (here, there) = (uneven().planes(), uneven().moved(&pose).planes());
+        prop_assert_eq!((here.len(), there.len()), (1, 1));
+        prop_assert!(here[0].deviation_mm > 0.3);
+        prop_assert!((here[0].deviation_mm - there[0].deviation_mm).abs() < 0.01);
+        prop_assert!(off_deg(&there[0], &pose, &here[0].normal) < 0.1);
+        prop_assert!(distance(&there[0], &pose, &here[0].point) < 0.02);
+    }
+
+    #[test]
+    fn what_is_symmetric_by_making_is_found_so(
+        even in prop::array::uniform5(-4.0..4.0f64), length in 1.4..1.8f64, pose in placement()
+    ) {
+        let radius = |x: f64, y: f64, z: f64| {
+            let [a, b, c, d, e] = even;
+            let bumps = a * x * y + b * x * x * x + c * y * z * z + d * x + e * y * y * y;
+            (26.0 + bumps) / (1.0 - 0.4 * y * y + (length - 1.0) * x * x)
+        };
+        let planes = star(radius).moved(&pose).planes();
+        let exact = planes.iter().find(|p| off_deg(p, &pose, &[0.0, 0.0, 1.0]) < 0.1);
+        // The facets' diagonals are no mirror images of each other.
+        prop_assert!(exact.is_some_and(|p| p.deviation_mm < 0.1), "{:?}", planes);
+    }
+
+    #[test]
+    fn any_mesh_is_looked_at_without_complaint(
+        vertices in prop::collection::vec(prop::array::uniform3(-50.0f32..50.0), 3..20),
+        picks in prop::collection::vec(prop::array::uniform3(0usize..1000), 1..30)
+    ) {
+        let count = vertices.len();
+        let triangles: List<_> = picks.iter().map(|t| t.map(|v| (v % count) as u32)).collect();
+        let body = Body { vertices, triangles };
+        for plane in body.planes() {
+            prop_assert!((norm(&plane.normal) - 1.0).abs() < 1e-12);
+            prop_assert!(plane.deviation_mm.is_finite() && plane.point.iter().all(|x| x.is_finite()));
+        }
+    }
+}
+
+#[test]
+fn a_bump_that_grows_makes_a_part_less_symmetric_and_then_asymmetric() {
+    let mut before = tray().planes()[0].deviation_mm;
+    for height in [1.0, 2.0, 4.0, 6.0] {
+        let bump = cuboid([2.0, 2.0, 14.0], [16.0, 2.0 + height, 28.0]);
+        let planes = tray().joined(bump).planes();
+        assert_eq!(planes.len(), 1);
+        assert!(planes[0].deviation_mm > before + 0.05, "{planes:?}");
+        before = planes[0].deviation_mm;
+    }
+    let tower = tray().joined(cuboid([2.0, -1.0, 12.0], [20.0, 40.0, 30.0]));
+    assert_eq!(tower.planes().len(), 0);
+}
+
+#[test]
+fn density_winding_and_holes_do_not_matter() {
+    let mut body = tray();
+    for _ in 0..3 {
+        body = body.divided(|corner| corner[2] > 0.0);
+    }
+    for (number, triangle) in body.triangles.iter_mut().enumerate() {
+        if number % 3 == 0 {
+            triangle.swap(0, 1);
+        }
+    }
+    let mut number = 0;
+    body.triangles.retain(|_| {
+        number += 1;
+        number % 97 != 0
+    });
+    let planes = body.planes();
+    assert_eq!(planes.len(), 1);
+    assert!(off_deg(&planes[0], &Pose::IDENTITY, &[0.0, 0.0, 1.0]) < 0.5);
+    assert!(planes[0].deviation_mm < 0.3, "{planes:?}");
+}
+
+#[test]
+fn an_origin_far_away_costs_no_digits_but_those_of_its_vertices() {
+    let far = Pose {
+        translation: [9000.0, -9000.0, 5000.0],
+        ..Pose::IDENTITY
+    };
+    let planes = tray().moved(&far).planes();
+    assert_eq!(planes.len(), 1);
+    assert!(off_deg(&planes[0], &far, &[0.0, 0.0, 1.0]) < 0.02);
+    assert!(planes[0].deviation_mm < 0.01);
+}
+
+#[test]
+fn a_mesh_without_area_has_no_plane() {
+    let line = Body {
+        vertices: [[0.0; 3], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]].to_vec(),
+        triangles: [[0, 1, 2], [0, 0, 1]].to_vec(),
+    };
+    assert_eq!(line.planes().len(), 0);
+}
+
+#[test]
+fn a_reflection_undoes_itself_and_keeps_the_plane() {
+    let plane = tray().planes()[0];
+    let point = [3.0, -4.0, 7.0];
+    let image = plane.reflect(&point);
+    assert!((image[2] + 7.0).abs() < 1e-3);
+    let back = plane.reflect(&image);
+    assert!(norm(&add(&back, &scale(&point, -1.0))) < 1e-12);
+    assert_eq!(plane.reflect(&plane.point), plane.point);
+}
