@@ -13,25 +13,27 @@
 mod edge;
 mod outline;
 mod probe;
+mod problem;
+mod samples;
 mod solve;
 mod stages;
+mod uncertainty;
 mod view;
 
 pub use outline::BorderPixel;
+pub use samples::{OutlineSample, outline_samples};
+pub use uncertainty::uncertainty;
 pub use view::{ImageTarget, Polarity, Target, View};
 
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::mask::{MaskError, MaskMut, Word, words_needed};
-use crate::math::Vector3;
+use crate::mask::{MaskError, Word, words_needed};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::raster::{Projected, RenderError, render};
-use outline::Outliner;
-use probe::Found;
-use solve::{Equations, Step};
-use stages::{STAGES, STEPS, Stage};
+use crate::raster::{Projected, RenderError};
+use problem::{Pass, Problem};
+use stages::STAGES;
 
 /// Why a pose cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -87,6 +89,9 @@ pub struct Refined {
     /// Root mean square of what remains between the outlines, weighted by arc length as the
     /// robust loss does, pixels.
     pub residual_px: f64,
+    /// Standard deviation of the residuals as if they were normal, from their median: what lies
+    /// far out does not count. Pixels.
+    pub spread_px: f64,
     /// Robust loss by which rival poses are compared, square pixels.
     pub loss: f64,
     /// Times the model was drawn.
@@ -95,33 +100,33 @@ pub struct Refined {
     pub converged: bool,
 }
 
-/// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
-const OWN_RANGE: f64 = 3.0;
-
-const POLISHING: usize = 10;
-
-/// What is the same for every step.
-struct Problem<'a> {
-    mesh: &'a Mesh<'a>,
-    views: &'a [View<'a>],
-    /// Middle of the model: turns about it hardly move the image.
-    middle: Vector3,
+/// How a pose is refined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RefineOptions {
+    /// Estimates with the pose how far the target's edges lie beyond the model's outline, where
+    /// the data can tell that from depth; see [`Refined::offset_px`].
+    pub edge_offset: bool,
 }
 
-/// One stage as it applies to all views.
-#[derive(Clone, Copy)]
-struct Pass {
-    index: usize,
-    /// Standard deviation of the residuals before, pixels.
-    spread: f64,
-    /// Whether the offset is estimated.
-    free: bool,
+/// A pose on the way, for who wants to see how refinement converges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iterate {
+    /// Stage, from 0; the range and the scale of the loss shrink from one to the next.
+    pub stage: usize,
+    /// Times the model was drawn so far.
+    pub renders: usize,
+    /// The pose.
+    pub pose: Pose,
+    /// Its robust loss in this stage, square pixels: stages differ in scale.
+    pub loss: f64,
+    /// Its residual, pixels.
+    pub residual_px: f64,
 }
 
 /// Refines `start` until the model's outline lies on those of `views`.
 ///
-/// Draws the model at most 46 times in each view. Never worse than `start` by the loss of its
-/// last stage.
+/// Draws the model at most 110 times in each view, usually 20 to 40 times. Never worse than
+/// `start` by the loss of its last stage but for what drawing in whole pixels leaves unknown.
 ///
 /// # Errors
 /// [`RefineError`].
@@ -129,93 +134,55 @@ pub fn refine(
     mesh: &Mesh<'_>,
     views: &[View<'_>],
     start: &Pose,
+    options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Refined, RefineError> {
-    let problem = Problem {
-        mesh,
-        views,
-        middle: mesh.bounds().centre,
-    };
-    problem.check(memory)?;
+    refine_traced(mesh, views, start, options, memory, &mut |_| ())
+}
+
+/// The same, telling every pose that is accepted on the way.
+///
+/// # Errors
+/// [`RefineError`].
+pub fn refine_traced(
+    mesh: &Mesh<'_>,
+    views: &[View<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+    trace: &mut dyn FnMut(&Iterate),
+) -> Result<Refined, RefineError> {
+    let problem = Problem::new(mesh, views, memory)?;
     let mut state = Refined {
         pose: *start,
         offset_px: 0.0,
         residual_px: 0.0,
+        spread_px: 0.0,
         loss: 0.0,
         renders: 0,
         converged: false,
     };
-    let mut pass = Pass {
-        index: 0,
-        spread: 0.0,
-        free: false,
-    };
+    let mut pass = Pass::default();
     for index in 0..STAGES {
-        pass.index = index;
-        pass.spread = problem.run(&pass, &mut state, memory)?;
-    }
-    pass.index = STAGES - 1;
-    problem.polish(&pass, &mut state, memory)?;
-    Ok(state)
-}
-
-/// A piece of the model's occluding contour as one camera sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutlineSample {
-    /// Continuous image coordinates, pixels.
-    pub column: f64,
-    /// Downwards.
-    pub row: f64,
-    /// Outward unit normal, to the right and downwards.
-    pub normal: [f64; 2],
-    /// Arc length, pixels.
-    pub length: f64,
-    /// How fast the contour moves along the normal, pixels per radian of three turns about the
-    /// middle of the model's box and per mm of three shifts, all along the camera's axes.
-    pub jacobian: [f64; 6],
-}
-
-/// Samples the occluding contour of `mesh` at `pose` (`camera_from_model`), one sample for each
-/// border pixel of its silhouette; what the frame's border cuts off is left out.
-///
-/// # Errors
-/// [`RefineError`] where the model cannot be drawn or memory is too short.
-pub fn outline_samples(
-    mesh: &Mesh<'_>,
-    camera: &Camera,
-    pose: &Pose,
-    memory: &mut RefineMemory<'_>,
-    mut visit: impl FnMut(&OutlineSample),
-) -> Result<(), RefineError> {
-    check_memory(camera, memory)?;
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.drawn.get_mut(..words_needed(width, height));
-    let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    render(mesh, camera, pose, memory.projected, &mut drawn)?;
-    let drawn = drawn.into_mask();
-    let outliner = Outliner {
-        mesh,
-        pose,
-        drawn: &drawn,
-    };
-    let places = memory.places.get_mut(..width * height);
-    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
-    let centre = pose.transform(&mesh.bounds().centre);
-    for sample in border {
-        let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
-            continue;
+        pass = Pass {
+            index,
+            spread: state.spread_px,
+            free: false,
         };
-        let normal = sample.normal.map(f64::from);
-        let [column, row] = sample.place();
-        visit(&OutlineSample {
-            column: column + own * normal[0],
-            row: row + own * normal[1],
-            normal,
-            length: f64::from(sample.weight),
-            jacobian: Step::jacobian(camera, &centre, sample),
-        });
+        problem.run(&pass, &mut state, memory, trace)?;
     }
-    Ok(())
+    problem.polish(&pass, &mut state, memory, trace)?;
+    if options.edge_offset {
+        pass.free = true;
+        let mut with_offset = state;
+        problem.run(&pass, &mut with_offset, memory, trace)?;
+        problem.polish(&pass, &mut with_offset, memory, trace)?;
+        if problem.supports_offset(&pass, &with_offset, memory)? {
+            return Ok(with_offset);
+        }
+        state.renders = with_offset.renders;
+    }
+    Ok(state)
 }
 
 fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
@@ -235,169 +202,4 @@ fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), Refine
         }
     }
     Ok(())
-}
-
-impl Problem<'_> {
-    fn check(&self, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
-        if self.views.is_empty() {
-            return Err(RefineError::NoView);
-        }
-        for view in self.views {
-            let (width, height) = view.target.size();
-            if (width, height) != (view.camera.width(), view.camera.height()) {
-                return Err(RenderError::Size.into());
-            }
-            check_memory(view.camera, memory)?;
-            if let Target::Silhouette(silhouette) = &view.target
-                && silhouette.mask().area() == 0
-            {
-                return Err(MaskError::Empty.into());
-            }
-        }
-        Ok(())
-    }
-
-    /// Levenberg's and Marquardt's damping: a step that does not lower the loss is taken back
-    /// and tried again more cautiously. Gives the spread of the residuals, pixels.
-    fn run(
-        &self,
-        pass: &Pass,
-        state: &mut Refined,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<f64, RefineError> {
-        let mut equations = self.observe(&state.pose, state.offset_px, pass, memory)?;
-        state.renders += self.views.len();
-        let mut damping = 1e-3;
-        state.converged = false;
-        for _ in 0..STEPS[pass.index] {
-            let Some((step, more)) = equations.step(damping, pass.free) else {
-                return Err(RefineError::TooFar);
-            };
-            let pose = step.apply(&state.pose, &self.middle);
-            let offset = state.offset_px + more;
-            let tried = self.observe(&pose, offset, pass, memory);
-            state.renders += self.views.len();
-            match tried {
-                Ok(next) if next.loss() < equations.loss() => {
-                    (state.pose, state.offset_px) = (pose, offset);
-                    equations = next;
-                    damping = (damping * 0.2).max(1e-9);
-                }
-                _ => damping *= 8.0,
-            }
-            if step.is_small() {
-                state.converged = true;
-                break;
-            }
-        }
-        state.loss = equations.loss();
-        state.residual_px = equations.residual_px();
-        Ok(equations.spread_px())
-    }
-
-    /// Undamped steps to the zero of the gradient. The loss of a pose is known no better than the
-    /// pixels of its outline allow, and near its minimum that hides the way down; the gradient
-    /// still shows it.
-    fn polish(
-        &self,
-        pass: &Pass,
-        state: &mut Refined,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<(), RefineError> {
-        let mut next = *state;
-        let mut shorten = 1.0;
-        let mut last = f64::INFINITY;
-        for _ in 0..POLISHING {
-            let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
-            state.renders += self.views.len();
-            let Some((step, more)) = equations.step(0.0, pass.free) else { break };
-            let size = step.size();
-            if size > last { shorten *= 0.6; }
-            last = size;
-            next.pose = step.scaled(shorten).apply(&next.pose, &self.middle);
-            next.offset_px += shorten * more;
-            if step.is_small() {
-                break;
-            }
-        }
-        let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
-        if equations.loss() < state.loss * 1.02 + 1e-6 {
-            state.pose = next.pose;
-            state.offset_px = next.offset_px;
-            state.loss = equations.loss();
-            state.residual_px = equations.residual_px();
-        }
-        Ok(())
-    }
-
-    /// Draws the model in every view and measures how far its outline is from the target's.
-    fn observe(
-        &self,
-        pose: &Pose,
-        offset: f64,
-        pass: &Pass,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<Equations, RefineError> {
-        let mut equations = Equations::new();
-        for view in self.views {
-            let stage = Stage::of(&view.target, pass.index, pass.spread);
-            self.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
-        }
-        Ok(equations)
-    }
-
-    fn observe_view(
-        &self,
-        view: &View<'_>,
-        pose: &Pose,
-        offset: f64,
-        stage: &Stage,
-        memory: &mut RefineMemory<'_>,
-        equations: &mut Equations,
-    ) -> Result<(), RefineError> {
-        let pose = view.placement.compose(pose);
-        let (width, height) = view.target.size();
-        let words = memory.drawn.get_mut(..words_needed(width, height));
-        let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-        render(self.mesh, view.camera, &pose, memory.projected, &mut drawn)?;
-        let drawn = drawn.into_mask();
-        let outliner = Outliner {
-            mesh: self.mesh,
-            pose: &pose,
-            drawn: &drawn,
-        };
-        let places = memory.places.get_mut(..width * height);
-        let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
-        let centre = pose.transform(&self.middle);
-        for sample in border {
-            let length = f64::from(sample.weight);
-            let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
-                continue;
-            };
-            let (found, certainty) = find(&view.target, sample, own + offset, stage.range);
-            match found {
-                Found::Unknown => equations.add_unknown(length),
-                Found::Nothing => equations.add_missing(stage.loss, stage.range, length),
-                Found::At(theirs) => {
-                    let residual = theirs - own - offset;
-                    sample.residual = residual as f32;
-                    let jacobian = Step::jacobian(view.camera, &centre, sample);
-                    let jacobian = Step::in_world(jacobian, &view.placement);
-                    equations.add(stage.loss, &jacobian, residual, length * certainty);
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Where a target's outline crosses the normal of a sample, and how much that counts, 0 to 1.
-fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, range: f64) -> (Found, f64) {
-    match target {
-        Target::Silhouette(silhouette) => (probe::crossing(silhouette, sample, range), 1.0),
-        Target::Image(image) => {
-            let edge = edge::edge(image, sample, expected, range);
-            (edge.found, 1.0)
-        }
-    }
 }

@@ -7,8 +7,8 @@ use crate::mesh::Mesh;
 use crate::mirror::mirror_pose;
 use crate::pose::{Pose, geodesic_deg};
 use crate::raster::render;
-use crate::refine::{RefineError, RefineMemory, Refined, Target, View, refine};
-use crate::symmetry::symmetry_planes;
+use crate::refine::{RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine};
+use crate::symmetry::SymmetryPlane;
 use crate::verify::Verified;
 
 /// Poses to start from that are refined at most.
@@ -59,12 +59,14 @@ pub fn refine_rivals(
     mesh: &Mesh<'_>,
     views: &[View<'_>],
     starts: &[Pose],
+    planes: &[SymmetryPlane],
+    options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
     let mut answers = Vec::new();
     let mut failure = None;
     for (start, pose) in starts.iter().take(STARTS).enumerate() {
-        match refine(mesh, views, pose, memory) {
+        match refine(mesh, views, pose, options, memory) {
             Ok(refined) => add(&mut answers, start, false, refined),
             Err(error) => failure = Some(error),
         }
@@ -72,9 +74,8 @@ pub fn refine_rivals(
     if let (true, Some(error)) = (answers.is_empty(), failure) {
         return Err(error);
     }
-    let planes = symmetry_planes(mesh);
     for RefinedRival { start, refined, .. } in distinct(&answers) {
-        for plane in &planes {
+        for plane in planes {
             let mirrored = mirror_pose(&refined.pose, plane);
             if !views
                 .iter()
@@ -82,7 +83,7 @@ pub fn refine_rivals(
             {
                 continue;
             }
-            if let Ok(refined) = refine(mesh, views, &mirrored, memory) {
+            if let Ok(refined) = refine(mesh, views, &mirrored, options, memory) {
                 add(&mut answers, start, true, refined);
             }
         }

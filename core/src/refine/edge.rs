@@ -20,26 +20,6 @@ const HALF_FILTER: usize = 6;
 /// Width of the Gaussian whose derivative is taken, pixels.
 const BLUR: f64 = 1.0;
 
-/// An edge on a normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Edge {
-    /// Where it is.
-    pub(super) found: Found,
-    /// Grey values a pixel; zero where there is none.
-    pub(super) strength: f64,
-}
-
-impl Edge {
-    const UNKNOWN: Self = Self {
-        found: Found::Unknown,
-        strength: 0.0,
-    };
-    const NOTHING: Self = Self {
-        found: Found::Nothing,
-        strength: 0.0,
-    };
-}
-
 /// The edge nearest to expectation on the normal of a sample: `expected` pixels from the middle
 /// of its pixel, at most `range` from there.
 pub(super) fn edge(
@@ -47,7 +27,7 @@ pub(super) fn edge(
     sample: &BorderPixel,
     expected: f64,
     range: f64,
-) -> Edge {
+) -> Found {
     let half = ((range / STEP) as usize).min(REACH - HALF_FILTER - 1);
     let mut profile = [0.0; 2 * REACH + 1];
     let reach = half + HALF_FILTER;
@@ -55,7 +35,7 @@ pub(super) fn edge(
         let t = expected + STEP * (index as f64 - reach as f64);
         match reading(image, sample, t) {
             Some(grey) => *value = grey,
-            None => return Edge::UNKNOWN,
+            None => return Found::Unknown,
         }
     }
     let mut slopes = [0.0; 2 * REACH + 1];
@@ -107,9 +87,9 @@ fn differentiate(profile: &[f64], slopes: &mut [f64]) {
 
 /// The maximum of rising slopes that is greatest after the prior, to a part of a reading by a
 /// parabola.
-fn strongest(slopes: &[f64], half: usize, expected: f64) -> Edge {
+fn strongest(slopes: &[f64], half: usize, expected: f64) -> Found {
     let spread = STEP * half as f64 / 2.0;
-    let mut best = (0.0, None);
+    let mut best = (0.0, Found::Nothing);
     for k in 1..slopes.len().saturating_sub(1) {
         let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
         if slope <= 0.0 || slope < before || slope <= after {
@@ -118,17 +98,10 @@ fn strongest(slopes: &[f64], half: usize, expected: f64) -> Edge {
         let t = STEP * (k as f64 - half as f64);
         let score = slope * exp(-t * t / (2.0 * spread * spread));
         if score > best.0 {
-            let bend = before - 2.0 * slope + after;
-            let part = if bend < 0.0 {
-                0.5 * (before - after) / bend
-            } else {
-                0.0
-            };
-            best = (score, Some((t + STEP * part, slope)));
+            // Not flat: the slope is above the one after it.
+            let part = 0.5 * (before - after) / (before - 2.0 * slope + after);
+            best = (score, Found::At(expected + t + STEP * part));
         }
     }
-    best.1.map_or(Edge::NOTHING, |(t, strength)| Edge {
-        found: Found::At(expected + t),
-        strength,
-    })
+    best.1
 }

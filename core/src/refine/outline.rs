@@ -25,12 +25,19 @@ pub struct BorderPixel {
     far: f32,
     /// How far the target's outline is beyond the model's, pixels; NaN where it was not found.
     pub(super) residual: f32,
+    /// How fast the outline moves along the normal with each parameter of a step.
+    pub(super) jacobian: [f32; 6],
 }
 
 impl BorderPixel {
     /// Continuous image coordinates of the pixel's centre.
     pub(super) fn place(&self) -> [f64; 2] {
         [f64::from(self.column) + 0.5, f64::from(self.row) + 0.5]
+    }
+
+    /// Whether a triangle covers the pixel, so that the depth behind it is known.
+    pub(super) fn is_on_surface(&self) -> bool {
+        self.far > 0.0
     }
 
     /// Distance of the contour from the camera plane, mm.
@@ -47,19 +54,18 @@ pub(super) struct Outliner<'a> {
 }
 
 impl Outliner<'_> {
-    /// Fills `border` with as many border pixels as it holds and gives those whose depth is
-    /// known. `places` has a number for each pixel of the frame.
+    /// Fills `border` with as many border pixels as it holds and gives them. `places` has a
+    /// number for each pixel of the frame.
     pub(super) fn border<'b>(
         &self,
         projected: &[Projected],
         places: &mut [u16],
         border: &'b mut [BorderPixel],
-    ) -> impl Iterator<Item = &'b mut BorderPixel> {
+    ) -> &'b mut [BorderPixel] {
         places.fill(0);
         let count = self.find(places, border);
         self.measure_depth(projected, places, border);
-        let found = border.iter_mut().take(count);
-        found.filter(|pixel| pixel.far > 0.0)
+        border.get_mut(..count).unwrap_or_default()
     }
 
     /// Lists border pixels and writes their number, from 1, to their places.
@@ -180,6 +186,7 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         near: f32::INFINITY,
         far: 0.0,
         residual: f32::NAN,
+        jacobian: [0.0; 6],
     })
 }
 

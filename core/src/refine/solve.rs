@@ -1,10 +1,12 @@
 //! One step of damped Gauss-Newton in the six parameters of a pose.
 
 use super::outline::BorderPixel;
+use super::problem::Pass;
+use super::{Iterate, Refined};
 use crate::camera::Camera;
 use crate::math::{
-    Matrix3, Vector3, add, apply, cross, degrees, multiply, norm, scale, sin_cos, solve_spd, sqrt,
-    transpose,
+    Matrix3, Vector3, add, apply, cross, degrees, inverse_spd, multiply, norm, scale, sin_cos,
+    solve_spd, sqrt, transpose,
 };
 use crate::pose::Pose;
 
@@ -131,6 +133,26 @@ impl Loss {
     }
 }
 
+impl Loss {
+    /// Second derivative of the loss.
+    pub(super) fn curvature(self, residual: f64) -> f64 {
+        match self {
+            Self::Cauchy(c) => {
+                let ratio = (residual / c) * (residual / c);
+                (1.0 - ratio) / ((1.0 + ratio) * (1.0 + ratio))
+            }
+            Self::Tukey(c) => {
+                let ratio = (residual / c) * (residual / c);
+                if ratio < 1.0 {
+                    (1.0 - ratio) * (1.0 - 5.0 * ratio)
+                } else {
+                    0.0
+                }
+            }
+        }
+    }
+}
+
 /// Normal equations of robust least squares.
 pub(super) struct Equations {
     normal: [[f64; UNKNOWNS]; UNKNOWNS],
@@ -222,6 +244,41 @@ impl Equations {
             shift: [x, y, z],
         };
         Some((step, offset))
+    }
+
+    /// The offset is worth having when the pose leaves it more than this part of its information
+    /// and it exceeds this many of its standard deviations.
+    const OFFSET_SHARE: f64 = 0.1;
+    const OFFSET_DEVIATIONS: f64 = 3.0;
+    /// Length of outline whose residuals count as one where they are not independent, pixels.
+    const CORRELATED: f64 = 10.0;
+
+    pub(super) fn supports_offset(&self, offset: f64) -> bool {
+        let Some(covariance) = inverse_spd(&self.normal) else {
+            return false;
+        };
+        let share = 1.0 / (self.normal[OFFSET][OFFSET] * covariance[OFFSET][OFFSET]);
+        let residual = self.residual_px();
+        let variance = covariance[OFFSET][OFFSET] * residual * residual * Self::CORRELATED;
+        share >= Self::OFFSET_SHARE && offset.abs() > Self::OFFSET_DEVIATIONS * sqrt(variance)
+    }
+
+    /// Writes what the residuals say into a pose's record.
+    pub(super) fn report(&self, state: &mut Refined) {
+        state.loss = self.loss();
+        state.residual_px = self.residual_px();
+        state.spread_px = self.spread_px();
+    }
+
+    /// The pose of a record as a step on the way.
+    pub(super) fn iterate(&self, pass: &Pass, state: &Refined) -> Iterate {
+        Iterate {
+            stage: pass.index,
+            renders: state.renders,
+            pose: state.pose,
+            loss: self.loss(),
+            residual_px: self.residual_px(),
+        }
     }
 
     /// Mean loss over what is known of the outline, square pixels; infinite where that is too

@@ -17,6 +17,9 @@ pub(super) struct Stage {
 /// Steps tried in each stage at most.
 pub(super) const STEPS: [usize; STAGES] = [10, 8, 14, 10];
 
+/// Undamped steps after the last stage at most.
+pub(super) const POLISHING: usize = 10;
+
 /// Cauchy's loss is 95 % as efficient as least squares on normal noise when its scale is this
 /// many standard deviations (Holland and Welsch, Commun. Stat. A 6, 1977).
 const EFFICIENT: f64 = 2.385;

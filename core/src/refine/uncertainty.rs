@@ -1,0 +1,198 @@
+//! How sure a refined pose is, from what its outline leaves unexplained.
+//!
+//! Residuals along an outline are not independent: a hand, a network and a grey edge err over
+//! many pixels alike. The covariance is that of an M-estimate (Huber, *Robust Statistics*, 6.3)
+//! whose influences are correlated along the outline (Conley, J. Econometrics 92, 1999, for
+//! errors correlated in space): `H^-1 M H^-1` with `H = mean(psi') sum(l J J')` and
+//! `M = sum(l_i l_j g(d_ij) J_i J_j')`, where `psi` is the derivative of the loss, `l` arc
+//! length, and `g` the covariance of `psi` over the distance `d` between samples, estimated from
+//! the residuals themselves.
+
+use super::outline::BorderPixel;
+use super::problem::{Pass, Problem};
+use super::solve::{Equations, Loss};
+use super::stages::{STAGES, Stage};
+use super::view::View;
+use super::{RefineError, RefineMemory, Refined};
+use crate::covariance::{Matrix6, PoseCovariance};
+use crate::math::sqrt;
+use crate::mesh::Mesh;
+
+/// Width of a bin of distance, pixels, and number of bins.
+const BIN: f64 = 2.0;
+const BINS: usize = 24;
+/// Samples belong together when the cosine between their normals is at least this: the two
+/// sides of a thin plate err apart.
+const ALIKE: f32 = 0.5;
+/// Least mean of `psi'`, which may be small where the loss was cut close.
+const LEAST_CURVATURE: f64 = 0.2;
+/// Independent stretches beyond the six parameters that are supposed at least.
+const LEAST_FREEDOM: f64 = 4.0;
+
+/// Covariance of a refined pose, so wide that the ellipsoid of 95 % of a normal distribution in
+/// six dimensions (squared radius 12.59) holds the truth in 95 % of cases: the few independent
+/// stretches of an outline do not tell their own variance well, which is allowed for.
+///
+/// It knows of random errors that vary along the outline. What shifts the whole outline alike (a
+/// trace that is everywhere too wide, a wrong calibration) leaves no residual and is not in it.
+/// `None` where the outline does not determine the pose.
+///
+/// # Errors
+/// [`RefineError`] as of [`super::refine`].
+pub fn uncertainty(
+    mesh: &Mesh<'_>,
+    views: &[View<'_>],
+    refined: &Refined,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Option<PoseCovariance>, RefineError> {
+    let problem = Problem::new(mesh, views, memory)?;
+    let pass = Pass {
+        index: STAGES - 1,
+        spread: refined.spread_px,
+        free: false,
+    };
+    let mut sums = Sums::default();
+    for view in views {
+        let stage = Stage::of(&view.target, pass.index, pass.spread);
+        let (pose, offset) = (&refined.pose, refined.offset_px);
+        let mut equations = Equations::new();
+        let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
+        let border = memory.border.get(..count).unwrap_or_default();
+        sums.add(border, stage.loss);
+    }
+    Ok(sums.covariance())
+}
+
+/// Sums over the samples of all views.
+#[derive(Default)]
+struct Sums {
+    /// `sum(l J J')`
+    information: Matrix6,
+    /// `sum(l_i l_j g(d_ij) J_i J_j')`
+    spread: Matrix6,
+    /// `sum(l psi')`
+    curvature: f64,
+    length: f64,
+    /// Number of stretches that err independently.
+    stretches: f64,
+}
+
+impl Sums {
+    fn add(&mut self, border: &[BorderPixel], loss: Loss) {
+        let covariance = Correlation::of(border, loss);
+        let mut length = 0.0;
+        for (index, sample) in found(border) {
+            let l = f64::from(sample.weight);
+            length += l;
+            self.curvature += l * loss.curvature(f64::from(sample.residual));
+            let jacobian = sample.jacobian.map(f64::from);
+            let mut sum = jacobian.map(|value| value * l * covariance.bins[0]);
+            for (other, distance) in near(border, index) {
+                let weight = f64::from(other.weight) * covariance.at(distance);
+                for (sum, &value) in sum.iter_mut().zip(&other.jacobian) {
+                    *sum += weight * f64::from(value);
+                }
+            }
+            for (row, &a) in jacobian.iter().enumerate() {
+                for (column, (&b, &c)) in sum.iter().zip(&jacobian).enumerate() {
+                    self.spread[row][column] += l * a * b;
+                    self.information[row][column] += l * a * c;
+                }
+            }
+        }
+        self.length += length;
+        self.stretches += length / covariance.stretch_px();
+    }
+
+    fn covariance(&self) -> Option<PoseCovariance> {
+        let curvature = (self.curvature / self.length.max(1.0)).max(LEAST_CURVATURE);
+        let bread = self
+            .information
+            .map(|row| row.map(|value| value * curvature));
+        let freedom = (self.stretches - 6.0).max(LEAST_FREEDOM);
+        // Six fitted parameters took their part of the residuals away.
+        let fitted = (freedom + 6.0) / freedom;
+        // 6 F(6, n) / chi^2(6) at 95 %, within 1 % for n of 10 and more (Abramowitz and Stegun,
+        // table 26.9).
+        let few = 1.0 + 4.4 / freedom + 9.0 / (freedom * freedom);
+        let spread = self.spread.map(|row| row.map(|value| value * fitted * few));
+        PoseCovariance::sandwich(&bread, &spread)
+    }
+}
+
+/// Samples that have a residual, with their places.
+fn found(border: &[BorderPixel]) -> impl Iterator<Item = (usize, &BorderPixel)> {
+    let samples = border.iter().enumerate();
+    samples.filter(|(_, sample)| !sample.residual.is_nan())
+}
+
+/// Other samples near one and on the same side of the part, with their distance in pixels.
+fn near(border: &[BorderPixel], index: usize) -> impl Iterator<Item = (&BorderPixel, f64)> {
+    const REACH: f64 = BIN * BINS as f64;
+    let sample = border[index];
+    // They are listed row by row.
+    let close = move |other: &&BorderPixel| other.row.abs_diff(sample.row) < REACH as u16;
+    let before = border[..index].iter().rev().take_while(close);
+    let after = border[index + 1..].iter().take_while(close);
+    before.chain(after).filter_map(move |other| {
+        let right = f64::from(other.column) - f64::from(sample.column);
+        let down = f64::from(other.row) - f64::from(sample.row);
+        let distance = sqrt(right * right + down * down);
+        let [a, b] = [sample.normal, other.normal];
+        let alike = a[0] * b[0] + a[1] * b[1] >= ALIKE;
+        (distance < REACH && alike && !other.residual.is_nan()).then_some((other, distance))
+    })
+}
+
+/// Covariance of `psi` over distance.
+struct Correlation {
+    /// At distance zero, then in bins of [`BIN`] pixels; zero from where it first fails to be
+    /// positive.
+    bins: [f64; BINS + 1],
+}
+
+impl Correlation {
+    fn of(border: &[BorderPixel], loss: Loss) -> Self {
+        let (mut sums, mut weights) = ([0.0; BINS + 1], [0.0; BINS + 1]);
+        let psi = |sample: &BorderPixel| {
+            let residual = f64::from(sample.residual);
+            loss.at(residual).1 * residual
+        };
+        for (index, sample) in found(border) {
+            let (l, own) = (f64::from(sample.weight), psi(sample));
+            sums[0] += l * own * own;
+            weights[0] += l;
+            for (other, distance) in near(border, index) {
+                let weight = l * f64::from(other.weight);
+                let bin = 1 + (distance / BIN) as usize;
+                if let (Some(sum), Some(total)) = (sums.get_mut(bin), weights.get_mut(bin)) {
+                    *sum += weight * own * psi(other);
+                    *total += weight;
+                }
+            }
+        }
+        let mut bins = [0.0; BINS + 1];
+        for (bin, (sum, weight)) in bins.iter_mut().zip(sums.iter().zip(&weights)) {
+            if *weight == 0.0 || *sum <= 0.0 {
+                break;
+            }
+            *bin = sum / weight;
+        }
+        Self { bins }
+    }
+
+    fn at(&self, distance: f64) -> f64 {
+        let bin = 1 + (distance / BIN) as usize;
+        self.bins.get(bin).copied().unwrap_or(0.0)
+    }
+
+    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
+    /// at least one pixel.
+    fn stretch_px(&self) -> f64 {
+        let [own, rest @ ..] = &self.bins;
+        if *own <= 0.0 {
+            return 1.0;
+        }
+        (2.0 * BIN * rest.iter().sum::<f64>() / own).max(1.0)
+    }
+}
