@@ -17,7 +17,6 @@ pub mod calibration;
 pub mod camera;
 pub mod canonical;
 pub mod choice;
-pub mod choice;
 pub mod contour;
 pub mod covariance;
 mod eigen;
