@@ -2,7 +2,7 @@
 //!
 //! Frames that residual or tilt decide are fixed. Between them the sequence of poses that turns
 //! least is found by dynamic programming (Viterbi's algorithm): the cost of a sequence is the sum
-//! of the angles between successive poses, and a little for residuals above the best.
+//! of the angles between successive poses, and next to nothing for residuals above the best.
 
 use heapless::Vec;
 use thiserror::Error;
@@ -14,9 +14,10 @@ use crate::pose::{Pose, geodesic_deg};
 /// degrees of turning.
 pub const FILM_MARGIN_DEG: f64 = 2.0;
 
-/// What a pose costs at the residual that would rule it out, degrees of turning. Little, because
-/// below that a residual says little.
-const RESIDUAL_DEG: f64 = 1.0;
+/// What a pose costs at the residual that would rule it out, degrees of turning. Next to nothing:
+/// below that a residual errs in the same direction frame after frame, so it must not add up to a
+/// jump. It decides where turning does not: of a film and its mirror image.
+const RESIDUAL_DEG: f64 = 0.02;
 
 /// What is known of one frame of a film.
 #[derive(Clone, Copy, Debug, Default)]
