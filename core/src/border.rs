@@ -18,8 +18,8 @@ pub enum BorderError {
 }
 
 /// Directions along pixel borders, clockwise on the screen.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Heading {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Heading {
     Right,
     Down,
     Left,
@@ -42,15 +42,15 @@ impl Heading {
 }
 
 /// A corner between four pixels and the way taken from it.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Crack {
-    column: i64,
-    row: i64,
-    heading: Heading,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Crack {
+    pub(crate) column: i64,
+    pub(crate) row: i64,
+    pub(crate) heading: Heading,
 }
 
 impl Crack {
-    fn step(self) -> Self {
+    pub(crate) fn step(self) -> Self {
         let (right, down) = match self.heading {
             Heading::Right => (1, 0),
             Heading::Down => (0, 1),
@@ -64,22 +64,29 @@ impl Crack {
         }
     }
 
-    /// Whether the pixel ahead, on the left or the right hand, is set.
-    fn ahead(self, mask: &Mask<'_>, left_hand: bool) -> bool {
+    /// Column and row of the pixel ahead, on the left or the right hand; `None` beyond the upper
+    /// and the left border of any mask.
+    pub(crate) fn pixel_ahead(self, left_hand: bool) -> Option<(usize, usize)> {
         let (right, down) = match (self.heading, left_hand) {
             (Heading::Right, true) | (Heading::Up, false) => (0, -1),
             (Heading::Right, false) | (Heading::Down, true) => (0, 0),
             (Heading::Down, false) | (Heading::Left, true) => (-1, 0),
             (Heading::Left, false) | (Heading::Up, true) => (-1, -1),
         };
-        let column = usize::try_from(self.column + right);
-        let row = usize::try_from(self.row + down);
-        matches!((column, row), (Ok(column), Ok(row)) if mask.get(column, row))
+        let column = usize::try_from(self.column + right).ok()?;
+        let row = usize::try_from(self.row + down).ok()?;
+        Some((column, row))
+    }
+
+    /// Whether the pixel ahead, on the left or the right hand, is set.
+    fn ahead(self, mask: &Mask<'_>, left_hand: bool) -> bool {
+        let pixel = self.pixel_ahead(left_hand);
+        pixel.is_some_and(|(column, row)| mask.get(column, row))
     }
 
     /// The way to go on with the silhouette on the right hand. Pixels that touch by a corner
     /// alone are kept apart, so the border never meets itself in a side.
-    fn turn(self, mask: &Mask<'_>) -> Self {
+    pub(crate) fn turn(self, mask: &Mask<'_>) -> Self {
         let heading = if !self.ahead(mask, false) {
             self.heading.turn_right()
         } else if self.ahead(mask, true) {

@@ -1,7 +1,7 @@
 //! Joint kinematics: the tibial component relative to the femoral one, in the field's six
 //! numbers.
 
-use crate::math::{apply, scale, transpose};
+use crate::math::{apply, asin, degrees, dot, scale, transpose};
 use crate::pose::{EulerPose, Pose};
 
 /// Side of the body.
@@ -65,6 +65,20 @@ pub fn joint_angles(relative: &Pose, side: Side) -> JointAngles {
     }
 }
 
+/// Coronal tilt between the two components: the elevation of the femoral mediolateral axis above
+/// the tibial plate, degrees, -90 to 90. Zero where both condyles are equally high above it.
+///
+/// Model axes as in the field's implant files: x anteroposterior, y superoinferior (for the tibial
+/// component along its stem, upwards), z mediolateral, in both components alike. The tilt is
+/// `asin(y_tib . R_tib^T R_fem z)`, a projection of one axis on another: an angle of Euler's would
+/// mix it with axial rotation where the two components are 90 degrees apart.
+#[must_use]
+pub fn coronal_tilt_deg(femur: &Pose, tibia: &Pose) -> f64 {
+    let mediolateral = apply(&femur.rotation, &[0.0, 0.0, 1.0]);
+    let upwards = apply(&tibia.rotation, &[0.0, 1.0, 0.0]);
+    degrees(asin(dot(&mediolateral, &upwards)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,5 +132,22 @@ mod tests {
         assert!((left.flexion_deg + right.flexion_deg).abs() < 1e-12);
         assert!((left.anterior_mm + right.anterior_mm).abs() < 1e-12);
         assert_eq!(left.superior_mm, right.superior_mm);
+    }
+
+    #[test]
+    fn the_tilt_is_that_of_the_femoral_axis_and_knows_no_flexion_or_turn() {
+        let tibia = pose(-28.0, -18.0, -1085.0, [-84.0, 0.5, -9.0]);
+        for tilt in [-30.0, -3.0, 0.0, 0.2, 12.0] {
+            for flexion in [-10.0, 0.0, 60.0, 90.0, 130.0] {
+                for turn in [-15.0, 0.0, 90.0] {
+                    // In tibial axes: flexed about its own z, then tilted about x, then turned.
+                    let turned = pose(0.0, 0.0, 0.0, [0.0, 0.0, turn]);
+                    let tilted = pose(0.0, 0.0, 0.0, [0.0, -tilt, 0.0]);
+                    let flexed = pose(5.0, 20.0, 1.0, [flexion, 0.0, 0.0]);
+                    let femur = tibia.compose(&turned).compose(&tilted).compose(&flexed);
+                    assert!((coronal_tilt_deg(&femur, &tibia) - tilt).abs() < 1e-9);
+                }
+            }
+        }
     }
 }

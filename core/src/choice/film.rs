@@ -1,0 +1,228 @@
+//! One choice for each frame of a film, made together.
+//!
+//! Frames that residual or tilt decide are fixed. Between them the sequence of poses that turns
+//! least is found by dynamic programming (Viterbi's algorithm): the cost of a sequence is the sum
+//! of the angles between successive poses, and next to nothing for residuals above the best.
+
+use heapless::Vec;
+use thiserror::Error;
+
+use super::{CONTENDERS, Candidate, Choice, Contenders, Counterpart, DECISIVE_RATIO, Reason};
+use crate::pose::{Pose, geodesic_deg};
+
+/// A frame is decided by its film where any other pose in it costs the film this much more,
+/// degrees of turning.
+pub const FILM_MARGIN_DEG: f64 = 2.0;
+
+/// What a pose costs at the residual that would rule it out, degrees of turning. Next to nothing:
+/// below that a residual errs in the same direction frame after frame, so it must not add up to a
+/// jump. It decides where turning does not: of a film and its mirror image.
+const RESIDUAL_DEG: f64 = 0.02;
+
+/// What is known of one frame of a film.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FilmFrame<'a> {
+    /// The component's poses in this frame; none where none was found.
+    pub candidates: &'a [Candidate],
+    /// The other component in this frame.
+    pub counterpart: Option<Counterpart>,
+}
+
+/// Working memory of [`choose_film`] for one frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FilmStep {
+    /// Numbers of the candidates that are open, by rising residual.
+    open: [usize; CONTENDERS],
+    /// How many they are.
+    count: usize,
+    /// Costs of their residuals.
+    own: [f64; CONTENDERS],
+    /// Least cost of the film up to this frame and from it on, their own cost in the former.
+    before: [f64; CONTENDERS],
+    after: [f64; CONTENDERS],
+    /// Which pose of the last frame with any led to `before`.
+    from: [usize; CONTENDERS],
+}
+
+/// Why a film's poses are not chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "a film of {frames} frames needs {frames} steps and choices but {steps} and {choices} were lent"
+)]
+pub struct FilmError {
+    /// Frames of the film.
+    pub frames: usize,
+    /// Steps lent.
+    pub steps: usize,
+    /// Choices lent.
+    pub choices: usize,
+}
+
+/// Chooses a pose in each frame of a film such that the component turns little from frame to frame.
+/// Frames without candidates have no choice; those round them are linked across them, the more
+/// weakly the farther apart they are.
+///
+/// Frames that residual or tilt decide keep their own choice and reason. The others are decided
+/// by the film only where at least one frame is decided by itself: a film mirrored as a whole is
+/// as smooth as the right one.
+///
+/// # Errors
+/// Where `steps` or `choices` are not as many as the frames.
+pub fn choose_film(
+    frames: &[FilmFrame<'_>],
+    steps: &mut [FilmStep],
+    choices: &mut [Option<Choice>],
+) -> Result<(), FilmError> {
+    if steps.len() != frames.len() || choices.len() != frames.len() {
+        return Err(FilmError {
+            frames: frames.len(),
+            steps: steps.len(),
+            choices: choices.len(),
+        });
+    }
+    for ((frame, step), choice) in frames.iter().zip(&mut *steps).zip(&mut *choices) {
+        let (contenders, reason) = Contenders::of(frame.candidates, frame.counterpart.as_ref());
+        *step = FilmStep::new(&contenders);
+        *choice = contenders.first().map(|index| Choice {
+            index,
+            reason: reason.unwrap_or_else(|| contenders.undecided()),
+        });
+    }
+    let anchored = choices.iter().flatten().any(|c| c.reason.is_decided());
+    let last = forward(frames, steps);
+    backward(frames, steps);
+    follow(frames, steps, choices, last, anchored);
+    Ok(())
+}
+
+impl FilmStep {
+    fn new(contenders: &Contenders<'_>) -> Self {
+        let mut step = Self {
+            count: contenders.open.len(),
+            ..Self::default()
+        };
+        let best = contenders.first().map_or(0.0, |k| contenders.residual(k));
+        for (number, &index) in contenders.open.iter().enumerate() {
+            let residual = contenders.residual(index);
+            step.open[number] = index;
+            // Also where both are zero or infinite.
+            if residual > best {
+                step.own[number] = RESIDUAL_DEG * (residual / best - 1.0) / (DECISIVE_RATIO - 1.0);
+            }
+        }
+        step
+    }
+
+    /// Poses that are open, by their number among those.
+    fn poses<'a>(&self, frame: &FilmFrame<'a>) -> Vec<&'a Pose, CONTENDERS> {
+        let pose = |&index: &usize| frame.candidates.get(index).map(|c| &c.pose);
+        self.open.iter().take(self.count).filter_map(pose).collect()
+    }
+
+    /// The choice of an open frame in which the cheapest film takes pose `number`.
+    fn choice(&self, frame: &FilmFrame<'_>, number: usize, anchored: bool) -> Choice {
+        let whole = |k: usize| self.before[k] + self.after[k];
+        let others = || (0..self.count).filter(|&k| k != number);
+        let saved_deg = others().fold(f64::INFINITY, |least, k| {
+            least.min(whole(k) - whole(number))
+        });
+        let residual = |k: usize| {
+            let candidate = frame.candidates.get(self.open[k]);
+            candidate.map_or(f64::NAN, |candidate| candidate.residual_px)
+        };
+        let reason = if anchored && saved_deg >= FILM_MARGIN_DEG {
+            Reason::Film { saved_deg }
+        } else {
+            Reason::Undecided {
+                chosen_px: residual(number),
+                other_px: others().next().map_or(f64::NAN, residual),
+            }
+        };
+        Choice {
+            index: self.open[number],
+            reason,
+        }
+    }
+}
+
+/// Least costs up to each frame; the last frame with poses.
+fn forward(frames: &[FilmFrame<'_>], steps: &mut [FilmStep]) -> Option<usize> {
+    let mut last: Option<usize> = None;
+    for at in 0..frames.len() {
+        let poses = steps[at].poses(&frames[at]);
+        if poses.is_empty() {
+            continue;
+        }
+        for (number, pose) in poses.iter().enumerate() {
+            let led = last.and_then(|last| {
+                let links = links(pose, &frames[last], &steps[last], at - last);
+                let cost = |k: &usize| steps[last].before[*k] + links[*k];
+                cheapest(links.len(), cost)
+            });
+            let (from, cost) = led.unwrap_or((0, 0.0));
+            steps[at].from[number] = from;
+            steps[at].before[number] = cost + steps[at].own[number];
+        }
+        last = Some(at);
+    }
+    last
+}
+
+/// Least costs from each frame on.
+fn backward(frames: &[FilmFrame<'_>], steps: &mut [FilmStep]) {
+    let mut next: Option<usize> = None;
+    for at in (0..frames.len()).rev() {
+        let poses = steps[at].poses(&frames[at]);
+        if poses.is_empty() {
+            continue;
+        }
+        for (number, pose) in poses.iter().enumerate() {
+            let led = next.and_then(|next| {
+                let links = links(pose, &frames[next], &steps[next], next - at);
+                let cost = |k: &usize| steps[next].own[*k] + steps[next].after[*k] + links[*k];
+                cheapest(links.len(), cost)
+            });
+            steps[at].after[number] = led.map_or(0.0, |(_, cost)| cost);
+        }
+        next = Some(at);
+    }
+}
+
+/// Costs of the ways from `pose` to each of a frame's poses that is `apart` frames away.
+fn links(
+    pose: &Pose,
+    frame: &FilmFrame<'_>,
+    step: &FilmStep,
+    apart: usize,
+) -> Vec<f64, CONTENDERS> {
+    let turn = |other: &&Pose| geodesic_deg(&pose.rotation, &other.rotation) / apart as f64;
+    step.poses(frame).iter().map(turn).collect()
+}
+
+/// The first of the least of `count` costs.
+fn cheapest(count: usize, cost: impl Fn(&usize) -> f64) -> Option<(usize, f64)> {
+    let all = (0..count).map(|number| (number, cost(&number)));
+    all.min_by(|(_, a), (_, b)| a.total_cmp(b))
+}
+
+/// Reads the cheapest film backwards into the choices of the frames that are open.
+fn follow(
+    frames: &[FilmFrame<'_>],
+    steps: &[FilmStep],
+    choices: &mut [Option<Choice>],
+    last: Option<usize>,
+    anchored: bool,
+) {
+    let Some(last) = last else { return };
+    let cost = |number: &usize| steps[last].before[*number];
+    let mut number = cheapest(steps[last].count, cost).map_or(0, |(number, _)| number);
+    for at in (0..=last).rev().filter(|&at| steps[at].count > 0) {
+        if steps[at].count > 1 {
+            choices[at] = Some(steps[at].choice(&frames[at], number, anchored));
+        }
+        number = steps[at].from[number];
+    }
+}
+
+#[cfg(test)]
+mod tests;

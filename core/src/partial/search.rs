@@ -1,0 +1,251 @@
+//! From the known outline to hypotheses: every view of a coarse grid, then the neighbours of the best.
+
+use heapless::Vec;
+
+use super::fit::Known;
+use super::hypothesis::{Hypothesis, keep, transfer};
+use super::ladder::Ladder;
+use super::outline::{OutlinePoints, Piece};
+use super::similarity::Similarity;
+use super::slide::{Fit, Samples, Slide, Sums, slide};
+use super::units::{FARTHEST, NEAREST, Units};
+use super::view::{ViewMemory, view_outline};
+use crate::library::{GridAxis, Library};
+
+/// Between the views of the coarse grid, degrees, about.
+const COARSE_DEG: f64 = 4.0;
+/// Hypotheses kept of one view.
+pub(super) const PER_VIEW: usize = 3;
+/// Places kept of one window along a stretch of a view.
+const PER_WINDOW: usize = 6;
+/// Samples of a view, at most.
+pub(super) const VIEW_SAMPLES: usize = 512;
+/// Numbers lent for views: samples twice over and two sums a place.
+pub(super) const VIEW_NUMBERS: usize = 6 * VIEW_SAMPLES;
+/// One sample in so many is looked at when places are compared for the first time.
+const FIRST_LOOK: usize = 2;
+
+/// What the search works on.
+pub(super) struct Search<'a> {
+    pub(super) known: Known<'a>,
+    pub(super) library: &'a Library<'a>,
+    pub(super) ladder: Ladder<'a>,
+    pub(super) units: Units,
+}
+
+/// Every how many views of an axis the coarse grid has one, and its first.
+fn coarse(axis: &GridAxis) -> (usize, usize) {
+    let every = ((COARSE_DEG / axis.step + 0.5) as usize).max(1);
+    (every, (axis.count.saturating_sub(1) % every) / 2)
+}
+
+/// Views of the coarse grid.
+pub(super) fn coarse_views(library: &Library<'_>) -> usize {
+    let grid = library.info().grid;
+    let count = |axis: &GridAxis| {
+        let (every, first) = coarse(axis);
+        (axis.count - first).div_ceil(every)
+    };
+    count(&grid.x) * count(&grid.y)
+}
+
+impl Search<'_> {
+    /// Looks at every view of the coarse grid and gives its hypotheses in `found`.
+    pub(super) fn coarse<'h>(
+        &self,
+        memory: &mut ViewMemory<'_>,
+        numbers: &mut [f32],
+        found: &'h mut [Hypothesis],
+    ) -> &'h mut [Hypothesis] {
+        let grid = self.library.info().grid;
+        let ((every_x, first_x), (every_y, first_y)) = (coarse(&grid.x), coarse(&grid.y));
+        let mut used = 0;
+        for y in (first_y..grid.y.count).step_by(every_y) {
+            for x in (first_x..grid.x.count).step_by(every_x) {
+                let view = grid.view(x, y);
+                for hypothesis in self.at_view(view, memory, numbers) {
+                    if let Some(place) = found.get_mut(used) {
+                        *place = hypothesis;
+                        used += 1;
+                    }
+                }
+            }
+        }
+        found.get_mut(..used).unwrap_or_default()
+    }
+
+    /// The best hypotheses of one view.
+    fn at_view(
+        &self,
+        view: usize,
+        memory: &mut ViewMemory<'_>,
+        numbers: &mut [f32],
+    ) -> Vec<Hypothesis, PER_VIEW> {
+        let mut refined = Vec::new();
+        let Some(outline) = view_outline(self.library, view, &self.units, memory) else {
+            return refined;
+        };
+        let mut rough: Vec<Hypothesis, PER_VIEW> = Vec::new();
+        for piece in outline.pieces() {
+            for window in self.ladder.windows() {
+                for fit in self.places(view, &piece, window, numbers) {
+                    let hypothesis =
+                        self.judged(view, &outline, fit.similarity, self.units.wide, FIRST_LOOK);
+                    self.keep(&mut rough, hypothesis);
+                }
+            }
+        }
+        for hypothesis in rough {
+            let improved = self.improved(view, &outline, hypothesis.similarity, &COARSE_CAPS);
+            self.keep(
+                &mut refined,
+                self.judged(view, &outline, improved, self.units.narrow, 1),
+            );
+        }
+        refined
+    }
+
+    fn keep<const K: usize>(&self, list: &mut Vec<Hypothesis, K>, new: Hypothesis) {
+        keep(list, new, |other| other.is_like(&new, self.units.apart));
+    }
+
+    /// Where a window fits a stretch of a view, at all scales that the object's distance allows.
+    fn places(
+        &self,
+        view: usize,
+        piece: &Piece<'_>,
+        window: usize,
+        numbers: &mut [f32],
+    ) -> Vec<Fit, PER_WINDOW> {
+        let mut best = Vec::new();
+        let (low, high) = self.scales(view);
+        let (samples, sums) = numbers.split_at_mut((4 * VIEW_SAMPLES).min(numbers.len()));
+        let Some(along) = repeated(piece, samples) else {
+            return best;
+        };
+        let (re, im) = sums.split_at_mut(sums.len() / 2);
+        let mut sums = Sums { re, im };
+        let how = Slide {
+            places: if piece.closed {
+                piece.points.len()
+            } else {
+                usize::MAX
+            },
+            apart: APART,
+            stretch: STRETCH,
+        };
+        for (level, scale) in self.ladder.levels(low, high) {
+            let part = self.ladder.samples(window, level, piece.points.len());
+            slide(part, along, &how, scale, &mut sums, &mut best);
+        }
+        best.retain(|fit| (low..=high).contains(&fit.similarity.scale()));
+        best
+    }
+
+    /// Least and greatest scale of a view, pixel widths per canonical pixel.
+    fn scales(&self, view: usize) -> (f64, f64) {
+        let nominal = self.units.nominal(self.library, view);
+        (nominal / FARTHEST, nominal / NEAREST)
+    }
+
+    fn judged(
+        &self,
+        view: usize,
+        outline: &OutlinePoints<'_>,
+        similarity: Similarity,
+        cap: f64,
+        every: usize,
+    ) -> Hypothesis {
+        Hypothesis {
+            view,
+            similarity,
+            score: self.known.disagreement(outline, &similarity, cap, every),
+        }
+    }
+
+    /// Some steps towards the best similarity near by; `caps` from 0 (narrow) to 1 (wide).
+    fn improved(
+        &self,
+        view: usize,
+        outline: &OutlinePoints<'_>,
+        start: Similarity,
+        caps: &[f64],
+    ) -> Similarity {
+        let (low, high) = self.scales(view);
+        let mut similarity = start;
+        for share in caps {
+            let cap = self.units.narrow + share * (self.units.wide - self.units.narrow);
+            match self.known.improve(outline, &similarity, cap) {
+                Some(next) if (low..=high).contains(&next.scale()) => similarity = next,
+                _ => break,
+            }
+        }
+        similarity
+    }
+
+    /// The best hypothesis among the views round that of `seed`: those two steps away, then the
+    /// neighbours of the best of them.
+    pub(super) fn fine(&self, seed: &Hypothesis, memory: &mut ViewMemory<'_>) -> Hypothesis {
+        let mut best = *seed;
+        for reach in [2, 1] {
+            let centre = best;
+            for (right, down) in AROUND {
+                let Some(view) = self.neighbour(centre.view, right * reach, down * reach) else {
+                    continue;
+                };
+                let Some(outline) = view_outline(self.library, view, &self.units, memory) else {
+                    continue;
+                };
+                let (from, to) = (self.library.record(centre.view), self.library.record(view));
+                let start = transfer(&from, &to, &centre.similarity);
+                let improved = self.improved(view, &outline, start, &FINE_CAPS);
+                let hypothesis = self.judged(view, &outline, improved, self.units.narrow, 1);
+                if hypothesis.score < best.score {
+                    best = hypothesis;
+                }
+            }
+        }
+        best
+    }
+
+    /// The view so many views away; `None` beyond the grid.
+    fn neighbour(&self, view: usize, right: isize, down: isize) -> Option<usize> {
+        let grid = &self.library.info().grid;
+        let (x, y) = grid.place(view);
+        let x = x.checked_add_signed(right).filter(|&x| x < grid.x.count)?;
+        let y = y.checked_add_signed(down).filter(|&y| y < grid.y.count)?;
+        Some(grid.view(x, y))
+    }
+}
+
+/// Samples by which two places along a view differ at least.
+const APART: usize = 5;
+/// Windows fit a view when their scale is within this factor of the level's.
+const STRETCH: f64 = 1.2;
+/// See [`Search::improved`].
+const COARSE_CAPS: [f64; 5] = [1.0, 0.7, 0.4, 0.1, 0.0];
+const FINE_CAPS: [f64; 3] = [0.1, 0.0, 0.0];
+/// The eight directions to neighbours.
+const AROUND: [(isize, isize); 8] = [
+    (-1, -1),
+    (0, -1),
+    (1, -1),
+    (-1, 0),
+    (1, 0),
+    (-1, 1),
+    (0, 1),
+    (1, 1),
+];
+
+/// A piece's points in two lists, those of a closed one twice; `None` where they do not fit.
+fn repeated<'n>(piece: &Piece<'_>, numbers: &'n mut [f32]) -> Option<Samples<'n>> {
+    let times = 1 + usize::from(piece.closed);
+    let count = times * piece.points.len();
+    let (x, y) = numbers.split_at_mut(numbers.len() / 2);
+    let (x, y) = (x.get_mut(..count)?, y.get_mut(..count)?);
+    let points = piece.points.iter().cycle();
+    for ((x, y), point) in x.iter_mut().zip(&mut *y).zip(points) {
+        [*x, *y] = point.at;
+    }
+    Some(Samples { x, y })
+}
