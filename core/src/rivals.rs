@@ -49,7 +49,8 @@ pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
 }
 
 /// Refines the first [`STARTS`] poses of `starts`, then their mirror images
-/// in each plane of the model in which it looks symmetric from there: such an image may lie
+/// in each of `planes`, those of the model's near-symmetry
+/// ([`crate::symmetry::symmetry_planes`]), where they cover the mask: such an image may lie
 /// between the same views of a library and be no rival of its own. The poses by rising loss,
 /// each once; empty only where there is no start.
 ///

@@ -6,8 +6,9 @@ use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
 use fluoropose::raster::Projected;
-use fluoropose::refine::{BorderPixel, RefineMemory, View};
+use fluoropose::refine::{BorderPixel, RefineMemory, RefineOptions, View};
 use fluoropose::rivals::{RefinedRival, refine_rivals, worth_refining};
+use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::verify::{Verified, unmatched_at};
 use wasm_bindgen::JsError;
 
@@ -45,6 +46,8 @@ impl Ranked {
 pub(crate) struct LentModel {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
+    /// Planes of its near-symmetry, found with the first refinement.
+    planes: Option<Vec<SymmetryPlane>>,
     projected: Vec<Projected>,
     drawn: Vec<Word>,
     places: Vec<u16>,
@@ -58,6 +61,7 @@ impl LentModel {
             projected: vec![Projected::default(); vertices.len() / 3],
             vertices: vertices.as_chunks().0.to_vec(),
             triangles: triangles.as_chunks().0.to_vec(),
+            planes: None,
             drawn: Vec::new(),
             places: Vec::new(),
             border: Vec::new(),
@@ -120,10 +124,21 @@ impl LentModel {
             places: &mut self.places,
             border: &mut self.border,
         };
+        let planes = self
+            .planes
+            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
         let view = View::only(camera, mask);
-        let answers = refine_rivals(&mesh, &[view], &starts, &mut memory).map_err(sentence)?;
+        let answers = refine_rivals(
+            &mesh,
+            &[view],
+            &starts,
+            planes,
+            RefineOptions::default(),
+            &mut memory,
+        )
+        .map_err(sentence)?;
         let mut ranked = Vec::with_capacity(answers.len());
         for RefinedRival { start, refined, .. } in answers {
             ranked.push(Ranked {

@@ -2,10 +2,11 @@
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
+use fluoropose::covariance::PoseCovariance;
 use fluoropose::frame::Grey;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, Polarity, Refined, View};
+use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, View};
 use fluoropose::rivals::{RefinedRival, worth_refining};
 use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::Verified;
@@ -47,6 +48,23 @@ pub struct Seen<'a> {
     pub frame: Option<&'a dyn Grey>,
 }
 
+impl<'a> Seen<'a> {
+    /// The frame as a target of refinement; what is unknown of the silhouette is unknown there.
+    ///
+    /// # Errors
+    /// Where there is no frame.
+    fn image(&self) -> Result<ImageTarget<'a>> {
+        let frame = self
+            .frame
+            .context("the method image needs the grey frames, not only masks")?;
+        Ok(ImageTarget {
+            frame,
+            unknown: self.silhouette.unknown(),
+            polarity: Polarity::DarkImplant,
+        })
+    }
+}
+
 impl<'a> From<Silhouette<'a>> for Seen<'a> {
     fn from(silhouette: Silhouette<'a>) -> Self {
         Self {
@@ -65,6 +83,8 @@ pub struct Answer {
     pub located: Verified,
     /// What refinement made of it, where it was asked for.
     pub refined: Option<Refined>,
+    /// How sure the refined pose is.
+    pub covariance: Option<PoseCovariance>,
 }
 
 /// A library, its model and a camera, ready for frames.
@@ -82,8 +102,8 @@ impl<'l> Finder<'l> {
     /// Those of [`Locator::open`].
     pub fn open(bytes: &'l [u8], mesh: Mesh<'l>, camera: Camera, method: Method) -> Result<Self> {
         Ok(Self {
-            locator: Locator::open(bytes, mesh)?,
-            refiner: Refiner::new(mesh, &[camera]),
+            locator: Locator::open(bytes, mesh, &camera)?,
+            refiner: Refiner::new(mesh, &[camera], RefineOptions::default()),
             camera,
             method,
         })
@@ -100,23 +120,37 @@ impl<'l> Finder<'l> {
         if self.method == Method::Library {
             return Ok(rivals.iter().map(Answer::unrefined).collect());
         }
+        let camera = self.camera;
         let worth = worth_refining(&rivals);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let view = View::only(&self.camera, seen.silhouette);
+        let view = View::only(&camera, seen.silhouette);
         let refined = self.refiner.refine(&[view], &starts)?;
-        let answers = refined.iter().map(|answer| Answer::refined(answer, worth));
         if self.method == Method::Refined {
-            return Ok(answers.collect());
+            return self.answers(&view, &refined, |found| worth[found.start]);
         }
-        let answers: Vec<Answer> = answers.collect();
-        let poses: Vec<Pose> = answers.iter().map(|answer| answer.pose).collect();
-        let image = self.refine_on_image(seen, &poses)?;
-        let of = |found: &RefinedRival| Answer {
-            pose: found.refined.pose,
-            located: answers[found.start].located,
-            refined: Some(found.refined),
+        let poses: Vec<Pose> = refined.iter().map(|found| found.refined.pose).collect();
+        let on_image = self.refine_on_image(seen, &poses)?;
+        let view = View::only(&camera, seen.image()?);
+        self.answers(&view, &on_image, |found| worth[refined[found.start].start])
+    }
+
+    /// Refined poses with what led to them and how sure they are.
+    fn answers(
+        &mut self,
+        view: &View<'_>,
+        refined: &[RefinedRival],
+        located: impl Fn(&RefinedRival) -> Verified,
+    ) -> Result<Vec<Answer>> {
+        let answer = |found: &RefinedRival| {
+            let covariance = self.refiner.uncertainty(&[*view], &found.refined)?;
+            Ok(Answer {
+                pose: found.refined.pose,
+                located: located(found),
+                refined: Some(found.refined),
+                covariance,
+            })
         };
-        Ok(image.iter().map(of).collect())
+        refined.iter().map(answer).collect()
     }
 
     /// Brings poses onto the edges of the frame; best first.
@@ -128,15 +162,7 @@ impl<'l> Finder<'l> {
         seen: &Seen<'_>,
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>> {
-        let frame = seen
-            .frame
-            .context("the method image needs the grey frames, not only masks")?;
-        let target = ImageTarget {
-            frame,
-            unknown: seen.silhouette.unknown(),
-            polarity: Polarity::DarkImplant,
-        };
-        let view = View::only(&self.camera, target);
+        let view = View::only(&self.camera, seen.image()?);
         Ok(self.refiner.refine(&[view], starts)?)
     }
 
@@ -151,19 +177,12 @@ impl<'l> Finder<'l> {
 }
 
 impl Answer {
-    fn refined(answer: &RefinedRival, rivals: &[Verified]) -> Self {
-        Self {
-            pose: answer.refined.pose,
-            located: rivals[answer.start],
-            refined: Some(answer.refined),
-        }
-    }
-
     fn unrefined(located: &Verified) -> Self {
         Self {
             pose: located.located.pose,
             located: *located,
             refined: None,
+            covariance: None,
         }
     }
 }

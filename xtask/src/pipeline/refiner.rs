@@ -1,12 +1,16 @@
 //! Refinement of poses, with the memory that the core wants lent.
 
 use fluoropose::camera::Camera;
+use fluoropose::covariance::PoseCovariance;
 use fluoropose::mask::{Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
 use fluoropose::raster::{Projected, scratch_needed};
-use fluoropose::refine::{BorderPixel, RefineError, RefineMemory, View};
+use fluoropose::refine::{
+    BorderPixel, RefineError, RefineMemory, RefineOptions, Refined, View, uncertainty,
+};
 use fluoropose::rivals::{RefinedRival, refine_rivals};
+use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
@@ -14,6 +18,8 @@ const BORDER: usize = 16_384;
 /// A model to be refined, with working memory.
 pub struct Refiner<'m> {
     mesh: Mesh<'m>,
+    planes: Vec<SymmetryPlane>,
+    options: RefineOptions,
     projected: Vec<Projected>,
     drawn: Vec<Word>,
     places: Vec<u16>,
@@ -22,13 +28,15 @@ pub struct Refiner<'m> {
 
 impl<'m> Refiner<'m> {
     /// Working memory for a model and frames as large as those of `cameras`.
-    pub fn new(mesh: Mesh<'m>, cameras: &[Camera]) -> Self {
+    pub fn new(mesh: Mesh<'m>, cameras: &[Camera], options: RefineOptions) -> Self {
         let largest = |size: fn(usize, usize) -> usize| {
             let sizes = cameras.iter().map(|c| size(c.width(), c.height()));
             sizes.max().unwrap_or(0)
         };
         Self {
             mesh,
+            planes: symmetry_planes(&mesh).to_vec(),
+            options,
             projected: vec![Projected::default(); scratch_needed(&mesh)],
             drawn: vec![0; largest(words_needed)],
             places: vec![0; largest(|width, height| width * height)],
@@ -55,7 +63,26 @@ impl<'m> Refiner<'m> {
         views: &[View<'_>],
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>, RefineError> {
+        let (mesh, planes, options) = (self.mesh, self.planes.clone(), self.options);
+        refine_rivals(&mesh, views, starts, &planes, options, &mut self.memory())
+            .map(|found| found.to_vec())
+    }
+
+    /// How sure a refined pose is; see [`uncertainty`].
+    ///
+    /// # Errors
+    /// Those of [`uncertainty`].
+    pub fn uncertainty(
+        &mut self,
+        views: &[View<'_>],
+        refined: &Refined,
+    ) -> Result<Option<PoseCovariance>, RefineError> {
         let mesh = self.mesh;
-        refine_rivals(&mesh, views, starts, &mut self.memory()).map(|found| found.to_vec())
+        uncertainty(&mesh, views, refined, &mut self.memory())
+    }
+
+    /// Planes of the model's near-symmetry.
+    pub fn planes(&self) -> &[SymmetryPlane] {
+        &self.planes
     }
 }

@@ -9,7 +9,7 @@ use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
 use fluoropose::raster::render;
-use fluoropose::refine::{OutlineSample, outline_samples};
+use fluoropose::refine::{OutlineSample, RefineOptions, outline_samples};
 
 use super::{Limit, Limits, Noise, PoseLimits, limits};
 use crate::pipeline::disturb::DisturbanceOptions;
@@ -47,7 +47,7 @@ impl<'m> Outlines<'m> {
         Self {
             mesh,
             camera,
-            refiner: Refiner::new(mesh, &[camera]),
+            refiner: Refiner::new(mesh, &[camera], RefineOptions::default()),
             middle: mesh.bounds().centre,
         }
     }

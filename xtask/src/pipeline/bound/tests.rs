@@ -212,7 +212,11 @@ fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
         x_rot_deg: 7.0,
         y_rot_deg: -11.0,
     });
-    let mut refiner = Refiner::new(mesh, &[camera]);
+    let mut refiner = Refiner::new(
+        mesh,
+        &[camera],
+        fluoropose::refine::RefineOptions::default(),
+    );
     let mut samples = Vec::new();
     outline_samples(&mesh, &camera, &pose, &mut refiner.memory(), |sample| {
         samples.push(*sample);
