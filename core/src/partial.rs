@@ -195,3 +195,6 @@ fn known_outline<'p>(
         _ => Ok(outline),
     }
 }
+
+#[cfg(test)]
+mod tests;

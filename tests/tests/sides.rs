@@ -12,8 +12,11 @@ use fluoropose_tests::study;
 use xtask::pipeline::files::{mesh_of, read_model, read_poses};
 use xtask::pipeline::study::{Component, Study};
 
+/// A reference pose and its mirror image.
+type Sides = [Pose; 2];
+
 /// Reference poses of a component and their mirror images in its plane of symmetry.
-fn both_sides(component: &Component) -> Vec<[Pose; 2]> {
+fn both_sides(component: &Component) -> Vec<Sides> {
     let model = read_model(&component.model).expect("a model");
     let planes = symmetry_planes(&mesh_of(&model).expect("a mesh"));
     let plane = planes.first().expect("a plane of symmetry");
@@ -25,7 +28,7 @@ fn both_sides(component: &Component) -> Vec<[Pose; 2]> {
 }
 
 /// Both sides of femur and tibia in all 16 frames, where the study is present.
-fn left8() -> Option<(Vec<[Pose; 2]>, Vec<[Pose; 2]>)> {
+fn left8() -> Option<(Vec<Sides>, Vec<Sides>)> {
     let study = Study::read(&study("left8")?).expect("a study");
     let of = |name: &str| {
         let component = study.components.iter().find(|c| c.name == name);
@@ -37,7 +40,7 @@ fn left8() -> Option<(Vec<[Pose; 2]>, Vec<[Pose; 2]>)> {
 }
 
 /// The right pose and its mirror image, which fits a little better, as on network masks.
-fn candidates(sides: &[Pose; 2]) -> [Candidate; 2] {
+fn candidates(sides: &Sides) -> [Candidate; 2] {
     [(sides[0], 1.0), (sides[1], 0.9)].map(|(pose, residual_px)| Candidate { pose, residual_px })
 }
 

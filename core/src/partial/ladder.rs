@@ -13,7 +13,7 @@ pub(super) const WINDOWS: usize = 24;
 const LEVELS: usize = 24;
 /// Samples of all stretches at one scale, at most.
 const SAMPLES: usize = 512;
-/// Between one scale and the next.
+/// Between one scale and the next, at least.
 const RATIO: f64 = 1.07;
 
 /// Numbers that a [`Ladder`] is lent.
@@ -76,6 +76,19 @@ pub(super) struct Ladder<'a> {
     numbers: &'a [f32],
     windows: Vec<Window, WINDOWS>,
     levels: Vec<Level, LEVELS>,
+    /// Between one scale and the next.
+    ratio: f64,
+}
+
+/// The ratio at which all levels together reach from `low` to `high`.
+fn ratio(low: f64, high: f64) -> f64 {
+    let reach = |ratio: f64| (1..LEVELS).fold(1.0, |reach, _| reach * ratio);
+    let mut ratio = RATIO;
+    // Ends for any finite range: the step grows with the ratio.
+    while reach(ratio) * low < high && ratio < f64::MAX / 2.0 {
+        ratio *= 1.01;
+    }
+    ratio
 }
 
 impl<'a> Ladder<'a> {
@@ -88,7 +101,7 @@ impl<'a> Ladder<'a> {
         numbers: &'a mut [f32],
     ) -> Self {
         let mut levels = Vec::new();
-        let mut scale = scales.0;
+        let (mut scale, ratio) = (scales.0, ratio(scales.0, scales.1));
         let lists = numbers.chunks_exact_mut(2 * SAMPLES).take(LEVELS);
         for list in lists {
             let (x, y) = list.split_at_mut(SAMPLES);
@@ -107,12 +120,13 @@ impl<'a> Ladder<'a> {
             if scale > scales.1 {
                 break;
             }
-            scale *= RATIO;
+            scale *= ratio;
         }
         Self {
             numbers,
             windows: windows(outline),
             levels,
+            ratio,
         }
     }
 
@@ -124,7 +138,8 @@ impl<'a> Ladder<'a> {
     /// Numbers of the levels whose scales lie in a range, give or take half a level, and those scales.
     pub(super) fn levels(&self, low: f64, high: f64) -> impl Iterator<Item = (usize, f64)> {
         let scales = self.levels.iter().map(|level| level.scale).enumerate();
-        scales.filter(move |&(_, scale)| scale * 1.035 >= low && scale <= high * 1.035)
+        let half = (1.0 + self.ratio) / 2.0;
+        scales.filter(move |&(_, scale)| scale * half >= low && scale <= high * half)
     }
 
     /// The samples of a window at a level, cut to `most`; empty where it was too long for the memory.
@@ -137,9 +152,9 @@ impl<'a> Ladder<'a> {
             .stretch
             .checked_sub(1)
             .map_or(0, |other| at.ends[other]);
-        let start = before + (window.from / at.spacing + 0.5) as usize;
-        let count = (window.length / at.spacing) as usize + 1;
-        let end = at.ends[window.stretch].min(start + count.min(most));
+        let start = before.saturating_add((window.from / at.spacing + 0.5) as usize);
+        let count = ((window.length / at.spacing) as usize).saturating_add(1);
+        let end = at.ends[window.stretch].min(start.saturating_add(count.min(most)));
         let list = self.numbers.chunks_exact(2 * SAMPLES).nth(level);
         let (x, y) = list
             .unwrap_or_default()
@@ -155,7 +170,7 @@ impl<'a> Ladder<'a> {
 /// Writes samples of a piece to `x` and `y`, in canonical pixels, and gives their number.
 fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, x: &mut [f32], y: &mut [f32]) -> usize {
     let points = piece.points;
-    let count = (piece.length() / spacing) as usize + 1;
+    let count = ((piece.length() / spacing) as usize).saturating_add(1);
     let count = count.min(x.len()).min(y.len());
     for (index, (x, y)) in x.iter_mut().zip(y).take(count).enumerate() {
         let place = index as f64 * spacing / piece.step;
@@ -168,4 +183,70 @@ fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, x: &mut [f32], y: &mut [f
         *y = (a[1] + share * (b[1] - a[1])) / scale as f32;
     }
     count
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::outline::{OutlinePoint, Sampling};
+    use super::super::smooth::Plane;
+    use super::super::trace::{Side, trace};
+    use super::*;
+    use crate::mask::{Mask, MaskMut};
+    use crate::silhouette::Silhouette;
+
+    #[test]
+    fn the_ladder_reaches_from_end_to_end() {
+        assert_eq!(ratio(1.0, 2.0), RATIO);
+        for high in [6.0, 100.0] {
+            let ratio = ratio(1.0, high);
+            let reach = libm::pow(ratio, (LEVELS - 1) as f64);
+            assert!(reach >= high && reach < 1.3 * high, "{high}: {reach}");
+        }
+    }
+
+    /// A rectangle of 96 by 40 pixels at the left border of its frame.
+    fn outline(points: &mut [OutlinePoint]) -> OutlinePoints<'_> {
+        let mut words = [0u32; 4 * 64];
+        for row in words.chunks_exact_mut(4).skip(10).take(40) {
+            row[..3].fill(u32::MAX);
+        }
+        let mask = Mask::new(&words, 128, 64).expect("valid");
+        let mut memory = [0; 4 * 64];
+        let mut visited = MaskMut::new(&mut memory, 128, 64).expect("fits");
+        let mut sides = [Side::default(); 400];
+        let silhouette = Silhouette::from(&mask);
+        let stretches = trace(&silhouette, &mut visited, &mut sides, 5).expect("fits");
+        let sampling = Sampling {
+            plane: Plane::new(128, 64, 1.0),
+            reach: 1,
+            spacing: 1.5,
+        };
+        OutlinePoints::new(&sides, &stretches, &sampling, points).expect("fits")
+    }
+
+    #[test]
+    fn windows_lie_on_the_outline_at_every_scale() {
+        let mut points = [OutlinePoint::default(); 200];
+        let outline = outline(&mut points);
+        // The two long sides and the right one, but for corners that are cut.
+        assert!((outline.length - 232.0).abs() < 4.0, "{}", outline.length);
+        let mut numbers = std::vec![0.0; LADDER_NUMBERS];
+        let ladder = Ladder::new(&outline, 6.0, (0.5, 1.4), &mut numbers);
+        assert!(ladder.windows().len() >= 4);
+        for (level, scale) in ladder.levels(0.5, 1.4) {
+            for window in ladder.windows() {
+                let samples = ladder.samples(window, level, usize::MAX);
+                let wanted = ladder.windows[window].length / (6.0 * scale);
+                assert!((samples.len() as f64 - wanted).abs() <= 1.0);
+                for (x, y) in samples.x.iter().zip(samples.y) {
+                    let (x, y) = (f64::from(*x) * scale, f64::from(*y) * scale);
+                    // Half a side of averaging and half a spacing of points cut the corners.
+                    let across = [x - 32.0, y - 22.0, y + 18.0].map(f64::abs);
+                    let nearest = across.into_iter().fold(f64::INFINITY, f64::min);
+                    assert!(nearest < 0.8, "({x}, {y}) at scale {scale}");
+                }
+                assert!(ladder.samples(window, level, 7).len() <= 7);
+            }
+        }
+    }
 }

@@ -107,13 +107,13 @@ fn write_points(
     points: &mut [OutlinePoint],
 ) -> Option<(usize, f64)> {
     let mut count = 0;
-    let step = resample(line, spacing, |[x, y]| {
+    let step = resample(line, spacing, points.len(), |[x, y]| {
         if let Some(point) = points.get_mut(count) {
             point.at = [x as f32, y as f32];
+            count += 1;
         }
-        count += 1;
-    });
-    (count <= points.len()).then_some((count, step))
+    })?;
+    Some((count, step))
 }
 
 /// Outward normals across the line from the point before to the point after each.

@@ -218,3 +218,154 @@ fn insert<const K: usize>(best: &mut Vec<Fit, K>, fit: Fit, apart: usize) {
     // There is room now.
     let _ = best.insert(place, fit);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const HOW: Slide = Slide {
+        places: usize::MAX,
+        apart: 4,
+        stretch: 1.3,
+    };
+
+    type Points = std::vec::Vec<[f64; 2]>;
+
+    fn lists(points: &[[f64; 2]]) -> (std::vec::Vec<f32>, std::vec::Vec<f32>) {
+        points.iter().map(|p| (p[0] as f32, p[1] as f32)).unzip()
+    }
+
+    /// A closed curve without symmetry, as complex harmonics of its arc.
+    fn curve(count: usize, harmonics: &[(f64, f64)]) -> Points {
+        (0..count)
+            .map(|at| {
+                let turn = at as f64 / count as f64 * 2.0 * core::f64::consts::PI;
+                let mut point = [60.0 * libm::cos(turn), 60.0 * libm::sin(turn)];
+                for (k, (size, phase)) in harmonics.iter().enumerate() {
+                    let angle = (k + 2) as f64 * turn + phase;
+                    point[0] += size * libm::cos(angle);
+                    point[1] += size * libm::sin(angle);
+                }
+                point
+            })
+            .collect()
+    }
+
+    /// Oracle: least squares at one place from centred sums, without running anything along.
+    fn naive(window: &[[f64; 2]], view: &[[f64; 2]]) -> (f64, [f64; 2]) {
+        let count = window.len() as f64;
+        let mean =
+            |list: &[[f64; 2]]| [0, 1].map(|k| list.iter().map(|p| p[k]).sum::<f64>() / count);
+        let (z, w) = (mean(window), mean(view));
+        let (mut product, mut own, mut theirs) = ([0.0; 2], 0.0, 0.0);
+        for (a, b) in window.iter().zip(view) {
+            let (a, b) = ([a[0] - z[0], a[1] - z[1]], [b[0] - w[0], b[1] - w[1]]);
+            product = [
+                product[0] + a[0] * b[0] + a[1] * b[1],
+                product[1] + a[0] * b[1] - a[1] * b[0],
+            ];
+            own += a[0] * a[0] + a[1] * a[1];
+            theirs += b[0] * b[0] + b[1] * b[1];
+        }
+        let a = [product[0] / own, product[1] / own];
+        ((theirs - own * (a[0] * a[0] + a[1] * a[1])) / count, a)
+    }
+
+    fn best_fits(window: &[[f64; 2]], view: &[[f64; 2]]) -> Vec<Fit, 40> {
+        let ((zx, zy), (wx, wy)) = (lists(window), lists(view));
+        let (mut re, mut im) = ([0.0; 64], [0.0; 64]);
+        let mut sums = Sums {
+            re: &mut re,
+            im: &mut im,
+        };
+        let mut best = Vec::new();
+        let (window, view) = (Samples { x: &zx, y: &zy }, Samples { x: &wx, y: &wy });
+        let how = Slide { apart: 1, ..HOW };
+        slide(window, view, &how, 1.0, &mut sums, &mut best);
+        best
+    }
+
+    proptest! {
+        #[test]
+        fn running_sums_give_what_each_place_gives_alone(
+            harmonics in proptest::collection::vec((0.0..12.0f64, 0.0..6.0f64), 4),
+            others in proptest::collection::vec((0.0..12.0f64, 0.0..6.0f64), 4)
+        ) {
+            let view = curve(60, &harmonics);
+            let window = curve(60, &others)[5..30].to_vec();
+            for fit in &best_fits(&window, &view) {
+                let under = &view[fit.shift..fit.shift + window.len()];
+                let (residual, a) = naive(&window, under);
+                prop_assert!((fit.residual - residual).abs() < 0.01 + 1e-3 * residual);
+                // The similarity given is the inverse of z -> a z + b.
+                let unit = times(fit.similarity.factor, a);
+                prop_assert!((unit[0] - 1.0).abs() < 1e-3 && unit[1].abs() < 1e-3);
+            }
+        }
+
+        #[test]
+        fn a_piece_is_found_where_it_was_cut_out(
+            harmonics in proptest::collection::vec((3.0..12.0f64, 0.0..6.0f64), 4),
+            shift in 0..30usize,
+            turn in -3.0..3.0f64, grow in 0.85..1.15f64, x in -90.0..90.0f64, y in -90.0..90.0f64
+        ) {
+            let view = curve(60, &harmonics);
+            let similarity = Similarity {
+                factor: [grow * libm::cos(turn), grow * libm::sin(turn)],
+                offset: [x, y],
+            };
+            let image = |p: &[f64; 2]| {
+                let [u, v] = times(similarity.factor, *p);
+                [u + x, v + y]
+            };
+            let window: Points = view[shift..shift + 28].iter().map(image).collect();
+            let best = best_fits(&window, &view);
+            let fit = best.iter().find(|fit| fit.shift == shift).expect("among the best");
+            prop_assert!(fit.residual < 0.01, "{}", fit.residual);
+            prop_assert!(best[0].residual <= fit.residual);
+            for k in 0..2 {
+                prop_assert!((fit.similarity.factor[k] - similarity.factor[k]).abs() < 1e-3);
+                prop_assert!((fit.similarity.offset[k] - similarity.offset[k]).abs() < 0.05);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_too_short_or_too_large_fits_nowhere() {
+        let view = curve(40, &[(9.0, 1.0)]);
+        assert!(best_fits(&view[..2], &view).is_empty());
+        assert!(best_fits(&curve(41, &[]), &view).is_empty());
+        let large: Points = view[..20].iter().map(|p| p.map(|v| 1.5 * v)).collect();
+        let fits = best_fits(&large, &view);
+        assert!(
+            fits.iter()
+                .all(|fit| fit.similarity.scale() <= HOW.stretch + 1e-6)
+        );
+        assert!(fits.iter().all(|fit| fit.shift != 0));
+        let point: Points = std::vec![[1.0, 1.0]; 9];
+        assert!(best_fits(&point, &view).is_empty());
+    }
+
+    #[test]
+    fn of_neighbours_the_better_stays() {
+        let fit = |shift, residual| Fit {
+            shift,
+            residual,
+            ..Fit::default()
+        };
+        let mut best: Vec<Fit, 2> = Vec::new();
+        for (shift, residual) in [
+            (10, 3.0),
+            (12, 2.0),
+            (9, 5.0),
+            (30, 4.0),
+            (50, 1.0),
+            (70, 9.0),
+        ] {
+            insert(&mut best, fit(shift, residual), 4);
+        }
+        let kept: std::vec::Vec<_> = best.iter().map(|fit| fit.shift).collect();
+        assert_eq!(kept, [50, 12]);
+    }
+}

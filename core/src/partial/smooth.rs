@@ -108,13 +108,22 @@ impl Iterator for Smooth<'_> {
 
 /// Calls `emit` for points at equal distances along a line, as near to `spacing` as its length
 /// allows, and gives that distance; an open line's ends are among the points, a closed one's last
-/// point is not its first again. Nothing for a line shorter than two distances.
-pub(super) fn resample(line: &Smooth<'_>, spacing: f64, mut emit: impl FnMut([f64; 2])) -> f64 {
+/// point is not its first again. Nothing for a line shorter than two distances; `None` for one of
+/// `most` points or more.
+pub(super) fn resample(
+    line: &Smooth<'_>,
+    spacing: f64,
+    most: usize,
+    mut emit: impl FnMut([f64; 2]),
+) -> Option<f64> {
     let length = length(line.clone());
     let intervals = (length / spacing + 0.5) as usize;
+    if intervals >= most {
+        return None;
+    }
     let mut points = line.clone();
     let (2.., Some(mut from)) = (intervals, points.next()) else {
-        return 0.0;
+        return Some(0.0);
     };
     let step = length / intervals as f64;
     let wanted = intervals + usize::from(!line.closed);
@@ -134,7 +143,7 @@ pub(super) fn resample(line: &Smooth<'_>, spacing: f64, mut emit: impl FnMut([f6
     if emitted < wanted {
         emit(from);
     }
-    step
+    Some(step)
 }
 
 fn length(line: Smooth<'_>) -> f64 {
@@ -149,4 +158,116 @@ fn length(line: Smooth<'_>) -> f64 {
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
     sqrt(x * x + y * y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn plane() -> Plane {
+        Plane::new(100, 80, 1.25)
+    }
+
+    /// Oracle: each average on its own.
+    fn naive(sides: &[Side], closed: bool, reach: usize) -> std::vec::Vec<[f64; 2]> {
+        let count = sides.len();
+        let reach = reach.min(count / 2);
+        (0..count + usize::from(closed))
+            .map(|at| {
+                let reach = if closed {
+                    reach
+                } else {
+                    reach.min(at).min(count - 1 - at)
+                };
+                let window = (at + count - reach..=at + count + reach).map(|k| sides[k % count]);
+                let mean = |value: fn(Side) -> u16| {
+                    let sum: f64 = window.clone().map(|side| f64::from(value(side))).sum();
+                    sum / (2 * reach + 1) as f64 / 2.0
+                };
+                plane().point(mean(|side| side.column), mean(|side| side.row))
+            })
+            .collect()
+    }
+
+    proptest! {
+        #[test]
+        fn running_sums_give_the_averages(
+            sides in proptest::collection::vec((0..200u16, 0..160u16), 1..40),
+            closed in any::<bool>(),
+            reach in 0..9usize
+        ) {
+            let sides: std::vec::Vec<_> =
+                sides.iter().map(|&(column, row)| Side { column, row }).collect();
+            let smooth: std::vec::Vec<_> = Smooth::new(&sides, closed, reach, plane()).collect();
+            let wanted = naive(&sides, closed, reach);
+            prop_assert_eq!(smooth.len(), wanted.len());
+            for (a, b) in smooth.iter().zip(&wanted) {
+                prop_assert!(distance(*a, *b) < 1e-9, "{:?} {:?}", a, b);
+            }
+        }
+    }
+
+    /// Middles of the sides along a staircase that climbs one pixel in three.
+    fn staircase() -> std::vec::Vec<Side> {
+        let mut sides = std::vec::Vec::new();
+        for step in 0..30u16 {
+            for k in 0..3 {
+                sides.push(Side {
+                    column: 6 * step + 2 * k + 1,
+                    row: 160 - 2 * step,
+                });
+            }
+            sides.push(Side {
+                column: 6 * step + 6,
+                row: 159 - 2 * step,
+            });
+        }
+        sides
+    }
+
+    #[test]
+    fn a_staircase_becomes_points_at_equal_distances() {
+        let sides = staircase();
+        let line = Smooth::new(&sides, false, 4, plane());
+        let mut points = std::vec::Vec::new();
+        let step = resample(&line, 5.0, 99, |point| points.push(point)).expect("fits");
+        assert!((step - 5.0).abs() < 0.2, "{step}");
+        for pair in points.windows(2) {
+            let apart = distance(pair[0], pair[1]);
+            assert!((apart / step - 1.0).abs() < 0.02, "{apart} of {step}");
+        }
+        let ends = [sides[0], sides[sides.len() - 1]]
+            .map(|s| plane().point(f64::from(s.column) / 2.0, f64::from(s.row) / 2.0));
+        assert!(distance(points[0], ends[0]) < 1e-9);
+        assert!(distance(points[points.len() - 1], ends[1]) < 1e-9);
+    }
+
+    #[test]
+    fn a_closed_line_goes_round_once_and_a_short_one_gives_nothing() {
+        let corner = |column, row| Side { column, row };
+        let square: std::vec::Vec<Side> = (0..40)
+            .map(|at: u16| match (at / 10, 2 * (at % 10)) {
+                (0, k) => corner(20 + k, 20),
+                (1, k) => corner(40, 20 + k),
+                (2, k) => corner(40 - k, 40),
+                (_, k) => corner(20, 40 - k),
+            })
+            .collect();
+        let line = Smooth::new(&square, true, 0, Plane::new(100, 80, 1.0));
+        let mut points = std::vec::Vec::new();
+        let step = resample(&line, 4.1, 11, |point| points.push(point)).expect("fits");
+        assert_eq!((points.len(), step), (10, 4.0));
+        assert!((distance(points[9], points[0]) - 4.0).abs() < 1e-9);
+        let mut count = 0;
+        for spacing in [4.1, 1e-300, 0.0] {
+            assert_eq!(resample(&line, spacing, 10, |_| count += 1), None);
+        }
+        assert_eq!(resample(&line, 40.0, 9, |_| count += 1), Some(0.0));
+        let one = Smooth::new(&square[..1], false, 3, plane());
+        assert_eq!(resample(&one, 1.0, 9, |_| count += 1), Some(0.0));
+        let none = Smooth::new(&[], true, 3, plane());
+        assert_eq!(resample(&none, 1.0, 9, |_| count += 1), Some(0.0));
+        assert_eq!(count, 0);
+    }
 }

@@ -200,7 +200,7 @@ mod tests {
             for row in 0..HEIGHT {
                 for at in 0..2 {
                     let solid = if at == 1 { 0x00ff_0000 } else { 0 };
-                    blobs[2 * row + at] = if row < 2 || row > 5 { 0 } else { solid };
+                    blobs[2 * row + at] = if (2..=5).contains(&row) { solid } else { 0 };
                 }
             }
             blobs[7] ^= words[0] & 0x0010_0000;
