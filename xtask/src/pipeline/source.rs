@@ -107,17 +107,17 @@ mod tests {
 
     /// A folder of masks with a square each, at a column that tells the frame.
     fn folder(name: &str, columns: &[u32], side: u32) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!(
-            "fluoropose-source-{name}-{}",
-            std::process::id()
-        ));
+        let folder =
+            std::env::temp_dir().join(format!("fluoropose-source-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         for (frame, &column) in columns.iter().enumerate() {
             let mut picture = GrayImage::new(side, side);
             for (x, y) in (0..100).map(|k| (k % 10, k / 10)) {
                 picture.put_pixel(column + x, 20 + y, Luma([255]));
             }
-            picture.save(folder.join(format!("{frame:03}.png"))).unwrap();
+            picture
+                .save(folder.join(format!("{frame:03}.png")))
+                .unwrap();
         }
         folder
     }
