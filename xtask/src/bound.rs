@@ -48,10 +48,20 @@ pub struct Args {
     #[arg(long, value_name = "FILE", conflicts_with = "pose")]
     poses: Option<PathBuf>,
     /// Standard deviation of a hand's jitter, pixels
-    #[arg(long, value_name = "PX", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     jitter: f64,
     /// Correlation length of the jitter along the outline, pixels
-    #[arg(long, value_name = "PX", default_value_t = 10.0)]
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 10.0,
+        allow_negative_numbers = true
+    )]
     correlation: f64,
     /// Mask image of pixels of which nothing is known
     #[arg(long, value_name = "FILE")]

@@ -7,11 +7,12 @@ use fluoropose::camera::Camera;
 use fluoropose::library::{Grid, GridAxis};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::symmetry::symmetry_planes;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
-use crate::pipeline::accuracy::{Errors, mean_absolute, median_absolute, rms};
+use crate::pipeline::accuracy::{Errors, is_wrong_side, mean_absolute, median_absolute, rms};
 use crate::pipeline::bound::{Comparison, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, camera_for, progress};
 use crate::pipeline::disturb::DisturbanceOptions;
@@ -97,6 +98,9 @@ pub struct Accuracy {
     pub not_found: usize,
     /// Poses wrong by more than 4 degrees or not found: not in the means.
     pub failures: usize,
+    /// Poses nearer to a mirror image of the pose drawn than to it, in a plane in which the model
+    /// is nearly symmetric.
+    pub wrong_side: usize,
     /// Poses wrong by at most 1 degree.
     pub within_1_deg: usize,
     /// Mean absolute error of z_rot, degrees.
@@ -154,6 +158,7 @@ fn print(accuracy: &Accuracy) {
     println!("in-plane translation   {:.3} mm", accuracy.in_plane_mm);
     println!("out-of-plane           {:.3} mm", accuracy.out_of_plane_mm);
     println!("failures (over {FAILURE_DEG} deg) {}", accuracy.failures);
+    println!("on the wrong side      {}", accuracy.wrong_side);
     println!("within 1 deg           {}", accuracy.within_1_deg);
     if accuracy.not_found > 0 {
         println!("no pose found          {}", accuracy.not_found);
@@ -179,12 +184,16 @@ pub fn measure(
     let mut outlines = Outlines::new(mesh, camera);
     let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
     let bar = progress(protocol.poses, "poses");
-    let (mut errors, mut limits) = (Vec::new(), Vec::new());
+    let planes = symmetry_planes(&mesh);
+    let (mut errors, mut limits, mut wrong_side) = (Vec::new(), Vec::new(), 0);
     for frame in 0..protocol.poses {
         let pose = random_pose(&mut random, &views.grid(), &mesh, distance);
         let (reference, seen) = scene.observe(&pose, frame as u64)?;
         match seen.see(|silhouette| finder.best(&silhouette.into())) {
-            Ok(found) => errors.push(Errors::of(&found.pose, &reference)),
+            Ok(found) => {
+                errors.push(Errors::of(&found.pose, &reference));
+                wrong_side += usize::from(is_wrong_side(&found.pose, &reference, &planes));
+            }
             Err(error) => bar.suspend(|| {
                 eprintln!("no pose for {:?}: {error:#}", EulerPose::from(reference));
             }),
@@ -194,7 +203,7 @@ pub fn measure(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(summary(&errors, scene.noise(), &limits))
+    Ok(summary(&errors, wrong_side, scene.noise(), &limits))
 }
 
 /// A pose inside the library's range, with the middle of the model's box near the axis.
@@ -222,7 +231,7 @@ fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: 
 }
 
 /// Statistics of the poses found; there are as many limits as poses were drawn.
-fn summary(errors: &[Errors], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
+fn summary(errors: &[Errors], wrong_side: usize, noise: Noise, limits: &[PoseLimits]) -> Accuracy {
     let kept: Vec<Errors> = errors
         .iter()
         .copied()
@@ -234,6 +243,7 @@ fn summary(errors: &[Errors], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
         poses: limits.len(),
         not_found: limits.len() - errors.len(),
         failures: limits.len() - kept.len(),
+        wrong_side,
         within_1_deg: errors.iter().filter(|e| e.geodesic_deg <= 1.0).count(),
         in_plane_deg: mean.z_rot_deg,
         out_of_plane_deg: (mean.x_rot_deg + mean.y_rot_deg) / 2.0,

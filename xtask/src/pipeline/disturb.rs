@@ -25,14 +25,29 @@ use occluder::Occluder;
 #[derive(clap::Args, Clone, Copy, Debug, PartialEq)]
 pub struct DisturbanceOptions {
     /// Move each outline along its normal by Gaussian noise of this standard deviation, pixels
-    #[arg(long, value_name = "PX", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     pub jitter: f64,
     /// Correlation length l of that noise, pixels: its autocorrelation is exp(-d^2 / (2 l^2)) of the way
     /// d along the outline
-    #[arg(long, value_name = "PX", default_value_t = 10.0)]
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 10.0,
+        allow_negative_numbers = true
+    )]
     pub correlation: f64,
     /// Hide this part of the outline's length behind a random occluder, 0 to 0.9
-    #[arg(long, value_name = "FRACTION", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "FRACTION",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     pub occlude: f64,
     /// Do not tell which pixels the occluder hides
     #[arg(long)]

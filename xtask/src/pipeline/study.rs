@@ -93,3 +93,36 @@ impl Study {
         Ok(study)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Study> {
+        let name = format!(
+            "fluoropose-study-{}-{}.toml",
+            std::process::id(),
+            text.len()
+        );
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, text).unwrap();
+        let study = Study::read(&path);
+        std::fs::remove_file(&path).unwrap();
+        study
+    }
+
+    #[test]
+    fn unknown_pixels_belong_to_a_source_of_masks() {
+        let component = "name = 'left'\ncalibration = 'c.txt'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
+        let study = read(&format!(
+            "{component}masks.hand = 'm'\nunknown.hand = 'u'\n"
+        ));
+        let unknown = &study.unwrap().components[0].unknown["hand"];
+        assert_eq!(unknown, &std::env::temp_dir().join("u"));
+        let stray = read(&format!(
+            "{component}masks.hand = 'm'\nunknown.foot = 'u'\n"
+        ));
+        let message = stray.unwrap_err().to_string();
+        assert!(message.contains("unknown.foot"), "{message}");
+    }
+}

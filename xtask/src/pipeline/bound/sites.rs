@@ -108,11 +108,6 @@ impl<'m> Outlines<'m> {
             least_squares: found.least_squares.deviations(pose, &self.middle).into(),
         }))
     }
-
-    /// The point of the model that turns leave in place, model coordinates, mm.
-    pub fn middle(&self) -> Vector3 {
-        self.middle
-    }
 }
 
 /// Vertices of curves by where they are.

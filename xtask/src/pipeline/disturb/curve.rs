@@ -4,7 +4,7 @@
 //! the outline that was sampled, on average on it: a side of any slope is met without bias. What
 //! is left is to smooth the steps without drawing curves inwards, as plain smoothing does.
 
-use anyhow::{Result, ensure};
+use anyhow::Result;
 use fluoropose::border::{first_pixel, follow_border};
 use fluoropose::contour::{Contour, Point};
 use fluoropose::mask::Mask;
@@ -182,7 +182,6 @@ fn ways(points: &[Point]) -> (Vec<f64>, f64) {
 pub fn widened(mask: &Mask<'_>, margin: usize) -> Result<MaskBuffer> {
     let (width, height) = (mask.width(), mask.height());
     let mut wide = MaskBuffer::new(width + 2 * margin, height + 2 * margin)?;
-    ensure!(width > 0 && height > 0, "a mask has pixels");
     wide.draw(|wide| {
         for row in 0..height + 2 * margin {
             let from = row.saturating_sub(margin).min(height - 1);
