@@ -2,8 +2,8 @@
 //! written of it.
 
 use crate::math::{
-    Vector3, add, apply, cross, degrees, inverse_spd, multiply_square, scale, sin_cos, sqrt,
-    transpose_square,
+    Vector3, add, apply, cross, degrees, inverse_spd, multiply, multiply_square, rotation_vector,
+    scale, sin_cos, solve_spd, sqrt, transpose, transpose_square,
 };
 use crate::pose::{EulerPose, Pose};
 
@@ -95,6 +95,26 @@ impl PoseCovariance {
         }
     }
 
+    /// Whether `other` lies within the ellipsoid of this squared radius about `pose`, of which
+    /// this is the covariance (12.59 holds 95 % of a normal distribution in six dimensions).
+    /// `None` where the covariance has no inverse.
+    #[must_use]
+    pub fn holds(
+        &self,
+        pose: &Pose,
+        other: &Pose,
+        middle: &Vector3,
+        squared_radius: f64,
+    ) -> Option<bool> {
+        let turn = rotation_vector(&multiply(&other.rotation, &transpose(&pose.rotation)));
+        let from = pose.transform(middle);
+        let shift = add(&other.transform(middle), &scale(&from, -1.0));
+        let step = joined(&turn, &shift);
+        let solved = solve_spd(self.matrix, step)?;
+        let squared: f64 = step.iter().zip(&solved).map(|(a, b)| a * b).sum();
+        Some(squared <= squared_radius)
+    }
+
     /// Root mean square of the angle between the rotation and the true one, degrees: the length
     /// of the rotation vector between them.
     #[must_use]
@@ -147,7 +167,7 @@ fn congruence(a: &Matrix6, b: &Matrix6) -> Matrix6 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Matrix3, multiply, norm};
+    use crate::math::{Matrix3, norm};
     use crate::pose::{Quaternion, geodesic_deg};
     use proptest::prelude::*;
 

@@ -141,6 +141,56 @@ pub fn norm(v: &Vector3) -> f64 {
     sqrt(dot(v, v))
 }
 
+/// The rotation by the length (radians) and about the direction of a vector (Rodrigues).
+#[must_use]
+pub fn rotation_by(turn: &Vector3) -> Matrix3 {
+    let angle = norm(turn);
+    if angle == 0.0 {
+        return IDENTITY;
+    }
+    let (sin, cos) = sin_cos(angle);
+    let [x, y, z] = scale(turn, 1.0 / angle);
+    let k = 1.0 - cos;
+    [
+        [cos + x * x * k, x * y * k - z * sin, x * z * k + y * sin],
+        [y * x * k + z * sin, cos + y * y * k, y * z * k - x * sin],
+        [z * x * k - y * sin, z * y * k + x * sin, cos + z * z * k],
+    ]
+}
+
+/// The vector of a rotation, [`rotation_by`]'s inverse: its length is the angle in radians, up to
+/// pi, where its sign is arbitrary.
+#[must_use]
+pub fn rotation_vector(rotation: &Matrix3) -> Vector3 {
+    let twice = [
+        rotation[2][1] - rotation[1][2],
+        rotation[0][2] - rotation[2][0],
+        rotation[1][0] - rotation[0][1],
+    ];
+    let trace = rotation[0][0] + rotation[1][1] + rotation[2][2];
+    let sine = norm(&twice) / 2.0;
+    let angle = atan2(sine, (trace - 1.0) / 2.0);
+    if sine > 1e-9 {
+        return scale(&twice, angle / (2.0 * sine));
+    }
+    if trace > 0.0 {
+        // A small angle is its own sine.
+        return scale(&twice, 0.5);
+    }
+    // Half a turn: R = 2 a a' - I; the largest column of a a' is the axis, up to its length.
+    let column = |k: usize| -> Vector3 {
+        core::array::from_fn(|row| rotation[row][k] + if row == k { 1.0 } else { 0.0 })
+    };
+    let longest = (1..3).fold(column(0), |best, k| {
+        if norm(&column(k)) > norm(&best) {
+            column(k)
+        } else {
+            best
+        }
+    });
+    scale(&longest, angle / norm(&longest))
+}
+
 /// Solves the symmetric positive definite system `a * x = b` by Cholesky's method, in place.
 ///
 /// Returns `None` where `a` is not positive definite. Golub and Van Loan, *Matrix

@@ -1,6 +1,7 @@
 //! From files to poses: what the verbs that measure and track share.
 
 pub mod accuracy;
+pub mod biplane;
 pub mod bound;
 pub mod build;
 pub mod disturb;

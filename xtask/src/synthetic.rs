@@ -2,20 +2,26 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
+use std::str::FromStr;
+
+use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
+use fluoropose::covariance::PoseCovariance;
 use fluoropose::library::{Grid, GridAxis};
+use fluoropose::math::{Vector3, add, apply, multiply, norm, rotation_by, scale};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::View;
 use fluoropose::symmetry::symmetry_planes;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 
 use crate::pipeline::accuracy::{Errors, is_wrong_side, mean_absolute, median_absolute, rms};
+use crate::pipeline::biplane::turned_about;
 use crate::pipeline::bound::{Comparison, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, camera_for, progress};
-use crate::pipeline::disturb::DisturbanceOptions;
+use crate::pipeline::disturb::{DisturbanceOptions, Disturbed};
 use crate::pipeline::files::{MaskBuffer, mesh_of, read_calibration, read_model, write_json};
 use crate::pipeline::finder::{Finder, Method};
 use crate::pipeline::scene::Scene;
@@ -55,6 +61,13 @@ pub struct Args {
     /// How poses are found
     #[arg(long, value_enum, default_value_t)]
     method: Method,
+    /// Start refinement from the pose drawn, turned by DEG about a random axis and moved by MM
+    /// aside and MM along the view, instead of from the library: the basin of refinement
+    #[arg(long, value_name = "DEG,MM,MM")]
+    start_off: Option<StartOff>,
+    /// A second camera sees the implant too, from this many degrees aside; method refined
+    #[arg(long, value_name = "DEG")]
+    biplane: Option<f64>,
     #[command(flatten)]
     views: ViewOptions,
     #[command(flatten)]
@@ -74,6 +87,49 @@ const DEPTH_MM: f64 = 50.0;
 /// the axis in x and y is seen from a direction that differs by up to 3 degrees.
 const MARGIN_DEG: f64 = 3.5;
 
+/// How far from the truth a refinement starts: degrees, mm aside, mm along the view.
+#[derive(Clone, Copy, Debug)]
+pub struct StartOff(pub [f64; 3]);
+
+impl FromStr for StartOff {
+    type Err = anyhow::Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+        match numbers.unwrap_or_default().as_slice() {
+            &[turn, aside, along] if turn.is_finite() && aside.is_finite() && along.is_finite() => {
+                Ok(Self([turn, aside, along]))
+            }
+            _ => bail!("'{text}' is not degrees,mm,mm"),
+        }
+    }
+}
+
+impl StartOff {
+    /// `pose` moved by so much about `middle`, a point of the model.
+    fn of(self, pose: &Pose, middle: &Vector3, random: &mut ChaCha8Rng) -> Pose {
+        let Self([turn, aside, along]) = self;
+        let mut draw = || random.random_range(-1.0..=1.0f64);
+        // A direction that is equally likely everywhere, by rejection.
+        let axis = loop {
+            let axis = [draw(), draw(), draw()];
+            let length = norm(&axis);
+            if (0.1..=1.0).contains(&length) {
+                break scale(&axis, turn.to_radians() / length);
+            }
+        };
+        let direction = core::f64::consts::PI * draw();
+        let along = along.copysign(draw());
+        let shift = [aside * direction.cos(), aside * direction.sin(), along];
+        let rotation = multiply(&rotation_by(&axis), &pose.rotation);
+        let centre = add(&pose.transform(middle), &shift);
+        Pose {
+            rotation,
+            translation: add(&centre, &scale(&apply(&rotation, middle), -1.0)),
+        }
+    }
+}
+
 /// What is drawn and how it is found again.
 #[derive(Clone, Copy, Debug)]
 pub struct Protocol {
@@ -87,6 +143,10 @@ pub struct Protocol {
     pub seed: u64,
     /// What is done to each mask before its pose is found.
     pub disturbance: DisturbanceOptions,
+    /// Where refinement starts, if not at the library's poses.
+    pub start_off: Option<StartOff>,
+    /// Angle to a second camera, degrees.
+    pub biplane: Option<f64>,
 }
 
 /// What the protocol measures.
@@ -103,6 +163,11 @@ pub struct Accuracy {
     pub wrong_side: usize,
     /// Poses wrong by at most 1 degree.
     pub within_1_deg: usize,
+    /// Of the poses wrong by at most 4 degrees, those with a covariance, and those of them that
+    /// lie in their own region of 95 %.
+    pub regions: usize,
+    /// See `regions`.
+    pub covered: usize,
     /// Mean absolute error of z_rot, degrees.
     pub in_plane_deg: f64,
     /// Mean absolute error of x_rot and y_rot, degrees.
@@ -135,6 +200,8 @@ pub fn run(args: Args) -> Result<()> {
         poses: args.poses,
         seed: args.seed,
         disturbance: args.disturbance,
+        start_off: args.start_off,
+        biplane: args.biplane,
     };
     let accuracy = measure(mesh, camera, &args.views, &protocol)?;
     println!(
@@ -163,6 +230,14 @@ fn print(accuracy: &Accuracy) {
     if accuracy.not_found > 0 {
         println!("no pose found          {}", accuracy.not_found);
     }
+    if accuracy.regions > 0 {
+        println!(
+            "in its 95 % region     {} of {} ({:.1} %)",
+            accuracy.covered,
+            accuracy.regions,
+            100.0 * accuracy.covered as f64 / accuracy.regions as f64
+        );
+    }
     accuracy.limits.print(&accuracy.rms, &accuracy.median);
 }
 
@@ -180,20 +255,27 @@ pub fn measure(
     let distance = protocol.distance;
     let mut scene = Scene::new(mesh, camera, protocol.disturbance)?;
     let built = build_library(mesh, camera, views, distance)?;
-    let mut finder = Finder::open(&built.bytes, mesh, camera, protocol.method)?;
+    let mut search = Search {
+        finder: Finder::open(&built.bytes, mesh, camera, protocol.method)?,
+        camera,
+        middle: mesh.bounds().centre,
+        protocol: *protocol,
+    };
     let mut outlines = Outlines::new(mesh, camera);
     let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
     let bar = progress(protocol.poses, "poses");
     let planes = symmetry_planes(&mesh);
-    let (mut errors, mut limits, mut wrong_side) = (Vec::new(), Vec::new(), 0);
+    let (mut tries, mut limits) = (Vec::new(), Vec::new());
     for frame in 0..protocol.poses {
         let pose = random_pose(&mut random, &views.grid(), &mesh, distance);
         let (reference, seen) = scene.observe(&pose, frame as u64)?;
-        match seen.see(|silhouette| finder.best(&silhouette.into())) {
-            Ok(found) => {
-                errors.push(Errors::of(&found.pose, &reference));
-                wrong_side += usize::from(is_wrong_side(&found.pose, &reference, &planes));
-            }
+        match search.find(&mut scene, &reference, &seen, frame as u64) {
+            Ok((found, covariance)) => tries.push(Try {
+                errors: Errors::of(&found, &reference),
+                wrong_side: is_wrong_side(&found, &reference, &planes),
+                covered: covariance
+                    .and_then(|c| c.holds(&found, &reference, &search.middle, WITHIN_95)),
+            }),
             Err(error) => bar.suspend(|| {
                 eprintln!("no pose for {:?}: {error:#}", EulerPose::from(reference));
             }),
@@ -203,7 +285,76 @@ pub fn measure(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    Ok(summary(&errors, wrong_side, scene.noise(), &limits))
+    Ok(summary(&tries, scene.noise(), &limits))
+}
+
+/// Squared radius that holds 95 % of a normal distribution in six dimensions.
+const WITHIN_95: f64 = 12.592;
+
+/// One pose looked for.
+struct Try {
+    errors: Errors,
+    wrong_side: bool,
+    /// Whether the truth lies in the region of 95 %.
+    covered: Option<bool>,
+}
+
+/// How a pose is looked for.
+struct Search<'l> {
+    finder: Finder<'l>,
+    camera: Camera,
+    middle: Vector3,
+    protocol: Protocol,
+}
+
+impl Search<'_> {
+    /// The best pose of what was seen of `reference`, and how sure it is.
+    fn find(
+        &mut self,
+        scene: &mut Scene<'_>,
+        reference: &Pose,
+        seen: &Disturbed,
+        frame: u64,
+    ) -> Result<(Pose, Option<PoseCovariance>)> {
+        let starts = match self.protocol.start_off {
+            Some(off) => {
+                let mut random = ChaCha8Rng::seed_from_u64(self.protocol.seed);
+                random.set_stream(frame + 1);
+                vec![off.of(reference, &self.middle, &mut random)]
+            }
+            None => {
+                let all = seen.see(|silhouette| self.finder.all(&silhouette.into()))?;
+                let best = all.first().context("the library has no views")?;
+                if self.protocol.biplane.is_none() {
+                    return Ok((best.pose, best.covariance));
+                }
+                all.iter().map(|answer| answer.pose).collect()
+            }
+        };
+        let camera = self.camera;
+        let found = match self.protocol.biplane {
+            None => seen.see(|silhouette| {
+                let view = View::only(&camera, silhouette);
+                self.finder.refine_views(&[view], &starts)
+            })?,
+            Some(angle) => {
+                let placement = turned_about(self.protocol.distance, angle);
+                let other = scene.observe_from(&placement, reference, frame)?;
+                seen.see(|first| {
+                    other.see(|second| {
+                        let second = View {
+                            placement,
+                            ..View::only(&camera, second)
+                        };
+                        let views = [View::only(&camera, first), second];
+                        self.finder.refine_views(&views, &starts)
+                    })
+                })?
+            }
+        };
+        let (refined, covariance) = found.first().context("nothing to start from")?;
+        Ok((refined.pose, *covariance))
+    }
 }
 
 /// A pose inside the library's range, with the middle of the model's box near the axis.
@@ -231,26 +382,27 @@ fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: 
 }
 
 /// Statistics of the poses found; there are as many limits as poses were drawn.
-fn summary(errors: &[Errors], wrong_side: usize, noise: Noise, limits: &[PoseLimits]) -> Accuracy {
-    let kept: Vec<Errors> = errors
-        .iter()
-        .copied()
-        .filter(|e| e.geodesic_deg <= FAILURE_DEG)
-        .collect();
+fn summary(tries: &[Try], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
+    let errors: Vec<Errors> = tries.iter().map(|found| found.errors).collect();
+    let right = |found: &&Try| found.errors.geodesic_deg <= FAILURE_DEG;
+    let kept: Vec<Errors> = tries.iter().filter(right).map(|t| t.errors).collect();
+    let covered = || tries.iter().filter(right).filter_map(|found| found.covered);
     let mean = Errors::summarise(&kept, mean_absolute);
-    let rms = Errors::summarise(errors, rms);
+    let rms = Errors::summarise(&errors, rms);
     Accuracy {
         poses: limits.len(),
         not_found: limits.len() - errors.len(),
         failures: limits.len() - kept.len(),
-        wrong_side,
+        wrong_side: tries.iter().filter(|found| found.wrong_side).count(),
         within_1_deg: errors.iter().filter(|e| e.geodesic_deg <= 1.0).count(),
+        regions: covered().count(),
+        covered: covered().filter(|&covered| covered).count(),
         in_plane_deg: mean.z_rot_deg,
         out_of_plane_deg: (mean.x_rot_deg + mean.y_rot_deg) / 2.0,
         in_plane_mm: (mean.x_mm + mean.y_mm) / 2.0,
         out_of_plane_mm: mean.z_mm,
         rms,
-        median: Errors::summarise(errors, median_absolute),
+        median: Errors::summarise(&errors, median_absolute),
         limits: Comparison::of(noise, limits, &rms),
     }
 }

@@ -5,7 +5,7 @@ use super::problem::Pass;
 use super::{Iterate, Refined};
 use crate::camera::Camera;
 use crate::math::{
-    Matrix3, Vector3, add, apply, cross, degrees, inverse_spd, multiply, norm, scale, sin_cos,
+    Vector3, add, apply, cross, degrees, inverse_spd, multiply, norm, rotation_by, scale,
     solve_spd, sqrt, transpose,
 };
 use crate::pose::Pose;
@@ -80,22 +80,6 @@ impl Step {
     pub(super) fn is_small(&self) -> bool {
         degrees(norm(&self.turn)) < SMALL_DEG && norm(&self.shift) < SMALL_MM
     }
-}
-
-/// The rotation by the angle and about the axis of a vector (Rodrigues).
-fn rotation_by(turn: &Vector3) -> Matrix3 {
-    let angle = norm(turn);
-    if angle == 0.0 {
-        return crate::math::IDENTITY;
-    }
-    let (sin, cos) = sin_cos(angle);
-    let [x, y, z] = scale(turn, 1.0 / angle);
-    let k = 1.0 - cos;
-    [
-        [cos + x * x * k, x * y * k - z * sin, x * z * k + y * sin],
-        [y * x * k + z * sin, cos + y * y * k, y * z * k - x * sin],
-        [z * x * k - y * sin, z * y * k + x * sin, cos + z * z * k],
-    ]
 }
 
 /// Parameters of a step, and the offset of the target's edges from the model's outline.

@@ -153,6 +153,23 @@ impl<'l> Finder<'l> {
         refined.iter().map(answer).collect()
     }
 
+    /// Refines poses against what several cameras saw, without the library; best first.
+    ///
+    /// # Errors
+    /// Where none can be refined.
+    pub fn refine_views(
+        &mut self,
+        views: &[View<'_>],
+        starts: &[Pose],
+    ) -> Result<Vec<(Refined, Option<PoseCovariance>)>> {
+        let found = self.refiner.refine(views, starts)?;
+        let sure = |found: &RefinedRival| {
+            let covariance = self.refiner.uncertainty(views, &found.refined)?;
+            Ok((found.refined, covariance))
+        };
+        found.iter().map(sure).collect()
+    }
+
     /// Brings poses onto the edges of the frame; best first.
     ///
     /// # Errors

@@ -26,6 +26,9 @@ pub struct Scene<'m> {
 /// Streams of the random numbers that choose how an outline is cut, apart from those that disturb it.
 const CUTS: u64 = 1 << 63;
 
+/// Streams of the random numbers that disturb what a second camera sees.
+const SECOND: u64 = 1 << 62;
+
 /// One of this many hidden outlines is cut off by the frame's border: as many as hide behind a
 /// half plane, a disc or a band.
 const KINDS: u32 = 4;
@@ -74,6 +77,18 @@ impl<'m> Scene<'m> {
         self.draw(&pose)?;
         let disturbed = options.disturb_drawn(&self.drawn.mask(), self.factor, frame)?;
         Ok((pose, disturbed))
+    }
+
+    /// What a second camera of the same kind, `placement` = `second_from_first`, sees of the model
+    /// at a pose in the first camera's frame, disturbed on its own.
+    ///
+    /// # Errors
+    /// Those of [`Self::observe`].
+    pub fn observe_from(&mut self, placement: &Pose, pose: &Pose, frame: u64) -> Result<Disturbed> {
+        self.draw(&placement.compose(pose))?;
+        let mask = self.drawn.mask();
+        self.options
+            .disturb_drawn(&mask, self.factor, SECOND | frame)
     }
 
     fn draw(&mut self, pose: &Pose) -> Result<()> {
