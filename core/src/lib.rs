@@ -34,6 +34,7 @@ pub mod median;
 pub mod mesh;
 pub mod mirror;
 pub mod moments;
+pub mod nearby;
 pub mod partial;
 pub mod pose;
 pub mod raster;

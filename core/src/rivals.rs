@@ -6,10 +6,9 @@ use crate::mask::{MaskMut, words_needed};
 use crate::mesh::Mesh;
 use crate::mirror::mirror_pose;
 use crate::pose::{Pose, geodesic_deg};
-use crate::raster::render;
 use crate::refine::{RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine};
 use crate::symmetry::SymmetryPlane;
-use crate::verify::Verified;
+use crate::verify::{Verified, unmatched_at};
 
 /// Poses to start from that are refined at most.
 pub const STARTS: usize = 6;
@@ -64,68 +63,101 @@ pub fn refine_rivals(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
-    let mut answers = Vec::new();
+    let mut search = Search {
+        mesh,
+        views,
+        planes,
+        options,
+        memory,
+        answers: Vec::new(),
+    };
     let mut failure = None;
     for (start, pose) in starts.iter().take(STARTS).enumerate() {
-        match refine(mesh, views, pose, options, memory) {
-            Ok(refined) => add(&mut answers, start, false, refined),
-            Err(error) => failure = Some(error),
+        if let Err(error) = search.refine(pose, start, false) {
+            failure = Some(error);
         }
     }
-    if let (true, Some(error)) = (answers.is_empty(), failure) {
+    if let (true, Some(error)) = (search.answers.is_empty(), failure) {
         return Err(error);
     }
-    for RefinedRival { start, refined, .. } in distinct(&answers) {
-        for plane in planes {
-            let mirrored = mirror_pose(&refined.pose, plane);
-            if !views
-                .iter()
-                .all(|view| is_near(mesh, view, &mirrored, memory))
-            {
-                continue;
-            }
-            if let Ok(refined) = refine(mesh, views, &mirrored, options, memory) {
-                add(&mut answers, start, true, refined);
+    search.mirror();
+    Ok(distinct(&search.answers))
+}
+
+/// Refinement from ever more poses.
+struct Search<'s, 'm> {
+    mesh: &'s Mesh<'s>,
+    views: &'s [View<'s>],
+    planes: &'s [SymmetryPlane],
+    options: RefineOptions,
+    memory: &'s mut RefineMemory<'m>,
+    /// By rising loss.
+    answers: Vec<RefinedRival, ANSWERS>,
+}
+
+impl Search<'_, '_> {
+    fn refine(&mut self, pose: &Pose, start: usize, mirrored: bool) -> Result<(), RefineError> {
+        let refined = refine(self.mesh, self.views, pose, self.options, self.memory)?;
+        let answers = &mut self.answers;
+        let place = answers.partition_point(|other| other.refined.loss <= refined.loss);
+        if answers.is_full() && place < ANSWERS {
+            answers.pop();
+        }
+        // Of more answers than are kept the worst is lost.
+        let _ = answers.insert(
+            place,
+            RefinedRival {
+                start,
+                mirrored,
+                refined,
+            },
+        );
+        Ok(())
+    }
+
+    /// Refines the mirror images of all poses so far, where they cover what was seen.
+    fn mirror(&mut self) {
+        for RefinedRival { start, refined, .. } in distinct(&self.answers) {
+            for plane in self.planes {
+                let mirrored = mirror_pose(&refined.pose, plane);
+                let near = self
+                    .views
+                    .iter()
+                    .all(|view| is_near(self.mesh, view, &mirrored, &refined.pose, self.memory));
+                if near {
+                    // A mirror image that leads nowhere is no rival.
+                    let _ = self.refine(&mirrored, start, true);
+                }
             }
         }
     }
-    Ok(distinct(&answers))
 }
 
-/// Whether the model drawn at a mirrored pose covers the silhouette nearly as well. A grey frame
-/// cannot say.
-fn is_near(mesh: &Mesh<'_>, view: &View<'_>, pose: &Pose, memory: &mut RefineMemory<'_>) -> bool {
+/// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,
+/// or well by itself. A grey frame cannot say.
+fn is_near(
+    mesh: &Mesh<'_>,
+    view: &View<'_>,
+    mirrored: &Pose,
+    own: &Pose,
+    memory: &mut RefineMemory<'_>,
+) -> bool {
     let Target::Silhouette(silhouette) = &view.target else {
         return true;
     };
-    let (width, height) = (silhouette.mask().width(), silhouette.mask().height());
-    let Some(words) = memory.drawn.get_mut(..words_needed(width, height)) else {
+    let mut unmatched = |pose: &Pose| {
+        let (width, height) = (silhouette.mask().width(), silhouette.mask().height());
+        let words = memory.drawn.get_mut(..words_needed(width, height))?;
+        let mut drawn = MaskMut::new(words, width, height).ok()?;
+        let pose = view.placement.compose(pose);
+        let scratch = &mut *memory.projected;
+        unmatched_at(mesh, view.camera, &pose, silhouette, scratch, &mut drawn).ok()
+    };
+    let Some(there) = unmatched(mirrored) else {
         return false;
     };
-    let Ok(mut drawn) = MaskMut::new(words, width, height) else {
-        return false;
-    };
-    let pose = view.placement.compose(pose);
-    if render(mesh, view.camera, &pose, memory.projected, &mut drawn).is_err() {
-        return false;
-    }
     let limit = SYMMETRIC_SHARE * silhouette.mask().area() as f64;
-    let unmatched = silhouette.unmatched(&drawn.as_mask());
-    unmatched.is_some_and(|unmatched| unmatched as f64 <= limit)
-}
-
-/// Puts a pose in its place by rising loss.
-fn add(answers: &mut Vec<RefinedRival, ANSWERS>, start: usize, mirrored: bool, refined: Refined) {
-    let place = answers.partition_point(|other| other.refined.loss <= refined.loss);
-    // Each of the starts gives four poses at most, so there is room.
-    let _ = answers.insert(
-        place,
-        RefinedRival {
-            start,
-            mirrored,
-            refined,
-        },
-    );
+    there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
 
 /// Each pose once.

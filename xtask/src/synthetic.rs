@@ -320,7 +320,8 @@ impl Search<'_> {
             Some(off) => {
                 let mut random = ChaCha8Rng::seed_from_u64(self.protocol.seed);
                 random.set_stream(frame + 1);
-                vec![off.of(reference, &self.middle, &mut random)]
+                let start = off.of(reference, &self.middle, &mut random);
+                seen.see(|silhouette| Ok(self.finder.nearby(&silhouette, &start)))?
             }
             None => {
                 let all = seen.see(|silhouette| self.finder.all(&silhouette.into()))?;

@@ -170,6 +170,12 @@ impl<'l> Finder<'l> {
         found.iter().map(sure).collect()
     }
 
+    /// Starts round a pose that is only roughly known; see [`fluoropose::nearby::nearby`].
+    pub fn nearby(&mut self, silhouette: &Silhouette<'_>, start: &Pose) -> Vec<Pose> {
+        let camera = self.camera;
+        self.refiner.nearby(&camera, silhouette, start)
+    }
+
     /// Brings poses onto the edges of the frame; best first.
     ///
     /// # Errors

@@ -4,12 +4,14 @@ use fluoropose::camera::Camera;
 use fluoropose::covariance::PoseCovariance;
 use fluoropose::mask::{Word, words_needed};
 use fluoropose::mesh::Mesh;
+use fluoropose::nearby::nearby;
 use fluoropose::pose::Pose;
 use fluoropose::raster::{Projected, scratch_needed};
 use fluoropose::refine::{
     BorderPixel, RefineError, RefineMemory, RefineOptions, Refined, View, uncertainty,
 };
 use fluoropose::rivals::{RefinedRival, refine_rivals};
+use fluoropose::silhouette::Silhouette;
 use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
@@ -66,6 +68,17 @@ impl<'m> Refiner<'m> {
         let (mesh, planes, options) = (self.mesh, self.planes.clone(), self.options);
         refine_rivals(&mesh, views, starts, &planes, options, &mut self.memory())
             .map(|found| found.to_vec())
+    }
+
+    /// Starts round a roughly known pose; see [`nearby`].
+    pub fn nearby(
+        &mut self,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+        start: &Pose,
+    ) -> Vec<Pose> {
+        let mesh = self.mesh;
+        nearby(&mesh, camera, silhouette, start, &mut self.memory()).to_vec()
     }
 
     /// How sure a refined pose is; see [`uncertainty`].
