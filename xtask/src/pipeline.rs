@@ -3,11 +3,14 @@
 pub mod accuracy;
 pub mod bound;
 pub mod build;
+pub mod decide;
 pub mod disturb;
 pub mod files;
 pub mod finder;
+pub mod frames;
 pub mod locator;
 pub mod refiner;
+pub mod report;
 pub mod scene;
 pub mod source;
 pub mod study;
