@@ -216,7 +216,7 @@ mod tests {
         let mut around = Surroundings::default();
         let chosen = Chosen::among(&both, &around).unwrap();
         assert!(
-            !chosen.decided
+            !chosen.decided()
                 && chosen
                     .sentence
                     .starts_with("Undecided: the residuals are 0.30")
