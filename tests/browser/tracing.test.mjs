@@ -48,7 +48,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     await screenshot(page, 'traced-fitted');
   });
 
-  await step(page, t, 'the tibia: two candidates, Tab shows the other', (t) => tibiaCandidates(page, stage, t));
+  await step(page, t, 'the tibia: two candidates, X shows the other', (t) => tibiaCandidates(page, stage, t));
 });
 
 /**
@@ -99,10 +99,10 @@ async function tibiaCandidates(page, stage, t) {
   await screenshot(page, 'candidates');
   const chosen = (/** @type {string} */ name) => page.getByRole('radio', { name: `${name} candidate`, checked: true });
   await chosen('Best').waitFor();
-  await page.keyboard.press('Tab');
+  await page.keyboard.press('x');
   await chosen('Rival').waitFor();
   const rival = await panel.waitForOtherPose(page, best);
-  await page.keyboard.press('Tab');
+  await page.getByRole('radio', { name: 'Best candidate' }).click();
   await chosen('Best').waitFor();
   await panel.waitForThePose(page, best);
 

@@ -1,7 +1,7 @@
 //! The rules that tell a pose from its mirror image, on the reference poses of a real study.
 
 use fluoropose::choice::{
-    Candidate, Choice, Context, Counterpart, FilmFrame, FilmStep, Reason, TILT_MARGIN_DEG, choose,
+    Candidate, Context, Counterpart, FilmFrame, FilmStep, Reason, TILT_MARGIN_DEG, choose,
     choose_film,
 };
 use fluoropose::kinematics::coronal_tilt_deg;
@@ -100,7 +100,7 @@ fn the_neighbouring_frame_tells_the_sides_apart() {
                 neighbours: &neighbours,
             };
             let choice = choose(&candidates(&pair[1]), &context).expect("two");
-            assert_eq!(choice.index, 0, "{}", choice.reason);
+            assert_eq!(choice.index, 0, "{choice}");
             assert!(matches!(choice.reason, Reason::Turn { .. }));
         }
     }
@@ -128,8 +128,11 @@ fn one_frame_decides_the_film() {
             .collect();
         let mut choices = [None; 16];
         choose_film(&frames, &mut [FilmStep::default(); 16], &mut choices).expect("16 frames");
-        for Choice { index, reason } in choices.iter().flatten() {
-            assert!(*index == 0 && reason.is_decided(), "{known}: {reason}");
+        for choice in choices.iter().flatten() {
+            assert!(
+                choice.index == 0 && choice.is_decided(),
+                "{known}: {choice}"
+            );
         }
     }
 }

@@ -1,18 +1,25 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
+use fluoropose::covariance::Deviations;
+use fluoropose::library::Library;
 use fluoropose::locate::Located;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::mask::{MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::Pose;
+use fluoropose::mirror::mirror_pose;
+use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::raster::Projected;
-use fluoropose::refine::{BorderPixel, RefineMemory, RefineOptions, View};
+use fluoropose::refine::{
+    BorderPixel, Iterate, RefineMemory, RefineOptions, Refined, View, refine_traced, uncertainty,
+};
 use fluoropose::rivals::{RefinedRival, refine_rivals, worth_refining};
+use fluoropose::silhouette::Silhouette;
 use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::verify::{Verified, unmatched_at};
 use wasm_bindgen::JsError;
 
 use crate::error::sentence;
+use crate::pieces::Pieces;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
@@ -22,12 +29,23 @@ const BORDER: usize = 16_384;
 pub(crate) struct Ranked {
     /// What the library said.
     pub(crate) located: Located,
+    /// Whether pieces of the outline led to it, so that there is no score of whole silhouettes.
+    pub(crate) by_pieces: bool,
     /// The pose, as good as it is known.
     pub(crate) pose: Pose,
-    /// Frame pixels that differ from the outline when the model is drawn there; nothing where it was not, or cannot be.
+    /// Known frame pixels that differ from the outline when the model is drawn there; nothing where it was not, or cannot
+    /// be.
     pub(crate) drawn: Option<u64>,
-    /// What remains between the outlines after refinement, pixels.
-    pub(crate) residual_px: Option<f64>,
+    /// What refinement made of it.
+    pub(crate) fit: Option<Fit>,
+}
+
+/// A refined pose.
+#[derive(Clone, Copy)]
+pub(crate) struct Fit {
+    pub(crate) refined: Refined,
+    /// The pose that it was refined from.
+    pub(crate) start: Pose,
 }
 
 impl Ranked {
@@ -35,36 +53,80 @@ impl Ranked {
     pub(crate) fn undrawn(located: Located) -> Self {
         Self {
             located,
+            by_pieces: false,
             pose: located.pose,
             drawn: None,
-            residual_px: None,
+            fit: None,
+        }
+    }
+
+    fn by_pieces(Verified { located, unmatched }: Verified) -> Self {
+        Self {
+            by_pieces: true,
+            drawn: Some(unmatched),
+            ..Self::undrawn(located)
         }
     }
 }
 
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
 pub(crate) struct LentModel {
+    shape: Shape,
+    buffers: Buffers,
+    pieces: Pieces,
+    /// Found with the first refinement: it takes some tens of milliseconds.
+    planes: Option<Vec<SymmetryPlane>>,
+}
+
+struct Shape {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    /// Planes of its near-symmetry, found with the first refinement.
-    planes: Option<Vec<SymmetryPlane>>,
+}
+
+struct Buffers {
     projected: Vec<Projected>,
     drawn: Vec<Word>,
     places: Vec<u16>,
     border: Vec<BorderPixel>,
 }
 
+impl Shape {
+    fn mesh(&self) -> Result<Mesh<'_>, JsError> {
+        Mesh::new(&self.vertices, &self.triangles).map_err(sentence)
+    }
+}
+
+impl Buffers {
+    fn lend(&mut self, camera: &Camera) -> RefineMemory<'_> {
+        let (width, height) = (camera.width(), camera.height());
+        self.drawn.resize(words_needed(width, height), 0);
+        self.places.resize(width * height, 0);
+        self.border.resize(BORDER, BorderPixel::default());
+        RefineMemory {
+            projected: &mut self.projected,
+            drawn: &mut self.drawn,
+            places: &mut self.places,
+            border: &mut self.border,
+        }
+    }
+}
+
 impl LentModel {
     /// Takes vertices (x, y, z by turns, mm) and triangles (three vertex indices each).
     pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Self {
         Self {
-            projected: vec![Projected::default(); vertices.len() / 3],
-            vertices: vertices.as_chunks().0.to_vec(),
-            triangles: triangles.as_chunks().0.to_vec(),
+            shape: Shape {
+                vertices: vertices.as_chunks().0.to_vec(),
+                triangles: triangles.as_chunks().0.to_vec(),
+            },
+            buffers: Buffers {
+                projected: vec![Projected::default(); vertices.len() / 3],
+                drawn: Vec::new(),
+                places: Vec::new(),
+                border: Vec::new(),
+            },
+            pieces: Pieces::default(),
             planes: None,
-            drawn: Vec::new(),
-            places: Vec::new(),
-            border: Vec::new(),
         }
     }
 
@@ -73,7 +135,22 @@ impl LentModel {
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
     pub(crate) fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        Mesh::new(&self.vertices, &self.triangles).map_err(sentence)
+        self.shape.mesh()
+    }
+
+    /// Poses from pieces of the outline, best first.
+    ///
+    /// # Errors
+    /// The core's sentence about the outline.
+    pub(crate) fn locate_pieces(
+        &mut self,
+        library: &Library<'_>,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Vec<Ranked>, JsError> {
+        let mesh = self.shape.mesh()?;
+        let found = self.pieces.locate(silhouette, camera, library, &mesh)?;
+        Ok(found.into_iter().map(Ranked::by_pieces).collect())
     }
 
     /// Puts rivals in order by drawing the model at each. A pose that cannot be drawn comes last, without a figure.
@@ -84,11 +161,11 @@ impl LentModel {
         &mut self,
         rivals: Vec<Located>,
         camera: &Camera,
-        mask: &Mask<'_>,
+        silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
         let mut ranked = Vec::with_capacity(rivals.len());
         for located in rivals {
-            let drawn = self.draw(&located.pose, camera, mask)?;
+            let drawn = self.draw(&located.pose, camera, silhouette)?;
             ranked.push(Ranked {
                 drawn,
                 ..Ranked::undrawn(located)
@@ -98,71 +175,133 @@ impl LentModel {
         Ok(ranked)
     }
 
-    /// Refines the rivals: the poses by rising loss, each once.
+    /// Refines ranked rivals: the poses by rising loss, each once.
     ///
     /// # Errors
     /// The core's sentence about the model, or why none can be refined.
     pub(crate) fn refine(
         &mut self,
-        rivals: Vec<Located>,
+        ranked: &[Ranked],
         camera: &Camera,
-        mask: &Mask<'_>,
+        silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
-        let ranked = self.rank(rivals, camera, mask)?;
-        let verified: Vec<Verified> = ranked
-            .iter()
-            .filter_map(|&Ranked { located, drawn, .. }| {
-                drawn.map(|unmatched| Verified { located, unmatched })
-            })
-            .collect();
-        self.places.resize(mask.width() * mask.height(), 0);
-        self.border.resize(BORDER, BorderPixel::default());
-        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
-        let mut memory = RefineMemory {
-            projected: &mut self.projected,
-            drawn: &mut self.drawn,
-            places: &mut self.places,
-            border: &mut self.border,
-        };
-        let planes = self
-            .planes
-            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
+        let drawn = ranked.iter().filter(|rival| rival.drawn.is_some());
+        let drawn: Vec<Ranked> = drawn.copied().collect();
+        let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let view = View::only(camera, mask);
-        let answers = refine_rivals(
-            &mesh,
-            &[view],
-            &starts,
-            planes,
-            RefineOptions::default(),
-            &mut memory,
-        )
-        .map_err(sentence)?;
-        let mut ranked = Vec::with_capacity(answers.len());
-        for RefinedRival { start, refined, .. } in answers {
-            ranked.push(Ranked {
-                located: worth[start].located,
-                pose: refined.pose,
-                drawn: self.draw(&refined.pose, camera, mask)?,
-                residual_px: Some(refined.residual_px),
+        let mesh = self.shape.mesh()?;
+        let planes = self
+            .planes
+            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec())
+            .clone();
+        let view = View::only(camera, *silhouette);
+        let mut memory = self.buffers.lend(camera);
+        let options = RefineOptions::default();
+        let answers = refine_rivals(&mesh, &[view], &starts, &planes, options, &mut memory)
+            .map_err(sentence)?;
+        let mut refined = Vec::with_capacity(answers.len());
+        for answer in &answers {
+            let pose = answer.refined.pose;
+            refined.push(Ranked {
+                pose,
+                drawn: self.draw(&pose, camera, silhouette)?,
+                fit: Some(Fit {
+                    refined: answer.refined,
+                    start: start_of(answer, &answers, &starts, &planes),
+                }),
+                ..drawn[answer.start]
             });
         }
-        Ok(ranked)
+        Ok(refined)
     }
 
-    /// Frame pixels that differ from the mask when the model is drawn at a pose; nothing where it cannot be drawn.
+    /// Standard deviations of a refined pose's numbers; nothing where the outline does not determine it.
+    ///
+    /// # Errors
+    /// The core's sentence about the model.
+    pub(crate) fn deviations(
+        &mut self,
+        refined: &Refined,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Option<Deviations>, JsError> {
+        let mesh = self.shape.mesh()?;
+        let view = View::only(camera, *silhouette);
+        let mut memory = self.buffers.lend(camera);
+        let covariance = uncertainty(&mesh, &[view], refined, &mut memory).map_err(sentence)?;
+        let middle = mesh.bounds().centre;
+        Ok(covariance.map(|covariance| covariance.deviations(&refined.pose, &middle)))
+    }
+
+    /// The poses by which refinement goes from `start`.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined.
+    pub(crate) fn convergence(
+        &mut self,
+        start: &Pose,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Vec<Iterate>, JsError> {
+        let mesh = self.shape.mesh()?;
+        let view = View::only(camera, *silhouette);
+        let mut memory = self.buffers.lend(camera);
+        let mut steps = Vec::new();
+        let mut note = |step: &Iterate| steps.push(*step);
+        let options = RefineOptions::default();
+        refine_traced(&mesh, &[view], start, options, &mut memory, &mut note).map_err(sentence)?;
+        Ok(steps)
+    }
+
+    /// Known frame pixels that differ from the silhouette when the model is drawn at a pose; nothing where it cannot be
+    /// drawn.
     fn draw(
         &mut self,
         pose: &Pose,
         camera: &Camera,
-        mask: &Mask<'_>,
+        silhouette: &Silhouette<'_>,
     ) -> Result<Option<u64>, JsError> {
-        let (width, height) = (mask.width(), mask.height());
-        self.drawn.resize(words_needed(width, height), 0);
-        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
-        let mut drawn = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
-        let scratch = &mut self.projected;
-        Ok(unmatched_at(&mesh, camera, pose, &mask.into(), scratch, &mut drawn).ok())
+        let (width, height) = (camera.width(), camera.height());
+        let Buffers {
+            projected, drawn, ..
+        } = &mut self.buffers;
+        drawn.resize(words_needed(width, height), 0);
+        let mesh = self.shape.mesh()?;
+        let mut drawn = MaskMut::new(drawn, width, height).map_err(sentence)?;
+        Ok(unmatched_at(&mesh, camera, pose, silhouette, projected, &mut drawn).ok())
     }
+}
+
+impl From<&Ranked> for Verified {
+    fn from(ranked: &Ranked) -> Self {
+        Self {
+            located: ranked.located,
+            unmatched: ranked.drawn.unwrap_or(u64::MAX),
+        }
+    }
+}
+
+/// The pose that an answer was refined from. Of a mirrored one it is not told: it is the mirror image of another answer,
+/// and of all those the nearest.
+fn start_of(
+    answer: &RefinedRival,
+    answers: &[RefinedRival],
+    starts: &[Pose],
+    planes: &[SymmetryPlane],
+) -> Pose {
+    let own = starts[answer.start];
+    if !answer.mirrored {
+        return own;
+    }
+    let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &answer.refined.pose.rotation);
+    let others = answers.iter().filter(|other| !other.mirrored);
+    others
+        .flat_map(|other| {
+            planes
+                .iter()
+                .map(|plane| mirror_pose(&other.refined.pose, plane))
+        })
+        .min_by(|a, b| turn(a).total_cmp(&turn(b)))
+        .unwrap_or(own)
 }

@@ -5,21 +5,28 @@
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
 mod calibration;
+mod choice;
 mod error;
 mod film;
+mod found;
 mod jts;
 mod lent_model;
 mod library;
 mod matcher;
 mod model;
 mod paint;
+mod pieces;
 mod pose_numbers;
+mod traced;
 mod unmatched;
 
 pub use calibration::{CalibrationText, jt_intcalib_text};
+pub use choice::{Chosen, Surroundings, choose_pose};
 pub use film::Film;
+pub use found::Match;
 pub use jts::{read_jts, write_jts};
 pub use library::{LibraryBuilder, LibraryViews};
-pub use matcher::{Match, Matcher};
+pub use matcher::Matcher;
 pub use model::Model;
+pub use traced::{Traced, unknown_reach};
 pub use unmatched::paint_unmatched;

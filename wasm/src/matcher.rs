@@ -1,18 +1,21 @@
 //! Outlines matched against an open library.
 
-use fluoropose::camera::Camera;
 use fluoropose::canonical::reverse;
-use fluoropose::contour::{Outline, Point};
+use fluoropose::choice::Candidate as Contender;
 use fluoropose::library::Library;
-use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::pose::EulerPose;
+use fluoropose::locate::{Workspace, locate, workspace_needed};
+use fluoropose::mask::Word;
+use fluoropose::partial::known_share;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::silhouette::Silhouette;
 use wasm_bindgen::prelude::*;
 
-use crate::calibration::camera;
+use crate::choice::{Chosen, Surroundings};
 use crate::error::sentence;
+use crate::found::{Candidate, Match, deviation_numbers};
 use crate::lent_model::{LentModel, Ranked};
-use crate::pose_numbers::{PoseNumbers, to_numbers};
+use crate::pose_numbers::{from_numbers, to_numbers};
+use crate::traced::Traced;
 
 self_cell::self_cell!(
     /// A library with its bytes, checked once.
@@ -26,18 +29,20 @@ self_cell::self_cell!(
 /// Local minima of the score surface that are looked at.
 const MINIMA: usize = 4;
 
-/// Poses that are offered: the best and one rival.
-const OFFERED: usize = 2;
+/// Poses that are offered at most: the best, the rival that nothing ruled out, and the one that was ruled out last.
+const OFFERED: usize = 3;
 
-/// A rival with more than this many times the unmatched pixels of the best is none.
+/// A rival with more than this many times the unmatched pixels, or the residual, of the best is none.
 const RIVAL_WITHIN: f64 = 2.0;
+
+/// Beyond this part of the silhouette unmatched, something may hide a part of it that nobody marked.
+const DOUBTFUL_SHARE: f64 = 0.06;
 
 /// An open library with the working memory to match against it.
 #[wasm_bindgen]
 pub struct Matcher {
     library: OpenLibrary,
     model: Option<LentModel>,
-    mask: Vec<Word>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
@@ -56,7 +61,6 @@ impl Matcher {
         Ok(Self {
             library,
             model: None,
-            mask: Vec::new(),
             canonical: vec![0; words],
             turned: vec![0; words],
             scores: vec![0; scores],
@@ -97,108 +101,245 @@ impl Matcher {
         self.library.borrow_dependent().info().canonical.area()
     }
 
-    /// Finds the poses that explain an outline (columns and rows by turns) on a frame of `width` x `height` pixels, seen by
-    /// the camera of a calibration text.
+    /// Finds the poses that explain an outline, as the library has them. Where a part of it is marked unknown or cut off
+    /// by the frame, pieces of it lead to them, which needs the model.
     ///
     /// # Errors
-    /// The core's sentence about the outline, the calibration or the silhouette.
+    /// The core's sentence about the silhouette.
     #[wasm_bindgen(js_name = matchOutline)]
-    pub fn match_outline(
-        &mut self,
-        outline: &[f64],
-        calibration: &str,
-        width: u32,
-        height: u32,
-    ) -> Result<Match, JsError> {
-        let camera = camera(calibration, width, height)?;
-        let (near, clipped) = self.locate(outline, &camera)?;
-        let ranked = match &mut self.model {
-            Some(model) => {
-                let mask = held(&self.mask, &camera)?;
-                let ranked = model.rank(near, &camera, &mask)?;
-                within(&ranked, |ranked| {
-                    ranked.drawn.map_or(f64::MAX, |count| count as f64)
-                })
-            }
-            None => near.into_iter().map(Ranked::undrawn).collect(),
-        };
-        Ok(self.offer(&ranked, clipped))
+    pub fn match_outline(&mut self, traced: &Traced) -> Result<Match, JsError> {
+        traced.look(|silhouette| {
+            let sight = self.locate(traced, silhouette, false)?;
+            let score = |ranked: &Ranked| ranked.drawn.map_or(f64::MAX, |count| count as f64);
+            let near = within(&sight.ranked, score);
+            let candidates = near.iter().take(OFFERED).map(|one| self.candidate(one));
+            Ok(Match {
+                candidates: candidates.collect(),
+                clipped: sight.clipped,
+                partial: sight.partial,
+                chosen: None,
+            })
+        })
     }
 
-    /// The same, and then brings the model's outline onto this one: the rivals by rising loss, with their residuals. Takes
-    /// some twenty times as long. Without the model nothing can be refined, and the answer is that of `match_outline`.
+    /// The same, and then brings the model's outline onto this one. The pose that is chosen comes first, then its rival:
+    /// the next by residual, where that is at most twice the least. Takes some twenty times as long. Without the model
+    /// nothing can be refined, and the answer is that of `match_outline`.
     ///
     /// # Errors
     /// Those of `match_outline`, and the core's sentence when no rival can be refined.
     #[wasm_bindgen(js_name = refineOutline)]
     pub fn refine_outline(
         &mut self,
-        outline: &[f64],
-        calibration: &str,
-        width: u32,
-        height: u32,
+        traced: &Traced,
+        around: &Surroundings,
     ) -> Result<Match, JsError> {
-        if self.model.is_none() {
-            return self.match_outline(outline, calibration, width, height);
-        }
-        let camera = camera(calibration, width, height)?;
-        let (near, clipped) = self.locate(outline, &camera)?;
-        let mask = held(&self.mask, &camera)?;
-        let refined = match &mut self.model {
-            Some(model) => model.refine(near, &camera, &mask)?,
-            None => Vec::new(),
+        traced.look(|silhouette| {
+            let sight = self.locate(traced, silhouette, true)?;
+            let Some(model) = &mut self.model else {
+                return self.match_outline(traced);
+            };
+            let refined = model.refine(&sight.ranked, &traced.camera(), silhouette)?;
+            let contenders: Vec<Contender> = refined.iter().map(contender).collect();
+            let chosen = Chosen::among(&contenders, around);
+            let mut candidates = Vec::new();
+            for ranked in offered(&refined, chosen.as_ref()) {
+                candidates.push(self.refined_candidate(&ranked, traced, silhouette)?);
+            }
+            Ok(Match {
+                candidates,
+                clipped: sight.clipped,
+                partial: sight.partial,
+                chosen,
+            })
+        })
+    }
+
+    /// The poses by which refinement goes from a start (six numbers) onto an outline, ten numbers each: stage, times the
+    /// model was drawn so far, loss (square pixels, each stage has its own scale), residual (pixels), x, y, z (mm), z, x
+    /// and y rotation (degrees). Empty without the model.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined.
+    pub fn convergence(&mut self, traced: &Traced, start: &[f64]) -> Result<Vec<f64>, JsError> {
+        let start = Pose::from(from_numbers(start)?);
+        let Some(model) = &mut self.model else {
+            return Ok(Vec::new());
         };
-        let near_best = within(&refined, |ranked| ranked.residual_px.unwrap_or(f64::MAX));
-        Ok(self.offer(&near_best, clipped))
+        let steps =
+            traced.look(|silhouette| model.convergence(&start, &traced.camera(), silhouette))?;
+        Ok(steps
+            .iter()
+            .flat_map(|step| {
+                let head = [
+                    step.stage as f64,
+                    step.renders as f64,
+                    step.loss,
+                    step.residual_px,
+                ];
+                head.into_iter()
+                    .chain(to_numbers(&EulerPose::from(step.pose)))
+            })
+            .collect())
     }
 }
 
-/// The mask of a camera's frames in memory that was filled for it.
-fn held<'w>(words: &'w [Word], camera: &Camera) -> Result<Mask<'w>, JsError> {
-    Mask::new(words, camera.width(), camera.height()).map_err(sentence)
+/// What an outline looks like to the library.
+struct Sight {
+    /// Best first.
+    ranked: Vec<Ranked>,
+    /// The canonical silhouette reaches its frame's border.
+    clipped: bool,
+    /// Pieces of the outline led to the poses.
+    partial: bool,
 }
 
 impl Matcher {
-    /// Fills the mask with an outline and looks the library through: the poses that come near the best, and whether the
-    /// canonical silhouette is clipped.
+    /// Looks the library through: the poses that come near the best, by the pixels that differ where the model is there to
+    /// be drawn. `thorough` also tries pieces of an outline that no view explains.
     fn locate(
         &mut self,
-        outline: &[f64],
-        camera: &Camera,
-    ) -> Result<(Vec<Located>, bool), JsError> {
-        let (width, height) = (camera.width(), camera.height());
-        let points: Vec<Point> = outline
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&[column, row]| Point::new(column, row))
-            .collect();
-        let outline = Outline::new(&points, width, height).map_err(sentence)?;
-        self.mask.resize(words_needed(width, height), 0);
-        let mut mask = MaskMut::new(&mut self.mask, width, height).map_err(sentence)?;
-        mask.fill_outline(&outline);
+        traced: &Traced,
+        silhouette: &Silhouette<'_>,
+        thorough: bool,
+    ) -> Result<Sight, JsError> {
+        let camera = traced.camera();
+        let library = self.library.borrow_dependent();
+        let Some(model) = &mut self.model else {
+            if traced.is_marked() {
+                return Err(JsError::new(
+                    "A part of the outline is marked unknown; a pose from the rest needs the model, not only its library: open it too",
+                ));
+            }
+            return self.locate_whole(traced, silhouette);
+        };
+        if known_share(silhouette).is_partial() {
+            return Ok(Sight {
+                ranked: model.locate_pieces(library, &camera, silhouette)?,
+                clipped: false,
+                partial: true,
+            });
+        }
+        let mut sight = self.locate_whole(traced, silhouette)?;
+        let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
+        let doubtful = |best: &Ranked| best.drawn.is_none_or(|count| count as f64 > limit);
+        if thorough && sight.ranked.first().is_none_or(doubtful) {
+            let library = self.library.borrow_dependent();
+            let model = self.model.as_mut();
+            let pieces = model.map(|model| model.locate_pieces(library, &camera, silhouette));
+            // They are a second opinion: where there is none, the first stands.
+            sight
+                .ranked
+                .extend(pieces.and_then(Result::ok).unwrap_or_default());
+            sight
+                .ranked
+                .sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
+        }
+        Ok(sight)
+    }
+
+    fn locate_whole(
+        &mut self,
+        traced: &Traced,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Sight, JsError> {
+        let camera = traced.camera();
         let library = self.library.borrow_dependent();
         let work = Workspace {
             canonical: &mut self.canonical,
             turned: &mut self.turned,
             scores: &mut self.scores,
         };
-        let found = locate::<MINIMA>(&mask.into_mask(), camera, library, work).map_err(sentence)?;
+        let found =
+            locate::<MINIMA>(silhouette.mask(), &camera, library, work).map_err(sentence)?;
         let near = within(&found.poses, |located| f64::from(located.fine.unmatched));
-        Ok((near, found.form.clipped))
+        let clipped = found.form.clipped;
+        let ranked = match &mut self.model {
+            Some(model) => model.rank(near, &camera, silhouette)?,
+            None => near.into_iter().map(Ranked::undrawn).collect(),
+        };
+        Ok(Sight {
+            ranked,
+            clipped,
+            partial: false,
+        })
     }
 
-    fn offer(&self, ranked: &[Ranked], clipped: bool) -> Match {
-        let candidates = ranked
-            .iter()
-            .take(OFFERED)
-            .map(|ranked| self.candidate(ranked))
-            .collect();
-        Match {
-            candidates,
-            clipped,
+    fn candidate(&self, ranked: &Ranked) -> Candidate {
+        let located = ranked.located;
+        let (input, library) = if ranked.by_pieces {
+            (Vec::new(), Vec::new())
+        } else {
+            self.pictures(ranked)
+        };
+        Candidate {
+            pose: to_numbers(&EulerPose::from(ranked.pose)),
+            unmatched: (!ranked.by_pieces).then_some(located.fine.unmatched),
+            drawn: ranked.drawn,
+            residual_px: ranked.fit.map(|fit| fit.refined.residual_px),
+            deviations: None,
+            start: ranked
+                .fit
+                .map(|fit| to_numbers(&EulerPose::from(fit.start))),
+            view: [located.fine.record.x_deg, located.fine.record.y_deg],
+            at_border: located.fine.at_border,
+            input,
+            library,
         }
     }
+
+    /// Bits of the outline's canonical silhouette, turned as the view, and of the view's.
+    fn pictures(&self, ranked: &Ranked) -> (Vec<u8>, Vec<u8>) {
+        let mut input = self.canonical.clone();
+        if ranked.located.fine.reversed {
+            reverse(&self.canonical, &mut input);
+        }
+        let input = input.iter().flat_map(|word| word.to_le_bytes()).collect();
+        let library = self.library.borrow_dependent();
+        (input, library.bits(ranked.located.view).to_vec())
+    }
+
+    /// The same with how sure the pose is.
+    fn refined_candidate(
+        &mut self,
+        ranked: &Ranked,
+        traced: &Traced,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Candidate, JsError> {
+        let deviations = match (&mut self.model, &ranked.fit) {
+            (Some(model), Some(fit)) => {
+                model.deviations(&fit.refined, &traced.camera(), silhouette)?
+            }
+            _ => None,
+        };
+        Ok(Candidate {
+            deviations: deviations.as_ref().map(deviation_numbers),
+            ..self.candidate(ranked)
+        })
+    }
+}
+
+fn contender(ranked: &Ranked) -> Contender {
+    Contender {
+        pose: ranked.pose,
+        residual_px: ranked.fit.map_or(f64::NAN, |fit| fit.refined.residual_px),
+    }
+}
+
+/// The chosen one, then the rival that is still open, or else those whose residual comes near the least.
+fn offered(refined: &[Ranked], chosen: Option<&Chosen>) -> Vec<Ranked> {
+    let first = chosen.map_or(0, Chosen::index);
+    let open = chosen.and_then(Chosen::open);
+    let residual = |ranked: &Ranked| ranked.fit.map_or(f64::MAX, |fit| fit.refined.residual_px);
+    let least = refined.iter().map(residual).fold(f64::MAX, f64::min);
+    let is_rival = |at: usize| {
+        let rival = refined.get(at);
+        Some(at) != open && rival.is_some_and(|rival| residual(rival) <= RIVAL_WITHIN * least)
+    };
+    let rivals = (0..refined.len()).filter(|&at| at != first && is_rival(at));
+    let order = [first].into_iter().chain(open).chain(rivals);
+    let offered = order.filter_map(|at| refined.get(at)).take(OFFERED);
+    offered.copied().collect()
 }
 
 /// The first of `items` and those that come near it: at most [`RIVAL_WITHIN`] times its score.
@@ -209,115 +350,4 @@ fn within<T: Copy>(items: &[T], score: impl Fn(&T) -> f64) -> Vec<T> {
         .copied()
         .filter(|item| score(item) <= limit)
         .collect()
-}
-
-impl Matcher {
-    fn candidate(&self, ranked: &Ranked) -> Candidate {
-        let located = ranked.located;
-        let mut input = self.canonical.clone();
-        if located.fine.reversed {
-            reverse(&self.canonical, &mut input);
-        }
-        let library = self.library.borrow_dependent();
-        Candidate {
-            pose: to_numbers(&EulerPose::from(ranked.pose)),
-            unmatched: located.fine.unmatched,
-            drawn: ranked.drawn,
-            residual_px: ranked.residual_px,
-            view: [located.fine.record.x_deg, located.fine.record.y_deg],
-            at_border: located.fine.at_border,
-            input: input.iter().flat_map(|word| word.to_le_bytes()).collect(),
-            library: library.bits(located.view).to_vec(),
-        }
-    }
-}
-
-struct Candidate {
-    pose: PoseNumbers,
-    unmatched: u32,
-    drawn: Option<u64>,
-    residual_px: Option<f64>,
-    view: [f64; 2],
-    at_border: bool,
-    input: Vec<u8>,
-    library: Vec<u8>,
-}
-
-/// What was found for one outline: the best pose first, then its rival, if there is one. Asked beyond `count`, the
-/// methods answer nothing.
-#[wasm_bindgen]
-pub struct Match {
-    candidates: Vec<Candidate>,
-    clipped: bool,
-}
-
-#[wasm_bindgen]
-impl Match {
-    /// How many candidates there are.
-    #[wasm_bindgen(getter)]
-    pub fn count(&self) -> usize {
-        self.candidates.len()
-    }
-
-    /// Whether the canonical silhouette reaches its frame's border, where the score does not see all of it.
-    #[wasm_bindgen(getter)]
-    pub fn clipped(&self) -> bool {
-        self.clipped
-    }
-
-    /// x, y, z (mm), z, x and y rotation (degrees).
-    pub fn pose(&self, index: usize) -> Option<Vec<f64>> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.pose.to_vec())
-    }
-
-    /// Unmatched canonical pixels.
-    pub fn unmatched(&self, index: usize) -> Option<u32> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.unmatched)
-    }
-
-    /// Frame pixels that differ from the outline when the model is drawn at the pose; nothing without the model.
-    pub fn drawn(&self, index: usize) -> Option<f64> {
-        let drawn = self.candidates.get(index)?.drawn?;
-        Some(drawn as f64)
-    }
-
-    /// Root mean square of what remains between the outlines after refinement, pixels; nothing for a pose of the library.
-    pub fn residual(&self, index: usize) -> Option<f64> {
-        self.candidates.get(index)?.residual_px
-    }
-
-    /// Rotations about x and y of the view that fits, between the library's own, degrees.
-    pub fn view(&self, index: usize) -> Option<Vec<f64>> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.view.to_vec())
-    }
-
-    /// Whether that view lies at the border of the library: the truth may lie beyond it.
-    #[wasm_bindgen(js_name = atBorder)]
-    pub fn at_border(&self, index: usize) -> Option<bool> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.at_border)
-    }
-
-    /// The outline's canonical silhouette, turned as the view: one bit a pixel, row by row, least significant leftmost.
-    #[wasm_bindgen(js_name = inputBits)]
-    pub fn input_bits(&self, index: usize) -> Option<Vec<u8>> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.input.clone())
-    }
-
-    /// The library view's canonical silhouette, in the same form.
-    #[wasm_bindgen(js_name = viewBits)]
-    pub fn view_bits(&self, index: usize) -> Option<Vec<u8>> {
-        self.candidates
-            .get(index)
-            .map(|candidate| candidate.library.clone())
-    }
 }

@@ -5,6 +5,8 @@ import './styles/controls.css';
 import './styles/panels.css';
 import { Assets } from './document/assets';
 import { Store } from './document/store';
+import { Chooser } from './engine/chooser';
+import { Convergence } from './engine/convergence';
 import { Librarian } from './engine/librarian';
 import { Poser } from './engine/poser';
 import type { Services } from './engine/services';
@@ -23,10 +25,13 @@ async function start(root: HTMLElement): Promise<void> {
     decoder: decodeWorker(),
   };
   const matcher = poseWorker();
+  const poser = new Poser(services.store, matcher);
+  new Chooser(services.store, matcher);
   const app: App = {
     services,
     librarian: new Librarian(services, matcher),
-    poser: new Poser(services.store, matcher),
+    poser,
+    convergence: new Convergence(services.store, poser, matcher),
     actions: new Actions(services),
   };
   guardAgainstLoss(services.store);

@@ -18,8 +18,9 @@ const PLACE: Place = { frameId: 'f', component: 'femur' };
 function matchOf(x: number, residual: number | null): Match {
   const pose = { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
   const picture = { size: 1, input: new Uint8Array(1), view: new Uint8Array(1) };
-  const candidates = [{ pose, unmatched: 5, drawn: 6, residual, atBorder: false, picture }];
-  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, milliseconds: 1 };
+  const candidates = [{ pose, unmatched: 5, drawn: 6, residual, deviations: null, start: null, atBorder: false, picture }];
+  const choice = { reason: null, decided: false };
+  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds: 1 };
 }
 
 /** A store with a closed outline, ready for poses, and a worker that answers when the test says so. */

@@ -3,18 +3,36 @@ import { decodeBase64, encodeBase64, readSession, writeSession, type Session } f
 import { cellKey, EMPTY_DOC, type Cell, type Doc, type Outline } from '../src/document/types';
 import { framePoint } from '../src/geometry/points';
 
-const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true };
+const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true, unknownSides: [0, 2] };
 const pose = { x: 4.605862, y: -17.13854, z: -1083.741, zRot: 7.91024, xRot: 5.66783, yRot: -1.187261 };
+
+const deviations = { x: 0.021, y: 0.02, z: 0.31, zRot: 0.03, xRot: 0.05, yRot: 0.06 };
 
 const posed: Cell = {
   outline,
-  result: { kind: 'posed', from: 'outline', origin: 'k', candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21 }], chosen: 0 },
+  result: {
+    kind: 'posed',
+    from: 'outline',
+    origin: 'k',
+    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations }],
+    chosen: 0,
+    reason: 'The only pose found.',
+    decided: true,
+  },
   resultOf: outline,
 };
 const stale: Cell = { outline, result: { kind: 'failed', origin: 'k', sentence: 'crosses itself' }, resultOf: null };
 const loaded: Cell = {
   outline: null,
-  result: { kind: 'posed', from: 'file', origin: 'fem.jts', candidates: [{ pose, unmatched: null, drawn: null, residual: null }], chosen: 0 },
+  result: {
+    kind: 'posed',
+    from: 'file',
+    origin: 'fem.jts',
+    candidates: [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }],
+    chosen: 0,
+    reason: null,
+    decided: true,
+  },
   resultOf: null,
 };
 
@@ -46,10 +64,18 @@ describe('session', () => {
   });
 
   it('reads candidates that were saved before poses were refined', () => {
-    const old = written().replace(/,"residual":[^}]*/g, '');
-    expect(old).not.toContain('residual');
+    const old = written().replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
+    expect(old).not.toMatch(/residual|deviations/);
     const result = readSession(old).doc.cells['ab:0/femur']?.result;
-    expect(result?.kind === 'posed' && result.candidates[0]?.residual).toBeNull();
+    expect(result?.kind === 'posed' && result.candidates[0]).toMatchObject({ pose, residual: null, deviations: null });
+  });
+
+  it('reads outlines and choices that were saved before sides could be marked and choices had reasons', () => {
+    const old = written().replace(/,"(unknownSides|reason|decided)":(\[[^\]]*\]|"[^"]*"|\w+)/g, '');
+    expect(old).not.toMatch(/unknownSides|reason|decided/);
+    const cell = readSession(old).doc.cells['ab:0/femur'];
+    expect(cell?.outline).toEqual({ ...outline, unknownSides: [] });
+    expect(cell?.result).toMatchObject({ reason: null, decided: false, chosen: 0 });
   });
 
   it('knows which results belong to their outlines', () => {
@@ -76,6 +102,7 @@ describe('session', () => {
     ['"width":1024', '"width":"1024"', /document\.frames\[0\]\.width should be a finite number/],
     ['"closed":true', '"closed":1', /closed should be true or false but is 1/],
     ['[1.25,2]', '[1.25]', /points\[0\] should be a pair/],
+    ['"unknownSides":[0,2]', '"unknownSides":[0,3]', /unknownSides names side 3 of 3/],
     ['"centre":2000', '"center":2000', /document\.window\.centre should be a finite number but is missing/],
     ['"tibia","overlayOpacity"', '"patella","overlayOpacity"', /"femur" or "tibia"/],
   ])('says where it is wrong: %s as %s', (from, to, sentence) => {

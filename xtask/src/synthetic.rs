@@ -143,6 +143,11 @@ pub struct Protocol {
     pub seed: u64,
     /// What is done to each mask before its pose is found.
     pub disturbance: DisturbanceOptions,
+}
+
+/// How a pose is looked for, if not from the library and by one camera.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Variant {
     /// Where refinement starts, if not at the library's poses.
     pub start_off: Option<StartOff>,
     /// Angle to a second camera, degrees.
@@ -200,10 +205,12 @@ pub fn run(args: Args) -> Result<()> {
         poses: args.poses,
         seed: args.seed,
         disturbance: args.disturbance,
+    };
+    let variant = Variant {
         start_off: args.start_off,
         biplane: args.biplane,
     };
-    let accuracy = measure(mesh, camera, &args.views, &protocol)?;
+    let accuracy = measure_as(mesh, camera, &args.views, &protocol, variant)?;
     println!(
         "{} poses, seed {}, {} triangles, library of {} views at {distance} mm, method {}",
         args.poses,
@@ -252,6 +259,21 @@ pub fn measure(
     views: &ViewOptions,
     protocol: &Protocol,
 ) -> Result<Accuracy> {
+    measure_as(mesh, camera, views, protocol, Variant::default())
+}
+
+/// The same, from other starts or by two cameras. A second camera and a start of one's own need no
+/// library; the method is then refinement.
+///
+/// # Errors
+/// Those of [`measure`].
+pub fn measure_as(
+    mesh: Mesh<'_>,
+    camera: Camera,
+    views: &ViewOptions,
+    protocol: &Protocol,
+    variant: Variant,
+) -> Result<Accuracy> {
     let distance = protocol.distance;
     let mut scene = Scene::new(mesh, camera, protocol.disturbance)?;
     let built = build_library(mesh, camera, views, distance)?;
@@ -260,6 +282,7 @@ pub fn measure(
         camera,
         middle: mesh.bounds().centre,
         protocol: *protocol,
+        variant,
     };
     let mut outlines = Outlines::new(mesh, camera);
     let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
@@ -305,6 +328,7 @@ struct Search<'l> {
     camera: Camera,
     middle: Vector3,
     protocol: Protocol,
+    variant: Variant,
 }
 
 impl Search<'_> {
@@ -316,7 +340,7 @@ impl Search<'_> {
         seen: &Disturbed,
         frame: u64,
     ) -> Result<(Pose, Option<PoseCovariance>)> {
-        let starts = match self.protocol.start_off {
+        let starts = match self.variant.start_off {
             Some(off) => {
                 let mut random = ChaCha8Rng::seed_from_u64(self.protocol.seed);
                 random.set_stream(frame + 1);
@@ -326,14 +350,14 @@ impl Search<'_> {
             None => {
                 let all = seen.see(|silhouette| self.finder.all(&silhouette.into()))?;
                 let best = all.first().context("the library has no views")?;
-                if self.protocol.biplane.is_none() {
+                if self.variant.biplane.is_none() {
                     return Ok((best.pose, best.covariance));
                 }
                 all.iter().map(|answer| answer.pose).collect()
             }
         };
         let camera = self.camera;
-        let found = match self.protocol.biplane {
+        let found = match self.variant.biplane {
             None => seen.see(|silhouette| {
                 let view = View::only(&camera, silhouette);
                 self.finder.refine_views(&[view], &starts)

@@ -1,22 +1,28 @@
 //! One choice for each frame of a film, made together.
 //!
-//! Frames that residual or tilt decide are fixed. Between them the sequence of poses that turns
+//! Frames that residual or tilt decide are fixed. Between them the sequence of poses that jumps
 //! least is found by dynamic programming (Viterbi's algorithm): the cost of a sequence is the sum
-//! of the angles between successive poses, and next to nothing for residuals above the best.
+//! of the angles between successive poses, as far as they exceed what a joint turns from frame to
+//! frame anyway, and next to nothing for residuals above the best.
 
 use heapless::Vec;
 use thiserror::Error;
 
-use super::{CONTENDERS, Candidate, Choice, Contenders, Counterpart, DECISIVE_RATIO, Reason};
+use super::{CONTENDERS, Candidate, Choice, Contenders, Counterpart, DECISIVE_RATIO, Open, Reason};
 use crate::pose::{Pose, geodesic_deg};
 
 /// A frame is decided by its film where any other pose in it costs the film this much more,
-/// degrees of turning.
+/// degrees of jumps.
 pub const FILM_MARGIN_DEG: f64 = 2.0;
 
-/// What a pose costs at the residual that would rule it out, degrees of turning. Next to nothing:
+/// Turning from frame to frame that costs nothing, degrees. Of two smooth sequences the one that
+/// turns less is not the likelier: a pose mirrored in one rotation alone turned less than the right one
+/// over a whole film.
+const FREE_DEG: f64 = 2.0;
+
+/// What a pose costs at the residual that would rule it out, degrees of jumps. Next to nothing:
 /// below that a residual errs in the same direction frame after frame, so it must not add up to a
-/// jump. It decides where turning does not: of a film and its mirror image.
+/// jump. It decides where jumps do not: of a film and its mirror image.
 const RESIDUAL_DEG: f64 = 0.02;
 
 /// What is known of one frame of a film.
@@ -58,7 +64,7 @@ pub struct FilmError {
     pub choices: usize,
 }
 
-/// Chooses a pose in each frame of a film such that the component turns little from frame to frame.
+/// Chooses a pose in each frame of a film such that the component does not jump.
 /// Frames without candidates have no choice; those round them are linked across them, the more
 /// weakly the farther apart they are.
 ///
@@ -81,14 +87,11 @@ pub fn choose_film(
         });
     }
     for ((frame, step), choice) in frames.iter().zip(&mut *steps).zip(&mut *choices) {
-        let (contenders, reason) = Contenders::of(frame.candidates, frame.counterpart.as_ref());
+        let contenders = Contenders::of(frame.candidates, frame.counterpart.as_ref());
         *step = FilmStep::new(&contenders);
-        *choice = contenders.first().map(|index| Choice {
-            index,
-            reason: reason.unwrap_or_else(|| contenders.undecided()),
-        });
+        *choice = contenders.choice();
     }
-    let anchored = choices.iter().flatten().any(|c| c.reason.is_decided());
+    let anchored = choices.iter().flatten().any(Choice::is_decided);
     let last = forward(frames, steps);
     backward(frames, steps);
     follow(frames, steps, choices, last, anchored);
@@ -119,28 +122,43 @@ impl FilmStep {
         self.open.iter().take(self.count).filter_map(pose).collect()
     }
 
-    /// The choice of an open frame in which the cheapest film takes pose `number`.
-    fn choice(&self, frame: &FilmFrame<'_>, number: usize, anchored: bool) -> Choice {
+    /// The choice of an open frame in which the cheapest film takes pose `number`, and which
+    /// would have been `alone`.
+    fn choice(
+        &self,
+        frame: &FilmFrame<'_>,
+        number: usize,
+        anchored: bool,
+        alone: &Choice,
+    ) -> Choice {
         let whole = |k: usize| self.before[k] + self.after[k];
         let others = || (0..self.count).filter(|&k| k != number);
         let saved_deg = others().fold(f64::INFINITY, |least, k| {
             least.min(whole(k) - whole(number))
         });
+        let index = self.open[number];
+        let decided = anchored && saved_deg >= FILM_MARGIN_DEG;
         let residual = |k: usize| {
             let candidate = frame.candidates.get(self.open[k]);
             candidate.map_or(f64::NAN, |candidate| candidate.residual_px)
         };
-        let reason = if anchored && saved_deg >= FILM_MARGIN_DEG {
-            Reason::Film { saved_deg }
-        } else {
-            Reason::Undecided {
-                chosen_px: residual(number),
-                other_px: others().next().map_or(f64::NAN, residual),
-            }
+        let open = others().next().filter(|_| !decided).map(|k| Open {
+            index: self.open[k],
+            chosen_px: residual(number),
+            other_px: residual(k),
+        });
+        let reason = match open {
+            None => Reason::Film { saved_deg },
+            Some(_) if index == alone.index => alone.reason,
+            Some(open) => Reason::Undecided {
+                chosen_px: open.chosen_px,
+                other_px: open.other_px,
+            },
         };
         Choice {
-            index: self.open[number],
+            index,
             reason,
+            open,
         }
     }
 }
@@ -195,8 +213,16 @@ fn links(
     step: &FilmStep,
     apart: usize,
 ) -> Vec<f64, CONTENDERS> {
-    let turn = |other: &&Pose| geodesic_deg(&pose.rotation, &other.rotation) / apart as f64;
-    step.poses(frame).iter().map(turn).collect()
+    let jump = |other: &&Pose| {
+        let turn = geodesic_deg(&pose.rotation, &other.rotation) / apart as f64;
+        // NaN stays NaN, which is never the cheapest.
+        if turn <= FREE_DEG {
+            0.0
+        } else {
+            turn - FREE_DEG
+        }
+    };
+    step.poses(frame).iter().map(jump).collect()
 }
 
 /// The first of the least of `count` costs.
@@ -217,8 +243,8 @@ fn follow(
     let cost = |number: &usize| steps[last].before[*number];
     let mut number = cheapest(steps[last].count, cost).map_or(0, |(number, _)| number);
     for at in (0..=last).rev().filter(|&at| steps[at].count > 0) {
-        if steps[at].count > 1 {
-            choices[at] = Some(steps[at].choice(&frames[at], number, anchored));
+        if let Some(alone) = choices[at].filter(|_| steps[at].count > 1) {
+            choices[at] = Some(steps[at].choice(&frames[at], number, anchored, &alone));
         }
         number = steps[at].from[number];
     }

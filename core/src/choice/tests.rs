@@ -51,7 +51,8 @@ fn nothing_is_chosen_of_nothing_and_one_is_the_only_one() {
     };
     let choice = choose(&[candidate(tibia, f64::NAN)], &context).expect("one");
     assert_eq!((choice.index, choice.reason), (0, Reason::Only));
-    assert_eq!(choice.reason.to_string(), "the only pose found");
+    assert!(choice.is_decided());
+    assert_eq!(choice.to_string(), "the only pose found");
 }
 
 #[test]
@@ -65,10 +66,7 @@ fn a_decisive_residual_decides_against_tilt_and_time() {
     let both = |px| [candidate(tibia, px), candidate(wrong, 1.0)];
     let choice = choose(&both(DECISIVE_RATIO), &context).expect("two");
     assert_eq!(choice.index, 1);
-    assert_eq!(
-        choice.reason.to_string(),
-        "residual 1.000 px against 1.300 px"
-    );
+    assert_eq!(choice.to_string(), "residual 1.000 px against 1.300 px");
     let choice = choose(&both(DECISIVE_RATIO - 1e-9), &context).expect("two");
     assert_eq!(choice.index, 0);
     assert!(matches!(choice.reason, Reason::Tilt { .. }));
@@ -82,7 +80,7 @@ fn a_perfect_fit_beats_any_other_but_not_another_perfect_fit() {
     assert_eq!(choice.index, 1);
     assert!(matches!(choice.reason, Reason::Residual { .. }));
     let choice = choose(&both(0.0), &NOTHING).expect("two");
-    assert!(!choice.reason.is_decided());
+    assert!(!choice.is_decided());
 }
 
 #[test]
@@ -119,10 +117,7 @@ fn the_smaller_tilt_decides_in_either_role() {
     let femurs = [candidate(tilted(6.3), 0.9), candidate(tilted(-1.2), 1.0)];
     let choice = choose(&femurs, &context).expect("two");
     assert_eq!(choice.index, 1);
-    assert_eq!(
-        choice.reason.to_string(),
-        "coronal tilt 1.2 deg against -6.3 deg"
-    );
+    assert_eq!(choice.to_string(), "coronal tilt 1.2 deg against -6.3 deg");
 }
 
 #[test]
@@ -140,7 +135,7 @@ fn tilts_of_opposite_sign_and_like_size_leave_it_to_time() {
     let choice = choose(&femurs, &context).expect("two");
     assert_eq!(choice.index, 1);
     assert_eq!(
-        choice.reason.to_string(),
+        choice.to_string(),
         "turned 1.9 deg from the neighbouring frames against 8.0 deg"
     );
 }
@@ -158,9 +153,9 @@ fn what_nothing_tells_apart_is_said_to_be_undecided() {
     };
     let choice = choose(&candidates, &context).expect("two");
     assert_eq!(choice.index, 1);
-    assert!(!choice.reason.is_decided());
+    assert!(!choice.is_decided());
     assert_eq!(
-        choice.reason.to_string(),
+        choice.to_string(),
         "undecided: residual 0.800 px against 0.812 px, and nothing else tells the poses apart"
     );
 }
@@ -185,6 +180,30 @@ fn each_rule_leaves_the_rest_to_the_next() {
 }
 
 #[test]
+fn a_rule_that_leaves_two_is_the_reason_and_the_other_is_named() {
+    // As on network masks: the mirror image fits best, tilt rules it out, and one that is mirrored
+    // in its turn alone remains.
+    let candidates = [
+        candidate(pose(0.0, 5.2, 18.0), 1.0),
+        candidate(pose(0.0, 0.4, 18.0), 1.23),
+        candidate(pose(0.0, 0.1, 0.0), 1.04),
+        candidate(pose(0.0, 5.4, 0.0), 1.25),
+    ];
+    let context = Context {
+        counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
+        neighbours: &[],
+    };
+    let choice = choose(&candidates, &context).expect("four");
+    assert_eq!(choice.index, 2);
+    assert_eq!(choice.open.map(|open| open.index), Some(1));
+    let text = choice.to_string();
+    assert_eq!(
+        text,
+        "coronal tilt -0.1 deg against -4.9 deg; another pose is open: residual 1.040 px against 1.230 px"
+    );
+}
+
+#[test]
 fn of_many_the_best_few_contend() {
     let mut candidates: List<_> = (0..20)
         .map(|k| candidate(pose(0.0, 10.0 + f64::from(k), 0.0), 1.2))
@@ -196,7 +215,7 @@ fn of_many_the_best_few_contend() {
     };
     let choice = choose(&candidates, &context).expect("many");
     assert_eq!(choice.index, 20);
-    assert!(choice.reason.is_decided());
+    assert!(choice.is_decided());
 }
 
 #[test]
@@ -241,7 +260,8 @@ proptest! {
             None => prop_assert!(candidates.is_empty()),
             Some(choice) => {
                 prop_assert!(choice.index < candidates.len());
-                prop_assert!(!choice.reason.to_string().is_empty());
+                prop_assert!(!choice.to_string().is_empty());
+                prop_assert!(choice.open.is_none_or(|open| open.index < candidates.len() && open.index != choice.index));
                 prop_assert_eq!(choice.reason == Reason::Only, candidates.len() == 1);
             }
         }
@@ -264,6 +284,8 @@ proptest! {
         let second = choose(&candidates, &context).expect("some");
         prop_assert_eq!(candidates[second.index], chosen);
         prop_assert_eq!(first.reason, second.reason);
+        let open = |choice: &Choice| choice.open.map(|open| (open.chosen_px, open.other_px));
+        prop_assert_eq!(open(&first), open(&second));
     }
 
     #[test]
@@ -276,12 +298,13 @@ proptest! {
         let neighbours = [pose(0.0, near, 0.0)];
         let tibia = pose(0.0, 0.0, 0.0);
         let context = Context { counterpart: Some(Counterpart::Tibia(tibia)), neighbours: &neighbours };
-        let Choice { index, reason } = choose(&candidates, &context).expect("two");
+        let Choice { index, reason, open } = choose(&candidates, &context).expect("two");
         let (chosen, other) = (index, 1 - index);
         let px = |k: usize| candidates[k].residual_px;
         let by_tilt = tilts[other].abs() - tilts[chosen].abs();
         let by_turn = (tilts[other] - near).abs() - (tilts[chosen] - near).abs();
         let ratio = px(other) / px(chosen);
+        prop_assert_eq!(open.is_some(), !reason.is_decided());
         match reason {
             Reason::Only | Reason::Film { .. } => prop_assert!(false),
             Reason::Residual { chosen_px, other_px } => {
@@ -298,6 +321,7 @@ proptest! {
                 prop_assert!(by_turn >= TURN_MARGIN_DEG - 1e-6);
             }
             Reason::Undecided { .. } => {
+                prop_assert_eq!(open.map(|open| open.index), Some(other));
                 prop_assert!((1.0..DECISIVE_RATIO).contains(&ratio));
                 prop_assert!(by_tilt.abs() < TILT_MARGIN_DEG + 1e-9);
                 prop_assert!(by_turn.abs() < TURN_MARGIN_DEG + 1e-6);

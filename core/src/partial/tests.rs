@@ -208,7 +208,7 @@ fn what_cannot_be_done_is_said() {
     // A chessboard is all outline.
     let squares: std::vec::Vec<Word> = (0..words.len())
         .map(|at| {
-            if at / (SIDE / 32) % 2 == 0 {
+            if (at / (SIDE / 32)).is_multiple_of(2) {
                 0x5555_5555
             } else {
                 0xaaaa_aaaa

@@ -29,6 +29,17 @@ export async function shownPose(page) {
   return /** @type {Pose} */ (Object.fromEntries(QUANTITIES.map(([field], index) => [field, values[index]])));
 }
 
+/** One standard deviation of each number, as it is shown beside it. @param {Page} page @returns {Promise<Pose>} */
+export async function deviations(page) {
+  const snapshot = await page.getByRole('region', { name: 'Pose numbers' }).ariaSnapshot();
+  const entries = QUANTITIES.map(([field, name, unit]) => {
+    const found = new RegExp(`group "${name} plus or minus (\\S+) ${unit}"`).exec(snapshot);
+    assert(found, `no plus-minus of ${name} in\n${snapshot}`);
+    return [field, Number(found[1])];
+  });
+  return /** @type {Pose} */ (Object.fromEntries(entries));
+}
+
 /** Is the pose that is shown still to be refined? @param {Page} page */
 async function isProvisional(page) {
   return (await page.getByRole('group', { name: /^Unmatched pixels.*being refined$/ }).count()) > 0;

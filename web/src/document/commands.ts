@@ -1,3 +1,4 @@
+import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
 import type { FramePoint } from '../geometry/points';
 import {
   cellKey,
@@ -37,6 +38,7 @@ export function addPoint(place: Place, point: FramePoint): Command {
   return onOutline('add a point', place, (outline) => ({
     points: [...(outline?.points ?? []), point],
     closed: false,
+    unknownSides: outline?.unknownSides ?? [],
   }));
 }
 
@@ -53,7 +55,12 @@ export function insertPoint(place: Place, index: number, point: FramePoint): Com
   return onOutline(
     'insert a point',
     place,
-    (outline) => outline && { ...outline, points: outline.points.toSpliced(index, 0, point) },
+    (outline) =>
+      outline && {
+        ...outline,
+        points: outline.points.toSpliced(index, 0, point),
+        unknownSides: sidesAfterInsertion(outline, index),
+      },
   );
 }
 
@@ -61,12 +68,21 @@ export function insertPoint(place: Place, index: number, point: FramePoint): Com
 export function deletePoint(place: Place, index: number): Command {
   return onOutline('delete a point', place, (outline) => {
     if (!outline || outline.points.length <= 1) return null;
-    return { ...outline, points: outline.points.toSpliced(index, 1) };
+    return { ...outline, points: outline.points.toSpliced(index, 1), unknownSides: sidesAfterDeletion(outline, index) };
   });
 }
 
 export function deleteOutline(place: Place): Command {
   return onOutline('delete the outline', place, () => null);
+}
+
+/** Marks a side as unknown, or as known again where it was marked. */
+export function toggleUnknownSide(place: Place, side: number): Command {
+  const toggled = (sides: readonly number[]) =>
+    sides.includes(side) ? sides.filter((other) => other !== side) : [...sides, side].sort((a, b) => a - b);
+  return onOutline('mark a side', place, (outline) =>
+    outline?.points[side] ? { ...outline, unknownSides: toggled(outline.unknownSides) } : outline,
+  );
 }
 
 function onOutline(label: string, place: Place, change: (outline: Outline | null) => Outline | null): Command {
@@ -101,7 +117,7 @@ export function withCell(doc: Doc, place: Place, cell: Cell): Doc {
 
 export function chooseCandidate(place: Place, chosen: number): Command {
   return {
-    label: 'choose the other candidate',
+    label: 'choose another candidate',
     place,
     apply: (doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
@@ -121,8 +137,9 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
         if (!pose) return changed;
         const place = { frameId: frame.id, component };
         const { outline } = cellOf(changed, frame.id, component);
-        const candidates = [{ pose, unmatched: null, drawn: null, residual: null }];
-        const result = { kind: 'posed', from: 'file', origin: fileName, candidates, chosen: 0 } as const;
+        const candidates = [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }];
+        const choice = { chosen: 0, reason: null, decided: true };
+        const result = { kind: 'posed', from: 'file', origin: fileName, candidates, ...choice } as const;
         return withCell(changed, place, { outline, result, resultOf: outline });
       }, doc),
   };

@@ -43,6 +43,11 @@ export function optional<T>(reader: Reader<T>): Reader<T | null> {
   return (value, path) => (value === undefined ? null : nullable(reader)(value, path));
 }
 
+/** Missing is read as `value`: files from before there was one. */
+export function missingAs<T>(value: T, reader: Reader<T>): Reader<T> {
+  return (given, path) => (given === undefined ? value : reader(given, path));
+}
+
 export function list<T>(reader: Reader<T>): Reader<readonly T[]> {
   return (value, path) => {
     if (!Array.isArray(value)) throw wrong(path, 'a list', value);

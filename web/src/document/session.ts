@@ -1,5 +1,5 @@
 import { framePoint, type FramePoint } from '../geometry/points';
-import { count, dictionary, flag, list, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from './reader';
+import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from './reader';
 import type {
   Calibration,
   Candidate,
@@ -107,7 +107,14 @@ const readPoint: Reader<FramePoint> = (value, path) => {
 
 // --- The document --------------------------------------------------------------------------------------------------
 
-const readOutline = object<Outline>({ points: list(readPoint), closed: flag });
+const readOutline: Reader<Outline> = (value, path) => {
+  // Sessions from before sides could be marked have none.
+  const sides = missingAs<readonly number[]>([], list(count));
+  const outline = object<Outline>({ points: list(readPoint), closed: flag, unknownSides: sides })(value, path);
+  const beyond = outline.unknownSides.find((side) => side >= outline.points.length);
+  if (beyond !== undefined) throw new ReadError(`${path}.unknownSides names side ${beyond} of ${outline.points.length}`);
+  return outline;
+};
 
 const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
 
@@ -115,8 +122,9 @@ const readCandidate = object<Candidate>({
   pose: readPose,
   unmatched: nullable(number),
   drawn: nullable(number),
-  // Sessions from before poses were refined do not have it.
+  // Sessions from before poses were refined do not have them.
   residual: optional(number),
+  deviations: optional(readPose),
 });
 
 const readPosed = object<Posed>({
@@ -125,6 +133,8 @@ const readPosed = object<Posed>({
   origin: text,
   candidates: list(readCandidate),
   chosen: count,
+  reason: optional(text),
+  decided: missingAs(false, flag),
 });
 
 const readFailed = object<Failed>({ kind: oneOf('failed'), origin: text, sentence: text });

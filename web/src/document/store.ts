@@ -29,7 +29,7 @@ export interface Ui {
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence';
 
 export interface Notice {
   readonly kind: 'info' | 'error';

@@ -78,6 +78,8 @@ export interface Cell {
 export interface Outline {
   readonly points: readonly FramePoint[];
   readonly closed: boolean;
+  /** Numbers of the sides that are not to be trusted, rising; side `i` runs from point `i` to the next. */
+  readonly unknownSides: readonly number[];
 }
 
 export type Result = Posed | Failed;
@@ -90,6 +92,10 @@ export interface Posed {
   readonly origin: string;
   readonly candidates: readonly Candidate[];
   readonly chosen: number;
+  /** Why the first candidate was chosen, in a sentence; null for poses of the library or a file. */
+  readonly reason: string | null;
+  /** Did anything speak for it besides a slightly smaller residual? Then other choices may rest on it. */
+  readonly decided: boolean;
 }
 
 export interface Failed {
@@ -101,12 +107,14 @@ export interface Failed {
 /** One pose with its score. Millimetres and degrees, the field's Z-X-Y order. */
 export interface Candidate {
   readonly pose: PoseNumbers;
-  /** Unmatched pixels in the canonical frame; null for a pose read from a file. */
+  /** Unmatched pixels in the canonical frame; null for a pose from a file or from a part of an outline. */
   readonly unmatched: number | null;
-  /** Frame pixels that differ from the outline when the model is drawn at the pose; null where it was not drawn. */
+  /** Known frame pixels that differ from the outline when the model is drawn at the pose; null where it was not drawn. */
   readonly drawn: number | null;
   /** What remains between the outlines after refinement, px of the frame; null for a pose of the library or a file. */
   readonly residual: number | null;
+  /** Standard deviations of the pose's numbers; null for a pose of the library or a file, or one that is not determined. */
+  readonly deviations: PoseNumbers | null;
 }
 
 export interface PoseNumbers {

@@ -13,8 +13,9 @@ import {
 } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, poseKey } from './keys';
-import type { Match, Picture, PoseProtocol } from './protocol';
+import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from './protocol';
 import { sentenceOf } from './services';
+import { surroundingsOf } from './surroundings';
 
 interface Task {
   /** A match gives the library's pose at once; refinement takes longer and makes it better. */
@@ -25,15 +26,18 @@ interface Task {
   readonly key: string;
 }
 
+/** What the document does not keep of a candidate. */
+export type Detail = Pick<MatchedCandidate, 'pose' | 'picture' | 'atBorder' | 'start'>;
+
 /** What a match leaves besides poses: pictures for the panel. Kept as long as its outline is. */
 export interface Findings {
   readonly key: string;
-  readonly pictures: readonly Picture[];
+  readonly details: readonly Detail[];
   readonly canonicalArea: number;
-  /** By candidate: the view lies at the library's border. */
-  readonly atBorder: readonly boolean[];
   /** The outline's canonical silhouette reaches the border of its frame. */
   readonly clipped: boolean;
+  /** Pieces of the outline led to the poses: a part of it is unknown or cut off. */
+  readonly partial: boolean;
   readonly milliseconds: number;
   /** Refinement has been tried; it is not tried again. */
   readonly tried: boolean;
@@ -41,7 +45,7 @@ export interface Findings {
   readonly refusal: string | null;
 }
 
-const NOTHING_FOUND = { pictures: [], canonicalArea: 0, atBorder: [], clipped: false, milliseconds: 0 };
+const NOTHING_FOUND = { details: [], canonicalArea: 0, clipped: false, partial: false, milliseconds: 0 };
 
 const NO_MODEL = 'the library was opened without its model.';
 
@@ -74,6 +78,13 @@ export class Poser {
 
   findings(outline: Outline | null): Findings | null {
     return (outline && this.#findings.get(outline)) ?? null;
+  }
+
+  /** Of the candidates that were found for an outline, the one with this pose or the nearest: their order may differ. */
+  detail(outline: Outline | null, candidate: Candidate): Detail | null {
+    const details = this.findings(outline)?.details ?? [];
+    const distances = details.map((detail) => turned(candidate, detail));
+    return details[distances.indexOf(Math.min(...distances))] ?? null;
   }
 
   /** Notes when the outline on view last changed. */
@@ -166,7 +177,9 @@ export class Poser {
       const camera = cameraOf(this.#store.doc, frame);
       if (!camera) return;
       const { component } = place;
-      const match = await this.#worker.call(method, { component, outline: flatten(outline), camera });
+      const input = { component, ...flatten(outline), camera };
+      const around = surroundingsOf(this.#store.doc, frame.id, component);
+      const match = await (method === 'match' ? this.#worker.call('match', input) : this.#worker.call('refine', { ...input, around }));
       this.#take(task, match);
     } catch (error) {
       if (!(error instanceof Aborted)) this.#refuse(task, sentenceOf(error));
@@ -180,12 +193,11 @@ export class Poser {
     const { outline, key } = task;
     const result = posed(match, key);
     const refused = task.method === 'refine' && !isRefined(result);
-    const { candidates, canonicalArea, clipped, milliseconds } = match;
-    const pictures = candidates.map((candidate) => candidate.picture);
-    const atBorder = candidates.map((candidate) => candidate.atBorder);
+    const { candidates, canonicalArea, clipped, partial, milliseconds } = match;
+    const details = candidates.map(({ pose, picture, atBorder, start }) => ({ pose, picture, atBorder, start }));
     const tried = task.method === 'refine';
     const refusal = refused ? NO_MODEL : null;
-    this.#findings.set(outline, { key, pictures, canonicalArea, atBorder, clipped, milliseconds, tried, refusal });
+    this.#findings.set(outline, { key, details, canonicalArea, clipped, partial, milliseconds, tried, refusal });
     this.#apply(task, result);
   }
 
@@ -239,28 +251,35 @@ function sameChoice(before: Result | null, result: Result): Result {
 }
 
 /** A rough angle between two poses, degrees. */
-function turned(a: Candidate, b: Candidate): number {
+function turned(a: Pick<Candidate, 'pose'>, b: Pick<Candidate, 'pose'>): number {
   return Math.hypot(a.pose.xRot - b.pose.xRot, a.pose.yRot - b.pose.yRot);
 }
 
 function posed(match: Match, origin: string): Result {
-  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual }) => ({
+  const { reason, decided } = match;
+  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }) => ({
     pose,
     unmatched,
     drawn,
     residual,
+    deviations,
   }));
-  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0 };
+  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided };
 }
 
 function samePoints(a: Outline, b: Outline): boolean {
   return (
     a.closed === b.closed &&
     a.points.length === b.points.length &&
+    a.unknownSides.join() === b.unknownSides.join() &&
     a.points.every(({ column, row }, index) => column === b.points[index]?.column && row === b.points[index]?.row)
   );
 }
 
-function flatten(outline: Outline): Float64Array<ArrayBuffer> {
-  return Float64Array.from(outline.points.flatMap((point) => [point.column, point.row]));
+/** An outline as it goes to the worker. */
+export function flatten({ points, unknownSides }: Outline): Pick<MatchInput, 'outline' | 'unknownSides'> {
+  return {
+    outline: Float64Array.from(points.flatMap(({ column, row }) => [column, row])),
+    unknownSides: Uint32Array.from(unknownSides),
+  };
 }

@@ -1,4 +1,4 @@
-import type { ComponentName, LibrarySpec, PoseNumbers } from '../document/types';
+import type { Candidate, ComponentName, LibrarySpec, PoseNumbers } from '../document/types';
 
 /** What the workers can do; the page knows no more of WASM than this and `engine/film.ts`. */
 
@@ -39,25 +39,29 @@ export interface DecodedFrame {
   readonly notes: readonly string[];
 }
 
-/** A candidate as the matcher gives it: with both canonical silhouettes, one bit a pixel. */
+/** What the matcher found for an outline, the chosen pose first. */
 export interface Match {
   readonly candidates: readonly MatchedCandidate[];
   readonly canonicalSize: number;
   readonly canonicalArea: number;
   /** The canonical silhouette reaches its frame's border. */
   readonly clipped: boolean;
+  /** Only a part of the outline is known: pieces of it led to the poses. */
+  readonly partial: boolean;
+  /** Why the first candidate was chosen; null for poses of the library. */
+  readonly reason: string | null;
+  readonly decided: boolean;
   readonly milliseconds: number;
 }
 
-export interface MatchedCandidate {
-  readonly pose: PoseNumbers;
-  readonly unmatched: number;
-  readonly drawn: number | null;
-  /** Px of the frame; null where the pose is the library's. */
-  readonly residual: number | null;
+/** A candidate with what the document does not keep of it. */
+export interface MatchedCandidate extends Candidate {
+  /** The pose that it was refined from; null where it is the library's. */
+  readonly start: PoseNumbers | null;
   /** The view lies at the border of the library: the truth may lie beyond it. */
   readonly atBorder: boolean;
-  readonly picture: Picture;
+  /** Null where pieces of the outline led to the pose. */
+  readonly picture: Picture | null;
 }
 
 /** Bits of the input's and the library view's canonical silhouettes, in the core's row order. */
@@ -97,7 +101,35 @@ export interface MatchInput {
   readonly component: ComponentName;
   /** Columns and rows of the outline's points, by turns. */
   readonly outline: Float64Array<ArrayBuffer>;
+  /** Numbers of the sides that are marked unknown. */
+  readonly unknownSides: Uint32Array<ArrayBuffer>;
   readonly camera: CameraInput;
+}
+
+/** Poses that a choice may rest on. */
+export interface Surroundings {
+  /** The other component in the same frame. */
+  readonly counterpart: PoseNumbers | null;
+  /** The same component in the frames before and after. */
+  readonly neighbours: readonly PoseNumbers[];
+}
+
+export interface Choice {
+  readonly index: number;
+  readonly decided: boolean;
+  readonly reason: string;
+}
+
+/** A pose on the way of refinement. */
+export interface ConvergenceStep {
+  readonly stage: number;
+  /** Times the model was drawn so far. */
+  readonly renders: number;
+  /** Square px; each stage has its own scale. */
+  readonly loss: number;
+  /** Px. */
+  readonly residual: number;
+  readonly pose: PoseNumbers;
 }
 
 export interface PoseProtocol {
@@ -109,5 +141,17 @@ export interface PoseProtocol {
   };
   match: { input: MatchInput; output: Match; progress: never };
   /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
-  refine: { input: MatchInput; output: Match; progress: never };
+  refine: { input: MatchInput & { readonly around: Surroundings }; output: Match; progress: never };
+  /** Chooses anew among refined poses when more is known round them; null where there are none. */
+  choose: {
+    input: {
+      component: ComponentName;
+      candidates: readonly { readonly pose: PoseNumbers; readonly residual: number }[];
+      around: Surroundings;
+    };
+    output: Choice | null;
+    progress: never;
+  };
+  /** The way of refinement from a start. */
+  converge: { input: MatchInput & { readonly start: PoseNumbers }; output: readonly ConvergenceStep[]; progress: never };
 }

@@ -6,11 +6,13 @@ import init, {
   Model,
   paintUnmatched,
   readJts,
+  unknownReach,
   writeJts,
 } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { GreyWindow, PoseNumbers } from '../document/types';
 import type { Size } from '../geometry/viewport';
+import { poseArray, poseFrom } from './pose_array';
 import type { CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture } from './protocol';
 
 /** Grey values of a frame, and the window to begin with. */
@@ -107,6 +109,11 @@ export class Studio {
     paintUnmatched(context, picture.input, picture.view, picture.size);
   }
 
+  /** Pixels nearer than this to a side that is marked unknown are ignored. */
+  get unknownReach(): number {
+    return unknownReach();
+  }
+
   /** Throws the core's sentence for a library that is damaged, before it takes the place of a sound one. */
   checkLibrary(bytes: Uint8Array): void {
     new Matcher(bytes).free();
@@ -154,12 +161,3 @@ export class Studio {
 
 /** At the focus, where nothing can be: other programs of the field read it without complaint. */
 const NO_POSE: readonly number[] = [0, 0, 0, 0, 0, 0];
-
-function poseArray(pose: PoseNumbers): number[] {
-  return [pose.x, pose.y, pose.z, pose.zRot, pose.xRot, pose.yRot];
-}
-
-export function poseFrom(values: ArrayLike<number>): PoseNumbers {
-  const [x = 0, y = 0, z = 0, zRot = 0, xRot = 0, yRot = 0] = Array.from(values);
-  return { x, y, z, zRot, xRot, yRot };
-}

@@ -16,6 +16,9 @@ export type Action =
         | 'close-outline'
         | 'delete-point'
         | 'delete-outline'
+        | 'previous-point'
+        | 'next-point'
+        | 'toggle-unknown'
         | 'leave'
         | 'fit'
         | 'zoom-in'
@@ -51,8 +54,13 @@ export const BINDINGS: readonly Binding[] = [
     name: 'delete-point',
   }),
   binding('Tracing', ['Shift + Delete'], 'Delete the whole outline', shifted('delete', 'backspace'), { name: 'delete-outline' }),
+  binding('Tracing', [','], 'Select the previous point', plainly(','), { name: 'previous-point' }),
+  binding('Tracing', ['.'], 'Select the next point', plainly('.'), { name: 'next-point' }),
+  binding('Tracing', ['U'], 'Mark the side under the pointer, or after the selected point, unknown or known', plainly('u'), {
+    name: 'toggle-unknown',
+  }),
   binding('Tracing', ['Esc'], 'Leave the tool; a draft stays', plainly('escape'), { name: 'leave' }),
-  binding('Tracing', ['Tab'], 'Switch between the pose and its rival', plainly('tab'), { name: 'other-candidate' }),
+  binding('Tracing', ['X'], 'Switch between the pose and its rivals', plainly('x'), { name: 'other-candidate' }),
   binding('Working', ['D', 'Page Up'], 'Previous frame', plainly('d', 'pageup'), { name: 'previous-frame' }),
   binding('Working', ['F', 'Page Down'], 'Next frame', plainly('f', 'pagedown'), { name: 'next-frame' }),
   binding('Working', ['C'], 'Other component', plainly('c'), { name: 'other-component' }),

@@ -18,7 +18,7 @@ export function hint(tool: ToolName, component: string, outline: Outline | null,
 
 function editHint(outline: Outline, hit: Hit): string {
   if (hit.kind === 'vertex') return `Point ${hit.index + 1}: drag to move it; Alt-click or Delete removes it.`;
-  if (hit.kind === 'edge') return 'Click to insert a point here; keep the button down to place it.';
+  if (hit.kind === 'edge') return 'Click to insert a point here; U marks this side unknown, or known again.';
   if (!outline.closed) return 'The outline is open: press P to go on tracing, Enter to close it.';
   return 'Drag a point to move it, click an edge to insert one, Alt-click a point to delete it.';
 }

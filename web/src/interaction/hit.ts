@@ -49,6 +49,13 @@ function hitVertex(points: readonly CanvasPoint[], at: CanvasPoint, reach: Reach
   return found && { kind: 'vertex', index: found.index };
 }
 
+/** Which side is meant by what is under the pointer and the selected point; null where nothing is meant. */
+export function sideMeant(hit: Hit, selectedPoint: number | null, points: number): number | null {
+  if (hit.kind === 'edge') return (hit.before - 1) % points;
+  if (selectedPoint !== null) return selectedPoint;
+  return hit.kind === 'vertex' ? hit.index : null;
+}
+
 function hitEdge(points: readonly CanvasPoint[], closed: boolean, viewport: Viewport, at: CanvasPoint): Hit | null {
   const edges = closed ? points.length : points.length - 1;
   let best: { before: number; on: CanvasPoint; away: number } | null = null;

@@ -1,5 +1,7 @@
 import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
+import { unknownShare } from '../document/sides';
+import { poseTable } from '../document/table';
 import { cellOf, chosenCandidate, type ComponentName } from '../document/types';
 import { openDemonstration } from '../engine/demonstration';
 import { openFiles, type Incoming } from '../engine/opener';
@@ -8,8 +10,11 @@ import { sentenceOf, type Services } from '../engine/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
 import type { Action } from '../interaction/bindings';
-import { FEWEST_POINTS } from '../interaction/hit';
+import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
 import { download, pickFiles } from './files';
+import { pointerStore } from './pointer';
+
+const NOTHING_HIT = { kind: 'nothing' } as const;
 
 /** What actions need of the stage. */
 export interface StageControls {
@@ -82,6 +87,12 @@ export class Actions {
         return this.deletePoint();
       case 'delete-outline':
         return this.deleteOutline();
+      case 'previous-point':
+        return this.#selectPoint(-1);
+      case 'next-point':
+        return this.#selectPoint(1);
+      case 'toggle-unknown':
+        return this.toggleUnknownSide();
       case 'other-candidate':
         return this.chooseOtherCandidate();
       case 'leave':
@@ -136,11 +147,57 @@ export class Actions {
     return true;
   }
 
+  /** By keyboard through the points, round and round. */
+  #selectPoint(step: number): boolean {
+    const { state } = this.#store;
+    const count = currentCell(state).outline?.points.length ?? 0;
+    if (count === 0) return false;
+    const { selectedPoint } = state.ui;
+    const next = selectedPoint === null ? (step > 0 ? 0 : count - 1) : (selectedPoint + step + count) % count;
+    this.#store.show({ selectedPoint: next });
+    this.#store.say('info', `Point ${next + 1} of ${count}: Delete removes it; U marks the side after it unknown.`);
+    return true;
+  }
+
+  /** The side under the pointer, else the one after the selected point, else the one after the point under the pointer. */
+  toggleUnknownSide(): boolean {
+    const { state } = this.#store;
+    const place = currentPlace(state);
+    const { outline } = currentCell(state);
+    if (!place || !outline?.closed) {
+      this.#store.say('info', 'Sides can be marked unknown once the outline is closed.');
+      return true;
+    }
+    const side = sideMeant(pointerStore.place?.hit ?? NOTHING_HIT, state.ui.selectedPoint, outline.points.length);
+    if (side === null) {
+      this.#store.say('info', 'Point at a side of the outline, or select the point before it with , and . keys, then press U.');
+      return true;
+    }
+    this.#store.perform(commands.toggleUnknownSide(place, side));
+    this.#tellUnknown(side);
+    return true;
+  }
+
+  #tellUnknown(side: number): void {
+    const { outline } = currentCell(this.#store.state);
+    if (!outline) return;
+    const { points, unknownSides } = outline;
+    const marked = unknownSides.includes(side) ? `unknown: what lies within ${this.#services.studio.unknownReach} px of it is ignored` : 'known';
+    const share = Math.round(100 * unknownShare(outline));
+    this.#store.say('info', `Side ${side + 1} of ${points.length} is ${marked}. ${share} % of the outline is unknown.`);
+  }
+
   chooseOtherCandidate(): boolean {
     const place = currentPlace(this.#store.state);
     const { result } = currentCell(this.#store.state);
     if (!place || result?.kind !== 'posed' || result.candidates.length < 2) return false;
-    this.#store.perform(commands.chooseCandidate(place, (result.chosen + 1) % result.candidates.length));
+    return this.chooseCandidate((result.chosen + 1) % result.candidates.length);
+  }
+
+  chooseCandidate(index: number): boolean {
+    const place = currentPlace(this.#store.state);
+    if (!place) return false;
+    this.#store.perform(commands.chooseCandidate(place, index));
     return true;
   }
 
@@ -192,6 +249,13 @@ export class Actions {
     download([studio.writePoses(poses)], `${fileStem(doc.name)}_${component}.jts`, 'text/plain');
     const rest = without === 0 ? '' : ` ${without} without a pose: rows of zeros.`;
     store.say('info', `Poses of the ${component} saved, a row for each of ${poses.length} frames.${rest}`);
+  }
+
+  /** Poses with their standard deviations and why they were chosen, which a .jts file has no room for. */
+  saveTable(component: ComponentName): void {
+    const { doc } = this.#store;
+    download([poseTable(doc, component)], `${fileStem(doc.name)}_${component}.csv`, 'text/csv');
+    this.#store.say('info', `Poses of the ${component} saved with their standard deviations, a row for each of ${doc.frames.length} frames.`);
   }
 
   hasPoses(component: ComponentName): boolean {

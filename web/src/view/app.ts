@@ -1,6 +1,7 @@
 import { createContext } from 'preact';
 import { useContext, useEffect, useState } from 'preact/hooks';
 import type { State } from '../document/store';
+import type { Convergence } from '../engine/convergence';
 import type { Librarian } from '../engine/librarian';
 import type { Poser } from '../engine/poser';
 import type { Services } from '../engine/services';
@@ -11,6 +12,7 @@ export interface App {
   readonly services: Services;
   readonly librarian: Librarian;
   readonly poser: Poser;
+  readonly convergence: Convergence;
   readonly actions: Actions;
 }
 

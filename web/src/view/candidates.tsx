@@ -2,6 +2,9 @@ import type { Findings } from '../engine/poser';
 import { useApp } from './app';
 import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
+/** As many as the matcher offers. */
+const NAMES = ['Best', 'Rival', 'Third'] as const;
+
 const CANONICAL_AREA = '15 000';
 
 /** The score, and the rival pose where there is one: ambiguity is a visible choice. */
@@ -11,7 +14,7 @@ export function Candidates({ cell }: { cell: Cell }) {
   const findings = poser.findings(cell.outline);
   const area = findings?.canonicalArea ?? 0;
   const chosen = result?.candidates[result.chosen] ?? null;
-  const beyondBorder = result !== null && (findings?.atBorder[result.chosen] ?? false);
+  const beyondBorder = chosen !== null && (poser.detail(cell.outline, chosen)?.atBorder ?? false);
   return (
     <section class="card candidates" aria-label="Score and candidates">
       <div class="number score">
@@ -22,17 +25,18 @@ export function Candidates({ cell }: { cell: Cell }) {
         <span class="unit">px of {area > 0 ? grouped(area) : CANONICAL_AREA}</span>
       </div>
       <div class="rivals" role="radiogroup" aria-label="Candidate poses">
-        {[0, 1].map((index) => (
+        {NAMES.slice(0, Math.max(2, result?.candidates.length ?? 0)).map((name, index) => (
           <CandidateButton
-            key={index}
+            key={name}
             index={index}
+            name={index === 0 && result?.from === 'file' ? 'Loaded' : name}
             candidate={result?.candidates[index] ?? null}
             chosen={result !== null && result.chosen === index}
-            onChoose={() => result && result.chosen !== index && actions.chooseOtherCandidate()}
+            onChoose={() => result && result.chosen !== index && actions.chooseCandidate(index)}
           />
         ))}
       </div>
-      <p class="card-note">{result ? (beyondBorder ? BORDER_NOTE : reason(result.candidates, result.chosen)) : ''}</p>
+      <p class="card-note">{result ? (beyondBorder ? BORDER_NOTE : reason(result)) : ''}</p>
     </section>
   );
 }
@@ -46,13 +50,13 @@ function method(result: Posed | null, findings: Findings | null): string {
 
 interface CandidateButtonProps {
   readonly index: number;
+  readonly name: string;
   readonly candidate: Candidate | null;
   readonly chosen: boolean;
   readonly onChoose: () => void;
 }
 
-function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButtonProps) {
-  const name = index === 0 ? (candidate && candidate.unmatched === null ? 'Loaded' : 'Best') : 'Rival';
+function CandidateButton({ index, name, candidate, chosen, onChoose }: CandidateButtonProps) {
   const { pose } = candidate ?? {};
   return (
     <button
@@ -61,8 +65,9 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
       class="rival"
       aria-checked={chosen}
       aria-label={`${name} candidate`}
+      aria-keyshortcuts="X"
       disabled={!candidate}
-      title={index === 1 ? 'The next best pose that is not a neighbour of the best (Tab switches)' : 'The pose whose drawn model comes nearest to the outline'}
+      title={index > 0 ? 'Another pose that explains the outline nearly as well (X switches)' : 'The pose that was chosen; the reason stands below (X switches)'}
       onClick={onChoose}
     >
       <span>{name}</span>
@@ -75,7 +80,7 @@ function CandidateButton({ index, candidate, chosen, onChoose }: CandidateButton
 
 /** What remains between the outlines; of a pose of the library, unmatched canonical pixels. */
 function scoreOf({ residual, unmatched }: Candidate): string {
-  if (residual !== null) return `${residual.toFixed(2)} px off`;
+  if (residual !== null) return `${residual.toFixed(2)} px`;
   return unmatched === null ? '–' : `${grouped(unmatched)} px`;
 }
 
@@ -85,28 +90,26 @@ const BORDER_NOTE =
 /** Below this ratio of scores the better one is not to be relied on. */
 const DECISIVE = 1.3;
 
-function reason(candidates: readonly Candidate[], chosen: number): string {
+/** Why the first candidate comes first. */
+function reason({ from, candidates, chosen, reason: stated }: Posed): string {
   const [best, rival] = candidates;
-  if (best?.unmatched == null) return '';
-  if (rival?.unmatched == null) return 'No other view comes near: the choice is clear.';
-  if (chosen !== 0) return 'Chosen by hand; Tab goes back to the best.';
-  if (best.residual !== null && rival.residual !== null) return refinedReason(best.residual, rival.residual);
+  if (from === 'file' || !best) return '';
+  if (chosen !== 0) return 'Chosen by hand; X goes back to the best.';
+  if (stated !== null) return rival ? `${stated} X compares.` : stated;
+  if (!rival) return 'No other view comes near: the choice is clear.';
+  return libraryReason(best, rival);
+}
+
+/** Of poses of the library: how many pixels each leaves unmatched. */
+function libraryReason(best: Candidate, rival: Candidate): string {
   const drawn = best.drawn !== null && rival.drawn !== null;
   const [least, more] = drawn ? [best.drawn, rival.drawn] : [best.unmatched, rival.unmatched];
-  const ratio = more / Math.max(1, least);
+  const ratio = (more ?? 0) / Math.max(1, least ?? 0);
   const as = ratio < 1.005 ? 'just as many pixels' : `only ${ratio.toFixed(2)} times as many pixels`;
   const what = drawn ? 'Drawn at its pose, the rival' : 'The rival';
   return ratio >= DECISIVE
     ? `${what} misses ${ratio.toFixed(2)} times as many pixels: the choice is clear.`
-    : `${what} misses ${as}: compare both overlays with Tab.`;
-}
-
-/** Of refined poses: how far each leaves the model's outline from the traced one. */
-function refinedReason(best: number, rival: number): string {
-  const ratio = rival / Math.max(0.01, best);
-  if (ratio >= DECISIVE) return `The rival's outline stays ${ratio.toFixed(2)} times as far off: the choice is clear.`;
-  const as = ratio < 1.005 ? 'comes just as near' : `stays only ${ratio.toFixed(2)} times as far off`;
-  return `The rival's outline ${as}: compare both overlays with Tab.`;
+    : `${what} misses ${as}: compare both overlays with X.`;
 }
 
 function degrees(value: number): string {

@@ -29,6 +29,8 @@ export function drawSilhouette(context: Context, view: Viewport, overlay: Overla
 
 interface OutlineStyle {
   readonly closed: boolean;
+  /** Numbers of the sides that are drawn dashed. */
+  readonly unknownSides: readonly number[];
   readonly active: boolean;
   readonly handles: boolean;
   readonly hit: Hit;
@@ -37,19 +39,41 @@ interface OutlineStyle {
 
 export function drawOutline(context: Context, component: ComponentName, points: readonly CanvasPoint[], style: OutlineStyle): void {
   const colour = COMPONENT_COLOURS[component].css;
-  const path = new Path2D();
-  for (const { x, y } of points) path.lineTo(x, y);
-  if (style.closed) path.closePath();
+  const { known, unknown } = paths(points, style);
   context.save();
   context.lineJoin = 'round';
   context.globalAlpha = style.active ? 1 : 0.6;
-  stroke(context, path, HALO, 3.5);
-  stroke(context, path, colour, 1.5);
+  stroke(context, known, HALO, 3.5);
+  stroke(context, known, colour, 1.5);
+  context.setLineDash([3, 5]);
+  stroke(context, unknown, HALO, 3.5);
+  stroke(context, unknown, colour, 1.5);
+  context.setLineDash([]);
   if (style.handles) {
     points.forEach((point, index) => drawHandle(context, colour, point, handleStyle(index, style)));
     drawInsertion(context, colour, points, style);
   }
   context.restore();
+}
+
+/** The outline's sides, in a path for what is known and one for what is not. */
+function paths(points: readonly CanvasPoint[], { closed, unknownSides }: OutlineStyle) {
+  const known = new Path2D();
+  const unknown = new Path2D();
+  if (unknownSides.length === 0) {
+    for (const { x, y } of points) known.lineTo(x, y);
+    if (closed) known.closePath();
+    return { known, unknown };
+  }
+  const marked = new Set(unknownSides);
+  points.forEach((from, side) => {
+    const to = points[side + 1] ?? (closed ? points[0] : undefined);
+    if (!to) return;
+    const path = marked.has(side) ? unknown : known;
+    path.moveTo(from.x, from.y);
+    path.lineTo(to.x, to.y);
+  });
+  return { known, unknown };
 }
 
 function handleStyle(index: number, { hit, selected, closed }: OutlineStyle) {

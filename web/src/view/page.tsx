@@ -57,8 +57,8 @@ function useKeys(): void {
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
-      // Enter and Tab belong to the control that has the focus.
-      if (onControl(target) && (action.name === 'close-outline' || action.name === 'other-candidate')) return false;
+      // Enter belongs to the control that has the focus.
+      if (onControl(target) && action.name === 'close-outline') return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
       store.quiet();
       return actions.run(action);

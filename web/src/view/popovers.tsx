@@ -5,6 +5,7 @@ import { titleOf } from '../document/types';
 import { useApp } from './app';
 import { CalibrationSheet } from './calibration_sheet';
 import { ComponentSheet } from './component_sheet';
+import { ConvergenceSheet } from './convergence_sheet';
 import { Icon } from './icons';
 import { KeySheet } from './key_sheet';
 import { LogSheet } from './log_sheet';
@@ -28,6 +29,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   keys: 'Keys and mouse',
   log: 'Log',
   session: 'Save',
+  convergence: 'Convergence',
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -43,6 +45,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <LogSheet state={state} />;
     case 'session':
       return <SessionSheet state={state} />;
+    case 'convergence':
+      return <ConvergenceSheet state={state} />;
   }
 }
 

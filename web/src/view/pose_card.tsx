@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { chosenCandidate, type Cell, type PoseNumbers } from '../document/types';
+import { decimalsFor, formatDeviation, formatNumber } from './numbers';
 import { inWords } from '../engine/missing';
 import { useApp } from './app';
 
@@ -11,7 +12,7 @@ interface Quantity {
   readonly decimals: number;
 }
 
-/** Decimals that match what a library pose is good for: hundredths in the plane, tenths along the view. */
+/** Decimals while the uncertainty is not known: hundredths in the plane, tenths along the view. */
 const TRANSLATIONS: readonly Quantity[] = [
   { field: 'x', name: 'x', label: 'x', unit: 'mm', decimals: 2 },
   { field: 'y', name: 'y', label: 'y', unit: 'mm', decimals: 2 },
@@ -32,8 +33,9 @@ interface PoseNumbersCardProps {
 }
 
 export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
-  const pose = chosenCandidate(cell)?.pose ?? null;
-  const refusal = useApp().poser.findings(cell.outline)?.refusal ?? null;
+  const { pose = null, deviations = null, residual = null } = chosenCandidate(cell) ?? {};
+  const { poser } = useApp();
+  const refusal = poser.findings(cell.outline)?.refusal ?? null;
   const source = outdated
     ? `Found with another model, calibration or library. ${needs(cell, missing)}`
     : sourceOf(cell, refusal);
@@ -41,10 +43,18 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
     <section class="card pose" aria-label="Pose numbers">
       <dl class="numbers">
         {[...TRANSLATIONS, ...ROTATIONS].map((quantity) => (
-          <NumberRow key={quantity.field} quantity={quantity} value={pose ? pose[quantity.field] : null} />
+          <NumberRow
+            key={quantity.field}
+            quantity={quantity}
+            value={pose && pose[quantity.field]}
+            deviation={deviations && deviations[quantity.field]}
+          />
         ))}
       </dl>
-      <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+      <div class="pose-source">
+        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+        <ConvergenceButton disabled={residual === null} />
+      </div>
     </section>
   );
 }
@@ -53,19 +63,31 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
 function sourceOf(cell: Cell, refusal: string | null): string {
   if (cell.result?.kind !== 'posed') return '';
   if (cell.result.from === 'file') return `From ${cell.result.origin}.`;
-  const residual = chosenCandidate(cell)?.residual ?? null;
-  if (residual !== null) return `refined, ${residual.toFixed(2)} px`;
+  const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
+  if (residual !== null) return `refined, ${residual.toFixed(2)} px; ${deviations ? PLUS_MINUS : NOT_DETERMINED}`;
   return refusal === null ? 'library' : `library. Not refined: ${refusal}`;
 }
+
+const PLUS_MINUS = '± is one standard deviation';
+const NOT_DETERMINED = 'the outline does not determine how sure';
 
 function needs(cell: Cell, missing: readonly string[]): string {
   if (missing.length > 0) return `For a pose: ${inWords(missing)}.`;
   return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding it ...';
 }
 
-function NumberRow({ quantity, value }: { quantity: Quantity; value: number | null }) {
+interface NumberRowProps {
+  readonly quantity: Quantity;
+  readonly value: number | null;
+  /** One standard deviation. */
+  readonly deviation: number | null;
+}
+
+function NumberRow({ quantity, value, deviation }: NumberRowProps) {
   const { store } = useApp().services;
-  const text = value === null ? '–' : format(value, quantity.decimals);
+  const decimals = decimalsFor(deviation, quantity.decimals);
+  const text = value === null ? '–' : formatNumber(value, decimals);
+  const unit = quantity.unit === '°' ? 'degrees' : 'mm';
   const flashing = useFlash(text);
   const copy = () => {
     if (value === null) return;
@@ -81,23 +103,46 @@ function NumberRow({ quantity, value }: { quantity: Quantity; value: number | nu
         <button
           type="button"
           class={flashing ? 'value flash' : 'value'}
-          aria-label={`${quantity.name} ${text} ${quantity.unit === '°' ? 'degrees' : 'mm'}`}
+          aria-label={`${quantity.name} ${text} ${unit}`}
           title="Click to copy with all its decimals"
           disabled={value === null}
           onClick={copy}
         >
           {text}
         </button>
+        <Deviation name={quantity.name} unit={unit} text={value === null || deviation === null ? null : formatDeviation(deviation, decimals)} />
         <span class="unit">{quantity.unit}</span>
       </dd>
     </div>
   );
 }
 
-function format(value: number, decimals: number): string {
-  // A true minus sign is as wide as a digit's plus; "-0.00" is just zero.
-  const text = value.toFixed(decimals);
-  return Number(text) === 0 ? (0).toFixed(decimals) : text.replace('-', '\u2212');
+/** Its place is kept while there is none: nothing jumps when it comes. */
+function Deviation({ name, unit, text }: { name: string; unit: string; text: string | null }) {
+  if (text === null) return <span class="deviation" />;
+  return (
+    <span class="deviation" role="group" aria-label={`${name} plus or minus ${text} ${unit}`} title="One standard deviation; the truth lies within two of them 95 times in 100">
+      ±{text}
+    </span>
+  );
+}
+
+function ConvergenceButton({ disabled }: { disabled: boolean }) {
+  const { store } = useApp().services;
+  const open = store.ui.popover === 'convergence';
+  return (
+    <button
+      type="button"
+      class="button small"
+      aria-haspopup="dialog"
+      aria-expanded={open}
+      title="How refinement came to this pose, step by step"
+      disabled={disabled}
+      onClick={() => store.show({ popover: open ? null : 'convergence' })}
+    >
+      Convergence
+    </button>
+  );
 }
 
 /** True for a moment after a change that was not part of a stream of changes. */

@@ -10,7 +10,10 @@ export function SessionSheet({ state }: { state: State }) {
   const empty = state.history.present.frames.length === 0;
   return (
     <div class="sheet-body">
-      <p class="sheet-text">A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file.</p>
+      <p class="sheet-text">
+        A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file. A table
+        holds poses with their standard deviations and the reason of each choice.
+      </p>
       <label class="check">
         <input type="checkbox" checked={include} onChange={(event) => setInclude(event.currentTarget.checked)} />
         Include images and models (otherwise named by their SHA-256)
@@ -28,6 +31,18 @@ export function SessionSheet({ state }: { state: State }) {
             onClick={() => actions.savePoses(component)}
           >
             {titleOf(component)} poses (.jts)
+          </button>
+        ))}
+        {COMPONENT_NAMES.map((component) => (
+          <button
+            key={component}
+            type="button"
+            class="button"
+            title="With standard deviations and the reason of the choice, a row a frame"
+            disabled={!actions.hasPoses(component)}
+            onClick={() => actions.saveTable(component)}
+          >
+            {titleOf(component)} table (.csv)
           </button>
         ))}
       </div>

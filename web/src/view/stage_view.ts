@@ -152,7 +152,8 @@ export class StageView {
     const points = outline.points.map((point) => canvasFromFrame(view, point));
     const handles = active && handlesShown(state);
     const selected = handles ? selectedPoint : null;
-    drawOutline(context, component, points, { closed: outline.closed, active, handles, hit: handles ? hit : NOTHING, selected });
+    const { closed, unknownSides } = outline;
+    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected });
     const last = points.at(-1);
     if (active && tool === 'trace' && !outline.closed && last && this.#pointer) {
       drawRubberBand(context, component, last, (hit.kind === 'vertex' && points[hit.index]) || this.#pointer);

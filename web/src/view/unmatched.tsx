@@ -5,8 +5,9 @@ import { useApp } from './app';
 
 const SIZE = 256;
 
-function described({ clipped, milliseconds }: Findings): string {
-  return `${clipped ? 'cut at the border · ' : 'found in '}${milliseconds.toFixed(1)} ms`;
+function described({ clipped, partial, milliseconds }: Findings): string {
+  const how = partial ? 'from a part of the outline · ' : clipped ? 'cut at the border · ' : 'found in ';
+  return `${how}${milliseconds.toFixed(1)} ms`;
 }
 
 /** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
@@ -17,8 +18,8 @@ export function Unmatched({ state }: { state: State }) {
   // A pose from a file has no match of its own to show.
   const matched = result?.kind === 'posed' && result.from === 'outline';
   const findings = matched ? poser.findings(outline) : null;
-  const chosen = matched ? result.chosen : 0;
-  const picture = findings?.pictures[chosen] ?? null;
+  const candidate = matched ? result.candidates[result.chosen] : undefined;
+  const picture = (candidate && poser.detail(outline, candidate)?.picture) ?? null;
   useEffect(() => {
     const context = canvas.current?.getContext('2d');
     if (!context) return;
@@ -36,7 +37,7 @@ export function Unmatched({ state }: { state: State }) {
       />
       <p class="card-note">
         <span class="key-swatch" aria-hidden="true" /> differs
-        <span class="timing">{findings && findings.pictures.length > 0 ? described(findings) : ''}</span>
+        <span class="timing">{findings && findings.details.length > 0 ? described(findings) : ''}</span>
       </p>
     </section>
   );

@@ -1,7 +1,8 @@
-import init, { Matcher, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
+import init, { choosePose, Matcher, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { ComponentName } from '../document/types';
-import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from '../engine/protocol';
+import { poseArray, poseFrom } from '../engine/pose_array';
+import type { ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
 import { serve } from './serve';
 
 /** Holds both components' libraries and finds poses in them. */
@@ -17,16 +18,54 @@ serve<PoseProtocol>({
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },
-  match: (input) => found('matchOutline', input),
-  refine: (input) => found('refineOutline', input),
+  match: (input) => withTraced(input, (matcher, traced) => found(matcher, () => matcher.matchOutline(traced))),
+  refine: ({ around, ...input }) =>
+    withTraced(input, (matcher, traced) =>
+      withSurroundings(input.component, around, (raw) => found(matcher, () => matcher.refineOutline(traced, raw))),
+    ),
+  converge: ({ start, ...input }) =>
+    withTraced(input, (matcher, traced) => stepsOf(matcher.convergence(traced, Float64Array.from(poseArray(start))))),
+  choose: async ({ component, candidates, around }) => {
+    await ready;
+    const poses = Float64Array.from(candidates.flatMap(({ pose }) => poseArray(pose)));
+    const residuals = Float64Array.from(candidates, ({ residual }) => residual);
+    const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
+    if (!chosen) return null;
+    const { index, decided, sentence: reason } = chosen;
+    chosen.free();
+    return { index, decided, reason };
+  },
 });
 
-async function found(how: 'matchOutline' | 'refineOutline', { component, outline, camera }: MatchInput): Promise<Match> {
+async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
   await ready;
+  const { component, outline, unknownSides, camera } = input;
   const matcher = matchers.get(component);
   if (!matcher) throw new Error(`The library of the ${component} is not open`);
+  const traced = new Traced(outline, unknownSides, camera.text, camera.width, camera.height);
+  try {
+    return work(matcher, traced);
+  } finally {
+    traced.free();
+  }
+}
+
+function withSurroundings<T>(component: ComponentName, around: Surroundings, work: (raw: RawSurroundings) => T): T {
+  const raw = new RawSurroundings();
+  try {
+    const { counterpart, neighbours } = around;
+    const array = counterpart && Float64Array.from(poseArray(counterpart));
+    if (array) component === 'tibia' ? raw.setFemur(array) : raw.setTibia(array);
+    for (const pose of neighbours) raw.addNeighbour(Float64Array.from(poseArray(pose)));
+    return work(raw);
+  } finally {
+    raw.free();
+  }
+}
+
+function found(matcher: Matcher, find: () => RawMatch): Match {
   const startedAt = performance.now();
-  const match = matcher[how](outline, camera.text, camera.width, camera.height);
+  const match = find();
   try {
     return copied(match, matcher, performance.now() - startedAt);
   } finally {
@@ -36,22 +75,37 @@ async function found(how: 'matchOutline' | 'refineOutline', { component, outline
 
 function copied(found: RawMatch, matcher: Matcher, milliseconds: number): Match {
   const { canonicalSize, canonicalArea } = matcher;
+  const { clipped, partial, reason = null, decided } = found;
   const candidates = Array.from({ length: found.count }, (_, index) => candidateOf(found, index, canonicalSize));
-  return { candidates, canonicalSize, canonicalArea, clipped: found.clipped, milliseconds };
+  return { candidates, canonicalSize, canonicalArea, clipped, partial, reason, decided, milliseconds };
 }
 
 function candidateOf(found: RawMatch, index: number, size: number): MatchedCandidate {
-  const [x = 0, y = 0, z = 0, zRot = 0, xRot = 0, yRot = 0] = found.pose(index) ?? [];
+  const deviations = found.deviations(index);
+  const start = found.start(index);
   return {
-    pose: { x, y, z, zRot, xRot, yRot },
-    unmatched: found.unmatched(index) ?? 0,
+    pose: poseFrom(found.pose(index) ?? []),
+    unmatched: found.unmatched(index) ?? null,
     drawn: found.drawn(index) ?? null,
     residual: found.residual(index) ?? null,
+    deviations: deviations ? poseFrom(deviations) : null,
+    start: start ? poseFrom(start) : null,
     atBorder: found.atBorder(index) ?? false,
-    picture: { size, input: bits(found.inputBits(index)), view: bits(found.viewBits(index)) },
+    picture: pictureOf(found, index, size),
   };
 }
 
-function bits(copy: Uint8Array | undefined): Uint8Array<ArrayBuffer> {
-  return (copy ?? new Uint8Array()) as Uint8Array<ArrayBuffer>;
+function pictureOf(found: RawMatch, index: number, size: number): Picture | null {
+  const [input, view] = [found.inputBits(index), found.viewBits(index)] as (Uint8Array<ArrayBuffer> | undefined)[];
+  return input?.length && view?.length ? { size, input, view } : null;
+}
+
+/** Numbers of a step of convergence. */
+const STEP = 10;
+
+function stepsOf(numbers: Float64Array): ConvergenceStep[] {
+  return Array.from({ length: numbers.length / STEP }, (_, at) => {
+    const [stage = 0, renders = 0, loss = 0, residual = 0, ...pose] = numbers.subarray(STEP * at, STEP * (at + 1));
+    return { stage, renders, loss, residual, pose: poseFrom(pose) };
+  });
 }

@@ -8,7 +8,7 @@ use fluoropose::calibration::Calibration;
 use fluoropose::jts;
 use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::region::largest_region;
 use fluoropose_decode::{Model, decode_mask, decode_model};
 
@@ -28,7 +28,8 @@ pub fn read_text(path: &Path) -> Result<String> {
     fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
 }
 
-fn name_of(path: &Path) -> String {
+/// The name of a file without its folder.
+pub fn name_of(path: &Path) -> String {
     path.file_name()
         .unwrap_or_default()
         .to_string_lossy()
@@ -181,7 +182,7 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// Reads the poses of a `.jts` file.
+/// Reads the poses of a `.jts` file, a row a frame; [`known_pose`] tells which are none.
 ///
 /// # Errors
 /// Names the file and the line.
@@ -195,7 +196,12 @@ pub fn read_poses(path: &Path) -> Result<Vec<EulerPose>> {
     Ok(poses)
 }
 
-/// Writes poses as `.jts`.
+/// The pose of a row of a `.jts` file: six zeros stand for none.
+pub fn known_pose(row: &EulerPose) -> Option<Pose> {
+    (*row != EulerPose::default()).then(|| Pose::from(*row))
+}
+
+/// Writes poses as `.jts`; the default, six zeros, for a frame without one.
 ///
 /// # Errors
 /// Names the file.
@@ -205,6 +211,14 @@ pub fn write_poses(path: &Path, poses: &[EulerPose]) -> Result<()> {
     for pose in poses {
         jts::write_row(&mut text, pose)?;
     }
+    write_text(path, &text)
+}
+
+/// Writes a text file.
+///
+/// # Errors
+/// Names the file.
+pub fn write_text(path: &Path, text: &str) -> Result<()> {
     fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
 }
 
@@ -216,7 +230,7 @@ pub fn write_json(path: Option<&Path>, table: &impl serde::Serialize) -> Result<
     let Some(path) = path else { return Ok(()) };
     let mut text = serde_json::to_string_pretty(table)?;
     text.push('\n');
-    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+    write_text(path, &text)
 }
 
 #[cfg(test)]

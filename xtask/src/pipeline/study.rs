@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
+use super::decide::Role;
 use super::files::read_text;
 use crate::implant::Side;
 
@@ -34,6 +35,8 @@ pub struct Component {
     pub name: String,
     /// Its model, mm.
     pub model: PathBuf,
+    /// Which component of the knee it is, where its name does not say so.
+    pub role: Option<Role>,
     /// Reference poses (.jts), a row a frame.
     pub reference: Option<PathBuf>,
     /// Rotations about x and y of the nominal view, degrees.
@@ -52,6 +55,13 @@ pub struct Component {
     pub peer: BTreeMap<String, PathBuf>,
     #[serde(flatten)]
     others: BTreeMap<String, toml::Value>,
+}
+
+impl Component {
+    /// Which component of the knee it is: by the key `role`, or by the names femur and tibia.
+    pub fn role(&self) -> Option<Role> {
+        self.role.or_else(|| Role::of_name(&self.name))
+    }
 }
 
 impl Study {
@@ -124,5 +134,18 @@ mod tests {
         ));
         let message = stray.unwrap_err().to_string();
         assert!(message.contains("unknown.foot"), "{message}");
+    }
+
+    #[test]
+    fn a_role_is_told_or_follows_from_the_name() {
+        let study = read(
+            "name = 'left'\ncalibration = 'c.txt'\n\
+             [[component]]\nname = 'Femur'\nmodel = 'f.stl'\n\
+             [[component]]\nname = 'tray'\nrole = 'tibia'\nmodel = 't.stl'\n\
+             [[component]]\nname = 'patella'\nmodel = 'p.stl'\n",
+        );
+        let components = study.unwrap().components;
+        let roles: Vec<Option<Role>> = components.iter().map(Component::role).collect();
+        assert_eq!(roles, [Some(Role::Femur), Some(Role::Tibia), None]);
     }
 }

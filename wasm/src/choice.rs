@@ -1,0 +1,248 @@
+//! Which of several refined poses is chosen, and why, in words.
+
+use fluoropose::choice::{Candidate, Choice, Context, Counterpart, Reason, choose};
+use fluoropose::pose::Pose;
+use wasm_bindgen::prelude::*;
+
+use crate::pose_numbers::from_numbers;
+
+/// What is known round a frame's component: the other component in the frame, and the same one in neighbouring frames.
+/// Only poses that can be relied on belong here.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct Surroundings {
+    counterpart: Option<Counterpart>,
+    neighbours: Vec<Pose>,
+}
+
+#[wasm_bindgen]
+impl Surroundings {
+    /// Nothing is known.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Surroundings {
+        Self::default()
+    }
+
+    /// The femoral component is known and a tibial pose is to be chosen.
+    ///
+    /// # Errors
+    /// A sentence where `pose` is not six finite numbers.
+    #[wasm_bindgen(js_name = setFemur)]
+    pub fn set_femur(&mut self, pose: &[f64]) -> Result<(), JsError> {
+        self.counterpart = Some(Counterpart::Femur(from_numbers(pose)?.into()));
+        Ok(())
+    }
+
+    /// The tibial component is known and a femoral pose is to be chosen.
+    ///
+    /// # Errors
+    /// As of `set_femur`.
+    #[wasm_bindgen(js_name = setTibia)]
+    pub fn set_tibia(&mut self, pose: &[f64]) -> Result<(), JsError> {
+        self.counterpart = Some(Counterpart::Tibia(from_numbers(pose)?.into()));
+        Ok(())
+    }
+
+    /// The pose of the same component in the frame before or after.
+    ///
+    /// # Errors
+    /// As of `set_femur`.
+    #[wasm_bindgen(js_name = addNeighbour)]
+    pub fn add_neighbour(&mut self, pose: &[f64]) -> Result<(), JsError> {
+        self.neighbours.push(from_numbers(pose)?.into());
+        Ok(())
+    }
+}
+
+impl Surroundings {
+    fn choose(&self, candidates: &[Candidate]) -> Option<Choice> {
+        let context = Context {
+            counterpart: self.counterpart,
+            neighbours: &self.neighbours,
+        };
+        choose(candidates, &context)
+    }
+
+    /// Why a pose was chosen, in a sentence or two.
+    fn explain(&self, choice: &Choice) -> String {
+        let reason = self.explain_reason(&choice.reason);
+        match choice.open {
+            Some(open) if choice.reason.is_decided() => {
+                format!(
+                    "{reason} Another pose is open: residual {:.2} px.",
+                    open.other_px
+                )
+            }
+            _ => reason,
+        }
+    }
+
+    fn explain_reason(&self, reason: &Reason) -> String {
+        let other = match self.counterpart {
+            Some(Counterpart::Tibia(_)) => "tibia",
+            _ => "femur",
+        };
+        match *reason {
+            Reason::Only => "The only pose found.".to_owned(),
+            Reason::Residual {
+                chosen_px,
+                other_px,
+            } => {
+                format!("By the residual: {chosen_px:.2} px, the pose ruled out {other_px:.2} px.")
+            }
+            Reason::Tilt {
+                chosen_deg,
+                other_deg,
+            } => format!(
+                "By the coronal tilt against the {other}: {}°, the pose ruled out {}°.",
+                tenths(chosen_deg),
+                tenths(other_deg)
+            ),
+            Reason::Turn {
+                chosen_deg,
+                other_deg,
+            } => format!(
+                "By continuity: turned {}° from the neighbouring frames, the pose ruled out {}°.",
+                tenths(chosen_deg),
+                tenths(other_deg)
+            ),
+            Reason::Film { saved_deg } => format!(
+                "By continuity: the film jumps by {}° more with another pose.",
+                tenths(saved_deg)
+            ),
+            Reason::Undecided {
+                chosen_px,
+                other_px,
+            } => format!(
+                "Undecided: the residuals are {chosen_px:.2} and {other_px:.2} px, and nothing else tells the poses apart."
+            ),
+        }
+    }
+}
+
+/// A magnitude to a tenth: on which side a tilt is says nothing here.
+fn tenths(degrees: f64) -> String {
+    format!("{:.1}", degrees.abs())
+}
+
+/// Which pose was chosen.
+#[wasm_bindgen]
+pub struct Chosen {
+    choice: Choice,
+    sentence: String,
+}
+
+#[wasm_bindgen]
+impl Chosen {
+    /// Its number among those given.
+    #[wasm_bindgen(getter)]
+    pub fn index(&self) -> usize {
+        self.choice.index
+    }
+
+    /// Whether anything spoke for it besides a slightly smaller residual: then others may rest on it.
+    #[wasm_bindgen(getter)]
+    pub fn decided(&self) -> bool {
+        self.choice.reason.is_decided()
+    }
+
+    /// Why, in a sentence or two.
+    #[wasm_bindgen(getter)]
+    pub fn sentence(&self) -> String {
+        self.sentence.clone()
+    }
+}
+
+impl Chosen {
+    pub(crate) fn among(candidates: &[Candidate], around: &Surroundings) -> Option<Self> {
+        let choice = around.choose(candidates)?;
+        let sentence = around.explain(&choice);
+        Some(Self { choice, sentence })
+    }
+
+    /// The best of the poses that nothing ruled out.
+    pub(crate) fn open(&self) -> Option<usize> {
+        self.choice.open.map(|open| open.index)
+    }
+}
+
+/// Chooses among refined poses (six numbers each, one after another) with their residuals in pixels, when more has become
+/// known round them; nothing where there is none.
+///
+/// # Errors
+/// A sentence where a pose is not six finite numbers.
+#[wasm_bindgen(js_name = choosePose)]
+pub fn choose_pose(
+    poses: &[f64],
+    residuals: &[f64],
+    around: &Surroundings,
+) -> Result<Option<Chosen>, JsError> {
+    let candidates = poses
+        .chunks(6)
+        .zip(residuals)
+        .map(|(pose, &residual_px)| {
+            Ok(Candidate {
+                pose: from_numbers(pose)?.into(),
+                residual_px,
+            })
+        })
+        .collect::<Result<Vec<_>, JsError>>()?;
+    Ok(Chosen::among(&candidates, around))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::pose::EulerPose;
+
+    fn turned(x_rot_deg: f64) -> Candidate {
+        let pose = EulerPose {
+            x_mm: 0.0,
+            y_mm: 0.0,
+            z_mm: -1000.0,
+            z_rot_deg: 0.0,
+            x_rot_deg,
+            y_rot_deg: 0.0,
+        };
+        Candidate {
+            pose: pose.into(),
+            residual_px: 0.3,
+        }
+    }
+
+    #[test]
+    fn two_equal_poses_are_undecided_until_a_neighbour_is_known() {
+        let both = [turned(4.0), turned(-4.0)];
+        let mut around = Surroundings::default();
+        let chosen = Chosen::among(&both, &around).unwrap();
+        assert!(
+            !chosen.decided()
+                && chosen
+                    .sentence
+                    .starts_with("Undecided: the residuals are 0.30")
+        );
+        around.neighbours.push(turned(-3.5).pose);
+        let chosen = Chosen::among(&both, &around).unwrap();
+        assert_eq!((chosen.index(), chosen.decided()), (1, true));
+        assert_eq!(
+            chosen.sentence,
+            "By continuity: turned 0.5° from the neighbouring frames, the pose ruled out 7.5°."
+        );
+    }
+
+    #[test]
+    fn the_counterpart_decides_by_tilt_and_is_named() {
+        let both = [turned(4.0), turned(-1.0)];
+        let around = Surroundings {
+            counterpart: Some(Counterpart::Femur(turned(4.0).pose)),
+            neighbours: Vec::new(),
+        };
+        let chosen = Chosen::among(&both, &around).unwrap();
+        assert_eq!(chosen.index(), 0);
+        assert!(
+            chosen
+                .sentence
+                .starts_with("By the coronal tilt against the femur: 0.0°")
+        );
+    }
+}
