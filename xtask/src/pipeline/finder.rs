@@ -39,6 +39,28 @@ impl Method {
     }
 }
 
+/// How edges are looked for and understood.
+#[derive(clap::Args, Clone, Copy, Debug, Default)]
+pub struct EdgeOptions {
+    /// The implant is brighter than what surrounds it, as on a radiograph's film (method image)
+    #[arg(long)]
+    pub bright_implant: bool,
+    /// Estimate with each pose how far the edges lie outside the model's outline, where the data
+    /// can tell that from depth (methods refined and image)
+    #[arg(long)]
+    pub edge_offset: bool,
+}
+
+impl EdgeOptions {
+    fn polarity(self) -> Polarity {
+        if self.bright_implant {
+            Polarity::BrightImplant
+        } else {
+            Polarity::DarkImplant
+        }
+    }
+}
+
 /// What is known of one frame.
 #[derive(Clone, Copy)]
 pub struct Seen<'a> {
@@ -53,14 +75,14 @@ impl<'a> Seen<'a> {
     ///
     /// # Errors
     /// Where there is no frame.
-    fn image(&self) -> Result<ImageTarget<'a>> {
+    fn image(&self, edges: EdgeOptions) -> Result<ImageTarget<'a>> {
         let frame = self
             .frame
             .context("the method image needs the grey frames, not only masks")?;
         Ok(ImageTarget {
             frame,
             unknown: self.silhouette.unknown(),
-            polarity: Polarity::DarkImplant,
+            polarity: edges.polarity(),
         })
     }
 }
@@ -93,6 +115,7 @@ pub struct Finder<'l> {
     refiner: Refiner<'l>,
     camera: Camera,
     method: Method,
+    edges: EdgeOptions,
 }
 
 impl<'l> Finder<'l> {
@@ -106,7 +129,17 @@ impl<'l> Finder<'l> {
             refiner: Refiner::new(mesh, &[camera], RefineOptions::default()),
             camera,
             method,
+            edges: EdgeOptions::default(),
         })
+    }
+
+    /// The same, with edges looked for otherwise.
+    pub fn with_edges(mut self, edges: EdgeOptions) -> Self {
+        self.edges = edges;
+        self.refiner.set_options(RefineOptions {
+            edge_offset: edges.edge_offset,
+        });
+        self
     }
 
     /// All poses that explain a frame, best first: by the loss after refinement, or by the
@@ -130,7 +163,7 @@ impl<'l> Finder<'l> {
         }
         let poses: Vec<Pose> = refined.iter().map(|found| found.refined.pose).collect();
         let on_image = self.refine_on_image(seen, &poses)?;
-        let view = View::only(&camera, seen.image()?);
+        let view = View::only(&camera, seen.image(self.edges)?);
         self.answers(&view, &on_image, |found| worth[refined[found.start].start])
     }
 
@@ -185,7 +218,7 @@ impl<'l> Finder<'l> {
         seen: &Seen<'_>,
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>> {
-        let view = View::only(&self.camera, seen.image()?);
+        let view = View::only(&self.camera, seen.image(self.edges)?);
         Ok(self.refiner.refine(&[view], starts)?)
     }
 

@@ -46,6 +46,11 @@ impl<'m> Refiner<'m> {
         }
     }
 
+    /// Refines otherwise from now on.
+    pub fn set_options(&mut self, options: RefineOptions) {
+        self.options = options;
+    }
+
     /// The working memory, lent.
     pub fn memory(&mut self) -> RefineMemory<'_> {
         RefineMemory {
