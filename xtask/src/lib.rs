@@ -1,6 +1,7 @@
 //! Every job of the project, one file a verb; what verbs share stands beside them.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod biplane;
 pub mod bound;
 pub mod ci;
 pub mod demo;

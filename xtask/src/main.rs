@@ -20,6 +20,8 @@ enum Verb {
     Demo(xtask::demo::Args),
     /// Find the pose of an implant in each mask of a folder
     Pose(xtask::pose::Args),
+    /// Find one pose in the masks of two calibrated cameras
+    Biplane(xtask::biplane::Args),
     /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
     Synthetic(xtask::synthetic::Args),
     /// Compare poses from a study's masks with its reference poses
@@ -53,6 +55,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Library(args) => xtask::library::run(args),
         Verb::Demo(args) => xtask::demo::run(args),
         Verb::Pose(args) => xtask::pose::run(args),
+        Verb::Biplane(args) => xtask::biplane::run(args),
         Verb::Synthetic(args) => xtask::synthetic::run(args),
         Verb::Evaluate(args) => xtask::evaluate::run(args),
         Verb::Bound(args) => xtask::bound::run(args),

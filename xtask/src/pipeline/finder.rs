@@ -133,6 +133,12 @@ impl<'l> Finder<'l> {
         })
     }
 
+    /// The same, with memory for frames of another camera as well.
+    pub fn with_camera(mut self, other: Camera) -> Self {
+        self.refiner.make_room(&other);
+        self
+    }
+
     /// The same, with edges looked for otherwise.
     pub fn with_edges(mut self, edges: EdgeOptions) -> Self {
         self.edges = edges;

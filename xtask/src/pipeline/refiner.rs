@@ -46,6 +46,15 @@ impl<'m> Refiner<'m> {
         }
     }
 
+    /// Makes room for frames of another camera.
+    pub fn make_room(&mut self, camera: &Camera) {
+        let (width, height) = (camera.width(), camera.height());
+        let words = self.drawn.len().max(words_needed(width, height));
+        self.drawn.resize(words, 0);
+        let places = self.places.len().max(width * height);
+        self.places.resize(places, 0);
+    }
+
     /// Refines otherwise from now on.
     pub fn set_options(&mut self, options: RefineOptions) {
         self.options = options;

@@ -1,0 +1,34 @@
+//! Two cameras see one implant: depth is known as well as what lies in the plane.
+
+use fluoropose_tests::{camera, mesh, tibia};
+use xtask::pipeline::build::ViewOptions;
+use xtask::pipeline::disturb::DisturbanceOptions;
+use xtask::pipeline::finder::Method;
+use xtask::synthetic::{Protocol, Variant, measure_as};
+
+/// A jittered tibia is the hard case: one camera leaves several millimetres in depth.
+#[test]
+fn depth_is_as_good_as_the_plane() {
+    let protocol = Protocol {
+        method: Method::Refined,
+        distance: 1084.0,
+        poses: 10,
+        seed: 11,
+        disturbance: DisturbanceOptions {
+            jitter: 1.0,
+            ..DisturbanceOptions::default()
+        },
+    };
+    let model = tibia();
+    let measure = |biplane| {
+        let variant = Variant {
+            biplane,
+            ..Variant::default()
+        };
+        let views = ViewOptions::default();
+        measure_as(mesh(&model), camera(), &views, &protocol, variant).expect("poses are found")
+    };
+    let (one, two) = (measure(None).median, measure(Some(70.0)).median);
+    assert!(two.z_mm < 2.0 * two.x_mm.max(two.y_mm), "{two:?}");
+    assert!(two.z_mm < one.z_mm / 5.0, "{two:?} against {one:?}");
+}
