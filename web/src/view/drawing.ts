@@ -45,9 +45,9 @@ export function drawOutline(context: Context, component: ComponentName, points: 
   context.globalAlpha = style.active ? 1 : 0.6;
   stroke(context, known, HALO, 3.5);
   stroke(context, known, colour, 1.5);
-  context.setLineDash([3, 5]);
-  stroke(context, unknown, HALO, 3.5);
-  stroke(context, unknown, colour, 1.5);
+  context.setLineDash([7, 7]);
+  stroke(context, unknown, HALO, 4.5);
+  stroke(context, unknown, colour, 2.5);
   context.setLineDash([]);
   if (style.handles) {
     points.forEach((point, index) => drawHandle(context, colour, point, handleStyle(index, style)));
