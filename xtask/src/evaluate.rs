@@ -42,6 +42,9 @@ pub struct Args {
     /// Study file
     #[arg(long)]
     study: PathBuf,
+    /// Only masks of this source [default: all]
+    #[arg(long, value_name = "NAME")]
+    source: Option<String>,
     /// How poses are found
     #[arg(long, value_enum, default_value_t)]
     method: Method,
@@ -114,6 +117,8 @@ pub struct StartDifference {
 /// What is evaluated, and how.
 #[derive(Clone, Copy, Debug)]
 pub struct Request<'a> {
+    /// The only source of masks that is looked at; all where it is `None`.
+    pub source: Option<&'a str>,
     /// How poses are found.
     pub method: Method,
     /// How edges are looked for.
@@ -129,6 +134,7 @@ impl Request<'_> {
     /// A method with everything else as it is by default.
     pub fn of(method: Method) -> Self {
         Self {
+            source: None,
             method,
             edges: EdgeOptions::default(),
             disturbance: DisturbanceOptions::default(),
@@ -143,6 +149,7 @@ impl Request<'_> {
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
     let request = Request {
+        source: args.source.as_deref(),
         method: args.method,
         edges: args.edges,
         disturbance: args.disturbance,
@@ -165,6 +172,14 @@ pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
             "{} has no key 'frames': the method image needs the folder of the grey frames, frames = \"folder\"",
             path.display()
         );
+    }
+    if let Some(source) = request.source
+        && !study
+            .components
+            .iter()
+            .any(|c| c.masks.contains_key(source))
+    {
+        bail!("{} names no masks of a source '{source}'", path.display());
     }
     let calibration = read_calibration(&study.calibration)?;
     let mut rows = Vec::new();

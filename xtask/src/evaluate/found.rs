@@ -8,6 +8,7 @@ use fluoropose::camera::Camera;
 use fluoropose::choice::Counterpart;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose_decode::Model;
+use rayon::prelude::*;
 
 use super::Request;
 use super::reference::{Reference, in_front};
@@ -69,7 +70,9 @@ pub(super) fn find_parts<'s>(
         Part::find(component, study.frames.as_deref(), calibration, request)
             .with_context(|| format!("the component {}", component.name))
     };
-    let mut parts: Vec<Part<'s>> = study.components.iter().map(find).collect::<Result<_>>()?;
+    // On a core each.
+    let components = study.components.par_iter();
+    let mut parts: Vec<Part<'s>> = components.map(find).collect::<Result<_>>()?;
     let is = |role: Role| move |part: &Part<'_>| part.component.role() == Some(role);
     let mut femurs: Vec<(String, Vec<Option<Pose>>)> = Vec::new();
     for part in parts.iter_mut().filter(|part| !is(Role::Tibia)(part)) {
@@ -125,7 +128,8 @@ impl<'s> Part<'s> {
             reference: Reference::of(component)?,
             found: Vec::new(),
         };
-        for (name, masks) in &component.masks {
+        let wanted = |name: &String| request.source.is_none_or(|source| source == name);
+        for (name, masks) in component.masks.iter().filter(|(name, _)| wanted(name)) {
             let folders = Folders {
                 masks,
                 unknown: component.unknown.get(name).map(PathBuf::as_path),
