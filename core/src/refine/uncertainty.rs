@@ -29,6 +29,11 @@ const ALIKE: f32 = 0.5;
 /// quarter of that of rounding, as measured by `cargo xtask synthetic --method refined`: errors of
 /// noise-free outlines are 0.3 to 0.6 of what rounding as independent noise would give.
 const GRAIN: f64 = 0.25 / 12.0;
+/// The correlation is cut where it first fails to be positive, and the fit takes the longest waves
+/// out of the residuals: by so much the variance comes out too small. Measured by simulation
+/// (`cargo xtask synthetic --method refined --jitter 1 --seed 5`): without it the regions of 95 %
+/// held the truth in 83 % (femur) and 84 % (tibia) of 60 poses.
+const LONG_WAVES: f64 = 1.4;
 /// Least mean of `psi'`, which may be small where the loss was cut close.
 const LEAST_CURVATURE: f64 = 0.2;
 /// Independent stretches beyond the six parameters that are supposed at least.
@@ -122,7 +127,8 @@ impl Sums {
         let few = 1.0 + 4.4 / freedom + 9.0 / (freedom * freedom);
         let spread: Matrix6 = core::array::from_fn(|row| {
             core::array::from_fn(|column| {
-                self.spread[row][column] * fitted * few + self.information[row][column] * GRAIN
+                self.spread[row][column] * LONG_WAVES * fitted * few
+                    + self.information[row][column] * GRAIN
             })
         });
         PoseCovariance::sandwich(&bread, &spread)
