@@ -82,7 +82,9 @@ async function unknownStretch(page, stage, truth, t) {
   await page.keyboard.press('.');
   await panel.waitForWords(page, /^Point 1 of \d+/);
   for (let marked = 0; marked < 3; marked++) {
-    await page.keyboard.press('u');
+    // The button does what the key does.
+    if (marked === 0) await page.getByRole('button', { name: 'Mark a side unknown or known' }).click();
+    else await page.keyboard.press('u');
     await panel.waitForWords(page, new RegExp(`^Side ${marked + 1} of \\d+ is unknown: what lies within 12 px`));
     await page.keyboard.press('.');
   }

@@ -1,4 +1,4 @@
-import type { State } from '../document/store';
+import { currentCell, type State } from '../document/store';
 import { TOOLS, type ToolName } from '../interaction/tools';
 import { useApp } from './app';
 import { Icon, type IconName } from './icons';
@@ -24,6 +24,18 @@ export function Rail({ state }: { state: State }) {
           <KeyHint shown={key.toUpperCase()} />
         </button>
       ))}
+      <button
+        type="button"
+        class="tool"
+        aria-label="Mark a side unknown or known"
+        aria-keyshortcuts="u"
+        title="Mark the side after the selected point unknown, or known again (U)"
+        disabled={!currentCell(state).outline?.closed}
+        onClick={() => actions.toggleUnknownSide()}
+      >
+        <Icon name="dashed" />
+        <KeyHint shown="U" />
+      </button>
       <span class="rail-gap" />
       <button type="button" class="tool" aria-label="Fit the film to the window" aria-keyshortcuts="0" title="Fit the film to the window (0)" onClick={() => actions.run({ name: 'fit' })}>
         <Icon name="fit" />
