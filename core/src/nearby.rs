@@ -22,16 +22,18 @@ use crate::verify::unmatched_at;
 /// Starts that are given at most: the pose itself and the best of those round it.
 pub const NEARBY: usize = 5;
 
-/// Step and reach of the search, degrees and steps to each side.
-const STEP_DEG: f64 = 8.0;
+/// Step of the search for a start that is only roughly known, degrees.
+pub const WIDE_DEG: f64 = 8.0;
+/// Steps to each side.
 const REACH: i32 = 2;
 
 /// Times a drawing is moved onto the silhouette.
 const MOVES: usize = 2;
 
-/// `start` and the poses within 16 degrees of it out of the image plane that cover a whole
-/// silhouette best, best first and `start` last: for a start that may be 15 degrees, 10 mm aside
-/// and a tenth of the distance off. Draws the model 75 times.
+/// `start` and the poses round it that cover a whole silhouette best, best first and `start` last:
+/// of two steps of `step_deg` degrees to each side about the camera's x and y. With [`WIDE_DEG`]
+/// for a start that may be 15 degrees, 10 mm aside and a tenth of the distance off. Draws the
+/// model 75 times.
 ///
 /// Area and centroid must be those of the whole part: for a silhouette with unknown pixels `start` alone
 /// is given ([`crate::partial`] finds poses of such).
@@ -40,6 +42,7 @@ pub fn nearby(
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     start: &Pose,
+    step_deg: f64,
     memory: &mut RefineMemory<'_>,
 ) -> Vec<Pose, NEARBY> {
     let mut found: Vec<(u64, Pose), NEARBY> = Vec::new();
@@ -54,7 +57,7 @@ pub fn nearby(
         };
         for x in -REACH..=REACH {
             for y in -REACH..=REACH {
-                let turn = [x, y].map(|steps| radians(STEP_DEG * f64::from(steps)));
+                let turn = [x, y].map(|steps| radians(step_deg * f64::from(steps)));
                 let Some((unmatched, pose)) = search.moved([turn[0], turn[1], 0.0], start) else {
                     continue;
                 };

@@ -5,6 +5,7 @@ use heapless::Vec;
 use crate::mask::{MaskMut, words_needed};
 use crate::mesh::Mesh;
 use crate::mirror::mirror_pose;
+use crate::nearby::nearby;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine};
 use crate::symmetry::SymmetryPlane;
@@ -22,6 +23,13 @@ const WORTH_REFINING: f64 = 4.0;
 
 /// A part looks symmetric when its mirrored pose leaves at most this part of the mask unmatched.
 const SYMMETRIC_SHARE: f64 = 0.15;
+
+/// See [`is_split`]: least residual, pixels, and how many times the spread of the residuals it is.
+const SPLIT_PX: f64 = 0.1;
+const SPLIT_RATIO: f64 = 3.0;
+
+/// Step of the search round a pose that may be a small minimum, degrees.
+const CLOSE_DEG: f64 = 1.0;
 
 /// Of poses nearer to each other than this, degrees, the best is kept.
 const SAME_DEG: f64 = 0.5;
@@ -81,6 +89,7 @@ pub fn refine_rivals(
         return Err(error);
     }
     search.mirror();
+    search.look_closer();
     Ok(distinct(&search.answers))
 }
 
@@ -131,6 +140,31 @@ impl Search<'_, '_> {
             }
         }
     }
+
+    /// Where most of the outline fits exactly and a part does not, the best pose may be a small
+    /// minimum beside the right one: it is refined from round about.
+    fn look_closer(&mut self) {
+        let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
+            return;
+        };
+        let Target::Silhouette(silhouette) = &view.target else {
+            return;
+        };
+        if !is_split(&best.refined) || view.placement != Pose::IDENTITY {
+            return;
+        }
+        let (mesh, camera, pose) = (self.mesh, view.camera, &best.refined.pose);
+        let starts = nearby(mesh, camera, silhouette, pose, CLOSE_DEG, self.memory);
+        for start in &starts {
+            // Some of them may lead nowhere.
+            let _ = self.refine(start, best.start, best.mirrored);
+        }
+    }
+}
+
+/// Whether most of an outline fits exactly and a part does not at all, which noise does not do.
+fn is_split(refined: &Refined) -> bool {
+    refined.residual_px > SPLIT_PX && refined.residual_px > SPLIT_RATIO * refined.spread_px
 }
 
 /// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,

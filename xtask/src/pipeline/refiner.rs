@@ -4,7 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::covariance::PoseCovariance;
 use fluoropose::mask::{Word, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::nearby::nearby;
+use fluoropose::nearby::{WIDE_DEG, nearby};
 use fluoropose::pose::Pose;
 use fluoropose::raster::{Projected, scratch_needed};
 use fluoropose::refine::{
@@ -92,7 +92,15 @@ impl<'m> Refiner<'m> {
         start: &Pose,
     ) -> Vec<Pose> {
         let mesh = self.mesh;
-        nearby(&mesh, camera, silhouette, start, &mut self.memory()).to_vec()
+        nearby(
+            &mesh,
+            camera,
+            silhouette,
+            start,
+            WIDE_DEG,
+            &mut self.memory(),
+        )
+        .to_vec()
     }
 
     /// How sure a refined pose is; see [`uncertainty`].
