@@ -125,7 +125,7 @@ pub struct Iterate {
 
 /// Refines `start` until the model's outline lies on those of `views`.
 ///
-/// Draws the model at most 110 times in each view, usually 20 to 40 times. Never worse than
+/// Draws the model at most 130 times in each view, usually 20 to 40 times. Never worse than
 /// `start` by the loss of its last stage but for what drawing in whole pixels leaves unknown.
 ///
 /// # Errors

@@ -61,6 +61,9 @@ impl EdgeOptions {
     }
 }
 
+/// Poses of an outline that are brought onto the grey frame: the best of them.
+const ON_IMAGE: usize = 3;
+
 /// What is known of one frame.
 #[derive(Clone, Copy)]
 pub struct Seen<'a> {
@@ -167,7 +170,12 @@ impl<'l> Finder<'l> {
         if self.method == Method::Refined {
             return self.answers(&view, &refined, |found| worth[found.start]);
         }
-        let poses: Vec<Pose> = refined.iter().map(|found| found.refined.pose).collect();
+        // Their mirror images are among them.
+        let poses = refined
+            .iter()
+            .take(ON_IMAGE)
+            .map(|found| found.refined.pose);
+        let poses: Vec<Pose> = poses.collect();
         let on_image = self.refine_on_image(seen, &poses)?;
         let view = View::only(&camera, seen.image(self.edges)?);
         self.answers(&view, &on_image, |found| worth[refined[found.start].start])
@@ -225,7 +233,7 @@ impl<'l> Finder<'l> {
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>> {
         let view = View::only(&self.camera, seen.image(self.edges)?);
-        Ok(self.refiner.refine(&[view], starts)?)
+        Ok(self.refiner.refine_as_given(&[view], starts)?)
     }
 
     /// The best pose of a frame.

@@ -84,6 +84,20 @@ impl<'m> Refiner<'m> {
             .map(|found| found.to_vec())
     }
 
+    /// Refines poses without their mirror images.
+    ///
+    /// # Errors
+    /// Those of [`refine_rivals`].
+    pub fn refine_as_given(
+        &mut self,
+        views: &[View<'_>],
+        starts: &[Pose],
+    ) -> Result<Vec<RefinedRival>, RefineError> {
+        let (mesh, options) = (self.mesh, self.options);
+        refine_rivals(&mesh, views, starts, &[], options, &mut self.memory())
+            .map(|found| found.to_vec())
+    }
+
     /// Starts round a roughly known pose; see [`nearby`].
     pub fn nearby(
         &mut self,
