@@ -10,7 +10,7 @@ use fluoropose::partial::{
 };
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::raster::{Projected, render, scratch_needed};
-use fluoropose::refine::View;
+use fluoropose::refine::{RefineOptions, View};
 use fluoropose::rivals::worth_refining;
 use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::Verified;
@@ -99,7 +99,7 @@ fn assert_found(
         .iter()
         .map(|found| found.located.pose)
         .collect();
-    let mut refiner = Refiner::new(*mesh, &[*camera]);
+    let mut refiner = Refiner::new(*mesh, &[*camera], RefineOptions::default());
     let refined = refiner
         .refine(&[View::only(camera, silhouette)], &starts)
         .expect("a start is near");
