@@ -14,6 +14,7 @@ import type {
   Outline,
   PoseNumbers,
   Posed,
+  Reference,
   Result,
 } from './types';
 
@@ -129,7 +130,7 @@ const readCandidate = object<Candidate>({
 
 const readPosed = object<Posed>({
   kind: oneOf('posed'),
-  from: oneOf('outline', 'file'),
+  from: oneOf('outline', 'file', 'hand'),
   origin: text,
   candidates: list(readCandidate),
   chosen: count,
@@ -185,6 +186,9 @@ const readComponent = object<Component>({
   librarySpec: readSpec,
 });
 
+/** Sessions from before poses could be compared have none. */
+const readPosesToCompare = optional(object<Reference>({ name: text, poses: dictionary(readPose) }));
+
 const readDoc = object<Doc>({
   name: text,
   side: oneOf('left', 'right', 'unknown'),
@@ -193,6 +197,7 @@ const readDoc = object<Doc>({
   components: object({ femur: readComponent, tibia: readComponent }),
   cells: dictionary(readCell),
   window: nullable(object<GreyWindow>({ centre: number, width: number })),
+  reference: readPosesToCompare,
 });
 
 const readView = object<SessionView>({

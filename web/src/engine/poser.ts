@@ -3,6 +3,7 @@ import { currentCell, currentFrame, currentPlace, type Store } from '../document
 import {
   cellOf,
   COMPONENT_NAMES,
+  isByHand,
   isRefined,
   type Candidate,
   type Cell,
@@ -228,14 +229,19 @@ export class Poser {
   }
 }
 
-/** Does the cell's result still have to be found from its outline? Poses from a file stay until the outline changes. */
+/**
+ * Does the cell's result still have to be found from its outline? Poses from a file stay until the outline changes, one
+ * that was set by hand stays until it is dropped.
+ */
 function isStale({ outline, result, resultOf }: Cell, key: string): boolean {
+  if (isByHand(result)) return false;
   if (!result || resultOf !== outline) return true;
   return !isLoaded({ result }) && result.origin !== key;
 }
 
+/** Given by a person or a file, not found here. */
 function isLoaded({ result }: Pick<Cell, 'result'>): boolean {
-  return result?.kind === 'posed' && result.from === 'file';
+  return result?.kind === 'posed' && result.from !== 'outline';
 }
 
 /**
