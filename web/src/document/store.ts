@@ -2,6 +2,7 @@ import type { Viewport } from '../geometry/viewport';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
+import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
 import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
@@ -18,6 +19,9 @@ export interface Ui {
   readonly viewport: Viewport | null;
   readonly selectedPoint: number | null;
   readonly overlayOpacity: number;
+  /** How things are shown; `view/taste.ts` remembers it. */
+  readonly seeing: Seeing;
+  readonly hand: HandSettings;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
@@ -25,11 +29,13 @@ export interface Ui {
   readonly log: readonly Notice[];
   readonly jobs: readonly Job[];
   readonly savedAt: number | null;
+  /** Brings a newer version of the page into use; null while there is none. */
+  readonly update: (() => void) | null;
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view';
 
 export interface Notice {
   readonly kind: 'info' | 'error';
@@ -61,12 +67,15 @@ const EMPTY_UI: Ui = {
   viewport: null,
   selectedPoint: null,
   overlayOpacity: 0.35,
+  seeing: DEFAULT_SEEING,
+  hand: DEFAULT_HAND,
   overlaysHidden: false,
   popover: null,
   notice: null,
   log: [],
   jobs: [],
   savedAt: null,
+  update: null,
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
 
@@ -152,6 +161,14 @@ export class Store {
 
   selectComponent(component: ComponentName): void {
     if (component !== this.ui.component) this.show({ component, selectedPoint: null });
+  }
+
+  see(change: Partial<Seeing>): void {
+    this.show({ seeing: { ...this.ui.seeing, ...change } });
+  }
+
+  setHand(change: Partial<HandSettings>): void {
+    this.show({ hand: { ...this.ui.hand, ...change } });
   }
 
   say(kind: Notice['kind'], text: string): void {
