@@ -8,10 +8,12 @@ import { Store } from './document/store';
 import { Chooser } from './engine/chooser';
 import { Convergence } from './engine/convergence';
 import { Librarian } from './engine/librarian';
+import { keepForOffline } from './engine/offline';
 import { Poser } from './engine/poser';
 import type { Services } from './engine/services';
 import { Studio } from './engine/studio';
 import { decodeWorker, poseWorker } from './engine/workers';
+import { texts } from './texts';
 import { Actions } from './view/actions';
 import { AppContext, type App } from './view/app';
 import { guardAgainstLoss } from './view/guard';
@@ -35,6 +37,7 @@ async function start(root: HTMLElement): Promise<void> {
     actions: new Actions(services),
   };
   guardAgainstLoss(services.store);
+  keepForOffline(services.store);
   render(
     <AppContext.Provider value={app}>
       <Page />
@@ -46,5 +49,5 @@ async function start(root: HTMLElement): Promise<void> {
 const root = document.getElementById('page');
 if (!root) throw new Error('index.html has no element "page"');
 start(root).catch((error: unknown) => {
-  root.textContent = `The page could not start: ${error instanceof Error ? error.message : String(error)}. It needs a current browser with WebAssembly.`;
+  root.textContent = texts.failedToStart(error instanceof Error ? error.message : String(error));
 });

@@ -2,6 +2,7 @@ import type { Viewport } from '../geometry/viewport';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
+import type { Proposal } from './proposal';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
 import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
 
@@ -28,20 +29,39 @@ export interface Ui {
   readonly notice: Notice | null;
   readonly log: readonly Notice[];
   readonly jobs: readonly Job[];
+  /** When a session file was last written. */
   readonly savedAt: number | null;
+  readonly keeping: Keeping;
+  /** What is about to be imported; null while nothing is. */
+  readonly proposal: Proposal | null;
   /** Brings a newer version of the page into use; null while there is none. */
   readonly update: (() => void) | null;
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import';
 
 export interface Notice {
   readonly kind: 'info' | 'error';
   readonly text: string;
   readonly at: number;
+  /** A button beside the text. */
+  readonly offer?: Offer;
 }
+
+export interface Offer {
+  readonly label: string;
+  readonly take: () => void;
+}
+
+/** How far the work is in the browser's own storage. */
+export type Keeping =
+  | { readonly state: 'nothing' }
+  /** `since`: when the first change came that is not kept yet. */
+  | { readonly state: 'pending'; readonly since: number }
+  | { readonly state: 'kept'; readonly at: number }
+  | { readonly state: 'refused'; readonly sentence: string };
 
 /** Long work, with a count and a time, that can be called off. */
 export interface Job {
@@ -75,6 +95,8 @@ const EMPTY_UI: Ui = {
   log: [],
   jobs: [],
   savedAt: null,
+  keeping: { state: 'nothing' },
+  proposal: null,
   update: null,
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
@@ -171,8 +193,8 @@ export class Store {
     this.show({ hand: { ...this.ui.hand, ...change } });
   }
 
-  say(kind: Notice['kind'], text: string): void {
-    const notice: Notice = { kind, text, at: Date.now() };
+  say(kind: Notice['kind'], text: string, offer?: Offer): void {
+    const notice: Notice = { kind, text, at: Date.now(), ...(offer && { offer }) };
     this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
   }
 

@@ -40,6 +40,11 @@ export function TopBar({ state }: { state: State }) {
           <Icon name="save" /> {texts.top.save}
         </button>
         <SavedState state={state} />
+        {state.ui.update ? (
+          <button type="button" class="button update" title={texts.top.updateTitle} onClick={state.ui.update}>
+            {texts.top.update}
+          </button>
+        ) : null}
         <button
           type="button"
           class="button round"
