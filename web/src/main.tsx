@@ -8,6 +8,8 @@ import { Store } from './document/store';
 import { Chooser } from './engine/chooser';
 import { Convergence } from './engine/convergence';
 import { Librarian } from './engine/librarian';
+import { Keeper } from './engine/keep/keeper';
+import { restoreWork, workToRestore } from './engine/keep/restore';
 import { keepForOffline } from './engine/offline';
 import { Poser } from './engine/poser';
 import type { Services } from './engine/services';
@@ -26,6 +28,8 @@ async function start(root: HTMLElement): Promise<void> {
     assets: new Assets(),
     decoder: decodeWorker(),
   };
+  const keeper = new Keeper(services);
+  const kept = await workToRestore(keeper).catch(() => null);
   const matcher = poseWorker();
   const poser = new Poser(services.store, matcher);
   new Chooser(services.store, matcher);
@@ -34,9 +38,10 @@ async function start(root: HTMLElement): Promise<void> {
     librarian: new Librarian(services, matcher),
     poser,
     convergence: new Convergence(services.store, poser, matcher),
+    keeper,
     actions: new Actions(services),
   };
-  guardAgainstLoss(services.store);
+  guardAgainstLoss(services.store, keeper);
   keepForOffline(services.store);
   render(
     <AppContext.Provider value={app}>
@@ -44,6 +49,7 @@ async function start(root: HTMLElement): Promise<void> {
     </AppContext.Provider>,
     root,
   );
+  if (kept) await restoreWork(services, keeper, kept);
 }
 
 const root = document.getElementById('page');

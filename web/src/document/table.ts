@@ -46,7 +46,8 @@ function choiceOf(result: Result | null): (string | number | null)[] {
   return [methodOf(result), result.chosen + 1, result.candidates.length, reason];
 }
 
-function methodOf(result: Posed): string {
+/** How a pose was found, in a few words. */
+export function methodOf(result: Posed): string {
   const refined = isRefined(result);
   switch (result.from) {
     case 'file':

@@ -14,6 +14,7 @@ import {
 } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, poseKey } from './keys';
+import { PROGRAM } from './program';
 import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
@@ -270,7 +271,7 @@ function posed(match: Match, origin: string): Result {
     residual,
     deviations,
   }));
-  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided };
+  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided, program: PROGRAM };
 }
 
 function samePoints(a: Outline, b: Outline): boolean {

@@ -17,7 +17,7 @@ export function SessionSheet({ state }: { state: State }) {
         {texts.session.include}
       </label>
       <div class="sheet-buttons">
-        <button type="button" class="button primary" disabled={empty} onClick={() => actions.saveSession(include)}>
+        <button type="button" class="button primary" disabled={empty} onClick={() => void actions.saveSession(include)}>
           {texts.session.save}
         </button>
         {COMPONENT_NAMES.map((component) => (

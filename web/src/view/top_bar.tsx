@@ -1,9 +1,10 @@
 import * as commands from '../document/commands';
-import { hasUnsavedWork, nextRedo, nextUndo } from '../document/history';
+import { nextRedo, nextUndo } from '../document/history';
 import type { Popover, State } from '../document/store';
 import { COMPONENT_NAMES, titleOf, type ComponentName, type Side } from '../document/types';
 import { useApp } from './app';
 import { Icon } from './icons';
+import { SavedState } from './saved_state';
 import { texts } from '../texts';
 
 const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
@@ -127,14 +128,6 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
       <span class="chip-text">{text}</span>
     </button>
   );
-}
-
-function SavedState({ state }: { state: State }) {
-  const unsaved = hasUnsavedWork(state.history);
-  const { savedAt } = state.ui;
-  const time = savedAt && new Date(savedAt).toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
-  const text = unsaved ? texts.top.notSaved : time ? texts.top.savedAt(time) : '';
-  return <span class="saved">{text}</span>;
 }
 
 interface IconButtonProps {
