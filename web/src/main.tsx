@@ -3,8 +3,11 @@ import './styles/theme.css';
 import './styles/layout.css';
 import './styles/controls.css';
 import './styles/panels.css';
+import './styles/aids.css';
+import './styles/working.css';
 import { Assets } from './document/assets';
 import { Store } from './document/store';
+import { Aids } from './engine/aids/aids';
 import { Chooser } from './engine/chooser';
 import { Convergence } from './engine/convergence';
 import { Librarian } from './engine/librarian';
@@ -33,13 +36,15 @@ async function start(root: HTMLElement): Promise<void> {
   const matcher = poseWorker();
   const poser = new Poser(services.store, matcher);
   new Chooser(services.store, matcher);
+  const aids = new Aids(services, matcher);
   const app: App = {
     services,
     librarian: new Librarian(services, matcher),
     poser,
     convergence: new Convergence(services.store, poser, matcher),
     keeper,
-    actions: new Actions(services),
+    aids,
+    actions: new Actions(services, aids),
   };
   guardAgainstLoss(services.store, keeper);
   keepForOffline(services.store);

@@ -32,6 +32,7 @@ class Bench {
       place: { frameId: 'f', component: 'femur' },
       outline: this.outline,
       window: { centre: 100, width: 200 },
+      erase: false,
     };
     const input = { type, at: canvasPoint(x, y), button, alt };
     for (const effect of this.controller.handle(this.tool, input, scene, this.space)) this.#apply(effect);

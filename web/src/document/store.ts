@@ -1,4 +1,5 @@
 import type { Viewport } from '../geometry/viewport';
+import { USUAL_OPTIONS, type AidOptions } from '../interaction/aid';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
@@ -23,6 +24,9 @@ export interface Ui {
   /** How things are shown; `view/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
+  readonly aids: AidOptions;
+  /** The threshold that was taken and can still be moved, grey values. */
+  readonly aidLevel: AidLevel | null;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
@@ -40,7 +44,13 @@ export interface Ui {
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape';
+
+export interface AidLevel {
+  readonly level: number;
+  readonly least: number;
+  readonly greatest: number;
+}
 
 export interface Notice {
   readonly kind: 'info' | 'error';
@@ -89,6 +99,8 @@ const EMPTY_UI: Ui = {
   overlayOpacity: 0.35,
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
+  aids: USUAL_OPTIONS,
+  aidLevel: null,
   overlaysHidden: false,
   popover: null,
   notice: null,
@@ -187,6 +199,10 @@ export class Store {
 
   see(change: Partial<Seeing>): void {
     this.show({ seeing: { ...this.ui.seeing, ...change } });
+  }
+
+  setAids(change: Partial<AidOptions>): void {
+    this.show({ aids: { ...this.ui.aids, ...change } });
   }
 
   setHand(change: Partial<HandSettings>): void {

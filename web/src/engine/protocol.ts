@@ -1,3 +1,5 @@
+import type { HandProtocol } from './hand_protocol';
+import type { OneClickProtocol } from './one_click_protocol';
 import type { Candidate, ComponentName, LibrarySpec, PoseNumbers } from '../document/types';
 
 /** What the workers can do; the page knows no more of WASM than this and `engine/film.ts`. */
@@ -76,7 +78,7 @@ export interface LibraryFacts {
   readonly bytes: number;
 }
 
-export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'unknown';
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'unknown';
 
 export interface DecodeProtocol {
   sniff: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: FileKind; progress: never };
@@ -132,7 +134,7 @@ export interface ConvergenceStep {
   readonly pose: PoseNumbers;
 }
 
-export interface PoseProtocol {
+export interface PoseProtocol extends HandProtocol, OneClickProtocol {
   /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
   open: {
     input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer>; mesh: ModelMesh | null };

@@ -1,6 +1,7 @@
 import init, {
   CalibrationText,
   Film,
+  jointMotion,
   jtIntcalibText,
   Matcher,
   Model,
@@ -12,7 +13,9 @@ import init, {
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { GreyWindow, PoseNumbers } from '../document/types';
 import type { Size } from '../geometry/viewport';
+import type { Motion } from '../document/motion';
 import { poseArray, poseFrom } from './pose_array';
+import { paintLook, type Look } from './film_looks';
 import type { CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture } from './protocol';
 
 /** Grey values of a frame, and the window to begin with. */
@@ -58,6 +61,11 @@ export class Studio {
     this.#films.set(id, { film, facts: { least, greatest, window } });
   }
 
+  /** The frame in WASM memory, for tools that look at its pixels. */
+  filmOf(id: string): Film | null {
+    return this.#films.get(id)?.film ?? null;
+  }
+
   hasFilm(id: string): boolean {
     return this.#films.has(id);
   }
@@ -66,8 +74,15 @@ export class Studio {
     return this.#films.get(id)?.facts ?? null;
   }
 
-  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow): void {
-    this.#films.get(id)?.film.paint(context, window.centre, window.width);
+  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow, look: Look = 'original'): void {
+    const held = this.#films.get(id);
+    if (held) paintLook(held.film, held.facts.window, context, window, look);
+  }
+
+  /** A copy of a frame's grey values, for a worker. */
+  filmPixels(id: string): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+    const film = this.#films.get(id)?.film;
+    return (film && ((film.eightBit() ?? film.sixteenBit()) as Uint8Array<ArrayBuffer> | undefined)) ?? null;
   }
 
   greyAt(id: string, column: number, row: number): number | null {
@@ -152,6 +167,16 @@ export class Studio {
       const values = numbers.subarray(6 * row, 6 * row + 6);
       return values.every((value) => value === 0) ? null : poseFrom(values);
     });
+  }
+
+  /** The tibial component relative to the femoral one. */
+  motionOf(femur: PoseNumbers, tibia: PoseNumbers, side: 'left' | 'right'): Motion {
+    const [anterior = NaN, superior = NaN, lateral = NaN, flexion = NaN, abduction = NaN, internal = NaN] = jointMotion(
+      Float64Array.from(poseArray(femur)),
+      Float64Array.from(poseArray(tibia)),
+      side === 'left',
+    );
+    return { anterior, superior, lateral, flexion, abduction, internal };
   }
 
   writePoses(poses: readonly (PoseNumbers | null)[]): string {

@@ -1,8 +1,13 @@
+import { texts } from '../texts';
+import { AID_KEYS, AID_ROWS, type AidCommand, type AidKey } from './aid_keys';
 import { TOOLS, type ToolName } from './tools';
+import { WORK_KEYS, type WorkCommand, type WorkKey } from './work_keys';
 
 /** What keys do. The sheet that `?` shows is made from this table, so the two cannot differ. */
 export type Action =
   | { readonly name: 'tool'; readonly tool: ToolName }
+  | { readonly name: 'aid'; readonly command: AidCommand }
+  | { readonly name: 'work'; readonly command: WorkCommand }
   | {
       readonly name:
         | 'undo'
@@ -31,10 +36,12 @@ export interface Binding {
   /** As shown on the sheet. */
   readonly shown: readonly string[];
   readonly does: string;
-  readonly group: 'Tracing' | 'Seeing' | 'Working' | 'Mouse';
+  readonly group: 'Tracing' | 'Shaping' | 'Seeing' | 'Working' | 'Mouse';
   readonly matches: (key: KeyInput) => boolean;
   /** Null: the sheet tells of it, something else does it. */
   readonly action: Action | null;
+  /** With these tools alone, and before what the key means otherwise. */
+  readonly tools?: readonly ToolName[] | undefined;
 }
 
 /** The part of a `KeyboardEvent` that matters. */
@@ -46,6 +53,8 @@ export interface KeyInput {
 }
 
 export const BINDINGS: readonly Binding[] = [
+  ...AID_KEYS.map(aidKey),
+  ...AID_ROWS.map(({ shown, does }): Binding => ({ group: 'Shaping', shown, does, matches: () => false, action: null })),
   ...TOOLS.map(({ name, key, title }) =>
     binding('Tracing', [key.toUpperCase()], title, plainly(key), { name: 'tool', tool: name }),
   ),
@@ -64,6 +73,7 @@ export const BINDINGS: readonly Binding[] = [
   binding('Working', ['D', 'Page Up'], 'Previous frame', plainly('d', 'pageup'), { name: 'previous-frame' }),
   binding('Working', ['F', 'Page Down'], 'Next frame', plainly('f', 'pagedown'), { name: 'next-frame' }),
   binding('Working', ['C'], 'Other component', plainly('c'), { name: 'other-component' }),
+  ...WORK_KEYS.map(workKey),
   binding('Working', ['Ctrl + Z'], 'Undo', (key) => key.ctrl && !key.shift && is(key, 'z'), { name: 'undo' }),
   binding(
     'Working',
@@ -88,8 +98,22 @@ export const BINDINGS: readonly Binding[] = [
   mouse('Double click', 'Close the outline'),
 ];
 
-export function actionFor(key: KeyInput): Action | null {
-  return BINDINGS.find((binding) => binding.action && binding.matches(key))?.action ?? null;
+/** What a key does with a tool in hand. */
+export function actionFor(key: KeyInput, tool: ToolName | null = null): Action | null {
+  const meant = BINDINGS.filter(({ action, matches }) => action && matches(key));
+  const special = meant.find(({ tools }) => tool !== null && tools?.includes(tool));
+  return (special ?? meant.find(({ tools }) => !tools))?.action ?? null;
+}
+
+function aidKey({ shown, does, key, held, tools, command }: AidKey): Binding {
+  const matches = (input: KeyInput) =>
+    !input.alt && is(input, key) && (held === 'any' || (input.ctrl === (held === 'ctrl') && input.shift === (held === 'shift')));
+  return { group: 'Shaping', shown, does, matches, action: { name: 'aid', command }, tools };
+}
+
+function workKey({ shown, key, shift, alt = false, command }: WorkKey): Binding {
+  const matches = (input: KeyInput) => !input.ctrl && input.shift === shift && input.alt === alt && is(input, key);
+  return { group: 'Working', shown: [shown], does: texts.work.keys[command], matches, action: { name: 'work', command } };
 }
 
 function binding(

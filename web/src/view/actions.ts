@@ -1,6 +1,7 @@
 import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownShare } from '../document/sides';
+import { chooseWithOutline } from '../document/one_click';
 import { poseTable } from '../document/table';
 import { cellOf, chosenCandidate, type ComponentName } from '../document/types';
 import { openDemonstration } from '../engine/demonstration';
@@ -9,10 +10,14 @@ import { saveSession } from '../engine/saver';
 import { sentenceOf, type Services } from '../engine/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
+import type { AidCommand } from '../interaction/aid_keys';
 import type { Action } from '../interaction/bindings';
 import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
+import type { Aids } from '../engine/aids/aids';
+import { AidActions } from './aid_actions';
 import { download, pickFiles } from './files';
 import { pointerStore } from './pointer';
+import { WorkActions } from './work_actions';
 
 const NOTHING_HIT = { kind: 'nothing' } as const;
 
@@ -24,6 +29,9 @@ export interface StageControls {
   busy(): boolean;
   focus(): void;
   cancel(): void;
+  /** The keyboard moves the pointer by frame pixels, and presses there. */
+  point(columns: number, rows: number): void;
+  press(): void;
 }
 
 /** What buttons and keys do. */
@@ -33,9 +41,17 @@ export class Actions {
   /** Lent by the stage: what "fit" and "zoom" refer to. */
   stage: StageControls | null = null;
 
-  constructor(services: Services) {
+  /** Marks, notes and what is next. */
+  readonly work: WorkActions;
+
+  /** Whole outlines and the tools' options. */
+  readonly aid: AidActions;
+
+  constructor(services: Services, aids: Aids) {
     this.#services = services;
     this.#store = services.store;
+    this.aid = new AidActions(services, aids, () => this.stage);
+    this.work = new WorkActions(services);
   }
 
   /** Runs what a key or a button asks for. Returns false when there is nothing to do. */
@@ -44,12 +60,16 @@ export class Actions {
     if (this.stage?.busy()) {
       // The hand is in the middle of something: Esc lets go of it, everything else waits.
       if (action.name === 'leave') this.stage.cancel();
+      // The keyboard drags as the mouse does: by pointing and pressing once more.
+      if (action.name === 'aid' && (action.command.what === 'point' || action.command.what === 'press')) this.aid.run(action.command);
       return true;
     }
     switch (action.name) {
       case 'tool':
         store.show({ tool: action.tool });
         return true;
+      case 'aid':
+        return this.#aid(action.command);
       case 'undo':
         store.undo();
         return true;
@@ -71,6 +91,8 @@ export class Actions {
       case 'other-component':
         store.selectComponent(store.ui.component === 'femur' ? 'tibia' : 'femur');
         return true;
+      case 'work':
+        return this.work.run(action.command);
       case 'keys':
         store.show({ popover: store.ui.popover === 'keys' ? null : 'keys' });
         return true;
@@ -110,6 +132,13 @@ export class Actions {
       default:
         return false;
     }
+  }
+
+  /** What a tool has no use for is what the key means otherwise. */
+  #aid(command: AidCommand): boolean {
+    if (this.aid.run(command)) return true;
+    if (command.what === 'accept') return this.closeOutline();
+    return command.what === 'take-back' && this.deletePoint();
   }
 
   // --- Outlines -----------------------------------------------------------------------------------------------
@@ -197,7 +226,8 @@ export class Actions {
   chooseCandidate(index: number): boolean {
     const place = currentPlace(this.#store.state);
     if (!place) return false;
-    this.#store.perform(commands.chooseCandidate(place, index));
+    const { outline } = currentCell(this.#store.state);
+    this.#store.perform(chooseWithOutline(place, outline, index) ?? commands.chooseCandidate(place, index));
     return true;
   }
 

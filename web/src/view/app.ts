@@ -1,6 +1,7 @@
 import { createContext } from 'preact';
 import { useContext, useEffect, useState } from 'preact/hooks';
 import type { State } from '../document/store';
+import type { Aids } from '../engine/aids/aids';
 import type { Convergence } from '../engine/convergence';
 import type { Keeper } from '../engine/keep/keeper';
 import type { Librarian } from '../engine/librarian';
@@ -14,6 +15,7 @@ export interface App {
   readonly librarian: Librarian;
   readonly poser: Poser;
   readonly convergence: Convergence;
+  readonly aids: Aids;
   readonly keeper: Keeper;
   readonly actions: Actions;
 }

@@ -1,6 +1,6 @@
 import { BINDINGS, type Binding } from '../interaction/bindings';
 
-const GROUPS: readonly Binding['group'][] = ['Tracing', 'Mouse', 'Seeing', 'Working'];
+const GROUPS: readonly Binding['group'][] = ['Tracing', 'Shaping', 'Mouse', 'Seeing', 'Working'];
 
 export function KeySheet() {
   return (
@@ -9,7 +9,7 @@ export function KeySheet() {
         <section key={group} aria-label={group}>
           <h3>{group}</h3>
           <dl>
-            {BINDINGS.filter((binding) => binding.group === group).map(({ shown, does }) => (
+            {BINDINGS.filter((binding) => binding.group === group && binding.shown.length > 0).map(({ shown, does }) => (
               <div class="key-row" key={does}>
                 <dt>
                   {shown.map((keys) => (

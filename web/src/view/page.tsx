@@ -8,6 +8,7 @@ import { Rail } from './rail';
 import { Stage } from './stage';
 import { StatusLine } from './status_line';
 import { Timeline } from './timeline';
+import { ToolStrip } from './tool_strip';
 import { TopBar } from './top_bar';
 
 export function Page() {
@@ -25,6 +26,7 @@ export function Page() {
     <div class={dropping ? 'page dropping' : 'page'} onClick={giveBack}>
       <TopBar state={state} />
       <Rail state={state} />
+      <ToolStrip state={state} />
       <Stage state={state} />
       <Panel state={state} />
       <Timeline state={state} />
@@ -53,12 +55,12 @@ function useKeys(): void {
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
-      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt });
+      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
       // Enter belongs to the control that has the focus.
-      if (onControl(target) && action.name === 'close-outline') return false;
+      if (onControl(target) && (action.name === 'close-outline' || (action.name === 'aid' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
       store.quiet();
       return actions.run(action);

@@ -9,7 +9,10 @@ import { ConvergenceSheet } from './convergence_sheet';
 import { Icon } from './icons';
 import { KeySheet } from './key_sheet';
 import { LogSheet } from './log_sheet';
+import { ShapeSheet } from './shape_sheet';
 import { SessionSheet } from './session_sheet';
+import { WorkSheet } from './work_sheet';
+import { ImportSheet } from './import_sheet';
 import { texts } from '../texts';
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
@@ -31,6 +34,9 @@ const TITLES: Readonly<Record<Popover, string>> = {
   log: texts.sheets.log,
   session: texts.sheets.session,
   convergence: texts.sheets.convergence,
+  work: texts.work.list,
+  import: texts.exchange.title,
+  shape: texts.aids.shape.title,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -46,8 +52,14 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <LogSheet state={state} />;
     case 'session':
       return <SessionSheet state={state} />;
+    case 'work':
+      return <WorkSheet state={state} />;
+    case 'import':
+      return <ImportSheet state={state} />;
     case 'convergence':
       return <ConvergenceSheet state={state} />;
+    case 'shape':
+      return <ShapeSheet state={state} />;
   }
 }
 

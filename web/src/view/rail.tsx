@@ -3,7 +3,19 @@ import { TOOLS, type ToolName } from '../interaction/tools';
 import { useApp } from './app';
 import { Icon, type IconName } from './icons';
 
-const ICONS: Readonly<Record<ToolName, IconName>> = { edit: 'pointer', trace: 'polygon', hand: 'hand', window: 'contrast' };
+const ICONS: Readonly<Record<ToolName, IconName>> = {
+  edit: 'pointer',
+  trace: 'polygon',
+  wire: 'wire',
+  threshold: 'threshold',
+  'one-click': 'wand',
+  brush: 'brush',
+  transform: 'transform',
+  stretch: 'stretch',
+  pose: 'pose',
+  hand: 'hand',
+  window: 'contrast',
+};
 
 export function Rail({ state }: { state: State }) {
   const { actions } = useApp();

@@ -9,11 +9,13 @@ import {
   type GreyWindow,
   type Outline,
 } from '../document/types';
+import type { Aids } from '../engine/aids/aids';
 import { cameraOf } from '../engine/keys';
 import type { Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
+import { drawBrush, drawHold, drawPreview, drawTransformBox } from './aid_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
@@ -38,12 +40,18 @@ export class StageView {
   #size: Size = { width: 1, height: 1 };
   #drawnFilm = '';
   #scheduled = 0;
+  /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
+  aids: Pick<Aids, 'tick' | 'preview' | 'scale'> | null = null;
 
   constructor(store: Store, studio: Studio, film: HTMLCanvasElement, vectors: HTMLCanvasElement) {
     this.#store = store;
     this.#studio = studio;
     this.#film = film;
     this.#vectors = vectors;
+  }
+
+  get pointer(): CanvasPoint | null {
+    return this.#pointer;
   }
 
   get size(): Size {
@@ -84,6 +92,7 @@ export class StageView {
   }
 
   draw(): void {
+    this.#letAidsWork();
     const { state } = this.#store;
     const frame = currentFrame(state);
     const view = this.viewport(state);
@@ -93,12 +102,28 @@ export class StageView {
     else clear(this.#film, () => (this.#drawnFilm = ''));
     const context = prepare(this.#vectors);
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
+    if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view);
+  }
+
+  #letAidsWork(): void {
+    if (!this.aids) return;
+    this.aids.scale = this.viewport(this.#store.state).scale;
+    if (this.aids.tick(this.#store.ui.tool)) this.schedule();
+  }
+
+  #drawAids(context: CanvasRenderingContext2D, state: State, view: Viewport): void {
+    const { tool, component, aids } = state.ui;
+    const { outline } = currentCell(state);
+    if (this.aids) drawPreview(context, view, component, this.aids.preview(tool));
+    if (tool === 'transform' && outline) drawTransformBox(context, view, component, outline, this.#pointer);
+    if (tool === 'stretch' && outline?.closed) drawHold(context, view, component, outline, this.#pointer);
+    if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, aids.radius * view.scale, aids.erase);
   }
 
   #hit(state: State, view: Viewport): Hit {
     const { outline } = currentCell(state);
     if (!this.#pointer || !handlesShown(state)) return NOTHING;
-    const drafting = state.ui.tool === 'trace' && outline?.closed !== true;
+    const drafting = state.ui.tool !== 'edit' && outline?.closed !== true;
     return (drafting ? hitDraft : hitTest)(outline, view, this.#pointer);
   }
 
@@ -162,7 +187,7 @@ export class StageView {
 }
 
 function handlesShown({ ui }: State): boolean {
-  return ui.tool === 'edit' || ui.tool === 'trace';
+  return ui.tool === 'edit' || ui.tool === 'trace' || ui.tool === 'wire';
 }
 
 /** Cleared, and scaled so that one unit is one CSS pixel. */

@@ -39,7 +39,7 @@ function message(state: State, hit: Parameters<typeof hint>[3]): { text: string;
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
-  return { text: hint(tool, component, outline, hit), kind: 'hint' };
+  return { text: hint(tool, component, outline, hit, { erase: state.ui.aids.erase, adjusting: state.ui.aidLevel !== null }), kind: 'hint' };
 }
 
 /** News passes; errors stay until something is done. */
