@@ -1,5 +1,11 @@
 //! Outlines matched against an open library.
 
+mod from_here;
+mod landscape;
+
+pub use from_here::{HandFit, HiddenPixels};
+pub use landscape::{Landscape, ViewPose};
+
 use fluoropose::canonical::reverse;
 use fluoropose::choice::Candidate as Contender;
 use fluoropose::library::Library;
