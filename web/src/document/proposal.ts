@@ -9,6 +9,10 @@ export interface Proposal {
   /** Names of what the files say an outline is of (a category, a folder, a grey value), and the component meant by it. */
   readonly subjects: Readonly<Record<string, ComponentName | null>>;
   readonly match: Match;
+  /** Masks: every pixel as it is, instead of few points. */
+  readonly exact: boolean;
+  /** Opens the files as frames after all; null where they cannot be frames. */
+  readonly asFrames: (() => void) | null;
   /** What did not go smoothly on the way, a sentence each. */
   readonly remarks: readonly string[];
 }
@@ -29,6 +33,8 @@ export interface ProposedItem {
   /** Of the image it was drawn on, px; null where the file does not tell. */
   readonly size: { readonly width: number; readonly height: number } | null;
   readonly outline: Outline;
+  /** Of a mask: with every corner of its pixels. */
+  readonly exactOutline: Outline | null;
   /** What was done on the way from a mask: specks, holes. */
   readonly notes: readonly string[];
 }

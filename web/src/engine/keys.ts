@@ -21,6 +21,17 @@ export function poseKey(doc: Doc, component: ComponentName, frame: FrameEntry): 
   return library && camera && `${library}; frame ${camera.width}x${camera.height} camera ${JSON.stringify(camera.text)}`;
 }
 
+/** The same for many cells of one document: keys are long texts, and frames of a sequence share them. */
+export function poseKeys(doc: Doc): (component: ComponentName, frame: FrameEntry) => string | null {
+  const known = new Map<string, string | null>();
+  return (component, frame) => {
+    const kind = `${component} ${frame.width} ${frame.height}`;
+    let key = known.get(kind);
+    if (key === undefined) known.set(kind, (key = poseKey(doc, component, frame)));
+    return key;
+  };
+}
+
 export function cameraOf(doc: Doc, frame: FrameEntry | null): CameraInput | null {
   return doc.calibration && frame && { text: doc.calibration.text, width: frame.width, height: frame.height };
 }

@@ -1,17 +1,19 @@
 import * as commands from '../document/commands';
 import type { Asset } from '../document/assets';
-import { readSession } from '../document/session';
 import { COMPONENT_NAMES, type ComponentName, type Doc, type FrameEntry } from '../document/types';
 import { Aborted } from '../worker/bridge';
 import { componentFor } from './guess';
-import { inWords } from './missing';
+import type { OutlineFile } from './exchange/importer';
 import type { FileKind } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
+import { mismatchOf, openSession } from './session_opener';
 
 /** A file as it came, from a button, a drop or an address. */
 export interface Incoming {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
+  /** With its folders, where the browser tells. */
+  readonly path?: string;
   /** Where the person said what it is for. */
   readonly component?: ComponentName | undefined;
 }
@@ -30,8 +32,14 @@ export async function openFiles(services: Services, files: readonly Incoming[]):
   recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.name, b.name));
   const opened: string[] = [];
   const failed: string[] = [];
-  const frames = recognised.filter((file) => file.kind === 'frames');
-  for (const file of recognised.filter((file) => file.kind !== 'frames' && file.kind !== 'poses')) {
+  for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
+    const sentence = await mismatchOf(services, file);
+    if (sentence) failed.push(sentence);
+  }
+  const outlines = await outlineFiles(services, recognised);
+  const others = recognised.filter((file) => !outlines.some(({ bytes }) => bytes === file.bytes));
+  const frames = others.filter((file) => file.kind === 'frames');
+  for (const file of others.filter((file) => file.kind !== 'frames' && file.kind !== 'poses')) {
     await attempt(file, () => openOne(services, file, failed), opened, failed);
   }
   if (frames.length > 0) await openFrames(services, frames, opened, failed);
@@ -39,10 +47,51 @@ export async function openFiles(services: Services, files: readonly Incoming[]):
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
   tell(services, opened, failed);
+  if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/**
+ * Files of outlines among others: those that say so, and images with no more grey values than a mask has, where there
+ * are frames that they can be masks of.
+ */
+async function outlineFiles({ store }: Services, files: readonly Recognised[]): Promise<readonly OutlineFile[]> {
+  const told = files.flatMap((file): OutlineFile[] => {
+    const { kind } = file;
+    return kind === 'outlines' || kind === 'coco' ? [{ ...file, kind }] : [];
+  });
+  const images = files.filter(({ kind }) => kind === 'frames');
+  if (images.length === 0) return told;
+  const { masksAmong } = await import('./exchange/importer');
+  const masks = await masksAmong(images);
+  const frames = store.doc.frames.length + images.length - masks.size;
+  const found = images.filter((file) => masks.has(file)).map((file): OutlineFile => ({ ...file, kind: 'mask' }));
+  return frames === 0 ? told : [...told, ...found];
+}
+
+async function proposeOutlines(services: Services, outlines: readonly OutlineFile[], files: readonly Incoming[]): Promise<void> {
+  const { store } = services;
+  if (store.doc.frames.length === 0) {
+    return store.say('error', `${outlines[0]?.name ?? ''}: outlines are for frames: open the frames first, then the outlines`);
+  }
+  const { propose } = await import('./exchange/importer');
+  const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ bytes }) => bytes);
+  const images = files.filter(({ bytes }) => masks.includes(bytes));
+  const asFrames = () => {
+    void openAsFrames(services, images);
+  };
+  await propose(services, outlines, images.length > 0 ? asFrames : null);
+}
+
+/** Opens images as frames, whatever they look like. */
+async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
+  const opened: string[] = [];
+  const failed: string[] = [];
+  await openFrames(services, files, opened, failed);
+  tell(services, opened, failed);
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
-const ORDER: readonly FileKind[] = ['session', 'calibration', 'model', 'library', 'frames', 'poses', 'unknown'];
+const ORDER: readonly FileKind[] = ['session', 'calibration', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'unknown'];
 
 function byName(a: string, b: string): number {
   return a.localeCompare(b, undefined, { numeric: true });
@@ -209,28 +258,7 @@ function studyName(frame: FrameEntry): string {
   return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || 'Study';
 }
 
-// --- Sessions -----------------------------------------------------------------------------------------------------
-
-async function openSession(services: Services, file: Incoming, remarks: string[]): Promise<string> {
-  const session = readSession(new TextDecoder().decode(file.bytes));
-  const damaged: string[] = [];
-  for (const included of session.files) {
-    if (!included.bytes) continue;
-    const asset = await services.assets.add(included.name, included.bytes);
-    if (asset.sha256 !== included.sha256) damaged.push(included.name);
-  }
-  const missing = await bringFiles(services, session.doc, 'Opening the session');
-  const { store } = services;
-  // A command like any other: undo brings back what was open before.
-  store.perform({ label: 'open a session', apply: () => session.doc });
-  store.markSaved(store.doc);
-  const { frameIndex, component, overlayOpacity } = session.view;
-  store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
-  store.goTo(frameIndex);
-  for (const name of damaged) remarks.push(`${name}: the copy in the session was changed; drop the original on the page`);
-  if (missing.length > 0) remarks.push(`The session only names ${inWords(missing)}: drop ${missing.length === 1 ? 'it' : 'them'} on the page`);
-  return `the session ${file.name}`;
-}
+// --- Files that a document names ---------------------------------------------------------------------------------
 
 /** Brings the files that a document names into the studio; returns the names of those that are not at hand. */
 export async function bringFiles(services: Services, doc: Doc, title: string): Promise<string[]> {

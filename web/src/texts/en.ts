@@ -334,6 +334,18 @@ export const en = {
       `${count === 1 ? '1 outline' : `${count} outlines`} saved.${drafts > 0 ? ` ${drafts} not closed: left out.` : ''}${unknown > 0 ? ` ${unknown} with unknown sides: this format cannot say so.` : ''}`,
     noneClosed: 'No outline is closed yet: there is nothing to save in this form.',
   },
+
+  /** What does not match the SHA-256 by which a session names it. */
+  digests: {
+    job: 'Opening the session',
+    openLabel: 'open a session',
+    trouble: (what: string) => `Not as it was saved: ${what}.`,
+    damaged: (name: string, found: string, wanted: string) =>
+      `${name}: the copy in the session was changed (SHA-256 ${found} instead of ${wanted}); drop the original on the page`,
+    missing: (names: string, count: number) => `The session only names ${names}: drop ${count === 1 ? 'it' : 'them'} on the page`,
+    another: (name: string, found: string, wanted: string) =>
+      `${name} is another file than the one that the session names (SHA-256 ${found} instead of ${wanted}): opened all the same, Ctrl+Z takes it back`,
+  },
 };
 
 function counted(points: number): string {

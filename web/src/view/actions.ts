@@ -15,7 +15,8 @@ import type { Action } from '../interaction/bindings';
 import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
 import type { Aids } from '../engine/aids/aids';
 import { AidActions } from './aid_actions';
-import { download, pickFiles } from './files';
+import { ExchangeActions } from './exchange_actions';
+import { download, fileStem, pickFiles } from './files';
 import { pointerStore } from './pointer';
 import { WorkActions } from './work_actions';
 
@@ -43,6 +44,7 @@ export class Actions {
 
   /** Marks, notes and what is next. */
   readonly work: WorkActions;
+  readonly exchange: ExchangeActions;
 
   /** Whole outlines and the tools' options. */
   readonly aid: AidActions;
@@ -52,6 +54,7 @@ export class Actions {
     this.#store = services.store;
     this.aid = new AidActions(services, aids, () => this.stage);
     this.work = new WorkActions(services);
+    this.exchange = new ExchangeActions(services);
   }
 
   /** Runs what a key or a button asks for. Returns false when there is nothing to do. */
@@ -301,8 +304,3 @@ export class Actions {
     }
   }
 }
-
-function fileStem(name: string): string {
-  return name.trim().replace(/[^\p{L}\p{N}._-]+/gu, '_') || 'study';
-}
-

@@ -7,13 +7,13 @@ export function pickFiles(): Promise<Incoming[]> {
     input.type = 'file';
     input.multiple = true;
     input.setAttribute('aria-label', 'Files to open');
-    input.onchange = () => resolve(readAll(Array.from(input.files ?? [])));
+    input.onchange = () => resolve(readAll(Array.from(input.files ?? [], located)));
     input.oncancel = () => resolve([]);
     input.click();
   });
 }
 
-export function download(parts: string[], name: string, type: string): void {
+export function download(parts: BlobPart[], name: string, type: string): void {
   const address = URL.createObjectURL(new Blob(parts, { type }));
   const link = document.createElement('a');
   link.href = address;
@@ -27,16 +27,29 @@ export function download(parts: string[], name: string, type: string): void {
 export async function droppedFiles(transfer: DataTransfer): Promise<Incoming[]> {
   // Entries must be taken before anything is awaited: the transfer is emptied when the event ends.
   const entries = Array.from(transfer.items).map((item) => item.webkitGetAsEntry());
-  const loose = Array.from(transfer.files);
+  const loose = Array.from(transfer.files, located);
   if (entries.every((entry) => entry === null)) return readAll(loose);
   const files = await Promise.all(entries.filter((entry) => entry !== null).map(filesOf));
   return readAll(files.flat());
 }
 
-async function filesOf(entry: FileSystemEntry): Promise<File[]> {
-  if (entry.isFile) return [await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject))];
+/** A file and the folders it came from, as far as the browser tells. */
+interface Located {
+  readonly file: File;
+  readonly path: string;
+}
+
+function located(file: File): Located {
+  return { file, path: file.webkitRelativePath || file.name };
+}
+
+async function filesOf(entry: FileSystemEntry): Promise<Located[]> {
+  if (entry.isFile) {
+    const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
+    return [{ file, path: entry.fullPath }];
+  }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
-  const files: File[] = [];
+  const files: Located[] = [];
   for (;;) {
     // A reader gives a hundred entries at most each time.
     const entries = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
@@ -45,6 +58,11 @@ async function filesOf(entry: FileSystemEntry): Promise<File[]> {
   }
 }
 
-async function readAll(files: readonly File[]): Promise<Incoming[]> {
-  return Promise.all(files.map(async (file) => ({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
+async function readAll(files: readonly Located[]): Promise<Incoming[]> {
+  return Promise.all(files.map(async ({ file, path }) => ({ name: file.name, path, bytes: new Uint8Array(await file.arrayBuffer()) })));
+}
+
+/** The name of a study as the beginning of a file's name. */
+export function fileStem(name: string): string {
+  return name.trim().replace(/[^\p{L}\p{N}._-]+/gu, '_') || 'study';
 }

@@ -74,6 +74,8 @@ function kindOf(word: string): FileKind {
       return 'calibration';
     case 'library':
     case 'session':
+    case 'outlines':
+    case 'coco':
       return word;
     default:
       return 'unknown';
