@@ -138,15 +138,29 @@ export function watch(page, address = ADDRESS) {
 }
 
 /**
- * Opens the page anew, and waits until it listens.
+ * Opens the page anew with nothing kept from before, and waits until it listens.
  *
  * @param {import('playwright-core').Page} page
  * @param {string} [address] where else than usual
  */
 export async function visit(page, address = ADDRESS) {
+  if (page.url().startsWith(address)) await forget(page, address);
   await page.goto(address);
   await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
   await drawn(page);
+}
+
+/** Clears the browser's storage of the page, which keeps its work there. @param {import('playwright-core').Page} page @param {string} address */
+async function forget(page, address) {
+  await page.goto(`${address}icon.svg`);
+  await page.evaluate(
+    () =>
+      new Promise((resolve, reject) => {
+        const request = indexedDB.deleteDatabase('fluoropose');
+        request.onsuccess = () => resolve(null);
+        request.onerror = () => reject(request.error);
+      }),
+  );
 }
 
 /** @param {string} host @param {string} url */

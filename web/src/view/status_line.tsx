@@ -16,6 +16,7 @@ export function StatusLine({ state }: { state: State }) {
       <p class={`status-text ${kind}`} role="status" aria-live="polite" title={text}>
         {text}
       </p>
+      <OfferButton state={state} />
       {state.ui.jobs.map((job) => (
         <JobBar key={job.id} job={job} />
       ))}
@@ -47,13 +48,30 @@ function useInfoExpires(state: State): void {
   const { store } = useApp().services;
   const { notice } = state.ui;
   useEffect(() => {
-    if (notice?.kind !== 'info') return undefined;
+    // What offers something waits for an answer.
+    if (notice?.kind !== 'info' || notice.offer) return undefined;
     const timer = setTimeout(() => store.ui.notice === notice && store.quiet(), INFO_LENGTH);
     return () => clearTimeout(timer);
   }, [notice, store]);
 }
 
 const INFO_LENGTH = 6000;
+
+/** What can be done about the news. */
+function OfferButton({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const offer = state.ui.notice?.offer;
+  if (!offer) return null;
+  const take = () => {
+    store.quiet();
+    offer.take();
+  };
+  return (
+    <button type="button" class="button small" onClick={take}>
+      {offer.label}
+    </button>
+  );
+}
 
 function JobBar({ job }: { job: Job }) {
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
