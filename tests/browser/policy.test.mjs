@@ -1,9 +1,8 @@
 /** Nothing leaves the page: its policy is in force, and a whole day's work neither breaks it nor asks another computer. */
 import assert from 'node:assert/strict';
 import { ADDRESS, drawn, pageTest, step } from './support/browser.mjs';
-import { downloaded } from './support/files.mjs';
+import { downloaded, temporaryFolder } from './support/files.mjs';
 import { Host } from './support/host.mjs';
-import { temporaryFolder } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { fromOpeningToPose } from './support/workflow.mjs';
 
@@ -58,6 +57,7 @@ pageTest('what the policy forbids is refused', async (page, t) => {
   await drawn(page);
   for (const [what, directive, attempt] of ATTEMPTS) {
     await step(page, t, what, async () => {
+      await page.evaluate(() => (globalThis.violations = []));
       await page.evaluate(attempt, other.address).catch(() => undefined);
       await page.waitForFunction((name) => globalThis.violations.some((violation) => violation.startsWith(name)), directive);
     });
