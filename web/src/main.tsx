@@ -4,12 +4,15 @@ import './styles/layout.css';
 import './styles/controls.css';
 import './styles/panels.css';
 import './styles/aids.css';
+import './styles/seeing.css';
 import './styles/working.css';
 import { Assets } from './document/assets';
 import { Store } from './document/store';
 import { Aids } from './engine/aids/aids';
 import { Chooser } from './engine/chooser';
 import { Convergence } from './engine/convergence';
+import { FromHere } from './engine/from_here';
+import { Landscapes } from './engine/landscape';
 import { Librarian } from './engine/librarian';
 import { Keeper } from './engine/keep/keeper';
 import { restoreWork, workToRestore } from './engine/keep/restore';
@@ -22,7 +25,10 @@ import { texts } from './texts';
 import { Actions } from './view/actions';
 import { AppContext, type App } from './view/app';
 import { guardAgainstLoss } from './view/guard';
+import { HandActions } from './view/hand_actions';
 import { Page } from './view/page';
+import { SeeingActions } from './view/seeing_actions';
+import { rememberTaste } from './view/taste';
 
 async function start(root: HTMLElement): Promise<void> {
   const services: Services = {
@@ -37,6 +43,8 @@ async function start(root: HTMLElement): Promise<void> {
   const poser = new Poser(services.store, matcher);
   new Chooser(services.store, matcher);
   const aids = new Aids(services, matcher);
+  const hand = new HandActions(services, new FromHere(services, matcher));
+  rememberTaste(services.store);
   const app: App = {
     services,
     librarian: new Librarian(services, matcher),
@@ -44,6 +52,9 @@ async function start(root: HTMLElement): Promise<void> {
     convergence: new Convergence(services.store, poser, matcher),
     keeper,
     aids,
+    hand,
+    seeing: new SeeingActions(services.store, hand),
+    landscapes: new Landscapes(services.store, matcher),
     actions: new Actions(services, aids),
   };
   guardAgainstLoss(services.store, keeper);

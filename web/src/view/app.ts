@@ -7,7 +7,10 @@ import type { Keeper } from '../engine/keep/keeper';
 import type { Librarian } from '../engine/librarian';
 import type { Poser } from '../engine/poser';
 import type { Services } from '../engine/services';
+import type { Landscapes } from '../engine/landscape';
 import type { Actions } from './actions';
+import type { HandActions } from './hand_actions';
+import type { SeeingActions } from './seeing_actions';
 
 /** What every view may use. Views read the state and call actions; they hold nothing that matters. */
 export interface App {
@@ -18,6 +21,9 @@ export interface App {
   readonly aids: Aids;
   readonly keeper: Keeper;
   readonly actions: Actions;
+  readonly hand: HandActions;
+  readonly seeing: SeeingActions;
+  readonly landscapes: Landscapes;
 }
 
 export const AppContext = createContext<App | null>(null);

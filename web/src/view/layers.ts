@@ -1,3 +1,4 @@
+import type { FilmLook } from '../document/seeing';
 import type { Candidate, ComponentName, GreyWindow } from '../document/types';
 import type { CameraInput } from '../engine/protocol';
 import type { Studio } from '../engine/studio';
@@ -23,12 +24,15 @@ abstract class Layer {
 export class FilmLayer extends Layer {
   #id = '';
   #window: GreyWindow | null = null;
+  #look: FilmLook = 'original';
 
-  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow): void {
-    const same = this.#id === frame.id && this.#window?.centre === window.centre && this.#window.width === window.width;
+  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow, look: FilmLook): void {
+    const sameWindow = this.#window?.centre === window.centre && this.#window.width === window.width;
+    const same = this.#id === frame.id && sameWindow && this.#look === look;
     if (same || !studio.hasFilm(frame.id)) return;
     this.resize(frame.width, frame.height);
-    studio.paintFilm(this.context, frame.id, window);
+    studio.paintFilm(this.context, frame.id, window, look);
+    this.#look = look;
     this.#id = frame.id;
     this.#window = window;
   }

@@ -2,6 +2,7 @@ import { useEffect } from 'preact/hooks';
 import { actionFor } from '../interaction/bindings';
 import { useApp, useAppState } from './app';
 import { useDropTarget } from './drop';
+import { runHandOrSeeingKey } from './hand_keys';
 import { Panel } from './panel';
 import { Popovers } from './popovers';
 import { Rail } from './rail';
@@ -38,7 +39,8 @@ export function Page() {
 
 /** Keys for the whole page; a field that is being typed in keeps its own. */
 function useKeys(): void {
-  const { actions, services } = useApp();
+  const app = useApp();
+  const { actions, services } = app;
   useEffect(() => {
     const { store } = services;
     const onDown = (event: KeyboardEvent) => {
@@ -55,6 +57,7 @@ function useKeys(): void {
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
+      if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
       const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
@@ -73,7 +76,7 @@ function useKeys(): void {
       window.removeEventListener('keyup', onUp);
       window.removeEventListener('blur', onBlur);
     };
-  }, [actions, services]);
+  }, [app, actions, services]);
 }
 
 function typing(target: EventTarget | null): boolean {

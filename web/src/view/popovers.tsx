@@ -12,6 +12,7 @@ import { LogSheet } from './log_sheet';
 import { ShapeSheet } from './shape_sheet';
 import { SessionSheet } from './session_sheet';
 import { WorkSheet } from './work_sheet';
+import { ViewSheet } from './view_sheet';
 import { ImportSheet } from './import_sheet';
 import { texts } from '../texts';
 
@@ -37,6 +38,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   work: texts.work.list,
   import: texts.exchange.title,
   shape: texts.aids.shape.title,
+  view: texts.seeing.sheet,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -60,6 +62,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <ConvergenceSheet state={state} />;
     case 'shape':
       return <ShapeSheet state={state} />;
+    case 'view':
+      return <ViewSheet state={state} />;
   }
 }
 

@@ -11,7 +11,9 @@ import { TOOLS } from '../interaction/tools';
 import { useApp, type App } from './app';
 import { EmptyState } from './empty_state';
 import { pointByKey, pressByKey } from './key_pointer';
+import { ScaleBar } from './scale_bar';
 import { act, cancelGesture, sceneOf } from './stage_input';
+import { takeModel } from './take_model';
 import { StageView } from './stage_view';
 
 /** The frame with everything on it, and the pointer's way into the document. */
@@ -33,6 +35,7 @@ export function Stage({ state }: { state: State }) {
     <main class="stage" aria-label="Film">
       <canvas ref={film} class="film" aria-hidden="true" />
       <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={`${label}. ${titleOf(component)} outline`} />
+      {frame && <ScaleBar state={state} />}
       {!frame && <EmptyState />}
       {frame && !app.services.studio.hasFilm(frame.id) && (
         <p class="absent">{frame.name} is not here: drop the file on the page.</p>
@@ -63,6 +66,8 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
     const { viewport } = store.ui;
     if (viewport) store.show({ viewport: recentre(viewport, view.size, { width, height }) });
     view.resize({ width, height });
+    // The scale bar follows.
+    store.show({});
   });
   observer.observe(canvas);
   return () => {
@@ -124,7 +129,9 @@ function attachPointer(
       app.aids.leave();
       view.setPointer(null);
     },
-    dblclick: (event) => send('double', event),
+    dblclick: (event) => {
+      if (!takeModel(app, view, pointOf(event))) send('double', event);
+    },
     contextmenu: (event) => event.preventDefault(),
     wheel: (event) => {
       event.preventDefault();

@@ -23,7 +23,7 @@ export function sceneOf(store: Store, view: StageView): Scene | null {
   const place = currentPlace(state);
   if (!frame || !place) return null;
   const { outline } = currentCell(state);
-  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state), erase: state.ui.aids.erase };
+  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state), erase: state.ui.aids.erase, hand: view.hand(state) };
 }
 
 function apply(app: App, effect: Effect): void {

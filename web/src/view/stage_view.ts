@@ -14,11 +14,15 @@ import { cameraOf } from '../engine/keys';
 import type { Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
+import { handleAt, type HandScene } from '../interaction/adjust';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import { drawBrush, drawHold, drawPreview, drawTransformBox } from './aid_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
+import { COMPONENT_COLOURS } from './colours';
+import { handSceneOf } from './hand_scene';
 import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
+import { drawGhosts, drawHandles, drawLens, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
 
 const NOTHING: Hit = { kind: 'nothing' };
 
@@ -34,6 +38,7 @@ export class StageView {
   readonly #film: HTMLCanvasElement;
   readonly #vectors: HTMLCanvasElement;
   readonly #filmLayer = new FilmLayer();
+  readonly #reference = new ReferenceLayers();
   readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
   /** Where the pointer is; what lies under it is found anew whenever something changes. */
   #pointer: CanvasPoint | null = null;
@@ -91,18 +96,52 @@ export class StageView {
     return state.history.present.window ?? (frame && this.#studio.filmFacts(frame.id)?.window) ?? FALLBACK_WINDOW;
   }
 
+  /** What a hand on the model works with; null with any other tool. */
+  hand(state: State): HandScene | null {
+    return state.ui.tool === 'pose' ? handSceneOf(state, this.#studio) : null;
+  }
+
   draw(): void {
     this.#letAidsWork();
     const { state } = this.#store;
     const frame = currentFrame(state);
     const view = this.viewport(state);
     const hit = this.#hit(state, view);
-    pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit });
+    const hand = this.hand(state);
+    const motion = hand && this.#pointer && (handleAt(hand, view, this.#pointer) ?? 'move');
+    pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit, motion });
     if (frame) this.#drawFilm(state, frame, view);
     else clear(this.#film, () => (this.#drawnFilm = ''));
     const context = prepare(this.#vectors);
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
     if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view);
+    if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
+    if (frame) this.#drawLens(context, state, frame, view);
+  }
+
+  /** Which component's model lies under a place, the selected one first. */
+  modelAt(at: CanvasPoint): ComponentName | null {
+    const { state } = this.#store;
+    const context = this.#vectors.getContext('2d');
+    const { column, row } = frameFromCanvas(this.viewport(state), at);
+    const hit = this.#overlays.filter(({ border }) => border && context?.isPointInPath(border, column, row));
+    return (hit.find(({ component }) => component === state.ui.component) ?? hit[0])?.component ?? null;
+  }
+
+  /** Everything once more, larger, beside the pointer. */
+  #drawLens(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+    const pointer = this.#pointer;
+    if (!state.ui.seeing.magnifier || !pointer) return;
+    const lens = lensAt(pointer, view, this.#size);
+    drawLens(context, lens, () => {
+      context.imageSmoothingEnabled = false;
+      if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, lens.view);
+      if (state.ui.overlaysHidden) return;
+      // A line to the pointer ends in the middle of the lens.
+      this.#pointer = lens.centre;
+      this.#drawVectors(context, state, frame, lens.view, NOTHING);
+      this.#pointer = pointer;
+    });
   }
 
   #letAidsWork(): void {
@@ -129,10 +168,10 @@ export class StageView {
 
   #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
     const window = this.window(state);
-    const key = `${frame.id} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    const key = `${frame.id} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
     if (key === this.#drawnFilm) return;
     this.#drawnFilm = key;
-    this.#filmLayer.update(this.#studio, frame, window);
+    this.#filmLayer.update(this.#studio, frame, window, state.ui.seeing.film);
     const context = prepare(this.#film);
     // Pixels are shown as pixels as soon as they are large enough to be told apart.
     context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
@@ -147,12 +186,22 @@ export class StageView {
     const order = [...this.#overlays].sort((a, b) => Number(a.component === active) - Number(b.component === active));
     for (const overlay of order) {
       this.#updateOverlay(overlay, doc, frame);
-      if (overlay.border) drawSilhouette(context, view, overlay, frame, overlayOpacity);
+      if (overlay.border) this.#drawModel(context, state, view, overlay, frame, overlayOpacity);
     }
+    this.#reference.draw(context, state, this.#studio, frame, view);
+    drawGhosts(context, state, view);
     for (const { component } of order) {
       const { outline } = cellOf(doc, frame.id, component);
       if (outline) this.#drawOutline(context, state, view, component, outline, hit);
     }
+  }
+
+  /** As an outline, filled, or shaded where that can be drawn. */
+  #drawModel(context: CanvasRenderingContext2D, state: State, view: Viewport, overlay: OverlayLayer, frame: FrameEntry, opacity: number): void {
+    if (!overlay.border || opacity === 0) return;
+    const { overlay: look } = state.ui.seeing;
+    if (look === 'fill') return drawSilhouette(context, view, overlay, frame, opacity);
+    strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].light);
   }
 
   #updateOverlay(overlay: OverlayLayer, doc: Doc, frame: FrameEntry): void {
