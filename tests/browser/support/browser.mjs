@@ -168,6 +168,9 @@ function isOf(host, url) {
   return url.startsWith(host) || url.startsWith('blob:') || url.startsWith('data:');
 }
 
+/** Without a style to hide the text cursor, which the page's policy would refuse. */
+export const AS_IT_IS = /** @type {const} */ ({ caret: 'initial' });
+
 /**
  * Writes what the page looks like to `target/screenshots`.
  *
@@ -178,7 +181,7 @@ function isOf(host, url) {
 export async function screenshot(page, name, part) {
   await mkdir(SCREENSHOTS, { recursive: true });
   const file = `${name.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
-  await (part ?? page).screenshot({ path: SCREENSHOTS + file });
+  await (part ?? page).screenshot({ ...AS_IT_IS, path: SCREENSHOTS + file });
 }
 
 /**
