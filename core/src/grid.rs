@@ -1,12 +1,13 @@
 //! Calibration from pictures of a bead grid or of a ruler: where the beads are, which bead of the lattice each is, how
 //! the picture is distorted, and what camera took it.
 //!
-//! The order of use: [`discs`] finds dark discs, [`lattice`] numbers them, [`correction`] fits the polynomial of a
+//! The order of use: [`discs`] finds dark discs, [`lattice`] numbers them ([`automatic`] does both), [`correction`] fits the polynomial of a
 //! [`distortion`] that makes their rows straight, [`resample`] applies it to frames, [`plate`] finds pixel pitch and principal point from
 //! the straightened beads. A [`ruler`] of known length is the short way to the pitch alone.
 //!
 //! Image coordinates are those of the whole crate: continuous, a pixel's centre at its index + 0.5.
 
+pub mod automatic;
 pub mod correction;
 pub mod discs;
 pub mod distortion;

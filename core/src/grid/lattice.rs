@@ -104,8 +104,12 @@ pub fn number(beads: &mut [Bead], queue: &mut [usize]) -> Result<f64, GridError>
     }
 }
 
+fn square_between(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+}
+
 fn between(a: [f64; 2], b: [f64; 2]) -> f64 {
-    sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]))
+    sqrt(square_between(a, b))
 }
 
 /// The median distance from a mark to its nearest other. The order of `scratch` is by that distance afterwards.
@@ -115,8 +119,8 @@ fn common_step(beads: &[Bead], scratch: &mut [usize]) -> Option<f64> {
             .iter()
             .enumerate()
             .filter(|(other, _)| *other != index);
-        let away = others.map(|(_, other)| between(other.at, beads[index].at));
-        away.fold(f64::INFINITY, f64::min)
+        let away = others.map(|(_, other)| square_between(other.at, beads[index].at));
+        sqrt(away.fold(f64::INFINITY, f64::min))
     };
     let count = beads.len();
     let order = scratch.get_mut(..count).filter(|_| count > 1)?;
@@ -133,8 +137,8 @@ fn direction(beads: &[Bead], step: f64) -> f64 {
     let (mut sine, mut cosine) = (0.0, 0.0);
     for (index, a) in beads.iter().enumerate() {
         for b in &beads[..index] {
-            let away = between(a.at, b.at);
-            if (0.8 * step..1.2 * step).contains(&away) {
+            let away = square_between(a.at, b.at) / (step * step);
+            if (0.64..1.44).contains(&away) {
                 let angle = atan2(b.at[1] - a.at[1], b.at[0] - a.at[0]);
                 let (s, c) = sin_cos(4.0 * angle);
                 sine += s;
@@ -170,9 +174,9 @@ fn has_cross(beads: &[Bead], seed: usize, step: [f64; 2]) -> bool {
 
 /// The mark nearest to a place, within reach.
 fn closest(beads: &[Bead], place: [f64; 2], step: f64) -> Option<usize> {
-    let mut best = (REACH * step, None);
+    let mut best = (REACH * step * REACH * step, None);
     for (index, bead) in beads.iter().enumerate() {
-        let away = between(bead.at, place);
+        let away = square_between(bead.at, place);
         if away < best.0 {
             best = (away, Some(index));
         }
