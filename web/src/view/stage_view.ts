@@ -227,7 +227,7 @@ export class StageView {
     const handles = active && handlesShown(state);
     const selected = handles ? selectedPoint : null;
     const { closed, unknownSides } = outline;
-    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected });
+    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected, pointer: this.#pointer });
     const last = points.at(-1);
     if (active && tool === 'trace' && !outline.closed && last && this.#pointer) {
       drawRubberBand(context, component, last, (hit.kind === 'vertex' && points[hit.index]) || this.#pointer);

@@ -7,7 +7,7 @@ import type { Film } from '../../pkg/core/fluoropose_wasm.js';
 import { texts } from '../../texts';
 import type { Bridge } from '../../worker/bridge';
 import type { PoseProtocol } from '../protocol';
-import type { Services } from '../services';
+import { sentenceOf, type Services } from '../services';
 import { Host } from './host';
 import { OneClick } from './one_click';
 import { brushRefusal, paint } from './painting';
@@ -34,6 +34,7 @@ export class Aids {
   #box: Preview = NO_PREVIEW;
   #shape: Preview = NO_PREVIEW;
   #stroke: Extract<AidIntent, { aid: 'brush' }> | null = null;
+  #trouble = '';
   /** How many CSS pixels a frame pixel is; the stage tells. */
   scale = 1;
 
@@ -45,6 +46,10 @@ export class Aids {
 
   /** What the tool in hand would do, or the sheet that is open. */
   preview(tool: ToolName): Preview {
+    return this.#telling(() => this.#previewOf(tool)) ?? NO_PREVIEW;
+  }
+
+  #previewOf(tool: ToolName): Preview {
     if (this.#shape.kind !== 'nothing') return this.#shape;
     switch (tool) {
       case 'wire':
@@ -59,6 +64,10 @@ export class Aids {
   }
 
   want(intent: AidIntent): void {
+    this.#telling(() => this.#answer(intent));
+  }
+
+  #answer(intent: AidIntent): void {
     switch (intent.aid) {
       case 'wire':
         return this.#toWire(intent);
@@ -75,9 +84,25 @@ export class Aids {
 
   /** A slice of work before a screen frame is drawn; true when the next screen frame has more to do. */
   tick(tool: ToolName): boolean {
+    return this.#telling(() => this.#work(tool)) ?? false;
+  }
+
+  #work(tool: ToolName): boolean {
     if (this.#stroke) this.#paint();
     if (tool === 'threshold') this.#thresholdOfNow()?.tick();
     return tool === 'wire' && !currentCell(this.#services.store.state).outline?.closed && (this.#wireOfNow()?.tick(BUDGET) ?? false);
+  }
+
+  /** Whatever goes wrong is said, once: the film goes on being drawn. */
+  #telling<T>(work: () => T): T | null {
+    try {
+      return work();
+    } catch (error) {
+      const sentence = sentenceOf(error);
+      if (sentence !== this.#trouble) this.#services.store.say('error', sentence);
+      this.#trouble = sentence;
+      return null;
+    }
   }
 
   /** The pointer has left, or the tool: nothing is shown that a click would not do. */
