@@ -111,7 +111,7 @@ export async function unmatched(page) {
 
 /** What the bottom line says. @param {Page} page */
 export function said(page) {
-  return page.getByRole('status').innerText();
+  return page.getByRole('contentinfo', { name: 'Status' }).getByRole('status').innerText();
 }
 
 /** Waits until the bottom line says something. @param {Page} page @param {RegExp} pattern */
