@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod aids;
 mod bands;
 pub mod border;
 pub mod calibration;
@@ -22,8 +23,10 @@ pub mod covariance;
 mod eigen;
 pub mod estimate;
 pub mod frame;
+pub mod grid;
 pub mod interpolate;
 pub mod jts;
+pub mod kernels;
 pub mod kinematics;
 pub mod library;
 pub mod locate;
@@ -35,6 +38,7 @@ pub mod mesh;
 pub mod mirror;
 pub mod moments;
 pub mod nearby;
+pub mod oneclick;
 pub mod partial;
 pub mod pose;
 pub mod raster;
@@ -42,6 +46,7 @@ pub mod refine;
 pub mod region;
 pub mod rivals;
 pub mod scan;
+pub mod search;
 pub mod silhouette;
 pub mod symmetry;
 pub mod verify;
