@@ -1,11 +1,14 @@
 import { describe, expect, it } from 'vitest';
+import { chooseCandidate, movePoint } from '../src/document/commands';
 import * as history from '../src/document/history';
+import { oneClickOutline } from '../src/document/one_click';
 import { copyOutline, tracedNeighbour } from '../src/document/outlines';
 import { carriedSides } from '../src/document/sides';
 import { ahead, markedStretch, perimeter, pointsOf } from '../src/document/stretch';
 import { cellOf, EMPTY_CELL, EMPTY_DOC, type Doc, type Outline } from '../src/document/types';
 import { piecesOf } from '../src/engine/aids/snapping';
 import { sidesFrom } from '../src/engine/aids/pixels';
+import type { Match, MatchedCandidate } from '../src/engine/protocol';
 import { canvasPoint, framePoint } from '../src/geometry/points';
 import { clockwise } from '../src/geometry/rings';
 import { boundsOf, middleOf, moved, scaled, transformed, turned } from '../src/geometry/similarity';
@@ -274,5 +277,52 @@ describe('fingers', () => {
     touches.down(1, canvasPoint(0, 0));
     touches.down(2, canvasPoint(10, 0));
     expect(touches.down(3, canvasPoint(20, 0))).toBe('nothing');
+  });
+});
+
+describe('an outline by one click', () => {
+  const other = outlineOf([[110, 110], [190, 110], [150, 190]]);
+  const candidate = (z: number): MatchedCandidate => ({
+    pose: { x: 0, y: 0, z, zRot: 0, xRot: 0, yRot: 0 },
+    unmatched: null,
+    drawn: 10,
+    residual: 0.2,
+    deviations: null,
+    start: null,
+    atBorder: false,
+    picture: null,
+  });
+  const match: Match = {
+    candidates: [candidate(-1000), candidate(-1100)],
+    canonicalSize: 256,
+    canonicalArea: 15000,
+    clipped: false,
+    partial: false,
+    reason: 'It fits.',
+    decided: false,
+    milliseconds: 1,
+  };
+  const found = oneClickOutline(PLACE, [SQUARE, other], match, 'key').apply(EMPTY_DOC);
+  const cell = (doc: Doc) => cellOf(doc, 'f', 'femur');
+
+  it('comes with its pose', () => {
+    expect(cell(found)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'posed', origin: 'key', chosen: 0 } });
+  });
+
+  it('changes with the candidate, and back', () => {
+    const second = chooseCandidate(PLACE, 1).apply(found);
+    expect(cell(second).outline).toBe(other);
+    expect(cell(second).resultOf).toBe(other);
+    expect(cell(chooseCandidate(PLACE, 0).apply(second)).outline).toBe(SQUARE);
+  });
+
+  it('stays what somebody made of it', () => {
+    const edited = movePoint(PLACE, 0, framePoint(90, 90)).apply(found);
+    const mine = cell(edited).outline;
+    expect(cell(chooseCandidate(PLACE, 1).apply(edited)).outline).toBe(mine);
+  });
+
+  it('is an outline like any other where no model led to it', () => {
+    expect(cell(oneClickOutline(PLACE, [SQUARE], null, null).apply(EMPTY_DOC))).toMatchObject({ outline: SQUARE, result: null });
   });
 });

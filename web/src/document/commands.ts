@@ -1,4 +1,5 @@
 import { withReference } from './reference';
+import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
 import type { FramePoint } from '../geometry/points';
 import {
@@ -130,7 +131,8 @@ export function chooseCandidate(place: Place, chosen: number): Command {
     apply: (doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result?.kind !== 'posed' || !cell.result.candidates[chosen]) return doc;
-      return withCell(doc, place, { ...cell, result: { ...cell.result, chosen } });
+      const own = withItsOutline(cell, cell.result.candidates[chosen]);
+      return withCell(doc, place, { ...own, result: { ...cell.result, chosen } });
     },
   };
 }

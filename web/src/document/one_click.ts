@@ -1,37 +1,24 @@
 import type { Match } from '../engine/protocol';
-import { setOutline } from './outlines';
 import { withCell, type Command, type Place } from './commands';
+import { setOutline } from './outlines';
+import { setItsOutline } from './own_outlines';
 import { cellOf, type Outline } from './types';
 
 /**
- * An outline with the pose that gave it, as one unit of undo. Each candidate has an outline of its own, which comes with
- * it when it is chosen.
+ * Outlines with the poses that gave them, the chosen first, as one unit of undo. Without poses the outline is on its
+ * own: its pose is found as that of any other.
  */
-const alternatives = new WeakMap<Outline, readonly Outline[]>();
-
-/** Without poses the outline is on its own: its pose is found as that of any other. */
 export function oneClickOutline(place: Place, outlines: readonly Outline[], match: Match | null, origin: string | null): Command {
   const [outline] = outlines;
   const label = 'outline by one click';
   if (!outline || !match || origin === null) return setOutline(place, label, outline ?? null);
-  for (const one of outlines) alternatives.set(one, outlines);
+  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }, index) => {
+    const candidate = { pose, unmatched, drawn, residual, deviations };
+    const own = outlines[index];
+    if (own) setItsOutline(candidate, own);
+    return candidate;
+  });
   const { reason, decided } = match;
-  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }) => ({ pose, unmatched, drawn, residual, deviations }));
   const result = { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided } as const;
-  return { label, place, apply: (doc) => withCell(doc, place, { outline, result, resultOf: outline }) };
-}
-
-/** The choice of a candidate whose outline came with it; null for outlines that somebody drew. */
-export function chooseWithOutline(place: Place, outline: Outline | null, chosen: number): Command | null {
-  const other = outline && alternatives.get(outline)?.[chosen];
-  if (!other) return null;
-  return {
-    label: 'choose another candidate',
-    place,
-    apply: (doc) => {
-      const { result } = cellOf(doc, place.frameId, place.component);
-      if (result?.kind !== 'posed' || !result.candidates[chosen]) return doc;
-      return withCell(doc, place, { outline: other, result: { ...result, chosen }, resultOf: other });
-    },
-  };
+  return { label, place, apply: (doc) => withCell(doc, place, { ...cellOf(doc, place.frameId, place.component), outline, result, resultOf: outline }) };
 }

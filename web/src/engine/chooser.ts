@@ -1,4 +1,5 @@
 import { withCell, type Place } from '../document/commands';
+import { withItsOutline } from '../document/own_outlines';
 import type { Store } from '../document/store';
 import { cellOf, COMPONENT_NAMES, isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
@@ -73,7 +74,7 @@ export class Chooser {
       const candidates = index === 0 || !first ? result.candidates : [first, ...others];
       const known = this.#knownThen.get(result.candidates);
       if (known !== undefined) this.#knownThen.set(candidates, known);
-      return withCell(doc, place, { ...cell, result: { ...result, candidates, decided, reason } });
+      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason } });
     });
   }
 }

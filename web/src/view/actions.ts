@@ -1,7 +1,6 @@
 import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownShare } from '../document/sides';
-import { chooseWithOutline } from '../document/one_click';
 import { poseTable } from '../document/table';
 import { cellOf, chosenCandidate, type ComponentName } from '../document/types';
 import { openDemonstration } from '../engine/demonstration';
@@ -18,6 +17,7 @@ import { AidActions } from './aid_actions';
 import { ExchangeActions } from './exchange_actions';
 import { download, fileStem, pickFiles } from './files';
 import { pointerStore } from './pointer';
+import { otherTheme } from './theme';
 import { WorkActions } from './work_actions';
 
 const NOTHING_HIT = { kind: 'nothing' } as const;
@@ -129,6 +129,9 @@ export class Actions {
         return this.#zoom(1.25);
       case 'zoom-out':
         return this.#zoom(0.8);
+      case 'theme':
+        this.#store.show({ theme: otherTheme(this.#store.ui.theme) });
+        return true;
       case 'reset-window':
         this.#store.perform(commands.setWindow(null));
         return true;
@@ -229,8 +232,7 @@ export class Actions {
   chooseCandidate(index: number): boolean {
     const place = currentPlace(this.#store.state);
     if (!place) return false;
-    const { outline } = currentCell(this.#store.state);
-    this.#store.perform(chooseWithOutline(place, outline, index) ?? commands.chooseCandidate(place, index));
+    this.#store.perform(commands.chooseCandidate(place, index));
     return true;
   }
 
