@@ -27,6 +27,7 @@ import { AppContext, type App } from './view/app';
 import { guardAgainstLoss } from './view/guard';
 import { HandActions } from './view/hand_actions';
 import { Page } from './view/page';
+import { rememberTheme } from './view/theme';
 import { SeeingActions } from './view/seeing_actions';
 import { rememberTaste } from './view/taste';
 
@@ -59,6 +60,7 @@ async function start(root: HTMLElement): Promise<void> {
   };
   guardAgainstLoss(services.store, keeper);
   keepForOffline(services.store);
+  rememberTheme(services.store, document.documentElement);
   render(
     <AppContext.Provider value={app}>
       <Page />

@@ -40,9 +40,13 @@ export interface Ui {
   readonly proposal: Proposal | null;
   /** Brings a newer version of the page into use; null while there is none. */
   readonly update: (() => void) | null;
+  readonly theme: Theme;
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
+
+/** Dark like a reading room, or light for projectors. Print is light by itself. */
+export type Theme = 'dark' | 'light';
 
 export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape';
 
@@ -110,6 +114,7 @@ const EMPTY_UI: Ui = {
   keeping: { state: 'nothing' },
   proposal: null,
   update: null,
+  theme: 'dark',
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
 

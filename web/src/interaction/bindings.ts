@@ -29,6 +29,7 @@ export type Action =
         | 'zoom-in'
         | 'zoom-out'
         | 'reset-window'
+        | 'theme'
         | 'keys';
     };
 
@@ -89,6 +90,7 @@ export const BINDINGS: readonly Binding[] = [
   binding('Seeing', ['+'], 'Zoom in', (key) => is(key, '+', '='), { name: 'zoom-in' }),
   binding('Seeing', ['-'], 'Zoom out', plainly('-'), { name: 'zoom-out' }),
   binding('Seeing', ['R'], 'Window and level as the film suggests', plainly('r'), { name: 'reset-window' }),
+  binding('Seeing', ['Shift + L'], texts.top.themeDoes, shifted('l'), { name: 'theme' }),
   mouse('Space held', 'Hide outlines and overlays; dragging moves the film'),
   mouse('Wheel', 'Zoom at the cursor'),
   mouse('Middle drag', 'Move the film'),
