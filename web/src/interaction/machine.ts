@@ -1,6 +1,6 @@
 import type { HandScene } from './adjust';
 import type { AidIntent } from './aid';
-import type { CanvasPoint } from '../geometry/points';
+import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
 import type { Command, Place } from '../document/commands';
 import type { GreyWindow, Outline } from '../document/types';
@@ -17,6 +17,8 @@ export interface Input {
   readonly button: Button;
   readonly alt: boolean;
   readonly shift?: boolean;
+  /** A finger: it covers more than it points at. */
+  readonly touch?: boolean;
   readonly ctrl?: boolean;
 }
 
@@ -39,6 +41,7 @@ export type Effect =
   | { readonly type: 'cancel-preview' }
   | { readonly type: 'select'; readonly index: number | null }
   | { readonly type: 'viewport'; readonly viewport: Viewport }
+  | { readonly type: 'mark'; readonly at: FramePoint; readonly begins: boolean }
   | { readonly type: 'aid'; readonly intent: AidIntent };
 
 export interface Outcome<State> {

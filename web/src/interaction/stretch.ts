@@ -4,6 +4,7 @@ import { ahead, lengthsAlong, type Stretch } from '../document/stretch';
 import type { Outline } from '../document/types';
 import { distance, nearestOnSegment, type CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, type Viewport } from '../geometry/viewport';
+import { reachOf } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /** Marking a stretch of a closed outline as unknown by dragging along it; as known again where it began on unknown. */
@@ -37,7 +38,7 @@ function next(state: StretchState, input: Input, scene: Scene): Outcome<StretchS
   if (state.name === 'dragging') return whileDragging(state, input, scene, outline);
   if (input.type !== 'down' || input.button !== 'primary') return outcome(state);
   const hold = holdOf(outline, scene.viewport, input.at);
-  if (!hold || hold.away > STRETCH_REACH) return outcome(state);
+  if (!hold || hold.away > reachOf(input) * STRETCH_REACH) return outcome(state);
   return outcome({
     name: 'dragging',
     from: input.at,

@@ -2,6 +2,7 @@ import { transformOutline } from '../document/outlines';
 import { canvasPoint, distance, framePoint, type CanvasPoint, type FramePoint } from '../geometry/points';
 import { boundsOf, middleOf, moved, scaled, turned, type Bounds, type Similarity } from '../geometry/similarity';
 import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
+import { reachOf } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /** Moving, turning and scaling a whole outline by the frame of handles round it. */
@@ -35,7 +36,7 @@ function next(state: TransformState, input: Input, scene: Scene): Outcome<Transf
   if (state.name === 'dragging') return whileDragging(state, input, scene);
   const bounds = boundsOf(scene.outline?.points ?? []);
   if (!bounds || input.type !== 'down' || input.button !== 'primary') return outcome(state);
-  const handle = handleAt(bounds, scene.viewport, input.at);
+  const handle = handleAt(bounds, scene.viewport, input.at, reachOf(input));
   return outcome(handle ? { name: 'dragging', handle, from: input.at, bounds, meant: false } : state);
 }
 
@@ -78,9 +79,9 @@ function similarityOf(
 const MOST_SCALED = 10;
 
 /** What lies under the pointer, the small things first. */
-export function handleAt(bounds: Bounds, viewport: Viewport, at: CanvasPoint): Handle | null {
-  if (distance(turnHandle(bounds, viewport), at) <= HANDLE_REACH) return 'turn';
-  const corner = CORNERS.find((name) => distance(canvasFromFrame(viewport, cornerOf(bounds, name)), at) <= HANDLE_REACH);
+export function handleAt(bounds: Bounds, viewport: Viewport, at: CanvasPoint, wide = 1): Handle | null {
+  if (distance(turnHandle(bounds, viewport), at) <= wide * HANDLE_REACH) return 'turn';
+  const corner = CORNERS.find((name) => distance(canvasFromFrame(viewport, cornerOf(bounds, name)), at) <= wide * HANDLE_REACH);
   if (corner) return corner;
   const { column, row } = frameFromCanvas(viewport, at);
   const inside = column >= bounds.left && column <= bounds.right && row >= bounds.top && row <= bounds.bottom;

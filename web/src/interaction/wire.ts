@@ -1,7 +1,7 @@
 import { distance } from '../geometry/points';
 import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
 import { edit, nextEdit, type EditState } from './edit';
-import { CLOSING_REACH, FEWEST_POINTS, hitTest } from './hit';
+import { CLOSING_REACH, FEWEST_POINTS, hitTest, reachOf } from './hit';
 import { outcome, type Effect, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /** Live-wire: the path follows the edge to the pointer, a click fixes it. On a closed outline it edits points. */
@@ -32,16 +32,16 @@ function next(state: WireState, input: Input, scene: Scene): Outcome<WireState> 
 
 function onClosed(state: WireState, input: Input, scene: Scene): Outcome<WireState> {
   const before = state.name === 'editing' ? state.edit : edit.start;
-  const hit = hitTest(scene.outline, scene.viewport, input.at);
+  const hit = hitTest(scene.outline, scene.viewport, input.at, reachOf(input));
   const edited = nextEdit(before, input, scene, hit);
   return { state: { name: 'editing', edit: edited.state }, effects: edited.effects };
 }
 
 /** Does a click here close the draft? */
-export function isOnFirst({ at }: Pick<Input, 'at'>, { outline, viewport }: Pick<Scene, 'outline' | 'viewport'>): boolean {
+export function isOnFirst({ at, touch }: Pick<Input, 'at' | 'touch'>, { outline, viewport }: Pick<Scene, 'outline' | 'viewport'>): boolean {
   const first = outline?.points[0];
   if (!first || outline.points.length < FEWEST_POINTS) return false;
-  return distance(canvasFromFrame(viewport, first), at) <= CLOSING_REACH + 2;
+  return distance(canvasFromFrame(viewport, first), at) <= reachOf({ touch }) * (CLOSING_REACH + 2);
 }
 
 function intent(to: 'aim' | 'fix' | 'close', input: Input, scene: Scene): Effect {

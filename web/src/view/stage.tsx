@@ -47,6 +47,7 @@ export function Stage({ state }: { state: State }) {
 function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): () => void {
   const { store, studio } = app.services;
   const view = new StageView(store, studio, film, canvas);
+  view.calibrator = app.calibrator;
   view.aids = app.aids;
   const controller = new Controller();
   app.actions.stage = {
@@ -92,7 +93,7 @@ function attachPointer(
   const send = (type: Input['type'], event: MouseEvent) => {
     const scene = sceneOf(store, view);
     if (!scene) return;
-    const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey, shift: event.shiftKey, ctrl: event.ctrlKey };
+    const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey, shift: event.shiftKey, touch: event instanceof PointerEvent && event.pointerType === 'touch', ctrl: event.ctrlKey };
     act(app, controller, input, scene);
   };
   const hover = (event: MouseEvent) => view.setPointer(pointOf(event));
@@ -103,7 +104,7 @@ function attachPointer(
       canvas.setPointerCapture(event.pointerId);
       event.preventDefault();
       store.quiet();
-      if (store.ui.popover && store.ui.popover !== 'shape') store.show({ popover: null });
+      if (store.ui.popover && store.ui.popover !== 'shape' && store.ui.popover !== 'calibrate') store.show({ popover: null });
       if (event.pointerType === 'pen') touches.pen();
       const use = event.pointerType === 'touch' ? touches.down(event.pointerId, pointOf(event)) : 'tool';
       if (use === 'film') return cancelGesture(app, view, controller);
