@@ -1,4 +1,6 @@
-import type { PoseNumbers } from '../document/types';
+import type { ComponentName, PoseNumbers } from '../document/types';
+import { texts } from '../texts';
+import type { Motion } from './adjust';
 import type { Binding, KeyInput } from './bindings';
 
 /** Keys while the model is adjusted by hand: arrows as in JointTrack. They come before the keys of the page. */
@@ -66,4 +68,10 @@ export const HAND_MOUSE: readonly { readonly shown: readonly string[]; readonly 
 
 export function handActionFor(key: KeyInput): HandAction | null {
   return HAND_BINDINGS.find((binding) => binding.matches(key))?.action ?? null;
+}
+
+/** One line: what the next press does to the model. */
+export function handHint(component: ComponentName, there: boolean, motion: Motion | null): string {
+  const words = texts.hand.hints;
+  return there ? words.over[motion ?? 'move'] : words.absent(texts.component[component]);
 }

@@ -51,7 +51,6 @@ export const hand = {
   view: 'View',
   hints: {
     absent: (component: string) => `No pose of the ${component} here: click where it is, or press Enter, to place the model.`,
-    none: (component: string) => `To adjust a pose of the ${component}: open its model, a calibration and a frame.`,
     over: {
       move: 'Drag to move; Shift tilts, Ctrl turns, both go nearer; arrows move, Enter refines from here.',
       turn: 'Drag round the ring to turn in the image plane (Ctrl + left and right).',
@@ -70,6 +69,7 @@ export const hand = {
     name: (time: string) => `poses of ${time}`,
     none: 'No other set of poses: keep the ones on view, or open a .jts file.',
     with: (name: string) => `against ${name}`,
+    noneHere: 'no pose here',
     nothingHere: (name: string) => `${name} has no pose here.`,
     difference: (name: string, text: string, unit: string) => `${name} differs by ${text} ${unit} from the reference`,
     rotation: (text: string) => `turned by ${text}°`,

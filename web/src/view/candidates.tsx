@@ -1,9 +1,20 @@
 import type { Findings } from '../engine/poser';
+import { isPicked } from '../document/hand_poses';
+import { texts } from '../texts';
 import { useApp } from './app';
 import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
-/** As many as the matcher offers. */
-const NAMES = ['Best', 'Rival', 'Third'] as const;
+/** As many as the matcher offers, and one from the landscape. */
+const NAMES = ['Best', 'Rival', 'Third', 'Fourth'] as const;
+
+/** Of poses that were not found by matching and refining. */
+function nameOf(result: Posed | null, index: number): string | null {
+  const candidate = result?.candidates[index];
+  if (!result || !candidate) return null;
+  if (result.from === 'file') return 'Loaded';
+  if (result.from === 'hand') return texts.hand.candidate;
+  return isPicked(result, candidate) ? texts.hand.view : null;
+}
 
 const CANONICAL_AREA = '15 000';
 
@@ -29,7 +40,7 @@ export function Candidates({ cell }: { cell: Cell }) {
           <CandidateButton
             key={name}
             index={index}
-            name={index === 0 && result?.from === 'file' ? 'Loaded' : name}
+            name={nameOf(result, index) ?? name}
             candidate={result?.candidates[index] ?? null}
             chosen={result !== null && result.chosen === index}
             onChoose={() => result && result.chosen !== index && actions.chooseCandidate(index)}
@@ -93,6 +104,7 @@ const DECISIVE = 1.3;
 /** Why the first candidate comes first. */
 function reason({ from, candidates, chosen, reason: stated }: Posed): string {
   const [best, rival] = candidates;
+  if (from === 'hand') return stated ?? texts.hand.source;
   if (from === 'file' || !best) return '';
   if (chosen !== 0) return 'Chosen by hand; X goes back to the best.';
   if (stated !== null) return rival ? `${stated} X compares.` : stated;

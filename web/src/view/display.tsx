@@ -1,10 +1,12 @@
 import * as commands from '../document/commands';
 import { currentFrame, type State } from '../document/store';
+import { texts } from '../texts';
 import { useApp } from './app';
+import { Icon } from './icons';
 
 /** Opacity of the overlay, window and level of the film. */
 export function Display({ state }: { state: State }) {
-  const { actions, services } = useApp();
+  const { actions, seeing, services } = useApp();
   const { store, studio } = services;
   const frame = currentFrame(state);
   const facts = frame && studio.filmFacts(frame.id);
@@ -46,9 +48,22 @@ export function Display({ state }: { state: State }) {
         disabled={!facts}
         onInput={(centre) => change({ centre })}
       />
-      <button type="button" class="button small" disabled={!state.history.present.window} title="R" onClick={() => actions.run({ name: 'reset-window' })}>
-        Reset window and level
-      </button>
+      <div class="display-buttons">
+        <button
+          type="button"
+          class="button small"
+          aria-haspopup="dialog"
+          aria-expanded={state.ui.popover === 'view'}
+          aria-keyshortcuts="9"
+          title={texts.seeing.openTitle}
+          onClick={() => seeing.run({ name: 'view-sheet' })}
+        >
+          <Icon name="eye" /> {texts.seeing.open}
+        </button>
+        <button type="button" class="button small" disabled={!state.history.present.window} title="R" onClick={() => actions.run({ name: 'reset-window' })}>
+          Reset window and level
+        </button>
+      </div>
     </section>
   );
 }

@@ -1,27 +1,32 @@
-import { dropHandPose, setPoseByHand } from '../document/hand_poses';
+import { bare, dropHandPose, offerCandidate, setPoseByHand } from '../document/hand_poses';
 import { forgetReference, keepReference, referencePose } from '../document/reference';
 import type { Grain } from '../document/seeing';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import { isByHand, type PoseNumbers } from '../document/types';
 import type { FromHere } from '../engine/from_here';
-import type { Services } from '../engine/services';
+import type { LandscapeFacts } from '../engine/hand_protocol';
+import type { Landscapes } from '../engine/landscape';
+import { sentenceOf, type Services } from '../engine/services';
 import { isTurn, nudged } from '../geometry/pose_motion';
 import type { HandAction } from '../interaction/hand_bindings';
 import { texts } from '../texts';
 import { handSceneOf, placedPose } from './hand_scene';
+import { degreesOf, type LandscapeCell } from './landscape_picture';
 
 /** What keys and buttons do with a pose that is set by hand. */
 export class HandActions {
   readonly #services: Services;
   readonly #store: Store;
   readonly #fromHere: FromHere;
+  readonly #landscapes: Landscapes;
   /** Nudges of one key held down are one step back. */
   #held = 0;
 
-  constructor(services: Services, fromHere: FromHere) {
+  constructor(services: Services, fromHere: FromHere, landscapes: Landscapes) {
     this.#services = services;
     this.#store = services.store;
     this.#fromHere = fromHere;
+    this.#landscapes = landscapes;
   }
 
   /** `repeated`: the key is held down. */
@@ -90,6 +95,21 @@ export class HandActions {
     if (field === 'z' && value >= 0) return this.#store.say('error', texts.hand.said.behind);
     const scene = handSceneOf(this.#store.state, this.#services.studio);
     if (scene) this.#change(field, value - scene.pose[field], `type-${++this.#held}`);
+  }
+
+  /** Offers the pose of a view of the landscape as a candidate. */
+  async takeView(facts: LandscapeFacts, { x, y }: LandscapeCell): Promise<void> {
+    const place = currentPlace(this.#store.state);
+    const { outline } = currentCell(this.#store.state);
+    try {
+      const found = await this.#landscapes.pose(y * facts.x.count + x);
+      if (!found || !place || currentCell(this.#store.state).outline !== outline) return;
+      const { pose, unmatched } = found;
+      this.#store.perform(offerCandidate(place, { ...bare(pose), unmatched }));
+      this.#store.say('info', texts.seeing.landscape.taken(degreesOf(facts.x, x), degreesOf(facts.y, y)));
+    } catch (error) {
+      this.#store.say('error', sentenceOf(error));
+    }
   }
 
   // --- The set to compare with ---------------------------------------------------------------------------------------

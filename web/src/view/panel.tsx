@@ -5,7 +5,8 @@ import { useApp } from './app';
 import { Display } from './display';
 import { PoseNumbersCard } from './pose_card';
 import { Candidates } from './candidates';
-import { Unmatched } from './unmatched';
+import { CompareCard } from './compare_card';
+import { Pictures } from './pictures';
 
 /** The right side: the selected component's pose, how far to trust it, and how the film is shown. */
 export function Panel({ state }: { state: State }) {
@@ -32,8 +33,9 @@ export function Panel({ state }: { state: State }) {
         ))}
       </div>
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
+      <CompareCard state={state} />
       <Candidates cell={cell} />
-      <Unmatched state={state} />
+      <Pictures state={state} />
       <Display state={state} />
       <div class="panel-foot">
         <button type="button" class="button" title="As a .jts file, a row a frame" disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>

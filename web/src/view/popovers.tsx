@@ -3,6 +3,7 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { Popover, State } from '../document/store';
 import { titleOf } from '../document/types';
 import { useApp } from './app';
+import { CalibrateSheet } from './calibrate_sheet';
 import { CalibrationSheet } from './calibration_sheet';
 import { ComponentSheet } from './component_sheet';
 import { ConvergenceSheet } from './convergence_sheet';
@@ -12,6 +13,7 @@ import { LogSheet } from './log_sheet';
 import { ShapeSheet } from './shape_sheet';
 import { SessionSheet } from './session_sheet';
 import { WorkSheet } from './work_sheet';
+import { VideoSheet } from './video_sheet';
 import { ViewSheet } from './view_sheet';
 import { ImportSheet } from './import_sheet';
 import { texts } from '../texts';
@@ -39,6 +41,8 @@ const TITLES: Readonly<Record<Popover, string>> = {
   import: texts.exchange.title,
   shape: texts.aids.shape.title,
   view: texts.seeing.sheet,
+  calibrate: texts.calibrate.sheet,
+  video: texts.files.video.sheet,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -62,6 +66,10 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <ConvergenceSheet state={state} />;
     case 'shape':
       return <ShapeSheet state={state} />;
+    case 'calibrate':
+      return <CalibrateSheet state={state} />;
+    case 'video':
+      return <VideoSheet state={state} />;
     case 'view':
       return <ViewSheet state={state} />;
   }

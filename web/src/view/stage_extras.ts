@@ -202,3 +202,11 @@ export function drawLens(context: Context, lens: Lens, paint: () => void): void 
   line(context, hair, '#ffffff', 1);
   context.restore();
 }
+
+/** Twice as opaque as a fill: light and shade have to be seen. */
+export function drawShaded(context: Context, picture: HTMLCanvasElement, { width, height }: Size, opacity: number): void {
+  context.save();
+  context.globalAlpha = Math.min(1, 2 * opacity);
+  context.drawImage(picture, 0, 0, width, height);
+  context.restore();
+}

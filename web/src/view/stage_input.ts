@@ -9,7 +9,10 @@ import type { StageView } from './stage_view';
 
 export function act(app: App, controller: Controller, input: Input, scene: Scene): void {
   const { store } = app.services;
-  for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(app, effect);
+  // While a ruler is marked the pointer marks, whatever the tool.
+  const { popover, measuring } = store.ui;
+  const tool = popover === 'calibrate' && measuring?.kind === 'ruler' ? 'ruler' : store.ui.tool;
+  for (const effect of controller.handle(tool, input, scene, store.ui.overlaysHidden)) apply(app, effect);
 }
 
 export function cancelGesture(app: App, view: StageView, controller: Controller): void {
@@ -41,6 +44,8 @@ function apply(app: App, effect: Effect): void {
       return store.show({ selectedPoint: effect.index });
     case 'viewport':
       return store.show({ viewport: effect.viewport });
+    case 'mark':
+      return app.calibrator.mark(effect.at, effect.begins);
     case 'aid':
       return app.aids.want(effect.intent);
   }

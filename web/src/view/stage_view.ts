@@ -10,6 +10,7 @@ import {
   type Outline,
 } from '../document/types';
 import type { Aids } from '../engine/aids/aids';
+import type { Calibrator } from '../engine/calibrator';
 import { cameraOf } from '../engine/keys';
 import type { Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
@@ -17,12 +18,14 @@ import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from 
 import { handleAt, type HandScene } from '../interaction/adjust';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import { drawBrush, drawHold, drawPreview, drawTransformBox } from './aid_drawing';
+import { drawMeasuring } from './calibrate_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { COMPONENT_COLOURS } from './colours';
 import { handSceneOf } from './hand_scene';
 import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
-import { drawGhosts, drawHandles, drawLens, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
+import { Shading } from './shading';
+import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
 
 const NOTHING: Hit = { kind: 'nothing' };
 
@@ -39,6 +42,9 @@ export class StageView {
   readonly #vectors: HTMLCanvasElement;
   readonly #filmLayer = new FilmLayer();
   readonly #reference = new ReferenceLayers();
+  readonly #shading: Shading;
+  /** The viewport of the stage, not that of the lens. */
+  #mainView: Viewport | null = null;
   readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
   /** Where the pointer is; what lies under it is found anew whenever something changes. */
   #pointer: CanvasPoint | null = null;
@@ -47,10 +53,12 @@ export class StageView {
   #scheduled = 0;
   /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
   aids: Pick<Aids, 'tick' | 'preview' | 'scale'> | null = null;
+  calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
 
   constructor(store: Store, studio: Studio, film: HTMLCanvasElement, vectors: HTMLCanvasElement) {
     this.#store = store;
     this.#studio = studio;
+    this.#shading = new Shading(store, studio);
     this.#film = film;
     this.#vectors = vectors;
   }
@@ -113,9 +121,11 @@ export class StageView {
     if (frame) this.#drawFilm(state, frame, view);
     else clear(this.#film, () => (this.#drawnFilm = ''));
     const context = prepare(this.#vectors);
+    this.#mainView = view;
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
     if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view);
     if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
+    if (frame) this.#drawMeasuring(context, state, frame, view);
     if (frame) this.#drawLens(context, state, frame, view);
   }
 
@@ -144,6 +154,14 @@ export class StageView {
     });
   }
 
+  #drawMeasuring(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+    const { popover, measuring } = state.ui;
+    if (popover !== 'calibrate' || !measuring || !this.calibrator) return;
+    const { grid } = measuring;
+    const beads = grid?.frameId === frame.id ? this.calibrator.beadsShown(grid, state.history.present) : null;
+    drawMeasuring(context, view, measuring, beads);
+  }
+
   #letAidsWork(): void {
     if (!this.aids) return;
     this.aids.scale = this.viewport(this.#store.state).scale;
@@ -168,7 +186,7 @@ export class StageView {
 
   #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
     const window = this.window(state);
-    const key = `${frame.id} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    const key = `${frame.id} ${this.#studio.filmsKey} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
     if (key === this.#drawnFilm) return;
     this.#drawnFilm = key;
     this.#filmLayer.update(this.#studio, frame, window, state.ui.seeing.film);
@@ -184,9 +202,11 @@ export class StageView {
     const { present: doc } = state.history;
     // The selected component lies on top.
     const order = [...this.#overlays].sort((a, b) => Number(a.component === active) - Number(b.component === active));
+    const shaded = view === this.#mainView ? this.#shading.picture(state, frame, view, this.#size) : null;
+    if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
       this.#updateOverlay(overlay, doc, frame);
-      if (overlay.border) this.#drawModel(context, state, view, overlay, frame, overlayOpacity);
+      if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, frame, overlayOpacity);
     }
     this.#reference.draw(context, state, this.#studio, frame, view);
     drawGhosts(context, state, view);

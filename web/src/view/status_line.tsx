@@ -1,5 +1,8 @@
 import { useEffect } from 'preact/hooks';
 import { currentCell, currentFrame, type Job, type State } from '../document/store';
+import { chosenCandidate } from '../document/types';
+import type { Motion } from '../interaction/adjust';
+import { handHint } from '../interaction/hand_bindings';
 import { hint } from '../interaction/hints';
 import { useApp } from './app';
 import { usePointer } from './pointer';
@@ -9,7 +12,7 @@ import { texts } from '../texts';
 export function StatusLine({ state }: { state: State }) {
   const { store } = useApp().services;
   const pointer = usePointer();
-  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' });
+  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' }, pointer?.motion ?? null);
   useInfoExpires(state);
   return (
     <footer class="status" aria-label={texts.status.region}>
@@ -34,12 +37,13 @@ export function StatusLine({ state }: { state: State }) {
   );
 }
 
-function message(state: State, hit: Parameters<typeof hint>[3]): { text: string; kind: 'hint' | 'info' | 'error' } {
+function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion | null): { text: string; kind: 'hint' | 'info' | 'error' } {
   const { notice, tool, component } = state.ui;
   if (notice) return notice;
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
+  if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
   return { text: hint(tool, component, outline, hit, { erase: state.ui.aids.erase, adjusting: state.ui.aidLevel !== null }), kind: 'hint' };
 }
 
