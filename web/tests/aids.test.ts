@@ -87,12 +87,9 @@ class Pixels implements WirePixels {
     return ++this.slices > this.needed;
   }
 
-  reach(_column: number, _row: number, pixels: number): boolean {
+  follow(column: number, row: number, _radius: number, pixels = 2 ** 31): Float64Array {
     if (pixels > 1e6) this.slices = this.needed + 1;
-    return this.slices >= this.needed;
-  }
-
-  follow(column: number, row: number): Float64Array {
+    if (this.slices < this.needed) return new Float64Array();
     const [from] = this.seeds.at(-1)!;
     const steps = Math.max(1, Math.abs(Math.round(column - from)));
     return Float64Array.from(Array.from({ length: steps + 1 }, (_, step) => [from + Math.sign(column - from) * step, row]).flat());

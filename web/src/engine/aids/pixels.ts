@@ -107,7 +107,7 @@ export function regionOf(film: Film, dark: boolean): Region {
 }
 
 /** What the live-wire needs of the core; tests lend one of their own. */
-export type WirePixels = Pick<LiveWire, 'prepare' | 'snapPoint' | 'seed' | 'expand' | 'reach' | 'follow' | 'common' | 'darkSide' | 'free'>;
+export type WirePixels = Pick<LiveWire, 'prepare' | 'snapPoint' | 'seed' | 'expand' | 'follow' | 'common' | 'darkSide' | 'free'>;
 export type CoolingPixels = Pick<Cooling, 'restart' | 'observe'>;
 
 export function wireOf(film: Film, dark: boolean): WirePixels {

@@ -31,7 +31,7 @@ const NO_SEEDS: Seeds = { counts: [], side: 0 };
 /** Rows and pixels that take well under a millisecond or two. */
 const ROWS = 32;
 const PIXELS = 8000;
-const ALL = 2 ** 31;
+const ALL = 2 ** 31 - 1;
 /** Two clicks on one spot are one, px. */
 const SAME_SPOT = 2;
 /** Cooled stretches are no shorter than this, and the hand keeps this much of the path, path points. */
@@ -179,8 +179,7 @@ export class Wire {
     this.#settle(draft);
     const aim = this.#aim;
     if (!draft || !aim || aim.straight || this.#aimed) return;
-    if (!this.#pixels.reach(aim.at.column, aim.at.row, pixels)) return;
-    const path = pointsFrom(this.#pixels.follow(aim.at.column, aim.at.row, this.#host.radius));
+    const path = pointsFrom(this.#pixels.follow(aim.at.column, aim.at.row, this.#host.radius, pixels));
     if (path.length === 0) return;
     this.#aimed = true;
     this.#path = [draft.points.at(-1)!, ...path.slice(1)];
@@ -197,9 +196,8 @@ export class Wire {
   }
 
   #pathTo(at: FramePoint): readonly FramePoint[] {
-    if (!this.#pixels.reach(at.column, at.row, ALL)) return [at, at];
-    const path = pointsFrom(this.#pixels.follow(at.column, at.row, 0));
-    return [...path.slice(0, -1), at];
+    const path = pointsFrom(this.#pixels.follow(at.column, at.row, 0, ALL));
+    return path.length > 1 ? [...path.slice(0, -1), at] : [at, at];
   }
 
   #fixPath(draft: Outline, path: readonly FramePoint[], label: string): void {
