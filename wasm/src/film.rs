@@ -1,5 +1,6 @@
 //! Frames held and painted with window and level.
 
+use fluoropose::aids::smoothed::{Scale, Smoothed};
 use fluoropose::frame::{Frame, Grey, Pixel};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
@@ -28,7 +29,9 @@ pub enum FilmLook {
     Equalised,
 }
 
-enum Pixels {
+/// Grey values as they came.
+#[derive(Clone)]
+pub(crate) enum Pixels {
     Eight(Vec<u8>),
     Sixteen(Vec<u16>),
 }
@@ -182,6 +185,34 @@ impl Film {
 }
 
 impl Film {
+    pub(crate) fn pixels(&self) -> &Pixels {
+        &self.pixels
+    }
+
+    /// Smooths the film into as many cells as it has pixels.
+    ///
+    /// # Errors
+    /// The core's sentence where there are fewer.
+    pub(crate) fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
+        let (width, height) = (self.width, self.height);
+        let smoothed = match &self.pixels {
+            Pixels::Eight(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+            Pixels::Sixteen(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+        };
+        smoothed.map_err(sentence)
+    }
+
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
     /// Calls `with` with the frame, to be read between its pixels' centres.
     ///
     /// # Errors

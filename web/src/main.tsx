@@ -52,7 +52,7 @@ async function start(root: HTMLElement): Promise<void> {
   const landscapes = new Landscapes(services.store, matcher);
   const hand = new HandActions(services, new FromHere(services, matcher), landscapes);
   rememberTaste(services.store);
-  const actions = new Actions(services, aids, calibrator);
+  const actions = new Actions(services, aids);
   const videos = new Videos(services, (files) => actions.open(files));
   actions.videos = videos;
   const app: App = {

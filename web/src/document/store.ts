@@ -3,6 +3,7 @@ import { USUAL_OPTIONS, type AidOptions } from '../interaction/aid';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
+import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
 import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
@@ -38,6 +39,8 @@ export interface Ui {
   readonly keeping: Keeping;
   /** What is about to be imported; null while nothing is. */
   readonly proposal: Proposal | null;
+  /** What the calibration helper has before it; null before it is first opened. */
+  readonly measuring: Measuring | null;
   /** Brings a newer version of the page into use; null while there is none. */
   readonly update: (() => void) | null;
   readonly theme: Theme;
@@ -48,7 +51,7 @@ export interface Ui {
 /** Dark like a reading room, or light for projectors. Print is light by itself. */
 export type Theme = 'dark' | 'light';
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video';
 
 export interface AidLevel {
   readonly level: number;
@@ -113,6 +116,7 @@ const EMPTY_UI: Ui = {
   savedAt: null,
   keeping: { state: 'nothing' },
   proposal: null,
+  measuring: null,
   update: null,
   theme: 'dark',
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },

@@ -1,10 +1,13 @@
 import * as commands from '../document/commands';
 import type { Asset } from '../document/assets';
+import { readDistortionFile } from '../document/distortion';
 import { COMPONENT_NAMES, type ComponentName, type Doc, type FrameEntry } from '../document/types';
 import { Aborted } from '../worker/bridge';
+import { texts } from '../texts';
 import { componentFor } from './guess';
 import type { OutlineFile } from './exchange/importer';
-import type { FileKind } from './protocol';
+import { takeDistortion } from './distorting';
+import type { FileKind, StatedGeometry } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
 import { mismatchOf, openSession } from './session_opener';
 
@@ -26,10 +29,10 @@ interface Recognised extends Incoming {
  * Opens whatever it is given: each file is recognised by its content. A file that cannot be read is named and the
  * others are opened all the same.
  */
-export async function openFiles(services: Services, files: readonly Incoming[]): Promise<void> {
+export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
   const recognised: Recognised[] = [];
   for (const file of files) recognised.push({ ...file, kind: await recognise(services, file) });
-  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.name, b.name));
+  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
   const failed: string[] = [];
   for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
@@ -39,15 +42,57 @@ export async function openFiles(services: Services, files: readonly Incoming[]):
   const outlines = await outlineFiles(services, recognised);
   const others = recognised.filter((file) => !outlines.some(({ bytes }) => bytes === file.bytes));
   const frames = others.filter((file) => file.kind === 'frames');
-  for (const file of others.filter((file) => file.kind !== 'frames' && file.kind !== 'poses')) {
-    await attempt(file, () => openOne(services, file, failed), opened, failed);
-  }
+  // Of a whole folder what is not recognised is told in one sentence.
+  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.bytes.length > 0) : [];
+  const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
+  for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
   if (frames.length > 0) await openFrames(services, frames, opened, failed);
   for (const file of recognised.filter((file) => file.kind === 'poses')) {
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
+  if (strangers.length > 0) failed.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
+  await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   tell(services, opened, failed);
+  offerStated(services, frames.length > 0);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** Frames, poses and videos have their own time. */
+const LATER: readonly FileKind[] = ['frames', 'poses', 'video'];
+
+/** What opens the first of the videos that were given. */
+export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
+
+async function beginFirstVideo(videos: readonly Recognised[], begin: BeginVideo, failed: string[]): Promise<void> {
+  const [first, ...others] = videos;
+  if (!first) return;
+  await attempt(first, async () => ((await begin(first)), ''), [], failed);
+  if (others.length > 0) failed.push(texts.files.video.oneAtATime);
+}
+
+/** A few names, and how many more there are. */
+function fewNames(files: readonly Incoming[]): string {
+  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const rest = files.length - names.length;
+  return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
+}
+
+/** Frames that state sizes and distances: said once, with a button to look at them. Nothing is taken by itself. */
+function offerStated({ store, studio }: Services, framesCame: boolean): void {
+  const frame = store.doc.frames[store.ui.frameIndex];
+  if (!framesCame || !frame || store.doc.calibration) return;
+  const count = statesSomething(studio.statedGeometry(frame.id));
+  if (count === 0) return;
+  const { notice } = store.ui;
+  const said = notice?.kind === 'info' ? `${notice.text} ` : '';
+  if (notice?.kind === 'error') return;
+  const look = () => store.show({ popover: 'calibration' });
+  store.say('info', said + texts.calibrate.stated.offer(count), { label: texts.calibrate.stated.look, take: look });
+}
+
+/** How many values there are that a calibration may begin with. */
+export function statesSomething(stated: StatedGeometry | null): number {
+  return stated ? [stated.detectorSpacing, stated.scannedSpacing, stated.sourceToDetector].filter((value) => value !== null).length : 0;
 }
 
 /**
@@ -91,7 +136,9 @@ async function openAsFrames(services: Services, files: readonly Incoming[]): Pro
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
-const ORDER: readonly FileKind[] = ['session', 'calibration', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'unknown'];
+const ORDER: readonly FileKind[] = [
+  'session', 'calibration', 'distortion', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
+];
 
 function byName(a: string, b: string): number {
   return a.localeCompare(b, undefined, { numeric: true });
@@ -135,10 +182,12 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
       return openLibrary(services, file);
     case 'session':
       return openSession(services, file, remarks);
+    case 'distortion':
+      return openDistortion(services, file);
     default:
       if (file.bytes.length === 0) throw new Error('the file is empty; export or copy it again');
       throw new Error(
-        'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, .jts poses, libraries and sessions',
+        'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, .jts poses, libraries, sessions and videos',
       );
   }
 }
@@ -153,21 +202,28 @@ async function openCalibration({ store, studio }: Services, { name, bytes }: Inc
   return `the calibration ${name}`;
 }
 
+async function openDistortion(services: Services, { name, bytes }: Incoming): Promise<string> {
+  takeDistortion(services, readDistortionFile(new TextDecoder().decode(bytes)));
+  return texts.calibrate.opened(name);
+}
+
 async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
-  await holdModel(services, asset);
+  const notes = await holdModel(services, asset);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
-  return `${file.name} as the model of the ${component}`;
+  const opened = `${file.name} as the model of the ${component}`;
+  return notes.length === 0 ? opened : texts.files.modelNotes(opened, notes.join(' '));
 }
 
-/** Decodes a model and lends it to the studio; the document is left alone. */
-async function holdModel(services: Services, asset: Asset): Promise<void> {
-  if (services.studio.meshOf(asset.sha256)) return;
+/** Decodes a model and lends it to the studio; the document is left alone. Returns what was left out of the file. */
+async function holdModel(services: Services, asset: Asset): Promise<readonly string[]> {
+  if (services.studio.meshOf(asset.sha256)) return [];
   const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });
   services.studio.addModel(asset.sha256, mesh);
+  return mesh.notes ?? [];
 }
 
 async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {

@@ -4,6 +4,7 @@ import { edit } from './edit';
 import type { Effect, Input, Machine, Scene } from './machine';
 import { drag, gestureOf, hand, windowing, type DragState } from './navigate';
 import { oneClick } from './one_click';
+import { ruler } from './ruler';
 import { stretch } from './stretch';
 import { threshold } from './threshold';
 import type { ToolName } from './tools';
@@ -17,7 +18,7 @@ import { wire, wireBusy } from './wire';
  */
 export class Controller {
   #navigation: { kind: 'panning' | 'windowing'; state: DragState } | null = null;
-  readonly #tools: Readonly<Record<ToolName, Running>> = {
+  readonly #tools: Readonly<Record<ToolName | 'ruler', Running>> = {
     edit: new Held(edit),
     trace: new Held(trace, (state) => state.name === 'adding' || state.edit.name !== 'idle'),
     wire: new Held(wire, wireBusy),
@@ -29,9 +30,10 @@ export class Controller {
     pose: new Held(adjust),
     hand: new Held(hand),
     window: new Held(windowing),
+    ruler: new Held(ruler),
   };
 
-  handle(tool: ToolName, input: Input, scene: Scene, spaceHeld: boolean): readonly Effect[] {
+  handle(tool: ToolName | 'ruler', input: Input, scene: Scene, spaceHeld: boolean): readonly Effect[] {
     const navigation = this.#navigation ?? this.#beginNavigation(input, spaceHeld);
     if (navigation) return this.#navigate(navigation, input, scene);
     return this.#tools[tool].handle(input, scene);

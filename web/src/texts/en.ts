@@ -1,5 +1,7 @@
 import type { ComponentName } from '../document/types';
 import { aids } from './en_aids';
+import { calibrate } from './en_calibrate';
+import { files } from './en_files';
 import { hand } from './en_hand';
 import { seeing } from './en_seeing';
 
@@ -7,6 +9,8 @@ import { seeing } from './en_seeing';
 export const en = {
   program: 'fluoropose',
   aids,
+  calibrate,
+  files,
   hand,
   seeing,
   failedToStart: (why: string) => `The page could not start: ${why}. It needs a current browser with WebAssembly.`,

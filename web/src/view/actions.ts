@@ -5,6 +5,7 @@ import { poseTable } from '../document/table';
 import { cellOf, chosenCandidate, type ComponentName } from '../document/types';
 import { openDemonstration } from '../engine/demonstration';
 import { openFiles, type Incoming } from '../engine/opener';
+import { readFiles, type Located } from '../engine/reading';
 import { saveSession } from '../engine/saver';
 import { sentenceOf, type Services } from '../engine/services';
 import { canvasPoint } from '../geometry/points';
@@ -13,6 +14,9 @@ import type { AidCommand } from '../interaction/aid_keys';
 import type { Action } from '../interaction/bindings';
 import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
 import type { Aids } from '../engine/aids/aids';
+import type { Videos } from '../engine/videos';
+import { Aborted } from '../worker/bridge';
+import { texts } from '../texts';
 import { AidActions } from './aid_actions';
 import { ExchangeActions } from './exchange_actions';
 import { download, fileStem, pickFiles } from './files';
@@ -41,6 +45,9 @@ export class Actions {
   readonly #store: Store;
   /** Lent by the stage: what "fit" and "zoom" refer to. */
   stage: StageControls | null = null;
+
+  /** Lent when there are any: pictures of videos come back through `open`. */
+  videos: Pick<Videos, 'begin'> | null = null;
 
   /** Marks, notes and what is next. */
   readonly work: WorkActions;
@@ -256,11 +263,26 @@ export class Actions {
   // --- Files --------------------------------------------------------------------------------------------------
 
   async openPicked(component?: ComponentName): Promise<void> {
-    await this.open((await pickFiles()).map((file) => ({ ...file, component })));
+    await this.openLocated(await pickFiles(), component);
+  }
+
+  async openFolder(): Promise<void> {
+    await this.openLocated(await pickFiles('folder'));
+  }
+
+  /** Reads files and opens them, whatever they are. */
+  async openLocated(files: readonly Located[], component?: ComponentName): Promise<void> {
+    try {
+      const read = await readFiles(this.#store, files);
+      if (files.length > 0 && read.length === 0) this.#store.say('info', texts.files.nothing);
+      await this.open(read.map((file) => ({ ...file, component })));
+    } catch (error) {
+      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
+    }
   }
 
   async open(files: readonly Incoming[]): Promise<void> {
-    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files));
+    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files, (file) => this.videos?.begin(file)));
   }
 
   async openDemonstration(): Promise<void> {

@@ -1,13 +1,14 @@
-import type { Incoming } from '../engine/opener';
+import type { Located } from '../engine/reading';
 
-/** Asks for files; an empty list when the person thinks better of it. */
-export function pickFiles(): Promise<Incoming[]> {
+/** Asks for files, or for a folder with all it holds; an empty list when the person thinks better of it. */
+export function pickFiles(what: 'files' | 'folder' = 'files'): Promise<Located[]> {
   return new Promise((resolve) => {
     const input = document.createElement('input');
     input.type = 'file';
     input.multiple = true;
+    input.webkitdirectory = what === 'folder';
     input.setAttribute('aria-label', 'Files to open');
-    input.onchange = () => resolve(readAll(Array.from(input.files ?? [], located)));
+    input.onchange = () => resolve(Array.from(input.files ?? [], located));
     input.oncancel = () => resolve([]);
     input.click();
   });
@@ -24,19 +25,13 @@ export function download(parts: BlobPart[], name: string, type: string): void {
 }
 
 /** The files of a drop, those in dropped folders too. */
-export async function droppedFiles(transfer: DataTransfer): Promise<Incoming[]> {
+export async function droppedFiles(transfer: DataTransfer): Promise<Located[]> {
   // Entries must be taken before anything is awaited: the transfer is emptied when the event ends.
   const entries = Array.from(transfer.items).map((item) => item.webkitGetAsEntry());
   const loose = Array.from(transfer.files, located);
-  if (entries.every((entry) => entry === null)) return readAll(loose);
+  if (entries.every((entry) => entry === null)) return loose;
   const files = await Promise.all(entries.filter((entry) => entry !== null).map(filesOf));
-  return readAll(files.flat());
-}
-
-/** A file and the folders it came from, as far as the browser tells. */
-interface Located {
-  readonly file: File;
-  readonly path: string;
+  return files.flat();
 }
 
 function located(file: File): Located {
@@ -56,10 +51,6 @@ async function filesOf(entry: FileSystemEntry): Promise<Located[]> {
     if (entries.length === 0) return files;
     for (const inner of entries) files.push(...(await filesOf(inner)));
   }
-}
-
-async function readAll(files: readonly Located[]): Promise<Incoming[]> {
-  return Promise.all(files.map(async ({ file, path }) => ({ name: file.name, path, bytes: new Uint8Array(await file.arrayBuffer()) })));
 }
 
 /** The name of a study as the beginning of a file's name. */

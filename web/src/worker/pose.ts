@@ -1,8 +1,8 @@
-import init, { choosePose, Matcher, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
+import init, { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { ComponentName } from '../document/types';
 import { poseArray, poseFrom } from '../engine/pose_array';
-import type { ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
+import type { Bend, ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
 import { byHand } from './by_hand';
 import { oneClick } from './one_click';
 import { serve } from './serve';
@@ -48,10 +48,22 @@ async function matcherOf(component: ComponentName): Promise<Matcher> {
   return matcher;
 }
 
+let straightener: { readonly key: string; readonly tool: Straightener } | null = null;
+
+/** Outlines of frames that are shown as they were taken: their points are straightened before they are looked at. */
+function straightened({ key, numbers }: Bend, outline: Float64Array): Float64Array {
+  if (straightener?.key !== key) {
+    straightener?.tool.free();
+    straightener = { key, tool: new Straightener(numbers) };
+  }
+  return straightener.tool.straight(outline);
+}
+
 async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
   const { component, outline, unknownSides, camera } = input;
   const matcher = await matcherOf(component);
-  const traced = new Traced(outline, unknownSides, camera.text, camera.width, camera.height);
+  const points = camera.bend ? straightened(camera.bend, outline) : outline;
+  const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
   try {
     return work(matcher, traced);
   } finally {
