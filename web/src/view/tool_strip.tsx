@@ -151,9 +151,9 @@ function OutlineCommands({ state }: { state: State }) {
   const first = state.ui.frameIndex === 0;
   return (
     <div class="strip-commands">
-      <Command command={{ what: 'copy', step: -1 }} icon="copy" label={strip.copy} name={strip.copyLabel} title={strip.copyTitle} disabled={first} />
-      <Command command={{ what: 'snap' }} icon="magnet" label={strip.snap} name={strip.snapLabel} title={strip.snapTitle} disabled={!closed} />
-      <Command command={{ what: 'shape' }} icon="smooth" label={strip.shape} name={strip.shapeLabel} title={strip.shapeTitle} disabled={!closed} opens={state.ui.popover === 'shape'} />
+      <Command command={{ what: 'copy', step: -1 }} icon="copy" label={strip.copy} name={strip.copyLabel} title={strip.copyTitle} keys="Shift+D" disabled={first} />
+      <Command command={{ what: 'snap' }} icon="magnet" label={strip.snap} name={strip.snapLabel} title={strip.snapTitle} keys="S" disabled={!closed} />
+      <Command command={{ what: 'shape' }} icon="smooth" label={strip.shape} name={strip.shapeLabel} title={strip.shapeTitle} keys="Shift+S" disabled={!closed} opens={state.ui.popover === 'shape'} />
     </div>
   );
 }
@@ -164,17 +164,19 @@ interface CommandProps {
   /** For readers, where the label is short. */
   readonly name?: string;
   readonly title?: string;
+  /** Of the keyboard, for readers. */
+  readonly keys?: string;
   readonly icon?: IconName;
   readonly disabled: boolean;
   /** Is what it opens open? */
   readonly opens?: boolean;
 }
 
-function Command({ command, label, name, title, icon, disabled, opens }: CommandProps) {
+function Command({ command, label, name, title, keys, icon, disabled, opens }: CommandProps) {
   const { actions } = useApp();
   const dialog = opens === undefined ? {} : { 'aria-haspopup': 'dialog' as const, 'aria-expanded': opens };
   return (
-    <button type="button" class="button small" aria-label={name ?? label} title={title ?? label} disabled={disabled} {...dialog} onClick={() => actions.run({ name: 'aid', command })}>
+    <button type="button" class="button small" aria-label={name ?? label} aria-keyshortcuts={keys} title={title ?? label} disabled={disabled} {...dialog} onClick={() => actions.run({ name: 'aid', command })}>
       {icon && <Icon name={icon} />}
       {label}
     </button>
