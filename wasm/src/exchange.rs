@@ -1,5 +1,8 @@
 //! Masks and outlines, one made from the other.
 
+use fluoropose::aids::Vertex;
+use fluoropose::aids::list::List;
+use fluoropose::aids::simplify::{Simplify, simplify};
 use fluoropose::border::follow_border;
 use fluoropose::contour::{Contour, Outline, Point};
 use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
@@ -14,6 +17,7 @@ const BORDER_CORNERS: usize = 65_536;
 /// The outline of a mask's largest region, and what of the mask it leaves out.
 #[wasm_bindgen]
 pub struct MaskOutline {
+    exact: Vec<f64>,
     points: Vec<f64>,
     specks: u32,
     holes: u32,
@@ -24,6 +28,12 @@ pub struct MaskOutline {
 impl MaskOutline {
     /// Columns and rows by turns, along the cracks between pixels: filled again it gives the region exactly, its holes
     /// filled.
+    #[wasm_bindgen(getter)]
+    pub fn exact(&self) -> Vec<f64> {
+        self.exact.clone()
+    }
+
+    /// The same with few points: through the middles of the cracks, which leave a staircase to neither side, simplified.
     #[wasm_bindgen(getter)]
     pub fn points(&self) -> Vec<f64> {
         self.points.clone()
@@ -48,7 +58,7 @@ impl MaskOutline {
     }
 }
 
-/// The outline of the pixels that are `value`, `width * height` of them row by row.
+/// The outline of the pixels that are `value`, `width * height` of them row by row; simplified to `tolerance` pixels.
 ///
 /// # Errors
 /// A sentence for an empty mask, a shape that does not fit the pixels, or a border with too many corners.
@@ -58,6 +68,7 @@ pub fn outline_of_mask(
     value: u16,
     width: u32,
     height: u32,
+    tolerance: f64,
 ) -> Result<MaskOutline, JsError> {
     let (width, height) = (width as usize, height as usize);
     if pixels.len() != width * height {
@@ -76,19 +87,48 @@ pub fn outline_of_mask(
     let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
     let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
     let specks = largest_region(&mask.as_mask(), &mut rest, &mut current, &mut largest);
-    traced(&largest.as_mask(), specks)
+    traced(&largest.as_mask(), specks, tolerance)
 }
 
-fn traced(region: &Mask<'_>, specks: u64) -> Result<MaskOutline, JsError> {
+fn traced(region: &Mask<'_>, specks: u64, tolerance: f64) -> Result<MaskOutline, JsError> {
     let mut border = Box::<Contour<BORDER_CORNERS>>::default();
     follow_border(region, border.as_mut()).map_err(sentence)?;
-    let points: Vec<f64> = border.iter().flat_map(|p| [p.column, p.row]).collect();
+    let numbers = |points: &[Point]| points.iter().flat_map(|p| [p.column, p.row]).collect();
+    let few = simplified(&border, tolerance)?;
     let area = area_of(&border);
     Ok(MaskOutline {
-        points,
+        exact: numbers(&border),
+        points: numbers(&few),
         specks: specks as u32,
         holes: (area - region.area()) as u32,
         area: area as u32,
+    })
+}
+
+pub(crate) fn simplified(border: &[Point], tolerance: f64) -> Result<Vec<Point>, JsError> {
+    let line: Vec<Vertex> = crack_middles(border).map(Vertex::new).collect();
+    let mut marks = vec![false; line.len()];
+    let mut memory = vec![Vertex::default(); line.len()];
+    let mut few = List::new(&mut memory);
+    let settings = Simplify {
+        closed: true,
+        tolerance,
+        balanced: true,
+    };
+    simplify(&line, &settings, |_| false, &mut marks, &mut few).map_err(sentence)?;
+    Ok(few.as_slice().iter().map(|vertex| vertex.at).collect())
+}
+
+/// The middle of each side of a pixel along a border of whole corners.
+fn crack_middles(border: &[Point]) -> impl Iterator<Item = Point> + '_ {
+    let next = border.iter().cycle().skip(1);
+    border.iter().zip(next).flat_map(|(from, to)| {
+        let (right, down) = (to.column - from.column, to.row - from.row);
+        let length = right.abs() + down.abs();
+        (0..length as usize).map(move |step| {
+            let share = (step as f64 + 0.5) / length;
+            Point::new(from.column + share * right, from.row + share * down)
+        })
     })
 }
 
@@ -142,7 +182,7 @@ mod tests {
     }
 
     fn outline(pixels: &[u16]) -> MaskOutline {
-        outline_of_mask(pixels, 9, WIDTH as u32, HEIGHT as u32)
+        outline_of_mask(pixels, 9, WIDTH as u32, HEIGHT as u32, 0.4)
             .ok()
             .unwrap()
     }
@@ -157,7 +197,7 @@ mod tests {
             found.area as usize,
             pixels.iter().filter(|&&p| p > 0).count()
         );
-        let again = mask_of_outline(&found.points, WIDTH as u32, HEIGHT as u32)
+        let again = mask_of_outline(&found.exact, WIDTH as u32, HEIGHT as u32)
             .ok()
             .unwrap();
         assert!(
@@ -169,13 +209,39 @@ mod tests {
     }
 
     #[test]
+    fn few_points_leave_the_border_to_both_sides_alike() {
+        let disc = |c: usize, r: usize| (c as i64 - 30).pow(2) + (r as i64 - 20).pow(2) < 300;
+        let pixels = draw(disc);
+        let found = outline(&pixels);
+        assert!(found.points.len() < found.exact.len() / 2);
+        let again = mask_of_outline(&found.points, WIDTH as u32, HEIGHT as u32)
+            .ok()
+            .unwrap();
+        let gained = again
+            .iter()
+            .zip(&pixels)
+            .filter(|&(&a, &b)| a != 0 && b == 0);
+        let lost = again
+            .iter()
+            .zip(&pixels)
+            .filter(|&(&a, &b)| a == 0 && b != 0);
+        let (gained, lost) = (gained.count() as i64, lost.count() as i64);
+        assert!(
+            gained + lost < 30,
+            "{gained} gained, {lost} lost of {}",
+            found.area
+        );
+        assert!((gained - lost).abs() < 10, "{gained} gained, {lost} lost");
+    }
+
+    #[test]
     fn holes_are_filled_and_specks_left_out_and_both_counted() {
         let ring = |c: usize, r: usize| (5..25).contains(&c) && (5..25).contains(&r);
         let hole = |c: usize, r: usize| (10..13).contains(&c) && (10..14).contains(&r);
         let speck = |c: usize, r: usize| c >= 50 && r == 3;
         let found = outline(&draw(|c, r| ring(c, r) && !hole(c, r) || speck(c, r)));
         assert_eq!((found.specks, found.holes, found.area), (10, 12, 400));
-        assert_eq!(found.points.len(), 8);
+        assert_eq!(found.exact.len(), 8);
     }
 
     #[test]

@@ -1,5 +1,5 @@
 import { strToU8, zipSync, type Zippable } from 'fflate';
-import initCore, { maskOfOutline, outlineOfMask, simplifyOutline } from '../pkg/core/fluoropose_wasm.js';
+import initCore, { maskOfOutline, outlineOfMask } from '../pkg/core/fluoropose_wasm.js';
 import coreAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import initDecode, { encodeMask, FrameFile } from '../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
@@ -62,33 +62,14 @@ async function readPages(file: FrameFile, name: string, tolerance: number, conte
 }
 
 function labelOf(pixels: Uint16Array, value: number, width: number, height: number, tolerance: number): MaskLabel {
-  const traced = outlineOfMask(pixels, value, width, height);
-  const { points: exact, area, specks, holes } = traced;
-  traced.free();
-  const points = simplified(exact, tolerance);
-  const differing = difference(exact, points, width, height);
-  return { value, points: points as Buffered, exact: exact as Buffered, area, specks, holes, differing };
-}
-
-/** Through the middles of the cracks, which leaves no bias to either side of a staircase, then with few points. */
-function simplified(exact: Float64Array, tolerance: number): Float64Array {
-  const shape = simplifyOutline(crackMiddles(exact), tolerance);
+  const traced = outlineOfMask(pixels, value, width, height, tolerance);
   try {
-    return shape.points;
+    const { area, specks, holes } = traced;
+    const [points, exact] = [traced.points as Buffered, traced.exact as Buffered];
+    return { value, points, exact, area, specks, holes, differing: difference(exact, points, width, height) };
   } finally {
-    shape.free();
+    traced.free();
   }
-}
-
-function crackMiddles(corners: Float64Array): Float64Array {
-  const middles: number[] = [];
-  for (let at = 0; at < corners.length; at += 2) {
-    const [column, row] = [corners[at]!, corners[at + 1]!];
-    const [right, down] = [corners[(at + 2) % corners.length]! - column, corners[(at + 3) % corners.length]! - row];
-    const length = Math.abs(right) + Math.abs(down);
-    for (let step = 0.5; step < length; step++) middles.push(column + (right * step) / length, row + (down * step) / length);
-  }
-  return Float64Array.from(middles);
 }
 
 function difference(a: Float64Array, b: Float64Array, width: number, height: number): number {
