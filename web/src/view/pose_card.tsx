@@ -22,13 +22,13 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
   const { poser } = useApp();
   const refusal = poser.findings(cell.outline)?.refusal ?? null;
   const source = outdated
-    ? `Found with another model, calibration or library. ${needs(cell, missing)}`
+    ? texts.panel.pose.outdated(needs(cell, missing))
     : sourceOf(cell, refusal);
   const { store } = useApp().services;
   const adjusting = store.ui.tool === 'pose';
   const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
   return (
-    <section class="card pose" aria-label="Pose numbers">
+    <section class="card pose" aria-label={texts.panel.pose.region}>
       {adjusting ? (
         <HandNumbers pose={pose} />
       ) : (
@@ -85,19 +85,16 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
 /** Where the pose that is shown comes from. */
 function sourceOf(cell: Cell, refusal: string | null): string {
   if (cell.result?.kind !== 'posed') return '';
-  if (cell.result.from === 'file') return `From ${cell.result.origin}.`;
+  if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
   if (cell.result.from === 'hand') return texts.hand.source;
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
-  if (residual !== null) return `refined, ${residual.toFixed(2)} px; ${deviations ? PLUS_MINUS : NOT_DETERMINED}`;
-  return refusal === null ? 'library' : `library. Not refined: ${refusal}`;
+  if (residual !== null) return texts.panel.pose.refined(residual.toFixed(2), deviations !== null);
+  return refusal === null ? texts.panel.pose.library : texts.panel.pose.notRefined(refusal);
 }
 
-const PLUS_MINUS = '± is one standard deviation';
-const NOT_DETERMINED = 'the outline does not determine how sure';
-
 function needs(cell: Cell, missing: readonly string[]): string {
-  if (missing.length > 0) return `For a pose: ${inWords(missing)}.`;
-  return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding it ...';
+  if (missing.length > 0) return texts.panel.pose.needs(inWords(missing));
+  return cell.result?.kind === 'failed' ? texts.panel.pose.noneFromOutline : texts.panel.pose.finding;
 }
 
 interface NumberRowProps {
@@ -118,8 +115,8 @@ function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
   const copy = () => {
     if (value === null) return;
     void navigator.clipboard.writeText(String(value)).then(
-      () => store.say('info', `${quantity.name} copied: ${value}`),
-      () => store.say('error', 'The browser did not let the page copy to the clipboard.'),
+      () => store.say('info', texts.panel.pose.copied(quantity.name, value)),
+      () => store.say('error', texts.panel.pose.notCopied),
     );
   };
   return (
@@ -129,8 +126,8 @@ function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
         <button
           type="button"
           class={flashing ? 'value flash' : 'value'}
-          aria-label={`${quantity.name} ${text} ${unit}`}
-          title="Click to copy with all its decimals"
+          aria-label={texts.panel.pose.number(quantity.name, text, unit)}
+          title={texts.panel.pose.copyTitle}
           disabled={value === null}
           onClick={copy}
         >
@@ -165,7 +162,7 @@ function signed(value: number, decimals: number): string {
 function Deviation({ name, unit, text }: { name: string; unit: string; text: string | null }) {
   if (text === null) return <span class="deviation" />;
   return (
-    <span class="deviation" role="group" aria-label={`${name} plus or minus ${text} ${unit}`} title="One standard deviation; the truth lies within two of them 95 times in 100">
+    <span class="deviation" role="group" aria-label={texts.panel.pose.deviation(name, text, unit)} title={texts.panel.pose.deviationTitle}>
       ±{text}
     </span>
   );
@@ -180,11 +177,11 @@ function ConvergenceButton({ disabled }: { disabled: boolean }) {
       class="button small"
       aria-haspopup="dialog"
       aria-expanded={open}
-      title="How refinement came to this pose, step by step"
+      title={texts.panel.pose.convergenceTitle}
       disabled={disabled}
       onClick={() => store.show({ popover: open ? null : 'convergence' })}
     >
-      Convergence
+      {texts.panel.pose.convergence}
     </button>
   );
 }

@@ -5,6 +5,7 @@ import { inCamera } from '../geometry/pose_motion';
 import { texts } from '../texts';
 import { useApp } from './app';
 import { meshOf, middleOf, pinholeOf } from './hand_scene';
+import { barLength } from './scale_length';
 
 /** A length of so many millimetres where the selected component is: farther away it is shorter. */
 export function ScaleBar({ state }: { state: State }) {
@@ -27,16 +28,4 @@ export function ScaleBar({ state }: { state: State }) {
       <span aria-hidden="true">{label}</span>
     </div>
   );
-}
-
-/** CSS pixels. */
-const SHORTEST = 60;
-const LONGEST = 160;
-
-/** The longest of 1, 2, 5, 10 ... mm that is not too long on the screen; null where that would still be too short. */
-export function barLength(pixelsPerMillimetre: number): number | null {
-  const most = LONGEST / pixelsPerMillimetre;
-  const decade = 10 ** Math.floor(Math.log10(most));
-  const length = [5, 2, 1].map((digit) => digit * decade).find((candidate) => candidate <= most);
-  return length !== undefined && length * pixelsPerMillimetre >= SHORTEST ? length : null;
 }
