@@ -36,12 +36,16 @@ pub fn name_of(path: &Path) -> String {
         .into_owned()
 }
 
-/// Reads an STL, OBJ or PLY model.
+/// Reads an STL, OBJ or PLY model. What was left out of the file is said on standard error.
 ///
 /// # Errors
 /// Names the file and what is wrong with it.
 pub fn read_model(path: &Path) -> Result<Model> {
-    Ok(decode_model(&read(path)?, &name_of(path))?)
+    let model = decode_model(&read(path)?, &name_of(path))?;
+    for note in &model.notes {
+        eprintln!("{}: {note}", path.display());
+    }
+    Ok(model)
 }
 
 /// The model's surface as the core takes it.
