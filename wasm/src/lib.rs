@@ -40,7 +40,9 @@ pub use grid::{
 pub use jts::{read_jts, write_jts};
 pub use kinematics::joint_motion;
 pub use library::{LibraryBuilder, LibraryViews};
-pub use matcher::{HandFit, HiddenPixels, Landscape, Matcher, ViewPose};
+pub use matcher::{
+    HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose,
+};
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use unmatched::paint_unmatched;

@@ -13,7 +13,7 @@ use clip::{Clip, Clipped};
 
 use super::list::List;
 use super::polyline::{check, distance};
-use super::simplify::simplify;
+use super::simplify::{Simplify, simplify};
 use super::{AidError, NEW, Vertex, check_length, check_setting};
 use crate::contour::Point;
 
@@ -60,7 +60,8 @@ pub fn brush_needed(points: usize, places: usize) -> usize {
     2 * (points + (places + 1) * capsule::MOST_CORNERS)
 }
 
-/// Draws a disc of `radius` pixels along `stroke` and adds it to the outline or takes it away. Writes the new outline to
+/// Draws a disc of `radius` pixels along `stroke` and adds it to the outline or takes it away. An outline without points
+/// becomes that of the stroke. Writes the new outline to
 /// `out`, in the same direction round, and gives the area in square pixels of the pieces that were left out: of several
 /// the largest stays. Holes are not made: where the stroke lies inside and is to be erased, or encloses something,
 /// nothing happens there. Nothing is written where all is erased.
@@ -75,7 +76,9 @@ pub fn brush(
     memory: BrushMemory<'_>,
     out: &mut List<'_, Vertex>,
 ) -> Result<f64, AidError> {
-    check(points, 3)?;
+    if !points.is_empty() {
+        check(points, 3)?;
+    }
     check(stroke, 1)?;
     check_setting("the brush's radius", radius, LEAST_RADIUS, MOST_RADIUS)?;
     let needed = brush_needed(points.len(), stroke.len());
@@ -83,9 +86,16 @@ pub fn brush(
     check_length("cuts", needed, memory.cuts.len())?;
     let mut before = List::new(memory.before);
     let mut after = List::new(memory.after);
-    super::simplify::as_vertices(points, true, &mut before)?;
+    for (number, &at) in points.iter().enumerate() {
+        before.push(Vertex::kept(number, at))?;
+    }
     let mut left_out = 0.0;
     for (from, to) in capsules(stroke, radius) {
+        if before.is_empty() && what == Brush::Add {
+            let capsule = Capsule::new(from, to, radius);
+            let mut corners = capsule.corners().iter();
+            corners.try_for_each(|&corner| before.push(Vertex::new(corner)))?;
+        }
         let mut clip = Clip {
             what,
             given: points.len(),
@@ -99,7 +109,12 @@ pub fn brush(
         core::mem::swap(&mut before, &mut after);
     }
     let keep = |vertex: &Vertex| vertex.from != NEW;
-    simplify(before.as_slice(), true, TOLERANCE, keep, memory.marks, out)?;
+    let settings = Simplify {
+        closed: true,
+        tolerance: TOLERANCE,
+        balanced: true,
+    };
+    simplify(before.as_slice(), &settings, keep, memory.marks, out)?;
     Ok(left_out)
 }
 

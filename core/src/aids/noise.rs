@@ -20,7 +20,8 @@ pub(super) fn noise<P: Pixel>(frame: &Frame<'_, P>) -> f64 {
         let median = median_bin(&counts, all);
         // In the last bin is all that is larger too: then with wider bins.
         if median < (BINS - 1) as f64 || shift >= u16::BITS {
-            let median = median * f64::from(1u32 << shift);
+            // Whole numbers stand for what rounds to them.
+            let median = median * f64::from(1u32 << shift) - 0.5;
             // A second difference has the variance 6, the median of a normal deviate's size is 0.6745.
             return (median / (0.6745 * crate::math::sqrt(6.0))).max(ROUNDING);
         }

@@ -15,7 +15,7 @@ use track::{STATES, track};
 use super::list::List;
 use super::noise::noise;
 use super::polyline::{check, subdivide, subdivided_count, twice_area};
-use super::simplify::simplify;
+use super::simplify::{Simplify, simplify};
 use super::threshold::Inside;
 use super::wire::Hand;
 use super::{AidError, ShapeError, Vertex, check_length, check_setting};
@@ -118,8 +118,12 @@ pub fn snap<P: Pixel>(
     let mut line = List::new(memory.line);
     place(samples, settings.closed, &mut line)?;
     let keep = |vertex: &Vertex| stays(points, settings.closed, vertex);
-    let closed = settings.closed;
-    let simplified = simplify(line.as_slice(), closed, settings.tolerance, keep, memory.marks, out)?;
+    let simple = Simplify {
+        closed: settings.closed,
+        tolerance: settings.tolerance,
+        balanced: true,
+    };
+    let simplified = simplify(line.as_slice(), &simple, keep, memory.marks, out)?;
     Ok(ShapeError {
         max: error.max + simplified.max,
         rms: sqrt(error.rms * error.rms + simplified.rms * simplified.rms),

@@ -2,7 +2,7 @@
 
 use super::list::List;
 use super::polyline::{check, length, space_evenly, squared_distance};
-use super::simplify::simplify;
+use super::simplify::{Simplify, simplify};
 use super::{AidError, ShapeError, Vertex, check_length, check_setting};
 use crate::contour::Point;
 use crate::math::{exp, sqrt};
@@ -64,7 +64,12 @@ pub fn soften(
     let smooth = memory.smooth.get_mut(..samples.len()).unwrap_or_default();
     let rest = memory.rest.get_mut(..samples.len()).unwrap_or_default();
     twice(samples, rest, smooth);
-    simplify(smooth, true, tolerance, |_| false, memory.marks, out)?;
+    let settings = Simplify {
+        closed: true,
+        tolerance,
+        balanced: true,
+    };
+    simplify(smooth, &settings, |_| false, memory.marks, out)?;
     Ok(error(samples, out.as_slice()))
 }
 

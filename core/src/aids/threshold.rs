@@ -10,7 +10,7 @@ mod suggest;
 pub use suggest::suggested_level;
 
 use super::list::List;
-use super::simplify::simplify;
+use super::simplify::{Simplify, simplify};
 use super::smoothed::Smoothed;
 use super::{AidError, ShapeError, Vertex, check_length, check_setting};
 use crate::border::Crack;
@@ -94,15 +94,12 @@ pub fn region_at(
     if area < LEAST_AREA {
         return Ok(None);
     }
-    simplify(
-        line.as_slice(),
-        true,
-        threshold.tolerance,
-        |_| false,
-        memory.marks,
-        out,
-    )
-    .map(Some)
+    let settings = Simplify {
+        closed: true,
+        tolerance: threshold.tolerance,
+        balanced: true,
+    };
+    simplify(line.as_slice(), &settings, |_| false, memory.marks, out).map(Some)
 }
 
 /// A film cut at a level.

@@ -6,7 +6,7 @@ use crate::contour::Point;
 use crate::math::{atan2, sin_cos, sqrt};
 
 /// Corners of half a circle, at most.
-const HALF: usize = 64;
+const HALF: usize = 112;
 /// Corners of a capsule, at most.
 pub(super) const MOST_CORNERS: usize = 2 * (HALF + 1);
 /// How far a side of the polygon may lie inside of the circle, pixels.

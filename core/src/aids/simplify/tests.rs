@@ -13,8 +13,21 @@ fn simple(points: &[Point], closed: bool, tolerance: f64) -> (Vec<Vertex>, Shape
     let mut places = std::vec![Vertex::default(); points.len()];
     let mut out = List::new(&mut places);
     let line = vertices(points);
-    let error = simplify(&line, closed, tolerance, |_| false, &mut marks, &mut out).expect("valid");
+    let settings = Simplify {
+        closed,
+        tolerance,
+        balanced: false,
+    };
+    let error = simplify(&line, &settings, |_| false, &mut marks, &mut out).expect("valid");
     (out.as_slice().to_vec(), error)
+}
+
+fn round(tolerance: f64) -> Simplify {
+    Simplify {
+        closed: true,
+        tolerance,
+        balanced: false,
+    }
 }
 
 /// A circle that wobbles.
@@ -61,7 +74,7 @@ fn the_error_is_that_of_the_shape_and_within_the_tolerance() {
     let points = wobbly(200);
     for tolerance in [0.1, 0.5, 2.0] {
         let (line, error) = simple(&points, true, tolerance);
-        assert!(line.len() < points.len() / 2, "{}", line.len());
+        assert!(line.len() < 150, "{}", line.len());
         let simple: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
         // Every point of the given line is as near to the simple one as is said, or nearer.
         let mut greatest = 0.0f64;
@@ -100,6 +113,28 @@ fn a_closed_line_does_not_depend_on_its_first_point() {
 }
 
 #[test]
+fn a_balanced_outline_keeps_its_area() {
+    let points = circle([100.0, 100.0], 60.0, 400);
+    let made: Vec<Vertex> = points.iter().map(|&at| Vertex::new(at)).collect();
+    let area = |line: &[Vertex]| {
+        let points: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
+        twice_area(&points) / 2.0
+    };
+    let mut marks = std::vec![false; points.len()];
+    let mut places = std::vec![Vertex::default(); points.len()];
+    let mut out = List::new(&mut places);
+    let mut lost = |balanced: bool| {
+        let settings = Simplify { balanced, ..round(0.5) };
+        let error = simplify(&made, &settings, |_| false, &mut marks, &mut out).expect("valid");
+        assert!(out.len() < 30 && error.max < 0.5);
+        // As a distance all round.
+        (area(&made) - area(out.as_slice())) / (120.0 * core::f64::consts::PI)
+    };
+    assert!(lost(false) > 0.2);
+    assert!(lost(true).abs() < 0.005, "{}", lost(true));
+}
+
+#[test]
 fn what_is_to_stay_stays() {
     let points = circle([50.0, 50.0], 20.0, 64);
     let line = vertices(&points);
@@ -107,7 +142,7 @@ fn what_is_to_stay_stays() {
     let mut places = [Vertex::default(); 64];
     let mut out = List::new(&mut places);
     let keep = |vertex: &Vertex| vertex.from == 5.0 || vertex.from == 6.0;
-    simplify(&line, true, 3.0, keep, &mut marks, &mut out).expect("valid");
+    simplify(&line, &round(3.0), keep, &mut marks, &mut out).expect("valid");
     let numbers: Vec<_> = out.as_slice().iter().filter_map(Vertex::kept_number).collect();
     assert!(numbers.contains(&5) && numbers.contains(&6) && numbers.len() < 10);
 }
@@ -130,10 +165,10 @@ fn what_is_impossible_is_said() {
     let line = vertices(&circle([9.0, 9.0], 5.0, 8));
     let mut places = [Vertex::default(); 8];
     let mut out = List::new(&mut places);
-    let short = simplify(&line, true, 0.1, |_| false, &mut [false; 7], &mut out);
+    let short = simplify(&line, &round(0.1), |_| false, &mut [false; 7], &mut out);
     assert!(matches!(short, Err(AidError::Memory { needed: 8, .. })));
-    let wrong = simplify(&line, true, f64::NAN, |_| false, &mut [false; 8], &mut out);
+    let wrong = simplify(&line, &round(f64::NAN), |_| false, &mut [false; 8], &mut out);
     assert!(matches!(wrong, Err(AidError::Setting { .. })));
-    let nothing = simplify(&[], true, 1.0, |_| false, &mut [], &mut out);
+    let nothing = simplify(&[], &round(1.0), |_| false, &mut [], &mut out);
     assert_eq!(nothing, Ok(ShapeError::default()));
 }

@@ -105,11 +105,13 @@ fn fill_region(mask: &Mask<'_>, seed: (usize, usize), out: &mut MaskMut<'_>) {
 
 /// The set pixel nearest to the cursor, at most `reach` columns and rows away.
 fn nearest_set(mask: &Mask<'_>, cursor: Point, reach: usize) -> Option<(usize, usize)> {
-    nearest_where(cursor, reach, |column, row| mask.get(column, row))
+    let size = (mask.width(), mask.height());
+    nearest_where(size, cursor, reach, |column, row| mask.get(column, row))
 }
 
-/// The pixel of which `inside` says so that is nearest to the cursor, at most `reach` columns and rows away.
+/// The pixel of a frame of which `inside` says so that is nearest to the cursor, at most `reach` columns and rows away.
 pub(super) fn nearest_where(
+    (width, height): (usize, usize),
     cursor: Point,
     reach: usize,
     inside: impl Fn(usize, usize) -> bool,
@@ -126,6 +128,8 @@ pub(super) fn nearest_where(
                 .ok()
                 .zip(usize::try_from(row.saturating_add(down)).ok());
             if let Some((column, row)) = place.filter(|_| nearer)
+                && column < width
+                && row < height
                 && inside(column, row)
             {
                 best = Some((away, (column, row)));

@@ -33,7 +33,7 @@ pub fn suggested_level(film: &Smoothed<'_>, cursor: Point, inside: Inside) -> Op
 
 /// From the value under the cursor to the farthest of the frame, smoothed values.
 fn levels(film: &Smoothed<'_>, cursor: Point, inside: Inside) -> Option<(f64, f64)> {
-    let at_cursor = nearest_where(cursor, 0, |c, r| c < film.width() && r < film.height())?;
+    let at_cursor = nearest_where((film.width(), film.height()), cursor, 0, |_, _| true)?;
     let value = film.at(at_cursor.0, at_cursor.1);
     let rows = (0..film.height()).flat_map(|row| film.row(row));
     let farthest = match inside {
@@ -51,7 +51,7 @@ fn sharpness(cut: &Cut<'_>, cursor: Point) -> Option<f64> {
         let cell = film.row(row).get(column);
         cell.is_some_and(|&cell| cut.holds(cell))
     };
-    let seed = nearest_where(cursor, NEAR, inside)?;
+    let seed = nearest_where((film.width(), film.height()), cursor, NEAR, inside)?;
     let start = outer_border(seed, inside);
     let (mut at, mut twice_area, mut sum, mut count, mut all) = (start, 0, 0.0, 0.0, 0.0);
     loop {
