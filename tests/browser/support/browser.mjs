@@ -13,7 +13,8 @@ import { chromium, firefox } from 'playwright-core';
 export const PATIENCE = 60_000;
 
 const WINDOW = { width: 1440, height: 900 };
-const ARGUMENTS = [
+/** Of Chromium. */
+export const ARGUMENTS = [
   '--no-sandbox',
   '--disable-gpu',
   '--disable-quic',
