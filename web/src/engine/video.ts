@@ -23,7 +23,7 @@ export interface TakenFrame {
 
 /** Pictures looked at to measure the rate: it is the least step that occurs among them. */
 const MEASURED = 12;
-/** Some recorders leave a stretch without a new picture; longer than this is the end, ms. */
+/** Longer than this there is no waiting for pictures when the rate is measured, ms. */
 const PATIENCE = 4000;
 const USUAL_RATE = 25;
 
@@ -82,34 +82,34 @@ async function durationOf(element: HTMLVideoElement, signal: AbortSignal): Promi
   return Number.isFinite(element.duration) ? element.duration : element.currentTime;
 }
 
-/** Goes to a time and returns that of the picture that is shown then, seconds. */
-async function seek(element: HTMLVideoElement, time: number, signal: AbortSignal): Promise<number> {
-  const shown = pictureTime(element);
+/** Goes to a time and returns that of the picture that is shown then, seconds; null where the browser does not tell. */
+async function seek(element: HTMLVideoElement, time: number, signal: AbortSignal): Promise<number | null> {
+  const { shown, forget } = nextPicture(element);
   element.currentTime = time;
-  await heard(element, 'seeked', signal, said.cannot(''));
-  return shown;
-}
-
-/** The time of the next picture that is shown; that of the player where the browser does not tell or shows no other. */
-function pictureTime(element: HTMLVideoElement): Promise<number> {
-  if (!('requestVideoFrameCallback' in element)) {
-    const video = element as HTMLVideoElement;
-    return new Promise((resolve) => video.addEventListener('seeked', () => resolve(video.currentTime), { once: true }));
+  try {
+    await heard(element, 'seeked', signal, said.cannot(''));
+    return await Promise.race([shown, later(SAME_PICTURE)]);
+  } finally {
+    forget();
   }
-  return new Promise((resolve) => {
-    const timer = setTimeout(() => {
-      element.cancelVideoFrameCallback(id);
-      resolve(element.currentTime);
-    }, SAME_PICTURE);
-    const id = element.requestVideoFrameCallback((_, { mediaTime }) => {
-      clearTimeout(timer);
-      resolve(mediaTime);
-    });
-  });
 }
 
-/** After this no other picture is to be expected: the place lies within the one that is shown, ms. */
+/** The time of the next picture that is shown. A page that nobody sees shows none. */
+function nextPicture(element: HTMLVideoElement): { readonly shown: Promise<number | null>; readonly forget: () => void } {
+  if (!('requestVideoFrameCallback' in element)) return { shown: Promise.resolve(null), forget: () => undefined };
+  let id = 0;
+  const shown = new Promise<number>((resolve) => {
+    id = element.requestVideoFrameCallback((_, { mediaTime }) => resolve(mediaTime));
+  });
+  return { shown, forget: () => element.cancelVideoFrameCallback(id) };
+}
+
+/** So long after a seek no other picture is to be expected, ms. */
 const SAME_PICTURE = 250;
+
+function later(milliseconds: number): Promise<null> {
+  return new Promise((resolve) => setTimeout(() => resolve(null), milliseconds));
+}
 
 /** Plays the beginning and takes the least step between pictures: a busy machine leaves some out, none come too early. */
 async function rateOf(element: HTMLVideoElement, signal: AbortSignal): Promise<number> {
@@ -136,13 +136,17 @@ async function rateOf(element: HTMLVideoElement, signal: AbortSignal): Promise<n
   return rateFrom(times);
 }
 
+/** Of times in some files, s. */
+const ROUNDING = 0.0015;
+
 /** Pictures a second from the times of some. */
 export function rateFrom(times: readonly number[]): number {
   const steps = times.slice(1).map((time, at) => time - (times[at] ?? 0)).filter((step) => step > 1e-3);
   if (steps.length === 0) return USUAL_RATE;
-  // Times may be rounded to milliseconds: the mean of the steps near the least is better than the least.
+  // Times may be rounded to milliseconds: the mean of the steps near the least is better than the least. Where pictures
+  // come as they like no step between the times that are looked at may be longer than the least.
   const least = Math.min(...steps);
-  const single = steps.filter((step) => step < 1.4 * least);
+  const single = steps.filter((step) => step < 1.05 * least + ROUNDING);
   return single.length / single.reduce((sum, step) => sum + step, 0);
 }
 
@@ -177,20 +181,32 @@ export async function takeFrames(video: Video, choice: Choice, { signal, onFrame
   const stem = video.name.replace(/\.[a-z0-9]+$/i, '');
   const digits = String(times.length).length;
   let repeated = 0;
-  let last = -1;
+  let last: TakenPicture | null = null;
   for (const [index, time] of times.entries()) {
     signal.throwIfAborted();
     const shown = await seek(video.element, Math.min(time, video.duration), signal);
-    if (shown === last) {
-      repeated++;
-      continue;
-    }
-    last = shown;
     context.drawImage(video.element, 0, 0);
     const { data } = context.getImageData(0, 0, video.width, video.height);
     const bytes = await greyPng(data, video.width, video.height);
-    const name = said.frameName(stem, String(index + 1).padStart(digits, '0'), shown.toFixed(3));
+    const picture = { shown, bytes };
+    if (last && isSame(last, picture)) {
+      repeated++;
+      continue;
+    }
+    last = picture;
+    const name = said.frameName(stem, String(index + 1).padStart(digits, '0'), (shown ?? time).toFixed(3));
     onFrame({ name, bytes }, index + 1, times.length);
   }
   return repeated;
+}
+
+interface TakenPicture {
+  readonly shown: number | null;
+  readonly bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** By its time in the video; where the browser does not tell, by its pixels. */
+function isSame(a: TakenPicture, b: TakenPicture): boolean {
+  if (a.shown !== null && b.shown !== null) return a.shown === b.shown;
+  return a.bytes.length === b.bytes.length && a.bytes.every((value, at) => value === b.bytes[at]);
 }
