@@ -76,6 +76,7 @@ export class FromHere {
     const pixels = studio.filmPixels(frameId);
     if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
     if (!pixels) throw new Error(texts.hand.said.noFilm);
+    if (camera.bend) throw new Error(texts.calibrate.bentFilm);
     const { width, height } = camera;
     const others = COMPONENT_NAMES.flatMap((other) => {
       const there = other !== component && store.ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(store.doc, frameId, other));

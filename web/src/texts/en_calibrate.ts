@@ -47,6 +47,8 @@ export const calibrate = {
     frames: (name: string, order: number, after: string) => `In use on frames: order ${order} from ${name}, ${after} px left.`,
     outlines: (name: string, order: number, after: string) => `In use on outlines: order ${order} from ${name}, ${after} px left.`,
   },
+  bentFilm:
+    'outlines alone are straightened, and this looks at the film, which is not. Choose "Straighten the frames" in the calibration helper first',
   opened: (name: string) => `the correction of distortion ${name}`,
 
   camera: 'Camera',

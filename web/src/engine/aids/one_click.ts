@@ -67,6 +67,7 @@ export class OneClick {
     if (!camera) throw new Error(texts.aids.said.needsCalibration);
     const pixels = studio.filmPixels(frame.id);
     if (!pixels) throw new Error(texts.aids.said.noFilm(frame.name));
+    if (camera.bend) throw new Error(texts.calibrate.bentFilm);
     const other = cellOf(store.doc, frame.id, component === 'femur' ? 'tibia' : 'femur').outline;
     return {
       component,
