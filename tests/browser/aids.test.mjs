@@ -142,7 +142,10 @@ async function liveWire(page, stage, t) {
   await undo('take a stretch back');
   await page.keyboard.press('Control+z');
   await undo('follow the edge');
-  while ((await page.getByRole('button', { name: 'Undo: follow the edge' }).count()) > 0) await page.keyboard.press('Control+z');
+  while ((await page.getByRole('button', { name: 'Undo: follow the edge' }).count()) > 0) {
+    await page.keyboard.press('Control+z');
+    await drawn(page);
+  }
   await undo('begin the outline');
   await page.keyboard.press('Shift+Delete');
   await aids.wireRound(page, stage, outline, 9);

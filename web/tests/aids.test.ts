@@ -256,6 +256,15 @@ describe('the live-wire', () => {
     expect(after - before).toBeLessThanOrEqual(100);
   });
 
+  it('goes straight to where no edge can be followed', () => {
+    const { page, pixels, wire } = bench();
+    wire.fix(at(10, 50), false);
+    pixels.follow = () => new Float64Array();
+    wire.fix(at(-5, 50), false);
+    expect(page.columns).toEqual([11, -5]);
+    expect(page.history.past.at(-1)?.label).toBe('draw a straight stretch');
+  });
+
   it('has nothing to close or to take back without a draft', () => {
     const { wire } = bench();
     expect(wire.close()).toBe(false);

@@ -115,7 +115,9 @@ export class Wire {
     if (away(last, at) <= SAME_SPOT) return;
     if (straight) return this.#append(draft, [at], [], 'draw a straight stretch');
     this.#aimed = false;
-    this.#follow(ALL);
+    this.#follow(ALL, false);
+    // Beyond the film's border there is no edge to follow.
+    if (!this.#aimed) return this.#append(draft, [at], [], 'draw a straight stretch');
     this.#fixPath(draft, this.#path, 'follow the edge');
   }
 
@@ -174,7 +176,7 @@ export class Wire {
   }
 
   /** Brings the path to where the pointer is, if the tree reaches that far after so many more pixels. */
-  #follow(pixels: number): void {
+  #follow(pixels: number, cools = true): void {
     const draft = this.#draft;
     this.#settle(draft);
     const aim = this.#aim;
@@ -183,7 +185,7 @@ export class Wire {
     if (path.length === 0) return;
     this.#aimed = true;
     this.#path = [draft.points.at(-1)!, ...path.slice(1)];
-    this.#cool(draft);
+    if (cools) this.#cool(draft);
   }
 
   /** What has stayed the same for long while the hand moved is fixed, as if it had been clicked. */
