@@ -3,6 +3,7 @@ import { aids } from './en_aids';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { hand } from './en_hand';
+import { panel } from './en_panel';
 import { seeing } from './en_seeing';
 
 /** English, as the page speaks it. Grouped as the page is. */
@@ -12,6 +13,7 @@ export const en = {
   calibrate,
   files,
   hand,
+  panel,
   seeing,
   failedToStart: (why: string) => `The page could not start: ${why}. It needs a current browser with WebAssembly.`,
   /** Alone, as a heading or a label. */
