@@ -113,10 +113,9 @@ function lastNumber(stem: string): number | null {
   return digits === undefined ? null : Number(digits);
 }
 
-/** By name where every image has a frame of its own by name, else by order where there are as many, else by name. */
+/** By order where no image has the name of a frame and there are as many of one as of the other, else by name. */
 export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): Match {
-  const named = items.every((item) => frameOf(doc, item, 'name') >= 0);
-  if (named) return 'name';
+  if (items.some((item) => frameOf(doc, item, 'name') >= 0)) return 'name';
   const most = Math.max(0, ...items.map(({ order }) => order + 1));
   return most === doc.frames.length ? 'order' : 'name';
 }
