@@ -1,9 +1,12 @@
 //! The scores of all views of a library for an outline, and the pose of any of them.
 
+use fluoropose::canonical::CanonicalForm;
 use fluoropose::estimate::pose_from_view;
 use fluoropose::interpolate::FineView;
+use fluoropose::kernels::Kernels;
 use fluoropose::library::GridAxis;
-use fluoropose::locate::{Found, Workspace, locate};
+use fluoropose::locate::{Found, Workspace, locate, score_views};
+use fluoropose::matching::Scores;
 use fluoropose::partial::known_share;
 use fluoropose::pose::EulerPose;
 use fluoropose::silhouette::Silhouette;
@@ -73,10 +76,9 @@ impl Matcher {
     /// # Errors
     /// A sentence where only a part of the outline is known, the core's about the silhouette.
     pub fn landscape(&mut self, traced: &Traced) -> Result<Landscape, JsError> {
-        self.scored(traced, |found, _| {
-            let grid = found.scores.grid();
-            let surfaces = found.scores.surface(false).iter();
-            let pairs = surfaces.zip(found.scores.surface(true));
+        self.scored(traced, |found, (_, scores), _| {
+            let grid = scores.grid();
+            let pairs = scores.surface(false).iter().zip(scores.surface(true));
             let minimum = |located: &fluoropose::locate::Located| {
                 let record = located.fine.record;
                 let unmatched = f64::from(located.fine.unmatched);
@@ -97,8 +99,8 @@ impl Matcher {
     #[wasm_bindgen(js_name = viewPose)]
     pub fn view_pose(&mut self, traced: &Traced, view: usize) -> Result<ViewPose, JsError> {
         let camera = traced.camera();
-        self.scored(traced, |found, library| {
-            let score = |reversed: bool| found.scores.surface(reversed).get(view).copied();
+        self.scored(traced, |_, (form, scores), library| {
+            let score = |reversed: bool| scores.surface(reversed).get(view).copied();
             let (Some(straight), Some(reversed)) = (score(false), score(true)) else {
                 return Err(JsError::new("The library has no such view"));
             };
@@ -108,7 +110,7 @@ impl Matcher {
                 unmatched: straight.min(reversed),
                 at_border: false,
             };
-            let pose = pose_from_view(&camera, library.info(), &found.form, &fine);
+            let pose = pose_from_view(&camera, library.info(), form, &fine);
             Ok(ViewPose {
                 pose: to_numbers(&EulerPose::from(pose)),
                 unmatched: fine.unmatched,
@@ -122,7 +124,11 @@ impl Matcher {
     fn scored<T>(
         &mut self,
         traced: &Traced,
-        with: impl FnOnce(&Found<'_, MINIMA>, &fluoropose::library::Library<'_>) -> Result<T, JsError>,
+        with: impl FnOnce(
+            &Found<MINIMA>,
+            &(CanonicalForm, Scores<'_>),
+            &fluoropose::library::Library<'_>,
+        ) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         traced.look(|silhouette: &Silhouette<'_>| {
             if traced.is_marked() || known_share(silhouette).is_partial() {
@@ -131,14 +137,17 @@ impl Matcher {
                 ));
             }
             let library = self.library.borrow_dependent();
-            let work = Workspace {
+            let mut work = Workspace {
                 canonical: &mut self.canonical,
                 turned: &mut self.turned,
                 scores: &mut self.scores,
+                bytes: &mut self.bytes,
+                kernels: Kernels::PORTABLE,
             };
-            let camera = traced.camera();
-            let found = locate::<MINIMA>(silhouette.mask(), &camera, library, work);
-            with(&found.map_err(sentence)?, library)
+            let (mask, camera) = (silhouette.mask(), traced.camera());
+            let found = locate(mask, &camera, library, work.lend()).map_err(sentence)?;
+            let scores = score_views(mask, &camera, library, work).map_err(sentence)?;
+            with(&found, &scores, library)
         })
     }
 }
