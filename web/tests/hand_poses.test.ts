@@ -3,6 +3,7 @@ import { addFrames, addPoint, carryResult, closeOutline, deleteOutline, loadPose
 import { bare, dropHandPose, isPicked, offerCandidate, setPoseByHand, takeHandFit } from '../src/document/hand_poses';
 import { forgetReference, keepReference, referencePose } from '../src/document/reference';
 import { DEFAULT_HAND, DEFAULT_SEEING, NO_LOCKS, readTaste, writeTaste } from '../src/document/seeing';
+import { readSession, writeSession } from '../src/document/session';
 import { Store } from '../src/document/store';
 import { poseTable } from '../src/document/table';
 import { cellOf, chosenCandidate, isByHand, type PoseNumbers, type Posed } from '../src/document/types';
@@ -74,6 +75,21 @@ describe('a pose set by hand', () => {
     expect(poseTable(store.doc, 'femur')).toContain(',by hand,');
     store.perform(takeHandFit(PLACE, { candidate: { ...bare(OTHER), residual: 0.2 }, reason: 'Refined.' }));
     expect(poseTable(store.doc, 'femur')).toContain(',"by hand, refined",1,1,Refined.');
+  });
+});
+
+describe('a session', () => {
+  it('keeps what was set by hand and the set to compare with', () => {
+    const store = traced();
+    store.perform(setPoseByHand(PLACE, POSE));
+    store.perform(keepReference('before'));
+    store.perform(setPoseByHand(PLACE, OTHER));
+    const view = { frameIndex: 0, component: 'femur', overlayOpacity: 0.5 } as const;
+    const text = writeSession({ doc: store.doc, view, files: [], audit: null }, 'test', new Date(0)).join('');
+    const { doc } = readSession(text);
+    expect(cellOf(doc, 'f', 'femur').result).toEqual(cell(store).result);
+    expect(doc.reference).toEqual({ name: 'before', poses: { 'f/femur': POSE } });
+    expect(readSession(text.replace(/"reference":.*?}},/, '')).doc.reference).toBeNull();
   });
 });
 
