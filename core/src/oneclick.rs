@@ -17,24 +17,25 @@
 //! model, the region with the sharpest border. The work is done in steps, so that a page can show
 //! progress and stop in between.
 
+mod candidates;
 mod expect;
+mod eye;
 mod grow;
 mod job;
-mod polygon;
-mod propose;
+mod looks;
+mod prompt;
+mod rounds;
 mod shape;
 mod support;
 mod tally;
 mod window;
 
-pub use job::{ANSWERS, Answer, OneClick, Progress, STARTS, Start};
-pub use polygon::{PolygonMemory, outline_points};
+pub use candidates::{Answer, Start};
+pub use job::{ANSWERS, OneClick, Progress, STARTS};
 pub use support::Support;
 
 use thiserror::Error;
 
-use crate::aids::AidError;
-use crate::border::BorderError;
 use crate::camera::Camera;
 use crate::contour::Point;
 use crate::frame::Grey;
@@ -92,8 +93,8 @@ pub struct Part<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum OneClickError {
     /// The prompt is not on the frame.
-    #[error("the {0} lies outside of the frame; click inside the implant")]
-    Outside(&'static str),
+    #[error("the click lies outside of the frame; click inside the implant")]
+    Outside,
     /// The box has no room for an implant.
     #[error(
         "the box is {width:.0} x {height:.0} pixels; draw one round the whole implant, at least {least:.0} pixels wide and high"
@@ -138,12 +139,6 @@ pub enum OneClickError {
     /// Refinement is not possible.
     #[error(transparent)]
     Refine(#[from] RefineError),
-    /// The outline cannot be followed.
-    #[error(transparent)]
-    Border(#[from] BorderError),
-    /// The outline cannot be simplified.
-    #[error(transparent)]
-    Aid(#[from] AidError),
 }
 
 /// Working memory of [`OneClick::step`]; the same from the first step to the last.
@@ -207,7 +202,9 @@ impl OneClickMemory<'_> {
             ("tallies", needs.tallies, self.tallies.len()),
             ("words", needs.words, self.words.len()),
         ];
-        let wrong = lengths.into_iter().find(|(_, needed, given)| needed != given);
+        let wrong = lengths
+            .into_iter()
+            .find(|(_, needed, given)| needed != given);
         match wrong {
             Some((what, needed, given)) => Err(OneClickError::Memory {
                 what,

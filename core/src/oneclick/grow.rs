@@ -105,7 +105,11 @@ mod tests {
                     break;
                 }
             }
-            for (place, _) in reached.iter_mut().zip(&joined).filter(|(_, joined)| **joined) {
+            for (place, _) in reached
+                .iter_mut()
+                .zip(&joined)
+                .filter(|(_, joined)| **joined)
+            {
                 *place = (*place).min(level);
             }
         }

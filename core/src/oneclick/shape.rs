@@ -4,8 +4,8 @@
 //! what remains the part nearest to the seed stays. Distances are those of the chamfer 3-4
 //! (Borgefors, *Distance transformations in digital images*, CVGIP 34, 1986).
 
-use super::window::Window;
-use crate::mask::MaskMut;
+use super::window::{LEVELS, Window};
+use crate::mask::{Mask, MaskMut};
 
 /// Chamfer length of a step to the side, and across a corner.
 const SIDE: u16 = 3;
@@ -45,7 +45,7 @@ impl Shaper<'_> {
             *mark = if reached <= level { LEVEL } else { 0 };
         }
         if radius > 0.0 {
-            self.open(seed, (radius * f64::from(SIDE)) as u16);
+            self.open(seed, Self::length(radius));
         } else {
             for mark in self.marks.iter_mut().filter(|mark| **mark & LEVEL != 0) {
                 *mark |= KEPT;
@@ -81,6 +81,21 @@ impl Shaper<'_> {
         }
     }
 
+    /// A distance of so many pixels as `distance` holds it.
+    pub(super) fn length(pixels: f64) -> u16 {
+        (pixels * f64::from(SIDE)) as u16
+    }
+
+    /// Writes the distance of every pixel from those of a mask of the frame.
+    pub(super) fn measure_from(&mut self, mask: &Mask<'_>) {
+        for (index, mark) in self.marks.iter_mut().enumerate() {
+            let (column, row) = self.window.place(index);
+            let inside = mask.get(self.window.left + column, self.window.top + row);
+            *mark = if inside { KEPT } else { 0 };
+        }
+        self.measure(|mark| mark & KEPT != 0);
+    }
+
     /// The pixel at or below a threshold that is farthest from all others and from the window's
     /// border, if there is any.
     pub(super) fn thickest(&mut self, level: u16) -> Option<usize> {
@@ -94,8 +109,14 @@ impl Shaper<'_> {
             }
         }
         self.measure(|mark| mark & LEVEL == 0);
-        let deepest = self.distance.iter().enumerate().max_by_key(|&(_, distance)| distance);
-        deepest.filter(|&(_, &distance)| distance > 0).map(|(index, _)| index)
+        let deepest = self
+            .distance
+            .iter()
+            .enumerate()
+            .max_by_key(|&(_, distance)| distance);
+        deepest
+            .filter(|&(_, &distance)| distance > 0)
+            .map(|(index, _)| index)
     }
 
     /// The pixel nearest to the seed that lies deeper than `reach`.
@@ -122,7 +143,11 @@ impl Shaper<'_> {
         let (width, height) = (self.window.width, self.window.height);
         let mut relax = |column: usize, row: usize, up: bool| {
             let other = if up { row.wrapping_sub(1) } else { row + 1 };
-            let beside = if up { column.wrapping_sub(1) } else { column + 1 };
+            let beside = if up {
+                column.wrapping_sub(1)
+            } else {
+                column + 1
+            };
             let index = row * width + column;
             let near = [
                 (beside, row, SIDE),
@@ -145,7 +170,9 @@ impl Shaper<'_> {
             (0..width).for_each(|column| relax(column, row, true));
         }
         for row in (0..height).rev() {
-            (0..width).rev().for_each(|column| relax(column, row, false));
+            (0..width)
+                .rev()
+                .for_each(|column| relax(column, row, false));
         }
     }
 
@@ -194,19 +221,38 @@ impl Shaper<'_> {
     }
 }
 
+/// Mean step of grey across the border of the region that was shaped last, by its `marks`.
+pub(super) fn sharpness(window: &Window, grey: &[u16], marks: &[u8]) -> f64 {
+    let (mut sides, mut sum) = (0u64, 0i64);
+    for (index, _) in marks
+        .iter()
+        .enumerate()
+        .filter(|(_, mark)| **mark & KEPT != 0)
+    {
+        window.neighbours(index, |next| {
+            let outside = marks.get(next).is_some_and(|mark| mark & KEPT == 0);
+            let step = |pixel: usize| grey.get(pixel).copied().unwrap_or(0).min(LEVELS as u16);
+            if outside {
+                sides += 1;
+                sum += i64::from(step(next)) - i64::from(step(index));
+            }
+        });
+    }
+    sum as f64 / sides.max(1) as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mask::{Mask, words_needed};
+    use crate::mask::words_needed;
 
     const WIDTH: usize = 64;
     const HEIGHT: usize = 40;
 
     /// Two blocks joined by a bar 3 px thick, the left one with a speck and a hole.
     fn dark(column: usize, row: usize) -> bool {
-        let block = |left: usize, right: usize| {
-            (left..right).contains(&column) && (8..32).contains(&row)
-        };
+        let block =
+            |left: usize, right: usize| (left..right).contains(&column) && (8..32).contains(&row);
         let bar = (26..40).contains(&column) && (18..21).contains(&row);
         let speck = column == 12 && row == 12;
         let hole = (14..20).contains(&column) && (20..26).contains(&row);

@@ -68,7 +68,10 @@ fn slope(scene: &Scene<'_>, sample: &OutlineSample, reach: f64) -> Option<f64> {
         let row = sample.row + t * sample.normal[1];
         scene.frame.at(column, row)
     };
-    let (column, row) = (sample.column.max(0.0) as usize, sample.row.max(0.0) as usize);
+    let (column, row) = (
+        sample.column.max(0.0) as usize,
+        sample.row.max(0.0) as usize,
+    );
     if scene.excluded.is_some_and(|mask| mask.get(column, row)) {
         return None;
     }

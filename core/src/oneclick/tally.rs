@@ -10,12 +10,12 @@ use super::window::{LEVELS, Window};
 pub(super) const TALLIES: usize = 3 * LEVELS;
 
 /// Thresholds that are looked at, at most.
-pub(super) const CHOSEN: usize = 9;
+pub(super) const CHOSEN: usize = 6;
 
 /// A region that grows by more than this factor from one threshold to the next has met another.
 const LEAP: f64 = 1.1;
 /// Thresholds between the seed's own grey and that of the sharpest border that are tried as well.
-const BETWEEN: [f64; 3] = [0.25, 0.5, 0.75];
+const BETWEEN: [f64; 2] = [0.35, 0.65];
 /// Thresholds whose regions differ by less than this part in size are one.
 const SAME: f64 = 0.02;
 
@@ -224,6 +224,9 @@ mod tests {
         areas.sort_by(f64::total_cmp);
         assert_eq!(areas, [tally.area(100), tally.area(300)]);
         assert!(tally.levels([2000.0, 3000.0]).is_empty());
-        assert_eq!(tally.peak([0.0, 1e9]).map(|l| tally.area(l)), Some(tally.area(100)));
+        assert_eq!(
+            tally.peak([0.0, 1e9]).map(|l| tally.area(l)),
+            Some(tally.area(100))
+        );
     }
 }

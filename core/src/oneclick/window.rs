@@ -28,7 +28,8 @@ impl Window {
     pub(super) fn cut([left, top, right, bottom]: [f64; 4], size: (usize, usize)) -> Self {
         let span = |from: f64, to: f64, size: usize| {
             let first = (from.max(0.0) as usize).min(size.saturating_sub(1));
-            let last = (crate::math::floor(to).max(0.0) as usize).clamp(first, size.saturating_sub(1));
+            let last =
+                (crate::math::floor(to).max(0.0) as usize).clamp(first, size.saturating_sub(1));
             (first, last - first + 1)
         };
         let (left, width) = span(left, right, size.0);
@@ -161,7 +162,9 @@ fn ends(grey: &[u16], histogram: &mut [u32]) -> (u16, u16) {
     }
     let few = CLIPPED * grey.len() as f64;
     let low = rank(histogram.iter(), few);
-    let high = histogram.len().saturating_sub(1 + rank(histogram.iter().rev(), few));
+    let high = histogram
+        .len()
+        .saturating_sub(1 + rank(histogram.iter().rev(), few));
     let edge = |bin: usize| (bin << BIN_SHIFT).min(usize::from(u16::MAX) - 1) as u16;
     let (dark, bright) = (edge(low), edge(high + 1));
     (dark, bright.max(dark + 1))
@@ -231,7 +234,14 @@ mod tests {
             let frame = Frame::new(&pixels, 64, 64, 64).expect("fits");
             let mut grey = std::vec![0; window.pixels()];
             let mut histogram = [0; LEVELS];
-            let step = look(&frame, &window, (polarity, 2), None, &mut grey, &mut histogram);
+            let step = look(
+                &frame,
+                &window,
+                (polarity, 2),
+                None,
+                &mut grey,
+                &mut histogram,
+            );
             (grey, step)
         };
         let (dark, step) = picture(Polarity::DarkImplant, false);
@@ -253,11 +263,23 @@ mod tests {
         let frame = Frame::new(&pixels, 32, 4, 32).expect("fits");
         let (mut grey, mut histogram) = ([0; 128], [0; LEVELS]);
         let how = (Polarity::DarkImplant, 0);
-        assert!(look(&frame, &window, how, Some(&excluded), &mut grey, &mut histogram) > 0.0);
+        assert!(
+            look(
+                &frame,
+                &window,
+                how,
+                Some(&excluded),
+                &mut grey,
+                &mut histogram
+            ) > 0.0
+        );
         assert_eq!(grey.iter().filter(|&&value| value == BLOCKED).count(), 1);
         assert_eq!(grey[1], BLOCKED);
         let flat = [7u8; 128];
         let frame = Frame::new(&flat, 32, 4, 32).expect("fits");
-        assert_eq!(look(&frame, &window, how, None, &mut grey, &mut histogram), 0.0);
+        assert_eq!(
+            look(&frame, &window, how, None, &mut grey, &mut histogram),
+            0.0
+        );
     }
 }
