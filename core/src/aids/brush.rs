@@ -12,7 +12,7 @@ use capsule::Capsule;
 use clip::{Clip, Clipped};
 
 use super::list::List;
-use super::polyline::{check, distance};
+use super::polyline::check;
 use super::simplify::{Simplify, simplify};
 use super::{AidError, NEW, Vertex, check_length, check_setting};
 use crate::contour::Point;
@@ -25,8 +25,6 @@ pub const LEAST_RADIUS: f64 = 0.5;
 pub const MOST_RADIUS: f64 = 512.0;
 /// New points are left out where the stroke's border moves by no more than this, pixels.
 const TOLERANCE: f64 = 0.1;
-/// Places of a stroke nearer to each other than this share of the radius are one.
-const STRIDE: f64 = 0.1;
 /// Where points fall onto lines nothing can be told; then the capsule is moved by so little, in other directions, so
 /// often.
 const ATTEMPTS: usize = 8;
@@ -82,40 +80,109 @@ pub fn brush(
     check(stroke, 1)?;
     check_setting("the brush's radius", radius, LEAST_RADIUS, MOST_RADIUS)?;
     let needed = brush_needed(points.len(), stroke.len());
-    check_length("points", needed, memory.before.len().min(memory.after.len()))?;
+    check_length(
+        "points",
+        needed,
+        memory.before.len().min(memory.after.len()),
+    )?;
     check_length("cuts", needed, memory.cuts.len())?;
+    check_length("marks", needed, memory.marks.len())?;
+    if points.is_empty() && what == Brush::Erase {
+        out.clear();
+        return Ok(0.0);
+    }
     let mut before = List::new(memory.before);
     let mut after = List::new(memory.after);
     for (number, &at) in points.iter().enumerate() {
         before.push(Vertex::kept(number, at))?;
     }
-    let mut left_out = 0.0;
-    for (from, to) in capsules(stroke, radius) {
-        if before.is_empty() && what == Brush::Add {
-            let capsule = Capsule::new(from, to, radius);
-            let mut corners = capsule.corners().iter();
-            corners.try_for_each(|&corner| before.push(Vertex::new(corner)))?;
-        }
-        let mut clip = Clip {
+    let mut painter = Painter {
+        stroke,
+        radius,
+        clip: Clip {
             what,
             given: points.len(),
             cuts: List::new(memory.cuts),
-        };
-        match stroked(&mut clip, before.as_slice(), (from, to), radius, &mut after)? {
-            Clipped::Untouched => continue,
-            Clipped::Gone => return Ok(left_out),
-            Clipped::Changed { left_out: area } => left_out += area,
-        }
-        core::mem::swap(&mut before, &mut after);
-    }
-    let keep = |vertex: &Vertex| vertex.from != NEW;
+        },
+        left_out: 0.0,
+    };
+    painter.paint(&mut before, &mut after, memory.marks)?;
     let settings = Simplify {
         closed: true,
         tolerance: TOLERANCE,
-        balanced: true,
+        balanced: false,
     };
+    let keep = |vertex: &Vertex| vertex.from != NEW;
     simplify(before.as_slice(), &settings, keep, memory.marks, out)?;
-    Ok(left_out)
+    Ok(painter.left_out)
+}
+
+/// A stroke being painted.
+struct Painter<'a> {
+    stroke: &'a [Point],
+    radius: f64,
+    clip: Clip<'a>,
+    left_out: f64,
+}
+
+impl Painter<'_> {
+    /// Paints capsule after capsule. One that lies inside, to be erased, or outside, to be added, waits for another to
+    /// join it to the border: so all are looked at again, from the end and from the beginning by turns, until none
+    /// changes anything. What is left is in `outline`.
+    fn paint<'o>(
+        &mut self,
+        outline: &mut List<'o, Vertex>,
+        other: &mut List<'o, Vertex>,
+        done: &mut [bool],
+    ) -> Result<(), AidError> {
+        let count = self.stroke.len().saturating_sub(1).max(1);
+        let done = done.get_mut(..count).unwrap_or_default();
+        done.fill(false);
+        for round in 0..=count {
+            let mut changed = false;
+            for k in 0..count {
+                let number = if round % 2 == 0 { k } else { count - 1 - k };
+                if done.get(number).is_none_or(|done| *done) {
+                    continue;
+                }
+                done[number] = self.paint_one(number, outline, other)?;
+                changed |= done[number];
+                if outline.is_empty() && self.clip.what == Brush::Erase {
+                    return Ok(());
+                }
+            }
+            if !changed {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// Paints one capsule and gives whether that changed anything.
+    fn paint_one<'o>(
+        &mut self,
+        number: usize,
+        outline: &mut List<'o, Vertex>,
+        other: &mut List<'o, Vertex>,
+    ) -> Result<bool, AidError> {
+        let at = |number: usize| self.stroke[number.min(self.stroke.len() - 1)];
+        let ends = (at(number), at(number + 1));
+        if outline.is_empty() {
+            let capsule = Capsule::new(ends.0, ends.1, self.radius);
+            let mut corners = capsule.corners().iter();
+            corners.try_for_each(|&corner| outline.push(Vertex::new(corner)))?;
+            return Ok(true);
+        }
+        match stroked(&mut self.clip, outline.as_slice(), ends, self.radius, other)? {
+            Clipped::Untouched => return Ok(false),
+            Clipped::Gone => outline.clear(),
+            Clipped::Changed { left_out } => {
+                self.left_out += left_out;
+                core::mem::swap(outline, other);
+            }
+        }
+        Ok(true)
+    }
 }
 
 /// One capsule; a little moved where it touches the outline in a way that cannot be told.
@@ -135,22 +202,6 @@ fn stroked(
         }
     }
     Ok(Clipped::Untouched)
-}
-
-/// The ends of the capsules that a stroke is made of.
-fn capsules(stroke: &[Point], radius: f64) -> impl Iterator<Item = (Point, Point)> + '_ {
-    let mut last = stroke.first().copied().unwrap_or_default();
-    let single = (stroke.len() == 1).then_some((last, last));
-    let count = stroke.len();
-    let moves = stroke.iter().enumerate().skip(1).filter_map(move |(number, &place)| {
-        let far = distance(last, place) >= STRIDE * radius || number + 1 == count;
-        let from = last;
-        far.then(|| {
-            last = place;
-            (from, place)
-        })
-    });
-    single.into_iter().chain(moves)
 }
 
 #[cfg(test)]

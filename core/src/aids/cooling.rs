@@ -38,7 +38,12 @@ impl Cooling {
     pub fn observe(&mut self, now: f64, common: usize, length: usize) -> usize {
         self.advance(now);
         self.least[0] = self.least[0].min(common);
-        self.least.iter().copied().min().unwrap_or_default().min(length)
+        self.least
+            .iter()
+            .copied()
+            .min()
+            .unwrap_or_default()
+            .min(length)
     }
 
     /// Opens the slots that have begun since. Nothing changed in those without a path.
@@ -77,7 +82,10 @@ mod tests {
             // Oracle: the least of the last 800 ms at least, of the last 900 ms at most.
             let least = |ms: f64| {
                 let late = seen.iter().filter(|(at, _)| now - at < ms);
-                late.map(|(_, common)| *common).min().unwrap_or_default().min(150)
+                late.map(|(_, common)| *common)
+                    .min()
+                    .unwrap_or_default()
+                    .min(150)
             };
             if now > 1000.0 {
                 assert!(fixed <= least(699.0) && fixed >= least(901.0), "{fixed}");

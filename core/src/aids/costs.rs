@@ -173,7 +173,11 @@ impl CostBuilder {
             1 => coarse_row(memory.fine, width, height, row, memory.coarse),
             2 => {
                 let grids = [&*memory.fine, &*memory.coarse];
-                let turn = if self.inside == Inside::Bright { 128 } else { 0 };
+                let turn = if self.inside == Inside::Bright {
+                    128
+                } else {
+                    0
+                };
                 let magnitudes = &mut memory.magnitude[row * width..(row + 1) * width];
                 let edges = &mut memory.edges[row * width..(row + 1) * width];
                 gradients_row(grids, width, height, row, |column, magnitude, [x, y]| {

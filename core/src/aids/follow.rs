@@ -121,7 +121,11 @@ impl Follower {
         if best_held.0 >= LEAST_HELD && best.0 < CLEARLY * best_held.0 {
             return best_held.1;
         }
-        if best.0 >= LEAST_STRENGTH { best.1 } else { cursor.at }
+        if best.0 >= LEAST_STRENGTH {
+            best.1
+        } else {
+            cursor.at
+        }
     }
 
     /// Whether a pixel lies on the edge that is held: in line with it, and with the same side bright.
@@ -156,7 +160,8 @@ fn near<'a>(
         first..(last + 1).min(size)
     };
     let columns = span(at.column, costs.width());
-    let pixels = span(at.row, costs.height()).flat_map(move |row| columns.clone().map(move |c| (c, row)));
+    let pixels =
+        span(at.row, costs.height()).flat_map(move |row| columns.clone().map(move |c| (c, row)));
     pixels.filter_map(move |(column, row)| {
         let middle = Point::new(column as f64 + 0.5, row as f64 + 0.5);
         let within = super::polyline::distance(middle, at) <= radius;

@@ -15,7 +15,11 @@ impl Neighbours {
     /// Those of step `number` of an octagon.
     #[must_use]
     pub fn of_step(number: usize) -> Self {
-        if number % 2 == 0 { Self::Four } else { Self::Eight }
+        if number % 2 == 0 {
+            Self::Four
+        } else {
+            Self::Eight
+        }
     }
 }
 
@@ -93,11 +97,22 @@ mod tests {
     const HEIGHT: usize = 6;
     const WORDS: usize = words_needed(WIDTH, HEIGHT);
 
-    fn naive(mask: &Mask<'_>, neighbours: Neighbours, shrink: bool, column: usize, row: usize) -> bool {
+    fn naive(
+        mask: &Mask<'_>,
+        neighbours: Neighbours,
+        shrink: bool,
+        column: usize,
+        row: usize,
+    ) -> bool {
         let mut grown = false;
-        for (right, down) in (-1..=1isize).flat_map(|right| (-1..=1isize).map(move |down| (right, down))) {
+        for (right, down) in
+            (-1..=1isize).flat_map(|right| (-1..=1isize).map(move |down| (right, down)))
+        {
             let corner = right != 0 && down != 0;
-            let Some((c, r)) = column.checked_add_signed(right).zip(row.checked_add_signed(down)) else {
+            let Some((c, r)) = column
+                .checked_add_signed(right)
+                .zip(row.checked_add_signed(down))
+            else {
                 continue;
             };
             if c < WIDTH && r < HEIGHT && !(corner && neighbours == Neighbours::Four) {

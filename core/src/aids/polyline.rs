@@ -14,13 +14,19 @@ pub(super) fn check(points: &[Point], least: usize) -> Result<(), AidError> {
         });
     }
     let place = |value: f64| (-MAX_COORDINATE..=MAX_COORDINATE).contains(&value);
-    let wrong = points.iter().position(|p| !place(p.column) || !place(p.row));
+    let wrong = points
+        .iter()
+        .position(|p| !place(p.column) || !place(p.row));
     wrong.map_or(Ok(()), |at| Err(AidError::NotAPlace(at)))
 }
 
 /// Number of sides of a line through `count` points.
 pub(super) fn side_count(count: usize, closed: bool) -> usize {
-    if closed { count } else { count.saturating_sub(1) }
+    if closed {
+        count
+    } else {
+        count.saturating_sub(1)
+    }
 }
 
 /// The ends of side `number`; the last side of a closed line ends at the first point.
@@ -79,7 +85,8 @@ pub(super) fn twice_area(points: &[Point]) -> f64 {
 
 /// Points that [`subdivide`] gives.
 pub(super) fn subdivided_count(points: &[Point], closed: bool, spacing: f64) -> usize {
-    let sides = (0..side_count(points.len(), closed)).map(|number| parts(side(points, number), spacing));
+    let sides =
+        (0..side_count(points.len(), closed)).map(|number| parts(side(points, number), spacing));
     sides.sum::<usize>() + usize::from(!closed)
 }
 
@@ -171,7 +178,10 @@ mod tests {
             assert!(distance(*point, Point::new(column, row)) < 1e-12);
         }
         assert_eq!(made.len(), 5);
-        assert_eq!((length(&square(), true), twice_area(&square())), (16.0, 32.0));
+        assert_eq!(
+            (length(&square(), true), twice_area(&square())),
+            (16.0, 32.0)
+        );
     }
 
     #[test]

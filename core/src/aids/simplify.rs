@@ -159,7 +159,11 @@ fn mark_between(line: &[Vertex], from: usize, to: usize, tolerance: f64, marks: 
                 marks[at % line.len()] = true;
                 let halves = [(from, at), (at, to)];
                 let first_is_longer = at - from > to - at;
-                let [longer, shorter] = if first_is_longer { halves } else { [halves[1], halves[0]] };
+                let [longer, shorter] = if first_is_longer {
+                    halves
+                } else {
+                    [halves[1], halves[0]]
+                };
                 // Never full: every span waiting is at least as long as all that is looked at before it.
                 let _ = waiting.push(longer);
                 Some(shorter)
@@ -187,7 +191,11 @@ fn spans(marks: &[bool], closed: bool) -> impl Iterator<Item = (usize, usize)> +
     let count = marks.len();
     let marked = move |&number: &usize| marks[number % count];
     let first = marks.iter().position(|marked| *marked).unwrap_or_default();
-    let last = if closed { first + count } else { count - usize::from(count > 0) };
+    let last = if closed {
+        first + count
+    } else {
+        count - usize::from(count > 0)
+    };
     let starts = (first..last).filter(marked);
     let ends = (first + 1..=last).filter(marked);
     starts.zip(ends)
@@ -201,10 +209,11 @@ fn error_of(line: &[Vertex], closed: bool, marks: &[bool], made: &[Vertex]) -> S
     for (number, (from, to)) in spans(marks, closed).enumerate() {
         let away = |point: Point| {
             let near = (number + chords.max(1) - 1)..=(number + chords + 1);
-            let ends = near.map(|k| k % chords.max(1)).map(|k| {
-                (made[k].at, made[(k + 1) % made.len()].at)
-            });
-            ends.map(|ends| squared_distance(point, ends)).fold(f64::INFINITY, f64::min)
+            let ends = near
+                .map(|k| k % chords.max(1))
+                .map(|k| (made[k].at, made[(k + 1) % made.len()].at));
+            ends.map(|ends| squared_distance(point, ends))
+                .fold(f64::INFINITY, f64::min)
         };
         for k in from..to {
             let (a, b) = (line[k % count].at, line[(k + 1) % count].at);

@@ -133,7 +133,9 @@ pub(super) fn smooth_row<P: Pixel>(
     let rows: [&[P]; WEIGHTS.len()] = core::array::from_fn(above);
     let down = |column: usize| -> u32 {
         let weighted = rows.iter().zip(WEIGHTS);
-        weighted.map(|(row, weight)| weight * row[column].into()).sum()
+        weighted
+            .map(|(row, weight)| weight * row[column].into())
+            .sum()
     };
     let round = (1 << scale.shift) >> 1;
     // The window of column sums moves along: each is worked out once.
@@ -193,7 +195,10 @@ mod tests {
         let smoothed = Smoothed::new(&frame, &mut cells).expect("fits");
         for row in 0..7 {
             for column in 0..9 {
-                assert_eq!(u32::from(smoothed.at(column, row)), naive(&frame, column, row));
+                assert_eq!(
+                    u32::from(smoothed.at(column, row)),
+                    naive(&frame, column, row)
+                );
             }
         }
     }

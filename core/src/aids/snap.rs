@@ -113,7 +113,13 @@ pub fn snap<P: Pixel>(
     for (sample, slopes) in samples.iter().zip(memory.slopes.chunks_exact_mut(STATES)) {
         reader.slopes(sample, slopes);
     }
-    track(samples, memory.slopes, memory.ways, settings, reader.least());
+    track(
+        samples,
+        memory.slopes,
+        memory.ways,
+        settings,
+        reader.least(),
+    );
     let error = moved(samples);
     let mut line = List::new(memory.line);
     place(samples, settings.closed, &mut line)?;
@@ -141,7 +147,9 @@ fn stays(points: &[Point], closed: bool, vertex: &Vertex) -> bool {
     }
     let before = super::polyline::side(points, (number + count - 1) % count);
     let after = super::polyline::side(points, number);
-    [before, after].iter().any(|ends| super::polyline::distance(ends.0, ends.1) > LONG)
+    [before, after]
+        .iter()
+        .any(|ends| super::polyline::distance(ends.0, ends.1) > LONG)
 }
 
 /// Samples along the line with their normals.
@@ -178,7 +186,11 @@ fn brighter_left(points: &[Point], settings: &Snap) -> f64 {
     } else {
         settings.hand != Hand::Left
     };
-    if implant_right == (settings.inside == Inside::Dark) { 1.0 } else { -1.0 }
+    if implant_right == (settings.inside == Inside::Dark) {
+        1.0
+    } else {
+        -1.0
+    }
 }
 
 /// The direction of the line at a sample.
@@ -188,7 +200,11 @@ fn direction(samples: &[Sample], number: usize, closed: bool) -> [f64; 2] {
     let (right, down) = (ahead.column - behind.column, ahead.row - behind.row);
     let long = sqrt(right * right + down * down);
     // A line that turns back on itself has no direction there, and is not moved.
-    if long > 1e-6 { [right / long, down / long] } else { [0.0, 0.0] }
+    if long > 1e-6 {
+        [right / long, down / long]
+    } else {
+        [0.0, 0.0]
+    }
 }
 
 /// The sample [`TANGENT`] or the next more ahead of or behind one; the end of an open line where that is nearer.
@@ -227,7 +243,12 @@ fn place(samples: &[Sample], closed: bool, line: &mut List<'_, Vertex>) -> Resul
     let count = samples.len();
     let mut last: Option<(Point, Point)> = None;
     for (number, sample) in samples.iter().enumerate() {
-        let Sample { vertex, normal, offset, .. } = *sample;
+        let Sample {
+            vertex,
+            normal,
+            offset,
+            ..
+        } = *sample;
         let still = offset.abs() < STILL;
         let at = Point::new(
             vertex.at.column + offset * normal[0],
@@ -242,7 +263,11 @@ fn place(samples: &[Sample], closed: bool, line: &mut List<'_, Vertex>) -> Resul
             }
         }
         last = Some((vertex.at, at));
-        line.push(if still { vertex } else { vertex_moved(&vertex, at) })?;
+        line.push(if still {
+            vertex
+        } else {
+            vertex_moved(&vertex, at)
+        })?;
     }
     Ok(())
 }

@@ -224,7 +224,10 @@ mod tests {
             }
             let rms = sqrt(sum / count);
             assert!((error.rms / rms - 1.0).abs() < 0.05, "{error:?} {rms}");
-            assert!((error.max / sqrt(greatest) - 1.0).abs() < 0.1, "{error:?} {greatest}");
+            assert!(
+                (error.max / sqrt(greatest) - 1.0).abs() < 0.1,
+                "{error:?} {greatest}"
+            );
         }
     }
 

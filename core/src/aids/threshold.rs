@@ -79,7 +79,12 @@ pub fn region_at(
     out: &mut List<'_, Vertex>,
 ) -> Result<Option<ShapeError>, AidError> {
     out.clear();
-    check_setting("the bridge", threshold.bridge as f64, 0.0, MOST_BRIDGE as f64)?;
+    check_setting(
+        "the bridge",
+        threshold.bridge as f64,
+        0.0,
+        MOST_BRIDGE as f64,
+    )?;
     let size = words_needed(film.width(), film.height());
     check_length("words", 3 * size, memory.words.len())?;
     let cut = Cut::new(film, threshold.inside, threshold.level);

@@ -281,7 +281,12 @@ impl Wire {
         let (column, row) = (pixel % self.width, pixel / self.width);
         let inner = column > 0 && row > 0 && column + 1 < self.width && row + 1 < self.height;
         for (heading, &(right, down)) in STEPS.iter().enumerate() {
-            if !inner && !self.holds(column.wrapping_add_signed(right), row.wrapping_add_signed(down)) {
+            if !inner
+                && !self.holds(
+                    column.wrapping_add_signed(right),
+                    row.wrapping_add_signed(down),
+                )
+            {
                 continue;
             }
             let neighbour = pixel.wrapping_add_signed(down * self.width as isize + right);
@@ -411,9 +416,13 @@ impl Wire {
         let (mut at, mut cost) = (a, 0u32);
         for step in 1..=steps {
             // Rounded to the nearest pixel.
-            let next = [0, 1].map(|k| a[k] + ((b[k] - a[k]) * 2 * step + steps).div_euclid(2 * steps));
+            let next =
+                [0, 1].map(|k| a[k] + ((b[k] - a[k]) * 2 * step + steps).div_euclid(2 * steps));
             let way = (next[0] - at[0], next[1] - at[1]);
-            let heading = STEPS.iter().position(|&step| step == way).unwrap_or_default();
+            let heading = STEPS
+                .iter()
+                .position(|&step| step == way)
+                .unwrap_or_default();
             let pixel = next[1] as usize * self.width + next[0] as usize;
             cost = cost.saturating_add(self.prices.of(heading, costs.number(pixel)));
             emit(pixel);
@@ -433,7 +442,8 @@ pub fn hand_of(costs: &Costs<'_>, line: &[Point]) -> f64 {
         let long = sqrt(right * right + down * down);
         let steps = (long as usize).clamp(1, costs.width() + costs.height());
         for step in 0..steps {
-            let at = super::polyline::between((pair[0], pair[1]), (step as f64 + 0.5) / steps as f64);
+            let at =
+                super::polyline::between((pair[0], pair[1]), (step as f64 + 0.5) / steps as f64);
             let edge = costs.at(at.column as usize, at.row as usize);
             let (sin, cos) = sin_cos(f64::from(edge.outwards) * (core::f64::consts::TAU / 256.0));
             // The left of (right, down) is (down, -right).

@@ -46,9 +46,11 @@ impl Capsule {
 
     /// Whether a point lies inside.
     pub(super) fn holds(&self, point: Point) -> bool {
-        let mut sides = (0..self.corners.len()).map(|number| super::super::polyline::side(&self.corners, number));
+        let mut sides = (0..self.corners.len())
+            .map(|number| super::super::polyline::side(&self.corners, number));
         sides.all(|(a, b)| {
-            (b.column - a.column) * (point.row - a.row) > (b.row - a.row) * (point.column - a.column)
+            (b.column - a.column) * (point.row - a.row)
+                > (b.row - a.row) * (point.column - a.column)
         })
     }
 }
@@ -72,17 +74,25 @@ mod tests {
     #[test]
     fn a_capsule_is_convex_clockwise_and_as_wide_as_the_disc() {
         let from = Point::new(20.0, 30.0);
-        for (to, radius) in [(from, 8.0), (Point::new(41.0, 11.0), 3.0), (Point::new(20.0, 31.0), 200.0)] {
+        for (to, radius) in [
+            (from, 8.0),
+            (Point::new(41.0, 11.0), 3.0),
+            (Point::new(20.0, 31.0), 200.0),
+        ] {
             let capsule = Capsule::new(from, to, radius);
             let corners = capsule.corners();
             for k in 0..corners.len() {
                 let at = |n: usize| corners[n % corners.len()];
                 let (a, b, c) = (at(k), at(k + 1), at(k + 2));
-                let turn = (b.column - a.column) * (c.row - b.row) - (b.row - a.row) * (c.column - b.column);
+                let turn = (b.column - a.column) * (c.row - b.row)
+                    - (b.row - a.row) * (c.column - b.column);
                 assert!(turn > -1e-6, "{turn}");
                 let middle = Point::new((a.column + b.column) / 2.0, (a.row + b.row) / 2.0);
                 let away = squared_distance(middle, (from, to)).sqrt();
-                assert!(away <= radius + 1e-9 && away > radius - 1.2 * FLAT, "{away} {radius}");
+                assert!(
+                    away <= radius + 1e-9 && away > radius - 1.2 * FLAT,
+                    "{away} {radius}"
+                );
             }
             assert!(capsule.holds(from) && capsule.holds(to));
             assert!(!capsule.holds(Point::new(20.0 - 1.01 * radius, 30.0)));

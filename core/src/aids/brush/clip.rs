@@ -102,7 +102,11 @@ impl Clip<'_> {
         let clockwise = Ring { line: outline }.is_clockwise();
         let corners = capsule.corners();
         for number in 0..corners.len() {
-            let number = if clockwise { number } else { corners.len() - 1 - number };
+            let number = if clockwise {
+                number
+            } else {
+                corners.len() - 1 - number
+            };
             out.push(Vertex::new(corners[number]))?;
         }
         Ok(Clipped::Changed { left_out: 0.0 })
@@ -127,7 +131,12 @@ impl Clip<'_> {
                 return Ok(None);
             }
             let turned = if clockwise { 1.0 } else { -1.0 };
-            let area = turned * Ring { line: out.as_slice() }.twice_area() / 2.0;
+            let area = turned
+                * Ring {
+                    line: out.as_slice(),
+                }
+                .twice_area()
+                / 2.0;
             if area > best.0 {
                 left_out += best.0;
                 best = (area, Some(start));
@@ -163,7 +172,9 @@ impl Clip<'_> {
             let entry = (at + 1) % count;
             let enters = self.cuts.as_slice()[entry];
             out.push(outline.vertex(leaves.along_outline, self.given))?;
-            outline.emit(leaves.along_outline, enters.along_outline, |vertex| out.push(vertex))?;
+            outline.emit(leaves.along_outline, enters.along_outline, |vertex| {
+                out.push(vertex)
+            })?;
             out.push(outline.vertex(enters.along_outline, self.given))?;
             let Some(next) = self.next_along_capsule(enters.along_capsule, forwards) else {
                 return Ok(false);
@@ -174,7 +185,9 @@ impl Clip<'_> {
             }
             let corners = capsule.corners();
             let span = (enters.along_capsule, leaves.along_capsule);
-            emit_corners(corners, span, forwards, |corner| out.push(Vertex::new(corner)))?;
+            emit_corners(corners, span, forwards, |corner| {
+                out.push(Vertex::new(corner))
+            })?;
             at = next;
             if at == start {
                 return Ok(true);
@@ -187,7 +200,11 @@ impl Clip<'_> {
     fn next_along_capsule(&self, from: f64, forwards: bool) -> Option<usize> {
         let mut best: Option<(f64, usize)> = None;
         for (number, cut) in self.cuts.as_slice().iter().enumerate() {
-            let ahead = if forwards { cut.along_capsule - from } else { from - cut.along_capsule };
+            let ahead = if forwards {
+                cut.along_capsule - from
+            } else {
+                from - cut.along_capsule
+            };
             // More than any capsule has corners.
             let ahead = if ahead > 0.0 { ahead } else { ahead + 1e6 };
             if cut.along_capsule != from && best.is_none_or(|(least, _)| ahead < least) {
@@ -222,7 +239,10 @@ impl Ring<'_> {
     fn vertex(&self, along: f64, given: usize) -> Vertex {
         let number = floor(along);
         let count = self.line.len();
-        let (a, b) = (self.line[number as usize % count], self.line[(number as usize + 1) % count]);
+        let (a, b) = (
+            self.line[number as usize % count],
+            self.line[(number as usize + 1) % count],
+        );
         let t = along - number;
         let at = between((a.at, b.at), t);
         if a.from == NEW || b.from == NEW {
@@ -230,7 +250,8 @@ impl Ring<'_> {
         }
         let given_side = floor(a.from);
         // The next point of the given outline ends the side; the last side ends at the first point.
-        let ends = b.from == given_side + 1.0 || (b.from == 0.0 && given_side as usize + 1 == given);
+        let ends =
+            b.from == given_side + 1.0 || (b.from == 0.0 && given_side as usize + 1 == given);
         let until = if ends { given_side + 1.0 } else { b.from };
         if until <= a.from || until > given_side + 1.0 {
             return Vertex::new(at);
@@ -268,7 +289,11 @@ fn emit_corners(
     let first = floor(low) as usize + 1;
     let last = floor(high) as usize + if high < low { count } else { 0 };
     for number in first..=last {
-        let number = if forwards { number } else { first + last - number };
+        let number = if forwards {
+            number
+        } else {
+            first + last - number
+        };
         emit(corners[number % count])?;
     }
     Ok(())
@@ -296,7 +321,9 @@ impl Bounds {
     }
 
     fn meet(&self, (a, b): (Point, Point)) -> bool {
-        let pairs = [(a.column, b.column), (a.row, b.row)].into_iter().enumerate();
+        let pairs = [(a.column, b.column), (a.row, b.row)]
+            .into_iter()
+            .enumerate();
         pairs
             .into_iter()
             .all(|(k, (a, b))| a.max(b) >= self.low[k] && a.min(b) <= self.high[k])

@@ -28,7 +28,9 @@ pub(super) fn coarse_row(fine: &[u16], width: usize, height: usize, row: usize, 
     };
     let down = |column: usize| -> u32 {
         let weighted = rows.iter().zip(WEIGHTS);
-        weighted.map(|(row, weight)| weight * u32::from(row[column])).sum()
+        weighted
+            .map(|(row, weight)| weight * u32::from(row[column]))
+            .sum()
     };
     let at = |column: usize| down(column.min(width - 1));
     // Column sums from four to the left to four to the right: each is worked out once.
@@ -63,14 +65,25 @@ pub(super) fn gradients_row(
         // Over twice the distance.
         let [x2, y2] = difference(coarse, column, SPREAD).map(|d| d / 2);
         let product = i64::from(x1) * i64::from(x2) + i64::from(y1) * i64::from(y2);
-        let magnitude = if product > 0 { sqrt(product as f64) } else { 0.0 };
-        emit(column, magnitude.min(f64::from(u16::MAX)) as u16, [x1 + x2, y1 + y2]);
+        let magnitude = if product > 0 {
+            sqrt(product as f64)
+        } else {
+            0.0
+        };
+        emit(
+            column,
+            magnitude.min(f64::from(u16::MAX)) as u16,
+            [x1 + x2, y1 + y2],
+        );
     }
 }
 
 /// Differences to the right and downwards over `2 * reach` pixels.
 fn difference([above, here, below]: [&[u16]; 3], column: usize, reach: usize) -> [i32; 2] {
-    let (left, right) = (column.saturating_sub(reach), (column + reach).min(here.len() - 1));
+    let (left, right) = (
+        column.saturating_sub(reach),
+        (column + reach).min(here.len() - 1),
+    );
     [
         i32::from(here[right]) - i32::from(here[left]),
         i32::from(below[column]) - i32::from(above[column]),
@@ -94,13 +107,27 @@ pub(super) fn angle_of(x: i32, y: i32) -> u8 {
 }
 
 /// Magnitudes of a row and of its neighbours; beyond the frame those of its border.
-pub(super) fn rows_around(magnitudes: &[u16], width: usize, height: usize, row: usize) -> [&[u16]; 3] {
+pub(super) fn rows_around(
+    magnitudes: &[u16],
+    width: usize,
+    height: usize,
+    row: usize,
+) -> [&[u16]; 3] {
     [-1, 0, 1].map(|by| row_of(magnitudes, width, moved(row, by, height)))
 }
 
 /// Neighbours by column and row, 0 to 2, clockwise on the screen from the right; the first again at the end.
-const AROUND: [(usize, usize); 9] =
-    [(2, 1), (2, 2), (1, 2), (0, 2), (0, 1), (0, 0), (1, 0), (2, 0), (2, 1)];
+const AROUND: [(usize, usize); 9] = [
+    (2, 1),
+    (2, 2),
+    (1, 2),
+    (0, 2),
+    (0, 1),
+    (0, 0),
+    (1, 0),
+    (2, 0),
+    (2, 1),
+];
 
 /// Whether the magnitude at a column of the middle row is not less than beside it across the edge, linear between the
 /// pixels there.
@@ -109,11 +136,12 @@ pub(super) fn is_ridge(rows: [&[u16]; 3], column: usize, outwards: u8) -> bool {
     let columns = [column.saturating_sub(1), column, (column + 1).min(last)];
     let at = |(right, down): (usize, usize)| u32::from(rows[down][columns[right]]);
     // The two neighbours that the direction passes between, and the share of the second in 32nds.
-    let (first, share) = (usize::from(outwards / 32), u32::from(outwards % 32));
+    // The opposite direction has the same two sides: what is the middle does not depend on which is the implant's.
+    let (first, share) = (usize::from(outwards / 32) % 4, u32::from(outwards % 32));
     let beside = |first: usize| at(AROUND[first]) * (32 - share) + at(AROUND[first + 1]) * share;
     let here = 32 * at((1, 1));
     // One side strictly, so that of two equal pixels one is the middle.
-    here >= beside(first) && here > beside((first + 4) % 8)
+    here >= beside(first) && here > beside(first + 4)
 }
 
 #[cfg(test)]

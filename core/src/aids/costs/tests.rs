@@ -6,7 +6,10 @@ use std::vec::Vec;
 pub(crate) fn edges_of(film: &Film, inside: Inside, rows: usize) -> Vec<Edge> {
     let pixels = film.eight_bit();
     let frame = Frame::new(&pixels, film.width, film.height, film.width).expect("fits");
-    let (mut fine, mut edges) = (std::vec![0; pixels.len()], std::vec![Edge::default(); pixels.len()]);
+    let (mut fine, mut edges) = (
+        std::vec![0; pixels.len()],
+        std::vec![Edge::default(); pixels.len()],
+    );
     let (mut coarse, mut magnitude) = (fine.clone(), fine.clone());
     let mut memory = CostMemory {
         fine: &mut fine,
@@ -45,7 +48,10 @@ fn an_edge_is_strongest_in_its_middle_and_points_outwards() {
         let strongest = radii.max_by_key(|&r| at(r).strength).expect("some");
         assert!((strongest - 25.0).abs() < 1.6, "{strongest}");
         let (edge, ground) = (at(strongest).strength, at(12.0).strength);
-        assert!(edge > 110 && 3 * u16::from(ground) < u16::from(edge), "{edge} {ground}");
+        assert!(
+            edge > 110 && 3 * u16::from(ground) < u16::from(edge),
+            "{edge} {ground}"
+        );
         let turned = f64::from(at(strongest).outwards) / 256.0 - turn / core::f64::consts::TAU;
         off = off.max((turned + 0.5).rem_euclid(1.0) - 0.5);
     }
@@ -53,7 +59,10 @@ fn an_edge_is_strongest_in_its_middle_and_points_outwards() {
     // A bright implant has its outside where it gets darker.
     let bright = edges_of(&film, Inside::Bright, 64);
     for (a, b) in edges.iter().zip(&bright) {
-        assert_eq!((a.strength, a.outwards.wrapping_add(128)), (b.strength, b.outwards));
+        assert_eq!(
+            (a.strength, a.outwards.wrapping_add(128)),
+            (b.strength, b.outwards)
+        );
     }
 }
 
@@ -81,5 +90,8 @@ fn another_frame_and_short_memory_are_refused() {
     assert_eq!(other, Err(AidError::OtherFrame));
     let short = CostBuilder::new(6, 5, Inside::Dark).step(&frame, &mut memory, 1);
     assert!(matches!(short, Err(AidError::Memory { what: "edges", .. })));
-    assert_eq!(Costs::new(&edges, 5, 5).expect("fits").at(5, 0), Edge::default());
+    assert_eq!(
+        Costs::new(&edges, 5, 5).expect("fits").at(5, 0),
+        Edge::default()
+    );
 }

@@ -51,7 +51,9 @@ impl Session {
         let cursor = Cursor { at, radius };
         let work = (cursor, budget);
         let follower = &mut self.follower;
-        follower.follow(&mut self.wire, &costs, &mut memory, work, &mut path).expect("fits");
+        follower
+            .follow(&mut self.wire, &costs, &mut memory, work, &mut path)
+            .expect("fits");
         path.as_slice().to_vec()
     }
 
@@ -80,10 +82,16 @@ fn the_path_ends_on_the_edge_and_follows_the_hand_along_it() {
         let at = Point::new(80.0 + away * turn.cos(), 75.0 + away * turn.sin());
         let path = session.follow(at.column, at.row, 6.0, ALL);
         let end = session.end(&path);
-        assert!((distance(end, Point::new(80.0, 75.0)) - 50.0).abs() < 1.6, "{end:?}");
+        assert!(
+            (distance(end, Point::new(80.0, 75.0)) - 50.0).abs() < 1.6,
+            "{end:?}"
+        );
         assert!(distance(end, at) < 6.01);
         // Nothing jumps: of the path before, only what is near the cursor is given up.
-        assert!(common_length(&before, &path) + 16 >= before.len(), "step {step}");
+        assert!(
+            common_length(&before, &path) + 16 >= before.len(),
+            "step {step}"
+        );
         before = path;
     }
 }
@@ -114,7 +122,11 @@ fn between_two_edges_the_one_that_is_held_stays() {
         // Round the middle of the plate, nearer to either edge by turns.
         let row = 30.0 + 2.0 * (random.share() - 0.5);
         let path = session.follow(100.0 + 4.0 * random.share(), row, 6.0, ALL);
-        assert!((session.end(&path).row - 27.5).abs() < 1.1, "{:?}", session.end(&path));
+        assert!(
+            (session.end(&path).row - 27.5).abs() < 1.1,
+            "{:?}",
+            session.end(&path)
+        );
     }
     // But who goes to the other edge gets it.
     let path = session.follow(102.0, 35.5, 6.0, ALL);
@@ -129,7 +141,8 @@ fn two_ways_of_one_cost_do_not_take_turns() {
         .map(|k| {
             session.follower.release();
             let path = session.follow(129.0, 75.0 + f64::from(k), 6.0, ALL);
-            path.iter().any(|&pixel| session.wire.centre(pixel).row < 40.0)
+            path.iter()
+                .any(|&pixel| session.wire.centre(pixel).row < 40.0)
         })
         .collect();
     let change = ways.windows(2).position(|pair| pair[0] != pair[1]);
@@ -144,12 +157,17 @@ fn two_ways_of_one_cost_do_not_take_turns() {
     }
     assert_eq!(jumps, 0);
     // Far enough away the other way is taken after all.
-    let above = |path: &[u32]| path.iter().any(|&pixel| session.wire.centre(pixel).row < 40.0);
+    let above = |path: &[u32]| {
+        path.iter()
+            .any(|&pixel| session.wire.centre(pixel).row < 40.0)
+    };
     let was_above = above(&before);
     let far = if was_above { 110.0 } else { 40.0 };
     let side = 80.0 + (2500.0f64 - (far - 75.0) * (far - 75.0)).sqrt();
     let path = session.follow(side, far, 6.0, ALL);
-    let now_above = path.iter().any(|&pixel| session.wire.centre(pixel).row < 40.0);
+    let now_above = path
+        .iter()
+        .any(|&pixel| session.wire.centre(pixel).row < 40.0);
     assert_ne!(now_above, was_above);
 }
 
@@ -159,7 +177,10 @@ fn without_a_radius_the_path_ends_under_the_cursor() {
     for at in [[90.4, 31.7], [3.2, 140.9], [80.5, 75.5]] {
         let path = session.follow(at[0], at[1], 0.0, ALL);
         let end = session.end(&path);
-        assert_eq!((end.column, end.row), (at[0].floor() + 0.5, at[1].floor() + 0.5));
+        assert_eq!(
+            (end.column, end.row),
+            (at[0].floor() + 0.5, at[1].floor() + 0.5)
+        );
     }
 }
 

@@ -60,9 +60,15 @@ impl<'a, P: Pixel> Reader<'a, P> {
         }
         for (state, slope) in slopes.iter_mut().enumerate() {
             let within = state.abs_diff(STATES / 2) <= self.half;
-            let rise = self.slope(&readings, state + HALF_FILTER).filter(|_| within);
+            let rise = self
+                .slope(&readings, state + HALF_FILTER)
+                .filter(|_| within);
             let rise = rise.unwrap_or_default();
-            *slope = if self.either { rise.abs() } else { rise.max(0.0) } as f32;
+            *slope = if self.either {
+                rise.abs()
+            } else {
+                rise.max(0.0)
+            } as f32;
         }
     }
 
@@ -70,7 +76,9 @@ impl<'a, P: Pixel> Reader<'a, P> {
         let mut sum = 0.0;
         for (k, weight) in self.weights.iter().enumerate().skip(1) {
             let after = readings.get(at + k).copied().flatten()?;
-            let before = at.checked_sub(k).and_then(|k| readings.get(k).copied().flatten())?;
+            let before = at
+                .checked_sub(k)
+                .and_then(|k| readings.get(k).copied().flatten())?;
             sum += weight * (after - before);
         }
         Some(sum)
@@ -99,7 +107,9 @@ fn weights() -> [f64; HALF_FILTER + 1] {
         t * exp(-t * t / (2.0 * BLUR * BLUR))
     });
     let pairs = weights.iter().enumerate();
-    let norm: f64 = pairs.map(|(k, weight)| 2.0 * weight * STEP * k as f64).sum();
+    let norm: f64 = pairs
+        .map(|(k, weight)| 2.0 * weight * STEP * k as f64)
+        .sum();
     weights.iter_mut().for_each(|weight| *weight /= norm);
     weights
 }

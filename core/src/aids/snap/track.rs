@@ -12,6 +12,8 @@ const MIDDLE: usize = STATES / 2;
 const FAR: f64 = 0.35;
 /// What it costs two neighbours to differ by as much as they are apart (45 degrees).
 const BEND: f64 = 0.6;
+/// How far a sample goes by itself in the end, places.
+const CLIMB: usize = 3;
 /// The greatest difference of neighbours, as a multiple of their distance.
 const STEEPEST: f64 = 1.0;
 
@@ -55,7 +57,10 @@ fn usual(slopes: &[f32], count: usize, least: f64) -> f64 {
     let (mut low, mut high) = (least, f64::from(edges.clone().fold(0.0, f32::max)));
     for _ in 0..20 {
         let middle = (low + high) / 2.0;
-        let above = edges.clone().filter(|&slope| f64::from(slope) > middle).count();
+        let above = edges
+            .clone()
+            .filter(|&slope| f64::from(slope) > middle)
+            .count();
         if 2 * above > number {
             low = middle;
         } else {
@@ -83,7 +88,11 @@ impl Tracker<'_> {
     /// What a place is worth to a sample.
     fn worth(&self, number: usize, state: usize) -> f64 {
         let slope = self.slope(number, state);
-        let edge = if slope >= self.least { 2.0 * slope / (slope + self.usual) } else { 0.0 };
+        let edge = if slope >= self.least {
+            2.0 * slope / (slope + self.usual)
+        } else {
+            0.0
+        };
         let away = state.abs_diff(MIDDLE) as f64 / self.half.max(1) as f64;
         edge - FAR * away * away
     }
@@ -170,24 +179,45 @@ impl Tracker<'_> {
     fn settle(&mut self, closed: bool) {
         let count = self.samples.len();
         for number in 0..count {
-            let state = self.state_of(number);
+            let state = self.climbed(number, self.state_of(number));
             let fixed = !closed && (number == 0 || number + 1 == count);
-            self.samples[number].on_edge = !fixed && self.slope(number, state) >= self.least;
-            if self.samples[number].on_edge {
-                self.samples[number].offset += STEP * self.part(number, state);
+            let on_edge = !fixed && self.slope(number, state) >= self.least;
+            self.samples[number].on_edge = on_edge;
+            if on_edge {
+                let place = state as f64 - MIDDLE as f64 + self.part(number, state);
+                self.samples[number].offset = STEP * place;
             }
         }
         let mut before = self.samples[count - 1];
         let first = self.samples[0];
         for number in 0..count {
             let here = self.samples[number];
-            let after = if number + 1 < count { self.samples[number + 1] } else { first };
+            let after = if number + 1 < count {
+                self.samples[number + 1]
+            } else {
+                first
+            };
             if before.on_edge && here.on_edge && after.on_edge {
                 let mean = (before.offset + 2.0 * here.offset + after.offset) / 4.0;
                 self.samples[number].offset = mean;
             }
             before = here;
         }
+    }
+
+    /// The top of the slope that a place is on, where it is near: keeping together with neighbours leaves samples beside
+    /// it where a line bends.
+    fn climbed(&self, number: usize, state: usize) -> usize {
+        let mut state = state;
+        for _ in 0..CLIMB {
+            let here = self.slope(number, state);
+            let around = [state.saturating_sub(1), (state + 1).min(STATES - 1)];
+            let better = around
+                .into_iter()
+                .find(|&other| self.slope(number, other) > here);
+            state = better.unwrap_or(state);
+        }
+        state
     }
 
     /// Where between a place's neighbours the slope is greatest: the top of a parabola, in places.

@@ -170,23 +170,40 @@ fn the_suggested_level_lies_on_the_edge() {
     assert!((70.0..125.0).contains(&level), "{level}");
     let found = outline(&film, [85.0, 60.0], &Threshold { level, ..DARK });
     assert!((area(&found) / (core::f64::consts::PI * 625.0) - 1.0).abs() < 0.05);
-    assert_eq!(suggested_level(&smooth, Point::new(-9.0, 3.0), Inside::Dark), None);
+    assert_eq!(
+        suggested_level(&smooth, Point::new(-9.0, 3.0), Inside::Dark),
+        None
+    );
 }
 
 /// Oracle: the pixels that a flood from outside, past the region of the seed, does not reach.
 fn naive_area(inside: &[bool], width: usize, height: usize, seed: (usize, usize)) -> usize {
-    let flood = |from: (isize, isize), steps: &[(isize, isize)], may: &dyn Fn(isize, isize) -> bool| {
-        let mut seen = std::collections::BTreeSet::new();
-        let mut waiting = std::vec![from];
-        while let Some((column, row)) = waiting.pop() {
-            if may(column, row) && seen.insert((column, row)) {
-                waiting.extend(steps.iter().map(|(right, down)| (column + right, row + down)));
+    let flood =
+        |from: (isize, isize), steps: &[(isize, isize)], may: &dyn Fn(isize, isize) -> bool| {
+            let mut seen = std::collections::BTreeSet::new();
+            let mut waiting = std::vec![from];
+            while let Some((column, row)) = waiting.pop() {
+                if may(column, row) && seen.insert((column, row)) {
+                    waiting.extend(
+                        steps
+                            .iter()
+                            .map(|(right, down)| (column + right, row + down)),
+                    );
+                }
             }
-        }
-        seen
-    };
+            seen
+        };
     let four = [(1, 0), (-1, 0), (0, 1), (0, -1)];
-    let eight = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+    let eight = [
+        (1, 0),
+        (-1, 0),
+        (0, 1),
+        (0, -1),
+        (1, 1),
+        (1, -1),
+        (-1, 1),
+        (-1, -1),
+    ];
     let frame = |column: isize, row: isize| {
         (0..width as isize).contains(&column) && (0..height as isize).contains(&row)
     };
@@ -194,7 +211,9 @@ fn naive_area(inside: &[bool], width: usize, height: usize, seed: (usize, usize)
     let seed = (seed.0 as isize, seed.1 as isize);
     let region = flood(seed, &four, &|c, r| frame(c, r) && at(c, r));
     let round = |c, r| (-1..=width as isize).contains(&c) && (-1..=height as isize).contains(&r);
-    let outside = flood((-1, -1), &eight, &|c, r| round(c, r) && !region.contains(&(c, r)));
+    let outside = flood((-1, -1), &eight, &|c, r| {
+        round(c, r) && !region.contains(&(c, r))
+    });
     (width + 2) * (height + 2) - outside.len()
 }
 
