@@ -2,6 +2,7 @@ import { framePoint, type FramePoint } from '../geometry/points';
 import type { Command } from './commands';
 import { count, list, nullable, number, object, oneOf, ReadError, text, type Reader } from './reader';
 import type { Doc, Outline } from './types';
+import { texts } from '../texts';
 
 /**
  * A correction of distortion: two polynomials that take a place in a frame as it was taken to where it lies in the
@@ -130,7 +131,7 @@ export function setDistortion(distortion: Distortion | null, fromShown: MovePoin
     return points.map((_, index) => framePoint(shown[2 * index] ?? 0, shown[2 * index + 1] ?? 0));
   };
   return {
-    label: distortion ? 'correct the distortion' : 'take the correction of distortion away',
+    label: distortion ? texts.steps.correctDistortion : texts.steps.leaveDistortion,
     apply: (doc) => {
       const moves = fromShown !== null || toShown !== null;
       return { ...doc, distortion, cells: moves ? movedCells(doc, distortion, move) : doc.cells };

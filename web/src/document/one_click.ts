@@ -3,6 +3,7 @@ import { withCell, type Command, type Place } from './commands';
 import { setOutline } from './outlines';
 import { setItsOutline } from './own_outlines';
 import { cellOf, type Outline } from './types';
+import { texts } from '../texts';
 
 /**
  * Outlines with the poses that gave them, the chosen first, as one unit of undo. Without poses the outline is on its
@@ -10,7 +11,7 @@ import { cellOf, type Outline } from './types';
  */
 export function oneClickOutline(place: Place, outlines: readonly Outline[], match: Match | null, origin: string | null): Command {
   const [outline] = outlines;
-  const label = 'outline by one click';
+  const label = texts.steps.oneClick;
   if (!outline || !match || origin === null) return setOutline(place, label, outline ?? null);
   const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }, index) => {
     const candidate = { pose, unmatched, drawn, residual, deviations };

@@ -4,6 +4,7 @@ import { onOutline, type Command, type Place } from './commands';
 import { carriedSides } from './sides';
 import { markedStretch, type Stretch } from './stretch';
 import { cellOf, type ComponentName, type Doc, type Outline } from './types';
+import { texts } from '../texts';
 
 /** Commands that change an outline as a whole. */
 
@@ -13,7 +14,7 @@ export function transformOutline(place: Place, label: string, similarity: Simila
 
 /** The same by keys: one press after the other is one unit of undo. */
 export function nudgeOutline(place: Place, similarity: Similarity): Command {
-  const command = transformOutline(place, 'move the outline', similarity);
+  const command = transformOutline(place, texts.steps.moveOutline, similarity);
   return { ...command, mergeKey: `nudge ${place.frameId} ${place.component}` };
 }
 
@@ -32,12 +33,12 @@ export function reshapeOutline(place: Place, label: string, points: readonly Fra
 }
 
 export function markStretch(place: Place, stretch: Stretch, unknown: boolean): Command {
-  const label = unknown ? 'mark a stretch unknown' : 'mark a stretch known';
+  const label = unknown ? texts.steps.stretchUnknown : texts.steps.stretchKnown;
   return onOutline(label, place, (outline) => (outline?.closed ? markedStretch(outline, stretch, unknown) : outline));
 }
 
 export function markAllKnown(place: Place): Command {
-  return onOutline('mark all of the outline known', place, (outline) =>
+  return onOutline(texts.steps.allKnown, place, (outline) =>
     outline && outline.unknownSides.length > 0 ? { ...outline, unknownSides: [] } : outline,
   );
 }

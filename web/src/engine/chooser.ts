@@ -6,6 +6,7 @@ import { Aborted, type Bridge } from '../worker/bridge';
 import type { Choice, PoseProtocol, Surroundings } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
+import { texts } from '../texts';
 
 interface Open {
   readonly place: Place;
@@ -43,7 +44,7 @@ export class Chooser {
       const choice = await this.#worker.call('choose', { component: place.component, candidates, around });
       if (choice) this.#apply(open, choice);
     } catch (error) {
-      if (!(error instanceof Aborted)) this.#store.say('error', `No choice between rival poses: ${sentenceOf(error)}`);
+      if (!(error instanceof Aborted)) this.#store.say('error', texts.said.noChoice(sentenceOf(error)));
     } finally {
       this.#busy = false;
       queueMicrotask(() => void this.#next());

@@ -116,7 +116,7 @@ async function outlineFiles({ store }: Services, files: readonly Recognised[]): 
 async function proposeOutlines(services: Services, outlines: readonly OutlineFile[], files: readonly Incoming[]): Promise<void> {
   const { store } = services;
   if (store.doc.frames.length === 0) {
-    return store.say('error', `${outlines[0]?.name ?? ''}: outlines are for frames: open the frames first, then the outlines`);
+    return store.say('error', texts.said.of(outlines[0]?.name ?? '', texts.said.outlinesNeedFrames));
   }
   const { propose } = await import('./exchange/importer');
   const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ bytes }) => bytes);
@@ -163,11 +163,11 @@ async function attempt(
 
 /** The sentence with the file's name, which some begin with already. */
 function named(name: string, sentence: string): string {
-  return sentence.startsWith(name) ? sentence : `${name}: ${sentence}`;
+  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
 }
 
 function tell({ store }: Services, opened: readonly string[], failed: readonly string[]): void {
-  if (opened.length > 0) store.say('info', `Opened ${opened.join(', ')}.`);
+  if (opened.length > 0) store.say('info', texts.said.opened(opened.join(', ')));
   for (const sentence of failed) store.say('error', sentence);
 }
 
@@ -185,10 +185,8 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
     case 'distortion':
       return openDistortion(services, file);
     default:
-      if (file.bytes.length === 0) throw new Error('the file is empty; export or copy it again');
-      throw new Error(
-        'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, .jts poses, libraries, sessions and videos',
-      );
+      if (file.bytes.length === 0) throw new Error(texts.said.emptyFile);
+      throw new Error(texts.said.notRecognised);
   }
 }
 
@@ -199,7 +197,7 @@ async function openCalibration({ store, studio }: Services, { name, bytes }: Inc
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);
   store.perform(commands.setCalibration({ name, text }));
-  return `the calibration ${name}`;
+  return texts.said.theCalibration(name);
 }
 
 async function openDistortion(services: Services, { name, bytes }: Incoming): Promise<string> {
@@ -214,7 +212,7 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const notes = await holdModel(services, asset);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
-  const opened = `${file.name} as the model of the ${component}`;
+  const opened = texts.said.asModel(file.name, texts.component[component]);
   return notes.length === 0 ? opened : texts.files.modelNotes(opened, notes.join(' '));
 }
 
@@ -231,17 +229,18 @@ async function openLibrary({ store, studio, assets }: Services, file: Incoming):
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
-  return `${file.name} as the library of the ${component}`;
+  return texts.said.asLibrary(file.name, texts.component[component]);
 }
 
 async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
   const poses = studio.readPoses(new TextDecoder().decode(file.bytes));
   const frames = store.doc.frames.length;
-  if (frames === 0) throw new Error('the poses are for frames: open the frames first, then the poses');
+  if (frames === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);
   store.perform(commands.loadPoses(component, poses, file.name));
-  const surplus = poses.length === frames ? '' : ` (${poses.length} rows for ${frames} frames: in order, from the first)`;
-  return `${file.name} as poses of the ${component}${surplus}`;
+  const { asPoses, asPosesInOrder } = texts.said;
+  const of = texts.component[component];
+  return poses.length === frames ? asPoses(file.name, of) : asPosesInOrder(file.name, of, poses.length, frames);
 }
 
 // --- Frames -------------------------------------------------------------------------------------------------------
@@ -255,8 +254,8 @@ async function openFrames(
   const abort = new AbortController();
   const entries: FrameEntry[] = [];
   const job = {
-    title: files.length === 1 ? 'Opening frames' : `Opening ${files.length} files of frames`,
-    unit: files.length === 1 ? 'frames' : 'files',
+    title: texts.said.openingFrames(files.length),
+    unit: files.length === 1 ? texts.said.frames : texts.said.files,
     total: files.length,
     cancel: () => abort.abort(),
   };
@@ -278,7 +277,7 @@ async function openFrames(
   });
   if (entries.length === 0) return;
   addToDocument(services, entries);
-  opened.push(entries.length === 1 ? `the frame ${entries[0]!.name}` : `${entries.length} frames`);
+  opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
 function addToDocument({ store }: Services, entries: readonly FrameEntry[]): void {
@@ -311,7 +310,7 @@ export async function decodeFrames(
 }
 
 function studyName(frame: FrameEntry): string {
-  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || 'Study';
+  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || texts.said.study;
 }
 
 // --- Files that a document names ---------------------------------------------------------------------------------
@@ -322,7 +321,7 @@ export async function bringFiles(services: Services, doc: Doc, title: string): P
   const never = new AbortController().signal;
   const sources = new Map(doc.frames.map((frame) => [frame.source, frame.name.replace(/ #\d+$/, '')]));
   const total = sources.size;
-  const job = { title, unit: 'files', total, cancel: () => undefined };
+  const job = { title, unit: texts.said.files, total, cancel: () => undefined };
   await asJob(services.store, job, async (report) => {
     let done = 0;
     for (const [sha256, name] of sources) {

@@ -1,4 +1,5 @@
 import type { ToolName } from './tools';
+import { texts } from '../texts';
 
 /** What keys and buttons do with whole outlines and with the tools' options. */
 export type AidCommand =
@@ -46,14 +47,14 @@ const DIRECTIONS = [
 ] as const;
 
 export const AID_KEYS: readonly AidKey[] = [
-  { shown: ['S'], does: 'Snap the outline to the edges', key: 's', held: 'none', command: { what: 'snap' } },
-  { shown: ['Shift + S'], does: 'Simplify or smooth the outline', key: 's', held: 'shift', command: { what: 'shape' } },
-  { shown: ['Shift + D'], does: 'Copy the outline of the previous frame', key: 'd', held: 'shift', command: { what: 'copy', step: -1 } },
-  { shown: ['Shift + F'], does: 'Copy the outline of the next frame', key: 'f', held: 'shift', command: { what: 'copy', step: 1 } },
-  { shown: ['['], does: 'Smaller brush, lower threshold', key: '[', held: 'any', command: { what: 'size', steps: -1 } },
-  { shown: [']'], does: 'Larger brush, higher threshold', key: ']', held: 'any', command: { what: 'size', steps: 1 } },
-  { shown: ['E'], does: 'Brush erases, or adds again', key: 'e', held: 'none', command: { what: 'erase' } },
-  { shown: ['I'], does: 'Press at the pointer, as a click does; the brush lets go with the next', key: 'i', held: 'none', tools: POINTING, command: { what: 'press' } },
+  { shown: ['S'], does: texts.keys.aids.snap, key: 's', held: 'none', command: { what: 'snap' } },
+  { shown: ['Shift + S'], does: texts.keys.aids.shape, key: 's', held: 'shift', command: { what: 'shape' } },
+  { shown: ['Shift + D'], does: texts.keys.aids.copyPrevious, key: 'd', held: 'shift', command: { what: 'copy', step: -1 } },
+  { shown: ['Shift + F'], does: texts.keys.aids.copyNext, key: 'f', held: 'shift', command: { what: 'copy', step: 1 } },
+  { shown: ['['], does: texts.keys.aids.smaller, key: '[', held: 'any', command: { what: 'size', steps: -1 } },
+  { shown: [']'], does: texts.keys.aids.larger, key: ']', held: 'any', command: { what: 'size', steps: 1 } },
+  { shown: ['E'], does: texts.keys.aids.erase, key: 'e', held: 'none', command: { what: 'erase' } },
+  { shown: ['I'], does: texts.keys.aids.press, key: 'i', held: 'none', tools: POINTING, command: { what: 'press' } },
   ...DIRECTIONS.flatMap(([key, x, y]) => [
     hidden(key, 'none', MOVING, { what: 'move', columns: FINE * x, rows: FINE * y }),
     hidden(key, 'shift', MOVING, { what: 'move', columns: COARSE * x, rows: COARSE * y }),
@@ -69,13 +70,7 @@ export const AID_KEYS: readonly AidKey[] = [
 ];
 
 /** Rows of the sheet for keys whose meaning depends on the tool. */
-export const AID_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = [
-  { shown: ['Arrows'], does: 'Move the pointer; the selected point with Edit points; the outline with its own tool (Shift: 10 px)' },
-  { shown: ['Ctrl + arrows'], does: 'Turn the outline by 1 degree, scale it by 1 % (its own tool)' },
-  { shown: ['Backspace'], does: 'Live-wire: take the last stretch back' },
-  { shown: ['Shift held'], does: 'Live-wire: straight to the pointer' },
-  { shown: ['Alt held'], does: 'Brush: the other way round' },
-];
+export const AID_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.aids.rows;
 
 function hidden(key: string, held: AidKey['held'], tools: readonly ToolName[], command: AidCommand): AidKey {
   return { shown: [], does: '', key, held, tools, command };

@@ -4,6 +4,7 @@ import { boundsOf, middleOf, moved, scaled, turned, type Bounds, type Similarity
 import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
 import { reachOf } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+import { texts } from '../texts';
 
 /** Moving, turning and scaling a whole outline by the frame of handles round it. */
 export const CORNERS = ['top-left', 'top-right', 'bottom-right', 'bottom-left'] as const;
@@ -53,7 +54,7 @@ function whileDragging(
   return input.type === 'move' ? outcome({ ...state, meant }, { type: 'preview', command }) : outcome(state);
 }
 
-const LABELS = { move: 'move the outline', turn: 'turn the outline', scale: 'scale the outline' } as const;
+const LABELS = { move: texts.steps.moveOutline, turn: texts.steps.turnOutline, scale: texts.steps.scaleOutline } as const;
 
 function kindOf(handle: Handle): keyof typeof LABELS {
   if (handle === 'inside') return 'move';

@@ -3,8 +3,11 @@ import { aids } from './en_aids';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { hand } from './en_hand';
+import { keys } from './en_keys';
 import { panel } from './en_panel';
+import { said } from './en_said';
 import { seeing } from './en_seeing';
+import { steps } from './en_steps';
 
 /** English, as the page speaks it. Grouped as the page is. */
 export const en = {
@@ -13,8 +16,11 @@ export const en = {
   calibrate,
   files,
   hand,
+  keys,
   panel,
+  said,
   seeing,
+  steps,
   failedToStart: (why: string) => `The page could not start: ${why}. It needs a current browser with WebAssembly.`,
   /** Alone, as a heading or a label. */
   componentTitle: { femur: 'Femur', tibia: 'Tibia' } satisfies Record<ComponentName, string>,

@@ -162,7 +162,7 @@ export class Actions {
     if (!place || !outline || outline.closed) return false;
     const missing = FEWEST_POINTS - outline.points.length;
     if (missing > 0) {
-      this.#store.say('info', `An outline needs ${FEWEST_POINTS} points: ${missing} more, then it can be closed.`);
+      this.#store.say('info', texts.said.tooFewPoints(FEWEST_POINTS, missing));
       return true;
     }
     this.#store.perform(commands.closeOutline(place));
@@ -197,7 +197,7 @@ export class Actions {
     const { selectedPoint } = state.ui;
     const next = selectedPoint === null ? (step > 0 ? 0 : count - 1) : (selectedPoint + step + count) % count;
     this.#store.show({ selectedPoint: next });
-    this.#store.say('info', `Point ${next + 1} of ${count}: Delete removes it; U marks the side after it unknown.`);
+    this.#store.say('info', texts.said.selectedPoint(next + 1, count));
     return true;
   }
 
@@ -207,12 +207,12 @@ export class Actions {
     const place = currentPlace(state);
     const { outline } = currentCell(state);
     if (!place || !outline?.closed) {
-      this.#store.say('info', 'Sides can be marked unknown once the outline is closed.');
+      this.#store.say('info', texts.said.closeFirst);
       return true;
     }
     const side = sideMeant(pointerStore.place?.hit ?? NOTHING_HIT, state.ui.selectedPoint, outline.points.length);
     if (side === null) {
-      this.#store.say('info', 'Point at a side of the outline, or select the point before it with , and . keys, then press U.');
+      this.#store.say('info', texts.said.whichSide);
       return true;
     }
     this.#store.perform(commands.toggleUnknownSide(place, side));
@@ -224,9 +224,12 @@ export class Actions {
     const { outline } = currentCell(this.#store.state);
     if (!outline) return;
     const { points, unknownSides } = outline;
-    const marked = unknownSides.includes(side) ? `unknown: what lies within ${this.#services.studio.unknownReach} px of it is ignored` : 'known';
     const share = Math.round(100 * unknownShare(outline));
-    this.#store.say('info', `Side ${side + 1} of ${points.length} is ${marked}. ${share} % of the outline is unknown.`);
+    const { sideKnown, sideUnknown } = texts.said;
+    const sentence = unknownSides.includes(side)
+      ? sideUnknown(side + 1, points.length, this.#services.studio.unknownReach, share)
+      : sideKnown(side + 1, points.length, share);
+    this.#store.say('info', sentence);
   }
 
   chooseOtherCandidate(): boolean {
@@ -295,7 +298,7 @@ export class Actions {
     download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
     store.show({ savedAt: Date.now(), popover: null });
-    store.say('info', includeFiles ? 'Session saved, with every file it needs.' : 'Session saved; its files are named by digest, keep them.');
+    store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
   }
 
   savePoses(component: ComponentName): void {
@@ -304,15 +307,14 @@ export class Actions {
     const poses = doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
     const without = doc.frames.filter((_, index) => !poses[index]).length;
     download([studio.writePoses(poses)], `${fileStem(doc.name)}_${component}.jts`, 'text/plain');
-    const rest = without === 0 ? '' : ` ${without} without a pose: rows of zeros.`;
-    store.say('info', `Poses of the ${component} saved, a row for each of ${poses.length} frames.${rest}`);
+    store.say('info', texts.said.posesSaved(texts.component[component], poses.length, without));
   }
 
   /** Poses with their standard deviations and why they were chosen, which a .jts file has no room for. */
   saveTable(component: ComponentName): void {
     const { doc } = this.#store;
     download([poseTable(doc, component)], `${fileStem(doc.name)}_${component}.csv`, 'text/csv');
-    this.#store.say('info', `Poses of the ${component} saved with their standard deviations, a row for each of ${doc.frames.length} frames.`);
+    this.#store.say('info', texts.said.tableSaved(texts.component[component], doc.frames.length));
   }
 
   hasPoses(component: ComponentName): boolean {

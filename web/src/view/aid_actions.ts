@@ -110,7 +110,7 @@ export class AidActions {
     if (!film) return this.#say(texts.aids.said.noFilm(frame?.name ?? ''));
     const { points, unknownSides, greatest, rms } = snappedOutline(film, outline, !ui.aids.bright, ui.aids.reach);
     if (points.length === 0 || greatest === 0) return this.#say(texts.aids.said.noEdge);
-    store.perform(setOutline(place, 'snap the outline', { points, closed: true, unknownSides }));
+    store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
     store.show({ selectedPoint: null });
     return this.#say(texts.aids.said.snapped(greatest.toFixed(1), rms.toFixed(2)));
   }

@@ -77,7 +77,7 @@ export class HandActions {
     const placed = placedPose(state, this.#services.studio);
     if (!place) return;
     if (!placed) return this.#store.say('info', texts.hand.said.noModel(texts.component[place.component]));
-    this.#store.perform(setPoseByHand(place, placed.pose, 'place the model'));
+    this.#store.perform(setPoseByHand(place, placed.pose, texts.steps.placeModel));
     this.#store.show({ tool: 'pose' });
     this.#store.say('info', placed.frame === null ? texts.hand.said.placed : texts.hand.said.placedAs(placed.frame));
   }
@@ -88,13 +88,12 @@ export class HandActions {
     if (place && isByHand(currentCell(this.#store.state).result)) this.#store.perform(dropHandPose(place));
   }
 
-  /** A number that was typed. Turns keep the middle of the model in place, as keys do. */
-  type(field: keyof PoseNumbers, value: number): void {
-    const name = texts.hand.names[field];
-    if (!Number.isFinite(value)) return this.#store.say('error', texts.hand.said.notANumber(name));
-    if (field === 'z' && value >= 0) return this.#store.say('error', texts.hand.said.behind);
+  /** A number that was typed. Turns keep the middle of the model in place, as keys do. False if it was not taken. */
+  type(field: keyof PoseNumbers, value: number): boolean {
     const scene = handSceneOf(this.#store.state, this.#services.studio);
-    if (scene) this.#change(field, value - scene.pose[field], `type-${++this.#held}`);
+    const possible = Number.isFinite(value) && (field !== 'z' || value < 0);
+    if (!possible) this.#store.say('error', Number.isNaN(value) ? texts.hand.said.notANumber(texts.hand.names[field]) : texts.hand.said.behind);
+    return possible && scene !== null && this.#change(field, value - scene.pose[field], `type-${++this.#held}`);
   }
 
   /** Offers the pose of a view of the landscape as a candidate. */
@@ -160,7 +159,7 @@ export class HandActions {
     }
     const pose = nudged(scene.pose, field, by, scene.middle, scene.locks);
     // In front of the camera it stays.
-    if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, 'adjust the pose', mergeKey));
+    if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, mergeKey));
     return true;
   }
 }

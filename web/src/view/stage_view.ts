@@ -26,6 +26,7 @@ import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
 import { Shading } from './shading';
 import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
+import { texts } from '../texts';
 
 const NOTHING: Hit = { kind: 'nothing' };
 
@@ -230,7 +231,7 @@ export class StageView {
     const held = model && this.#studio.meshOf(model.sha256) ? model.sha256 : null;
     const candidate = chosenCandidate(cellOf(doc, frame.id, component));
     const trouble = overlay.update(this.#studio, cameraOf(doc, frame), held, candidate);
-    if (trouble) queueMicrotask(() => this.#store.say('error', `The ${component} cannot be shown: ${trouble}`));
+    if (trouble) queueMicrotask(() => this.#store.say('error', texts.said.notShown(texts.component[component], trouble)));
   }
 
   #drawOutline(

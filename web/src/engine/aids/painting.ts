@@ -15,5 +15,5 @@ export function brushRefusal(before: Outline | null, erase: boolean): string | n
 export function paint(place: Place, before: Outline | null, stroke: readonly FramePoint[], radius: number, erase: boolean): Command {
   const { points, unknownSides } = brushed(before, stroke, radius, erase);
   const outline = points.length > 0 ? { points, closed: true, unknownSides } : null;
-  return setOutline(place, erase ? 'erase from the outline' : 'paint on the outline', outline);
+  return setOutline(place, erase ? texts.steps.erase : texts.steps.paint, outline);
 }

@@ -123,7 +123,7 @@ export class Threshold {
     const outline: Outline = { points, closed: true, unknownSides: [] };
     this.#taken = { ...wanted, outline };
     this.#preview = NO_PREVIEW;
-    this.#host.perform({ ...setOutline(wanted.place, 'take a region', outline), mergeKey: wanted.mergeKey });
+    this.#host.perform({ ...setOutline(wanted.place, texts.steps.takeRegion, outline), mergeKey: wanted.mergeKey });
   }
 
   #levelAt(at: FramePoint): number | null {

@@ -4,6 +4,7 @@ import type { Outline } from '../../document/types';
 import type { FramePoint } from '../../geometry/points';
 import { flat, pointsFrom, type CoolingPixels, type WirePixels } from './pixels';
 import { NO_PREVIEW, type Preview } from './preview';
+import { texts } from '../../texts';
 
 /** What the live-wire asks of the page; tests lend one of their own. */
 export interface WireHost {
@@ -110,15 +111,15 @@ export class Wire {
     const draft = this.#draft;
     if (!place || this.#host.outline?.closed) return;
     this.#aim = { at, straight };
-    if (!draft) return this.#perform(addPoints(place, 'begin the outline', [this.#begin(this.#aim)], false), { counts: [0], side: 0 });
+    if (!draft) return this.#perform(addPoints(place, texts.steps.beginOutline, [this.#begin(this.#aim)], false), { counts: [0], side: 0 });
     const last = draft.points.at(-1)!;
     if (away(last, at) <= SAME_SPOT) return;
-    if (straight) return this.#append(draft, [at], [], 'draw a straight stretch');
+    if (straight) return this.#append(draft, [at], [], texts.steps.straightStretch);
     this.#aimed = false;
     this.#follow(ALL, false);
     // Beyond the film's border there is no edge to follow.
-    if (!this.#aimed) return this.#append(draft, [at], [], 'draw a straight stretch');
-    this.#fixPath(draft, this.#path, 'follow the edge');
+    if (!this.#aimed) return this.#append(draft, [at], [], texts.steps.straightStretch);
+    this.#fixPath(draft, this.#path, texts.steps.followEdge);
   }
 
   /** Follows the edge back to the first point and closes the draft there. False where there is no draft to close. */
@@ -130,7 +131,7 @@ export class Wire {
     this.#prepareAll();
     this.#settle(draft);
     const points = straight ? [] : this.#refined(draft, this.#pathTo(first)).slice(1, -1);
-    this.#perform(addPoints(place, 'close the outline', points, true), NO_SEEDS);
+    this.#perform(addPoints(place, texts.steps.closeOutline, points, true), NO_SEEDS);
     this.leave();
     return true;
   }
@@ -144,7 +145,7 @@ export class Wire {
     const count = seeds.counts.at(-1) ?? draft.points.length - 1;
     const unknownSides = draft.unknownSides.filter((side) => side < count - 1);
     const shorter: Outline | null = count > 0 ? { points: draft.points.slice(0, count), closed: false, unknownSides } : null;
-    this.#perform(setOutline(place, 'take a stretch back', shorter), { counts: seeds.counts.slice(0, -1), side: count > 1 ? seeds.side : 0 });
+    this.#perform(setOutline(place, texts.steps.takeStretchBack, shorter), { counts: seeds.counts.slice(0, -1), side: count > 1 ? seeds.side : 0 });
     return true;
   }
 
@@ -194,7 +195,7 @@ export class Wire {
     const settled = this.#cooling.observe(this.#clock.moving, this.#pixels.common, length);
     const count = Math.min(settled, length - KEPT);
     if (!this.#host.cooling || count < SHORTEST) return;
-    this.#fixPath(draft, this.#path.slice(0, count), 'follow the edge');
+    this.#fixPath(draft, this.#path.slice(0, count), texts.steps.followEdge);
   }
 
   #pathTo(at: FramePoint): readonly FramePoint[] {
