@@ -215,3 +215,6 @@ impl OneClickMemory<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -221,6 +221,22 @@ impl LentModel {
         Ok(refined)
     }
 
+    /// Calls `with` with the mesh, its planes of near-symmetry and memory to refine it.
+    ///
+    /// # Errors
+    /// The core's sentence about the model, and that of `with`.
+    pub(crate) fn lend<T>(
+        &mut self,
+        camera: &Camera,
+        with: impl FnOnce(&Mesh<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let mesh = self.shape.mesh()?;
+        let planes = self
+            .planes
+            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
+        with(&mesh, planes, self.buffers.lend(camera))
+    }
+
     /// Standard deviations of a refined pose's numbers; nothing where the outline does not determine it.
     ///
     /// # Errors

@@ -108,7 +108,12 @@ pub fn run(args: Args) -> Result<()> {
     let folders = Folders {
         masks: masks.with_context(|| format!("{} has no masks.{}", args.component, args.source))?,
         unknown: None,
-        frames: Some(study.frames.as_deref().context("the study has no key 'frames'")?),
+        frames: Some(
+            study
+                .frames
+                .as_deref()
+                .context("the study has no key 'frames'")?,
+        ),
     };
     let calibration = read_calibration(&study.calibration)?;
     let source = Source::read(&folders, &calibration)?;
@@ -209,7 +214,11 @@ impl Trial<'_> {
             }
         };
         if self.args.verbose {
-            self.tell(&format!("frame {frame} {} {prompt:?}", kind.word()), &clicked, &mask)?;
+            self.tell(
+                &format!("frame {frame} {} {prompt:?}", kind.word()),
+                &clicked,
+                &mask,
+            )?;
         }
         let best = &clicked.answers[0].refined.pose;
         let drawn = draw(&self.mesh, &self.source.camera, best)?;
@@ -272,7 +281,9 @@ fn draw(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
 fn overlap(a: &Mask<'_>, b: &Mask<'_>) -> f64 {
     let count = |rule: fn(u32, u32) -> u32| -> f64 {
         let pairs = a.words().iter().zip(b.words());
-        pairs.map(|(&a, &b)| f64::from(rule(a, b).count_ones())).sum()
+        pairs
+            .map(|(&a, &b)| f64::from(rule(a, b).count_ones()))
+            .sum()
     };
     count(|a, b| a & b) / count(|a, b| a | b).max(1.0)
 }
@@ -280,7 +291,13 @@ fn overlap(a: &Mask<'_>, b: &Mask<'_>) -> f64 {
 fn print(row: &Row) {
     println!(
         "{:22} {:3} frames, {} without an answer: overlap median {:.3}, least {:.3}; {:.0} ms, longest step {:.0} ms",
-        row.prompt, row.frames, row.failed, row.median_iou, row.least_iou, row.median_ms, row.step_ms
+        row.prompt,
+        row.frames,
+        row.failed,
+        row.median_iou,
+        row.least_iou,
+        row.median_ms,
+        row.step_ms
     );
     if let Some(errors) = &row.median {
         println!(

@@ -211,7 +211,7 @@ fn begin(start: &[f64], locked: &[u8]) -> Result<(Pose, RefineOptions), JsError>
     Ok((from_numbers(start)?.into(), options))
 }
 
-fn model_of(model: &mut Option<LentModel>) -> Result<&mut LentModel, JsError> {
+pub(super) fn model_of(model: &mut Option<LentModel>) -> Result<&mut LentModel, JsError> {
     model.as_mut().ok_or_else(|| {
         JsError::new("Refining a pose needs the model, not only its library: open it too")
     })

@@ -31,7 +31,9 @@ pub(super) fn write(
     let (width, height) = (ZOOM * (right - left), ZOOM * (bottom - top));
     let place = |x: u32, y: u32| (left + x as usize / ZOOM, top + y as usize / ZOOM);
     let grey = |column: usize, row: usize| {
-        frame.at(column as f64 + 0.5, row as f64 + 0.5).unwrap_or(0.0)
+        frame
+            .at(column as f64 + 0.5, row as f64 + 0.5)
+            .unwrap_or(0.0)
     };
     let inside = (top..bottom).flat_map(|row| (left..right).map(move |column| (column, row)));
     let (low, high) = inside.fold((f64::MAX, f64::MIN), |(low, high), (column, row)| {

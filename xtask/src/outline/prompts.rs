@@ -56,7 +56,10 @@ impl Kind {
                 let (columns, rows) = mask.bounds();
                 let long = columns.len().max(rows.len()) as f64;
                 let mut margin = || long * random.random_range(WIDER[0]..WIDER[1]);
-                let low = Point::new(columns.start as f64 - margin(), rows.start as f64 - margin());
+                let low = Point::new(
+                    columns.start as f64 - margin(),
+                    rows.start as f64 - margin(),
+                );
                 let high = Point::new(columns.end as f64 + margin(), rows.end as f64 + margin());
                 Some(Prompt::Box(low, high))
             }
@@ -69,9 +72,8 @@ fn depths(mask: &Mask<'_>) -> Vec<(Point, f64)> {
     let (columns, rows) = mask.bounds();
     let (width, height) = (columns.len() + 2, rows.len() + 2);
     let mut depth = vec![0u32; width * height];
-    let set = |c: usize, r: usize| {
-        c > 0 && r > 0 && mask.get(columns.start + c - 1, rows.start + r - 1)
-    };
+    let set =
+        |c: usize, r: usize| c > 0 && r > 0 && mask.get(columns.start + c - 1, rows.start + r - 1);
     let inner: Vec<(usize, usize)> = (1..height - 1)
         .flat_map(|row| (1..width - 1).map(move |column| (column, row)))
         .collect();
@@ -79,11 +81,24 @@ fn depths(mask: &Mask<'_>) -> Vec<(Point, f64)> {
         let mut visit = |(c, r): (usize, usize)| {
             let at = |c: usize, r: usize| r * width + c;
             let near = if forward {
-                [(at(c - 1, r), 3), (at(c, r - 1), 3), (at(c - 1, r - 1), 4), (at(c + 1, r - 1), 4)]
+                [
+                    (at(c - 1, r), 3),
+                    (at(c, r - 1), 3),
+                    (at(c - 1, r - 1), 4),
+                    (at(c + 1, r - 1), 4),
+                ]
             } else {
-                [(at(c + 1, r), 3), (at(c, r + 1), 3), (at(c + 1, r + 1), 4), (at(c - 1, r + 1), 4)]
+                [
+                    (at(c + 1, r), 3),
+                    (at(c, r + 1), 3),
+                    (at(c + 1, r + 1), 4),
+                    (at(c - 1, r + 1), 4),
+                ]
             };
-            let least = near.into_iter().map(|(index, step)| depth[index] + step).min();
+            let least = near
+                .into_iter()
+                .map(|(index, step)| depth[index] + step)
+                .min();
             let least = least.unwrap_or(0);
             let own = if forward { u32::MAX } else { depth[at(c, r)] };
             depth[at(c, r)] = if set(c, r) { least.min(own) } else { 0 };
