@@ -50,37 +50,57 @@ pub fn unmatched(words: &[Word], bytes: &[u8]) -> u32 {
     differ.sum()
 }
 
+/// Bytes that are compared at a time: with their number known, compilers make one instruction of
+/// eight differences and their sum where the machine has it. One loop over all bytes took five times
+/// as long on x86-64, and blocks of 16 nine times as long with AVX2; written out by hand in AVX2 it was
+/// a fifth faster.
+const LANES: usize = 32;
+
 /// Writes `base` and the sum of the bytes' differences between `sketch` and each of the `sketches`
 /// of the same length that follow one another.
 #[inline(always)]
 pub fn distances(sketch: &[u8], sketches: &[u8], base: u32, out: &mut [u32]) {
+    let ours = sketch.as_chunks::<LANES>();
     for (out, other) in out
         .iter_mut()
         .zip(sketches.chunks_exact(sketch.len().max(1)))
     {
-        *out = base + sum_of_differences(sketch.iter().zip(other));
+        let theirs = other.as_chunks::<LANES>();
+        let lanes = ours.0.iter().zip(theirs.0).map(|(a, b)| difference(a, b));
+        *out = base + lanes.sum::<u32>() + difference(ours.1, theirs.1);
     }
+}
+
+#[inline(always)]
+fn difference(a: &[u8], b: &[u8]) -> u32 {
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| u32::from(a.abs_diff(*b))).sum()
 }
 
 /// Sum over the bytes of the gap between two intervals, each `[low, high]`; 0 where they meet.
 #[inline(always)]
 #[must_use]
 pub fn gap([low, high]: [&[u8]; 2], [other_low, other_high]: [&[u8]; 2]) -> u32 {
-    sum_of_excess(low, other_high) + sum_of_excess(other_low, high)
+    let (a, b) = (low.as_chunks::<LANES>(), high.as_chunks::<LANES>());
+    let (c, d) = (
+        other_low.as_chunks::<LANES>(),
+        other_high.as_chunks::<LANES>(),
+    );
+    let lanes = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
+    let lanes = lanes.map(|((a, b), (c, d))| excess(a, b, c, d));
+    lanes.sum::<u32>() + excess(a.1, b.1, c.1, d.1)
 }
 
-/// Compilers make one instruction of eight differences and their sum where the machine has it, as
-/// long as the loop is as plain as this. In blocks of 32 with sums of their own it was slower.
+/// What the higher of two lows exceeds the lower of two highs by; as a difference, for the same
+/// instruction.
 #[inline(always)]
-fn sum_of_differences<'a>(pairs: impl Iterator<Item = (&'a u8, &'a u8)>) -> u32 {
-    pairs.map(|(a, b)| u32::from(a.abs_diff(*b))).sum()
-}
-
-/// Sum of what the bytes of `a` exceed those of `b` by; as differences, for the same instruction.
-#[inline(always)]
-fn sum_of_excess(a: &[u8], b: &[u8]) -> u32 {
-    let pairs = a.iter().zip(b);
-    pairs.map(|(&a, &b)| u32::from(a.max(b).abs_diff(b))).sum()
+fn excess(low: &[u8], high: &[u8], other_low: &[u8], other_high: &[u8]) -> u32 {
+    let intervals = low.iter().zip(high).zip(other_low.iter().zip(other_high));
+    let gaps = intervals.map(|((&low, &high), (&other_low, &other_high))| {
+        let (low, high) = (low.max(other_low), high.min(other_high));
+        u32::from(low.max(high).abs_diff(high))
+    });
+    gaps.sum()
 }
 
 #[cfg(test)]
