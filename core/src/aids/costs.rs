@@ -202,7 +202,7 @@ impl CostBuilder {
             let strength = 255 * magnitude / (magnitude + self.reference);
             let ridge = is_ridge(rows, column, edge.outwards);
             let share = if ridge { 256 } else { OFF_RIDGE };
-            edge.strength = (strength * share >> 8) as u8;
+            edge.strength = ((strength * share) >> 8) as u8;
         }
     }
 }

@@ -15,7 +15,7 @@ impl Neighbours {
     /// Those of step `number` of an octagon.
     #[must_use]
     pub fn of_step(number: usize) -> Self {
-        if number % 2 == 0 {
+        if number.is_multiple_of(2) {
             Self::Four
         } else {
             Self::Eight

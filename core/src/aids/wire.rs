@@ -141,7 +141,7 @@ impl Prices {
         // The left of a heading is a quarter turn back.
         let left = (heading as u8).wrapping_mul(32).wrapping_sub(64);
         let alignment = self.alignment[usize::from(edge.outwards.wrapping_sub(left))];
-        let strength = u32::from(edge.strength) * u32::from(alignment) >> 8;
+        let strength = (u32::from(edge.strength) * u32::from(alignment)) >> 8;
         u32::from(self.by_strength[heading & 1][strength as usize & 255])
     }
 }
