@@ -269,6 +269,14 @@ impl<'s, 'm> Search<'s, 'm> {
             let known = self.known(neighbour, reversed);
             known.is_some_and(|known| known < bound)
         });
+        if beaten {
+            return false;
+        }
+        // Otherwise the likeliest neighbour is compared first: it beats other views round it, too.
+        let least = neighbours(&grid, view).min_by_key(|&near| self.at_least(near, reversed));
+        let beaten = least.is_some_and(|least| {
+            self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
+        });
         !beaten && self.better_neighbour(view, reversed).is_none()
     }
 

@@ -10,6 +10,7 @@ pub mod demo;
 pub mod evaluate;
 pub mod film;
 pub mod firmware;
+pub mod identify;
 pub mod implant;
 pub mod kinematics;
 pub mod library;

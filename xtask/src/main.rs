@@ -24,6 +24,8 @@ enum Verb {
     Biplane(xtask::biplane::Args),
     /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
     Synthetic(xtask::synthetic::Args),
+    /// Tell which implant of a catalogue each mask of a folder is of
+    Identify(xtask::identify::Args),
     /// Compare poses from a study's masks with its reference poses
     Evaluate(xtask::evaluate::Args),
     /// How well a pose can be known from a noisy outline (Cramer and Rao)
@@ -65,6 +67,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Pose(args) => xtask::pose::run(args),
         Verb::Biplane(args) => xtask::biplane::run(args),
         Verb::Synthetic(args) => xtask::synthetic::run(args),
+        Verb::Identify(args) => xtask::identify::run(args),
         Verb::Evaluate(args) => xtask::evaluate::run(args),
         Verb::Bound(args) => xtask::bound::run(args),
         Verb::Calibrate(args) => xtask::calibrate::run(args),

@@ -5,7 +5,6 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::frame::Grey;
-use fluoropose::kernels::Kernels;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, workspace_needed};
 use fluoropose::mask::{Word, words_needed};
@@ -97,7 +96,7 @@ impl Buffers {
                 turned: &mut self.turned,
                 scores: &mut self.scores,
                 bytes: &mut self.bytes,
-                kernels: Kernels::PORTABLE,
+                kernels: fluoropose_kernels::fastest(),
             },
             refine: RefineMemory {
                 projected: &mut self.projected,

@@ -2,7 +2,6 @@
 
 use anyhow::{Result, bail};
 use fluoropose::camera::Camera;
-use fluoropose::kernels::Kernels;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
 use fluoropose::mask::Word;
@@ -95,7 +94,7 @@ impl<'l> Locator<'l> {
             turned: &mut self.turned,
             scores: &mut self.scores,
             bytes: &mut self.bytes,
-            kernels: Kernels::PORTABLE,
+            kernels: fluoropose_kernels::fastest(),
         };
         let found = locate::<RIVALS>(silhouette.mask(), camera, &self.library, work)?;
         let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;
