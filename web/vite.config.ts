@@ -1,12 +1,17 @@
 import { defineConfig } from 'vitest/config';
 import project from './package.json' with { type: 'json' };
+import { embedded } from './build/embedded';
+import { offline } from './build/offline';
+import { contentPolicy } from './build/policy';
 
-export default defineConfig({
+/** `vite build` makes the page for a host, `vite build --mode embedded` the page that is one file. */
+export default defineConfig(({ mode }) => ({
   // Relative addresses: the built page works from any folder of any static host.
   base: './',
   define: { __VERSION__: JSON.stringify(project.version) },
-  oxc: { jsx: { runtime: 'automatic', importSource: 'preact' } },
-  worker: { format: 'es' },
+  plugins: mode === 'embedded' ? [embedded()] : [contentPolicy(), offline()],
+  oxc: { jsx: { runtime: 'automatic' as const, importSource: 'preact' } },
+  worker: { format: 'es' as const },
   build: { target: 'es2022', assetsInlineLimit: 0 },
-  test: { include: ['tests/**/*.test.ts'], environment: 'node' },
-});
+  test: { include: ['tests/**/*.test.ts'], environment: 'node' as const },
+}));

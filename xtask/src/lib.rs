@@ -1,6 +1,7 @@
 //! Every job of the project, one file a verb; what verbs share stands beside them.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod bench;
 pub mod biplane;
 pub mod bound;
 pub mod ci;
@@ -12,6 +13,7 @@ pub mod implant;
 pub mod kinematics;
 pub mod library;
 pub mod models;
+pub mod package;
 pub mod page;
 pub mod pipeline;
 pub mod pose;

@@ -32,6 +32,10 @@ enum Verb {
     Kinematics(xtask::kinematics::Args),
     /// Build the page and serve it on this machine
     Serve(xtask::serve::Args),
+    /// Package the page for hosts and as one file, and the npm module
+    Package(xtask::package::Args),
+    /// Measure the page in headless Chromium
+    Bench(xtask::bench::Args),
     /// Set up what is missing and run the tests
     Test(xtask::test::Args),
     /// What continuous integration runs
@@ -61,6 +65,8 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Bound(args) => xtask::bound::run(args),
         Verb::Kinematics(args) => xtask::kinematics::run(args),
         Verb::Serve(args) => xtask::serve::run(args),
+        Verb::Package(args) => xtask::package::run(args),
+        Verb::Bench(args) => xtask::bench::run(args),
         Verb::Test(args) => xtask::test::run(args),
         Verb::Ci(args) => xtask::ci::run(args),
     }

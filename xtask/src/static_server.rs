@@ -7,9 +7,15 @@ use std::thread::JoinHandle;
 use anyhow::{Context, Result, anyhow};
 use axum::Router;
 use axum::http::HeaderValue;
-use axum::http::header::{CACHE_CONTROL, HeaderName, X_CONTENT_TYPE_OPTIONS};
+use axum::http::header::{
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, HeaderName, X_CONTENT_TYPE_OPTIONS,
+};
 use tower_http::services::ServeDir;
 use tower_http::set_header::SetResponseHeaderLayer;
+
+/// What a page may load and run, a directive a line. The built page says the same of itself for hosts without headers,
+/// but its workers only know what comes with them.
+const POLICY: &str = include_str!("../../web/content_security_policy.txt");
 
 /// A running server; it lives until the process ends.
 pub struct Server {
@@ -27,7 +33,7 @@ impl Server {
         })?;
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
-        let app = router(folder);
+        let app = router(folder)?;
         let thread = std::thread::spawn(move || serve(listener, app));
         Ok(Self { address, thread })
     }
@@ -46,17 +52,27 @@ impl Server {
 }
 
 /// Files the bundler names by a hash of their content never change; everything else is asked for again.
-fn router(folder: &Path) -> Router {
+fn router(folder: &Path) -> Result<Router> {
     let hashed = Router::new()
         .fallback_service(ServeDir::new(folder.join("assets")))
         .layer(header(CACHE_CONTROL, "public, max-age=31536000, immutable"));
     let rest = Router::new()
         .fallback_service(ServeDir::new(folder))
         .layer(header(CACHE_CONTROL, "no-cache"));
-    Router::new()
+    Ok(Router::new()
         .nest("/assets", hashed)
         .fallback_service(rest)
-        .layer(header(X_CONTENT_TYPE_OPTIONS, "nosniff"))
+        .layer(SetResponseHeaderLayer::overriding(
+            CONTENT_SECURITY_POLICY,
+            policy()?,
+        ))
+        .layer(header(X_CONTENT_TYPE_OPTIONS, "nosniff")))
+}
+
+fn policy() -> Result<HeaderValue> {
+    // That no other page may frame this one can be said in a header alone.
+    let directives: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
+    Ok(HeaderValue::from_str(&directives.join("; "))?)
 }
 
 fn header(name: HeaderName, value: &'static str) -> SetResponseHeaderLayer<HeaderValue> {
@@ -126,6 +142,10 @@ mod tests {
         );
         assert!(
             page.contains("content-type: text/html") && page.contains("cache-control: no-cache"),
+            "{page}"
+        );
+        assert!(
+            page.contains("content-security-policy: default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; "),
             "{page}"
         );
         let module = site.get(&server, "/assets/core.wasm").to_lowercase();

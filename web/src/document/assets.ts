@@ -1,3 +1,5 @@
+import { digestOf } from './digest';
+
 /** Bytes of every file that was opened, by SHA-256: the document names them, the session includes them. */
 export interface Asset {
   readonly name: string;
@@ -20,9 +22,4 @@ export class Assets {
   get(sha256: string): Asset | undefined {
     return this.#byDigest.get(sha256);
   }
-}
-
-export async function digestOf(bytes: Uint8Array<ArrayBuffer>): Promise<string> {
-  const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
-  return Array.from(digest, (byte) => byte.toString(16).padStart(2, '0')).join('');
 }

@@ -1,8 +1,10 @@
+import { withReference } from './reference';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
 import type { FramePoint } from '../geometry/points';
 import {
   cellKey,
   cellOf,
+  isByHand,
   type Calibration,
   type Cell,
   type Component,
@@ -85,7 +87,8 @@ export function toggleUnknownSide(place: Place, side: number): Command {
   );
 }
 
-function onOutline(label: string, place: Place, change: (outline: Outline | null) => Outline | null): Command {
+/** A change of the outline at a place; the same object back is no change. */
+export function onOutline(label: string, place: Place, change: (outline: Outline | null) => Outline | null): Command {
   return {
     label,
     place,
@@ -97,8 +100,12 @@ function onOutline(label: string, place: Place, change: (outline: Outline | null
   };
 }
 
-/** While a closed outline changes, the last result stays on view until the new one is there. */
+/**
+ * While a closed outline changes, the last result stays on view until the new one is there. A pose that was set by hand
+ * does not come from an outline and stays in any case.
+ */
 function keepWhileFollowing(cell: Cell, outline: Outline | null): Cell {
+  if (isByHand(cell.result)) return { ...cell, outline };
   return outline?.closed ? { ...cell, outline } : { outline, result: null, resultOf: null };
 }
 
@@ -106,6 +113,7 @@ function keepWhileFollowing(cell: Cell, outline: Outline | null): Cell {
 export function carryResult(shown: Doc, next: Doc, place: Place): Doc {
   const { result, resultOf } = cellOf(shown, place.frameId, place.component);
   const cell = cellOf(next, place.frameId, place.component);
+  if (isByHand(cell.result)) return next;
   return cell.outline?.closed && result ? withCell(next, place, { ...cell, result, resultOf }) : next;
 }
 
@@ -135,6 +143,7 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
       doc.frames.reduce((changed, frame, index) => {
         const pose = poses[index];
         if (!pose) return changed;
+        changed = withReference(changed, fileName, { [cellKey(frame.id, component)]: pose });
         const place = { frameId: frame.id, component };
         const { outline } = cellOf(changed, frame.id, component);
         const candidates = [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }];

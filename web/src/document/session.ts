@@ -1,4 +1,5 @@
 import { framePoint, type FramePoint } from '../geometry/points';
+import { readAudit, type Audit } from './audit';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from './reader';
 import type {
   Calibration,
@@ -11,9 +12,11 @@ import type {
   FrameEntry,
   GreyWindow,
   LibrarySpec,
+  Mark,
   Outline,
   PoseNumbers,
   Posed,
+  Reference,
   Result,
 } from './types';
 
@@ -25,6 +28,8 @@ export interface Session {
   readonly doc: Doc;
   readonly view: SessionView;
   readonly files: readonly SessionFile[];
+  /** What gave the results, by digest; null in sessions of version 1. */
+  readonly audit: Audit | null;
 }
 
 export interface SessionView {
@@ -41,7 +46,9 @@ export interface SessionFile {
 }
 
 export const SESSION_KIND = 'fluoropose-session';
-export const SESSION_VERSION = 1;
+export const SESSION_VERSION = 2;
+/** Version 1 had neither marks nor an audit. */
+const OLDEST_VERSION = 1;
 
 /** Parts of a blob: one long text may be more than a text can hold. */
 export function writeSession(session: Session, program: string, savedAt: Date): string[] {
@@ -51,7 +58,8 @@ export function writeSession(session: Session, program: string, savedAt: Date): 
     program,
     savedAt: savedAt.toISOString(),
     view: session.view,
-    document: plain(session.doc),
+    audit: session.audit,
+    document: plainDoc(session.doc),
   };
   const opening = `${JSON.stringify(head).slice(0, -1)},\n"files":[`;
   const files = session.files.map((file, index) => `${index === 0 ? '' : ','}\n${writeFile(file)}`);
@@ -62,13 +70,16 @@ export function readSession(json: string): Session {
   const value = parse(json);
   if (value['kind'] !== SESSION_KIND) throw new ReadError('this JSON is not a fluoropose session (no "kind")');
   const version = number(value['version'], 'version');
-  if (version !== SESSION_VERSION) {
-    throw new ReadError(`this session has version ${version}; this page reads version ${SESSION_VERSION}`);
+  if (version < OLDEST_VERSION || version > SESSION_VERSION) {
+    throw new ReadError(
+      `this session has version ${version}; this page reads versions ${OLDEST_VERSION} to ${SESSION_VERSION}: open it with a newer page`,
+    );
   }
   return {
     doc: readDoc(value['document'], 'document'),
     view: readView(value['view'], 'view'),
     files: list(readFile)(value['files'], 'files'),
+    audit: optional(readAudit)(value['audit'], 'audit'),
   };
 }
 
@@ -84,12 +95,13 @@ function parse(json: string): Record<string, unknown> {
 
 // --- Points are written as pairs: shorter, and easy to read elsewhere ----------------------------------------------
 
-function plain(doc: Doc): unknown {
+/** The document as JSON has it. Which work it is in this browser is of no use elsewhere. */
+export function plainDoc({ work: _, ...doc }: Doc): Record<string, unknown> {
   const cells = Object.entries(doc.cells).map(([key, cell]) => [key, plainCell(cell)]);
   return { ...doc, cells: Object.fromEntries(cells) };
 }
 
-function plainCell({ outline, result, resultOf }: Cell): unknown {
+export function plainCell({ outline, result, resultOf }: Cell): unknown {
   return { outline: plainOutline(outline), result, resultIsCurrent: result !== null && resultOf === outline };
 }
 
@@ -127,15 +139,20 @@ const readCandidate = object<Candidate>({
   deviations: optional(readPose),
 });
 
-const readPosed = object<Posed>({
+const readPosedParts = object<Omit<Posed, 'program'>>({
   kind: oneOf('posed'),
-  from: oneOf('outline', 'file'),
+  from: oneOf('outline', 'file', 'hand'),
   origin: text,
   candidates: list(readCandidate),
   chosen: count,
   reason: optional(text),
   decided: missingAs(false, flag),
 });
+
+const readPosed: Reader<Posed> = (value, path) => {
+  const { program } = object({ program: optional(text) })(value, path);
+  return { ...readPosedParts(value, path), ...(program !== null && { program }) };
+};
 
 const readFailed = object<Failed>({ kind: oneOf('failed'), origin: text, sentence: text });
 
@@ -185,7 +202,12 @@ const readComponent = object<Component>({
   librarySpec: readSpec,
 });
 
-const readDoc = object<Doc>({
+/** Sessions from before poses could be compared have none. */
+const readPosesToCompare = optional(object<Reference>({ name: text, poses: dictionary(readPose) }));
+
+const readMark = object<Mark>({ checked: nullable(text), flagged: flag, note: text });
+
+const readDocParts = object<Omit<Doc, 'work'>>({
   name: text,
   side: oneOf('left', 'right', 'unknown'),
   frames: list(readFrame),
@@ -193,9 +215,14 @@ const readDoc = object<Doc>({
   components: object({ femur: readComponent, tibia: readComponent }),
   cells: dictionary(readCell),
   window: nullable(object<GreyWindow>({ centre: number, width: number })),
+  reference: readPosesToCompare,
+  marks: missingAs({}, dictionary(readMark)),
 });
 
-const readView = object<SessionView>({
+/** The reverse of `plainDoc`. */
+export const readDoc: Reader<Doc> = (value, path) => ({ ...readDocParts(value, path), work: '' });
+
+export const readView = object<SessionView>({
   frameIndex: count,
   component: oneOf('femur', 'tibia'),
   overlayOpacity: number,

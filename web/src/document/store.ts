@@ -2,6 +2,8 @@ import type { Viewport } from '../geometry/viewport';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
+import type { Proposal } from './proposal';
+import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
 import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
@@ -18,24 +20,48 @@ export interface Ui {
   readonly viewport: Viewport | null;
   readonly selectedPoint: number | null;
   readonly overlayOpacity: number;
+  /** How things are shown; `view/taste.ts` remembers it. */
+  readonly seeing: Seeing;
+  readonly hand: HandSettings;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
   readonly notice: Notice | null;
   readonly log: readonly Notice[];
   readonly jobs: readonly Job[];
+  /** When a session file was last written. */
   readonly savedAt: number | null;
+  readonly keeping: Keeping;
+  /** What is about to be imported; null while nothing is. */
+  readonly proposal: Proposal | null;
+  /** Brings a newer version of the page into use; null while there is none. */
+  readonly update: (() => void) | null;
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import';
 
 export interface Notice {
   readonly kind: 'info' | 'error';
   readonly text: string;
   readonly at: number;
+  /** A button beside the text. */
+  readonly offer?: Offer;
 }
+
+export interface Offer {
+  readonly label: string;
+  readonly take: () => void;
+}
+
+/** How far the work is in the browser's own storage. */
+export type Keeping =
+  | { readonly state: 'nothing' }
+  /** `since`: when the first change came that is not kept yet. */
+  | { readonly state: 'pending'; readonly since: number }
+  | { readonly state: 'kept'; readonly at: number }
+  | { readonly state: 'refused'; readonly sentence: string };
 
 /** Long work, with a count and a time, that can be called off. */
 export interface Job {
@@ -61,12 +87,17 @@ const EMPTY_UI: Ui = {
   viewport: null,
   selectedPoint: null,
   overlayOpacity: 0.35,
+  seeing: DEFAULT_SEEING,
+  hand: DEFAULT_HAND,
   overlaysHidden: false,
   popover: null,
   notice: null,
   log: [],
   jobs: [],
   savedAt: null,
+  keeping: { state: 'nothing' },
+  proposal: null,
+  update: null,
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
 
@@ -154,8 +185,16 @@ export class Store {
     if (component !== this.ui.component) this.show({ component, selectedPoint: null });
   }
 
-  say(kind: Notice['kind'], text: string): void {
-    const notice: Notice = { kind, text, at: Date.now() };
+  see(change: Partial<Seeing>): void {
+    this.show({ seeing: { ...this.ui.seeing, ...change } });
+  }
+
+  setHand(change: Partial<HandSettings>): void {
+    this.show({ hand: { ...this.ui.hand, ...change } });
+  }
+
+  say(kind: Notice['kind'], text: string, offer?: Offer): void {
+    const notice: Notice = { kind, text, at: Date.now(), ...(offer && { offer }) };
     this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
   }
 

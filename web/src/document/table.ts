@@ -1,4 +1,4 @@
-import { cellOf, chosenCandidate, isRefined, type ComponentName, type Doc, type PoseNumbers, type Result } from './types';
+import { cellOf, chosenCandidate, isRefined, type ComponentName, type Doc, type Posed, type PoseNumbers, type Result } from './types';
 
 const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies readonly (keyof PoseNumbers)[];
 
@@ -42,9 +42,21 @@ export function poseTable(doc: Doc, component: ComponentName): string {
 /** Method, number of the candidate from 1, how many there are, and the reason. */
 function choiceOf(result: Result | null): (string | number | null)[] {
   if (result?.kind !== 'posed') return [null, null, null, result?.sentence ?? null];
-  const method = result.from === 'file' ? `file ${result.origin}` : isRefined(result) ? 'refined' : 'library';
   const reason = result.chosen === 0 ? result.reason : 'Chosen by hand.';
-  return [method, result.chosen + 1, result.candidates.length, reason];
+  return [methodOf(result), result.chosen + 1, result.candidates.length, reason];
+}
+
+/** How a pose was found, in a few words. */
+export function methodOf(result: Posed): string {
+  const refined = isRefined(result);
+  switch (result.from) {
+    case 'file':
+      return `file ${result.origin}`;
+    case 'hand':
+      return refined ? 'by hand, refined' : 'by hand';
+    case 'outline':
+      return refined ? 'refined' : 'library';
+  }
 }
 
 function field(value: string | number | null): string {

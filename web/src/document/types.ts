@@ -14,6 +14,27 @@ export interface Doc {
   readonly cells: Readonly<Record<string, Cell>>;
   /** Null until a frame is opened: its own suggestion is used. */
   readonly window: GreyWindow | null;
+  /** Poses to compare with: those of a file, or what was shown when somebody kept them. */
+  readonly reference: Reference | null;
+  /** What people noted about cells, by `cellKey`. */
+  readonly marks: Readonly<Record<string, Mark>>;
+  /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
+  readonly work: string;
+}
+
+/** What a person says of a cell. */
+export interface Mark {
+  /** Fingerprint of what was looked at when the cell was marked checked; null: not checked. */
+  readonly checked: string | null;
+  readonly flagged: boolean;
+  readonly note: string;
+}
+
+export interface Reference {
+  /** Where they come from, for people. */
+  readonly name: string;
+  /** By `cellKey`. */
+  readonly poses: Readonly<Record<string, PoseNumbers>>;
 }
 
 export type Side = 'left' | 'right' | 'unknown';
@@ -86,9 +107,9 @@ export type Result = Posed | Failed;
 
 export interface Posed {
   readonly kind: 'posed';
-  /** What the pose was found from: a library match of the cell's outline, or a file. */
-  readonly from: 'outline' | 'file';
-  /** Library and camera that found it (`libraryKey`), or the file's name. */
+  /** What the pose was found from: a library match of the cell's outline, a file, or somebody's hand. */
+  readonly from: 'outline' | 'file' | 'hand';
+  /** Library and camera that found it (`libraryKey`), the file's name, or how a pose set by hand was begun. */
   readonly origin: string;
   readonly candidates: readonly Candidate[];
   readonly chosen: number;
@@ -96,6 +117,8 @@ export interface Posed {
   readonly reason: string | null;
   /** Did anything speak for it besides a slightly smaller residual? Then other choices may rest on it. */
   readonly decided: boolean;
+  /** The version of this program that worked it out; missing for what did not come from it. */
+  readonly program?: string;
 }
 
 export interface Failed {
@@ -157,6 +180,9 @@ export const EMPTY_DOC: Doc = {
   components: { femur: EMPTY_COMPONENT, tibia: EMPTY_COMPONENT },
   cells: {},
   window: null,
+  reference: null,
+  marks: {},
+  work: '',
 };
 
 export function cellKey(frameId: string, component: ComponentName): string {
@@ -169,6 +195,11 @@ export function cellOf(doc: Doc, frameId: string | undefined, component: Compone
 
 export function chosenCandidate(cell: Cell): Candidate | null {
   return cell.result?.kind === 'posed' ? (cell.result.candidates[cell.result.chosen] ?? null) : null;
+}
+
+/** A pose that somebody set stays until somebody changes it: nothing that the page works out takes its place. */
+export function isByHand(result: Result | null): boolean {
+  return result?.kind === 'posed' && result.from === 'hand';
 }
 
 /** Were the poses brought onto the outline, or are they the library's? */

@@ -1,10 +1,11 @@
 import * as commands from '../document/commands';
 import { list, object, oneOf, text, type Reader } from '../document/reader';
 import { EMPTY_DOC, type ComponentName } from '../document/types';
+import { addressOf } from './address';
 import { openFiles, type Incoming } from './opener';
 import type { Services } from './services';
 
-const FOLDER = './demo/';
+const FOLDER = 'demo/';
 
 interface Manifest {
   readonly name: string;
@@ -47,7 +48,7 @@ async function incoming(name: string, component?: ComponentName): Promise<Incomi
 }
 
 async function fetched(name: string): Promise<Response> {
-  const response = await fetch(FOLDER + name);
+  const response = await fetch(addressOf(FOLDER + name));
   if (!response.ok) throw new Error(`the demonstration's ${name} could not be fetched (${response.status})`);
   return response;
 }

@@ -23,7 +23,7 @@ export function missingForPose(state: State, component: ComponentName): readonly
 export function isOutdated(state: State): boolean {
   const frame = currentFrame(state);
   const { result } = currentCell(state);
-  if (!frame || result?.kind !== 'posed' || result.from === 'file') return false;
+  if (!frame || result?.kind !== 'posed' || result.from !== 'outline') return false;
   return result.origin !== poseKey(state.history.present, state.ui.component, frame);
 }
 

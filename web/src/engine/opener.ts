@@ -219,11 +219,11 @@ async function openSession(services: Services, file: Incoming, remarks: string[]
     const asset = await services.assets.add(included.name, included.bytes);
     if (asset.sha256 !== included.sha256) damaged.push(included.name);
   }
-  const missing = await restore(services, session.doc);
+  const missing = await bringFiles(services, session.doc, 'Opening the session');
   const { store } = services;
   // A command like any other: undo brings back what was open before.
   store.perform({ label: 'open a session', apply: () => session.doc });
-  store.markSaved(session.doc);
+  store.markSaved(store.doc);
   const { frameIndex, component, overlayOpacity } = session.view;
   store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
   store.goTo(frameIndex);
@@ -233,12 +233,12 @@ async function openSession(services: Services, file: Incoming, remarks: string[]
 }
 
 /** Brings the files that a document names into the studio; returns the names of those that are not at hand. */
-async function restore(services: Services, doc: Doc): Promise<string[]> {
+export async function bringFiles(services: Services, doc: Doc, title: string): Promise<string[]> {
   const missing: string[] = [];
   const never = new AbortController().signal;
   const sources = new Map(doc.frames.map((frame) => [frame.source, frame.name.replace(/ #\d+$/, '')]));
   const total = sources.size;
-  const job = { title: 'Opening the session', unit: 'files', total, cancel: () => undefined };
+  const job = { title, unit: 'files', total, cancel: () => undefined };
   await asJob(services.store, job, async (report) => {
     let done = 0;
     for (const [sha256, name] of sources) {

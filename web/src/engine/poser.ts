@@ -3,6 +3,7 @@ import { currentCell, currentFrame, currentPlace, type Store } from '../document
 import {
   cellOf,
   COMPONENT_NAMES,
+  isByHand,
   isRefined,
   type Candidate,
   type Cell,
@@ -13,6 +14,7 @@ import {
 } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, poseKey } from './keys';
+import { PROGRAM } from './program';
 import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
@@ -228,14 +230,19 @@ export class Poser {
   }
 }
 
-/** Does the cell's result still have to be found from its outline? Poses from a file stay until the outline changes. */
+/**
+ * Does the cell's result still have to be found from its outline? Poses from a file stay until the outline changes, one
+ * that was set by hand stays until it is dropped.
+ */
 function isStale({ outline, result, resultOf }: Cell, key: string): boolean {
+  if (isByHand(result)) return false;
   if (!result || resultOf !== outline) return true;
   return !isLoaded({ result }) && result.origin !== key;
 }
 
+/** Given by a person or a file, not found here. */
 function isLoaded({ result }: Pick<Cell, 'result'>): boolean {
-  return result?.kind === 'posed' && result.from === 'file';
+  return result?.kind === 'posed' && result.from !== 'outline';
 }
 
 /**
@@ -264,7 +271,7 @@ function posed(match: Match, origin: string): Result {
     residual,
     deviations,
   }));
-  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided };
+  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided, program: PROGRAM };
 }
 
 function samePoints(a: Outline, b: Outline): boolean {

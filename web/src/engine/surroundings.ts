@@ -1,4 +1,4 @@
-import { cellOf, chosenCandidate, type Cell, type ComponentName, type Doc, type PoseNumbers } from '../document/types';
+import { cellOf, chosenCandidate, isByHand, type Cell, type ComponentName, type Doc, type PoseNumbers } from '../document/types';
 import type { Surroundings } from './protocol';
 
 /** What a choice in a frame may rest on: poses that were decided themselves, chosen by hand or read from a file. */
@@ -15,6 +15,7 @@ export function surroundingsOf(doc: Doc, frameId: string, component: ComponentNa
 function reliablePose(cell: Cell): PoseNumbers | null {
   const { result, resultOf, outline } = cell;
   const candidate = chosenCandidate(cell);
+  if (candidate && isByHand(result)) return candidate.pose;
   if (result?.kind !== 'posed' || !candidate || resultOf !== outline) return null;
   if (result.from === 'file' || result.chosen !== 0) return candidate.pose;
   return result.decided && candidate.residual !== null ? candidate.pose : null;

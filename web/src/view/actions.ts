@@ -57,7 +57,7 @@ export class Actions {
         store.redo();
         return true;
       case 'save':
-        this.saveSession();
+        void this.saveSession();
         return true;
       case 'open':
         void this.openPicked();
@@ -232,10 +232,10 @@ export class Actions {
     await this.#telling(() => openDemonstration(this.#services));
   }
 
-  saveSession(includeFiles = true): void {
+  async saveSession(includeFiles = true): Promise<void> {
     const { store } = this.#services;
     const doc = store.doc;
-    download(saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
+    download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
     store.show({ savedAt: Date.now(), popover: null });
     store.say('info', includeFiles ? 'Session saved, with every file it needs.' : 'Session saved; its files are named by digest, keep them.');

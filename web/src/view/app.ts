@@ -2,6 +2,7 @@ import { createContext } from 'preact';
 import { useContext, useEffect, useState } from 'preact/hooks';
 import type { State } from '../document/store';
 import type { Convergence } from '../engine/convergence';
+import type { Keeper } from '../engine/keep/keeper';
 import type { Librarian } from '../engine/librarian';
 import type { Poser } from '../engine/poser';
 import type { Services } from '../engine/services';
@@ -13,6 +14,7 @@ export interface App {
   readonly librarian: Librarian;
   readonly poser: Poser;
   readonly convergence: Convergence;
+  readonly keeper: Keeper;
   readonly actions: Actions;
 }
 

@@ -5,6 +5,7 @@ import type { CalibrationFacts } from '../engine/protocol';
 import { sentenceOf } from '../engine/services';
 import { useApp } from './app';
 import { NumberField } from './number_field';
+import { texts } from '../texts';
 
 /** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
 export function CalibrationSheet({ state }: { state: State }) {
@@ -24,7 +25,7 @@ export function CalibrationSheet({ state }: { state: State }) {
     try {
       const size = frame ?? { width: 1024, height: 1024 };
       const text = studio.calibrationText(typed.distance, typed.offsetX, typed.offsetY, typed.pitch, size);
-      store.perform(commands.setCalibration({ name: 'typed', text }));
+      store.perform(commands.setCalibration({ name: texts.calibration.typedName, text }));
       setTrouble('');
       store.show({ popover: null });
     } catch (error) {
@@ -41,24 +42,23 @@ export function CalibrationSheet({ state }: { state: State }) {
     >
       <p class="sheet-text">{describe(state, facts)}</p>
       <div class="fields">
-        <NumberField label="Principal distance" unit="mm" value={typed.distance} onChange={set('distance')} />
-        <NumberField label="Pixel pitch" unit="mm" value={typed.pitch} onChange={set('pitch')} />
-        <NumberField label="Principal point x" unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
-        <NumberField label="Principal point y" unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
+        <NumberField label={texts.calibration.distance} unit="mm" value={typed.distance} onChange={set('distance')} />
+        <NumberField label={texts.calibration.pitch} unit="mm" value={typed.pitch} onChange={set('pitch')} />
+        <NumberField label={texts.calibration.pointX} unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
+        <NumberField label={texts.calibration.pointY} unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
       </div>
       <p class="sheet-text quiet">
-        Distance from the X-ray focus to the detector; principal point from the frame's middle, x to the right, y up.
-        {frame ? ` The frame has ${frame.width} x ${frame.height} px.` : ''}
+        {texts.calibration.meaning} {frame ? texts.calibration.frameSize(frame.width, frame.height) : ''}
       </p>
       <p class="sheet-trouble" role="alert">
         {trouble}
       </p>
       <div class="sheet-buttons">
         <button type="submit" class="button primary">
-          Use these numbers
+          {texts.calibration.use}
         </button>
         <button type="button" class="button" onClick={() => void actions.openPicked()}>
-          Open a calibration file
+          {texts.calibration.open}
         </button>
       </div>
     </form>
@@ -78,9 +78,9 @@ function factsOf(state: State, read: (text: string, frame: ReturnType<typeof cur
 
 function describe(state: State, facts: CalibrationFacts | null): string {
   const { calibration } = state.history.present;
-  if (!calibration || !facts) return 'No calibration yet. Drop a JT_INTCALIB or MayaCam file, or type the numbers.';
-  if (!facts.camera) return `${calibration.name}.`;
+  if (!calibration || !facts) return texts.calibration.none;
+  if (!facts.camera) return texts.calibration.nameOnly(calibration.name);
   const { fx, fy, cx, cy } = facts.camera;
   const focal = fx === fy ? fx.toFixed(1) : `${fx.toFixed(1)} x ${fy.toFixed(1)}`;
-  return `${calibration.name}: focal length ${focal} px, principal point at ${cx.toFixed(1)}, ${cy.toFixed(1)} px.`;
+  return texts.calibration.facts(calibration.name, focal, cx.toFixed(1), cy.toFixed(1));
 }

@@ -4,6 +4,7 @@ import type { LibraryState, State } from '../document/store';
 import type { ComponentName, LibrarySpec } from '../document/types';
 import { useApp } from './app';
 import { NumberField } from './number_field';
+import { texts } from '../texts';
 
 /** A component's model and library. */
 export function ComponentSheet({ state, component }: { state: State; component: ComponentName }) {
@@ -14,19 +15,19 @@ export function ComponentSheet({ state, component }: { state: State; component: 
   return (
     <div class="sheet-body">
       <p class="sheet-text">
-        {model ? `Model ${model.name}.` : 'No model yet.'} {libraryText(library, libraryFile?.name ?? null)}
+        {model ? texts.library.model(model.name) : texts.library.noModel} {libraryText(library, libraryFile?.name ?? null)}
       </p>
       <div class="sheet-buttons">
         <button type="button" class="button" onClick={() => void actions.openPicked(component)}>
-          Open a model, library or poses
+          {texts.library.open}
         </button>
         {libraryFile ? (
           <button type="button" class="button" disabled={!model} onClick={() => store.perform(commands.setLibraryFile(component, null))}>
-            Build from the model instead
+            {texts.library.fromModel}
           </button>
         ) : (
           <button type="button" class="button" disabled={library.state !== 'stopped'} onClick={() => librarian.retry(component)}>
-            Build the library
+            {texts.library.build}
           </button>
         )}
       </div>
@@ -38,14 +39,14 @@ export function ComponentSheet({ state, component }: { state: State; component: 
 function libraryText(library: LibraryState, file: string | null): string {
   switch (library.state) {
     case 'none':
-      return 'A library needs the model, a calibration and a frame; it is built as soon as they are here.';
+      return texts.library.needs;
     case 'building':
-      return 'Its library is being built.';
+      return texts.library.building;
     case 'stopped':
-      return `No library: ${library.reason}.`;
+      return texts.library.stopped(library.reason);
     case 'ready': {
-      const origin = file ?? (library.seconds === null ? '' : `built in ${library.seconds.toFixed(1)} s`);
-      return `Library: ${library.views} views, ${(library.bytes / 1e6).toFixed(1)} MB, ${origin}.`;
+      const origin = file ?? (library.seconds === null ? '' : texts.library.builtIn(library.seconds.toFixed(1)));
+      return texts.library.ready(library.views, (library.bytes / 1e6).toFixed(1), origin);
     }
   }
 }
@@ -66,30 +67,30 @@ function LibraryForm({ component, spec }: { component: ComponentName; spec: Libr
         apply();
       }}
     >
-      <h3>Views of the library</h3>
+      <h3>{texts.library.views}</h3>
       <div class="fields">
-        <NumberField label="Nominal x" unit="°" value={draft.nominalX} onChange={set('nominalX')} />
-        <NumberField label="Nominal y" unit="°" value={draft.nominalY} onChange={set('nominalY')} />
-        <NumberField label="x from" unit="°" value={draft.xFrom} onChange={set('xFrom')} />
-        <NumberField label="y from" unit="°" value={draft.yFrom} onChange={set('yFrom')} />
-        <NumberField label="x to" unit="°" value={draft.xTo} onChange={set('xTo')} />
-        <NumberField label="y to" unit="°" value={draft.yTo} onChange={set('yTo')} />
-        <NumberField label="x step" unit="°" value={draft.xStep} onChange={set('xStep')} />
-        <NumberField label="y step" unit="°" value={draft.yStep} onChange={set('yStep')} />
+        <NumberField label={texts.library.nominal('x')} unit="°" value={draft.nominalX} onChange={set('nominalX')} />
+        <NumberField label={texts.library.nominal('y')} unit="°" value={draft.nominalY} onChange={set('nominalY')} />
+        <NumberField label={texts.library.from('x')} unit="°" value={draft.xFrom} onChange={set('xFrom')} />
+        <NumberField label={texts.library.from('y')} unit="°" value={draft.yFrom} onChange={set('yFrom')} />
+        <NumberField label={texts.library.to('x')} unit="°" value={draft.xTo} onChange={set('xTo')} />
+        <NumberField label={texts.library.to('y')} unit="°" value={draft.yTo} onChange={set('yTo')} />
+        <NumberField label={texts.library.step('x')} unit="°" value={draft.xStep} onChange={set('xStep')} />
+        <NumberField label={texts.library.step('y')} unit="°" value={draft.yStep} onChange={set('yStep')} />
         <NumberField
-          label="Distance"
+          label={texts.library.distance}
           unit="mm"
           value={draft.distance ?? NaN}
-          placeholder="auto"
+          placeholder={texts.library.automatic}
           onChange={(value) => setDraft({ ...draft, distance: Number.isNaN(value) ? null : value })}
         />
-        <NumberField label="Canonical area" unit="px" value={draft.area} onChange={set('area')} />
+        <NumberField label={texts.library.area} unit="px" value={draft.area} onChange={set('area')} />
       </div>
       <div class="sheet-buttons">
         <button type="submit" class="button" disabled={!usable || draft === spec}>
-          Use these views
+          {texts.library.use}
         </button>
-        <span class="sheet-text quiet">{Number.isFinite(views) && views > 0 ? `${views} views` : ''}</span>
+        <span class="sheet-text quiet">{Number.isFinite(views) && views > 0 ? texts.library.count(views) : ''}</span>
       </div>
     </form>
   );

@@ -3,6 +3,7 @@ import { chosenCandidate } from '../document/types';
 import type { ConvergenceStep } from '../engine/protocol';
 import { useApp } from './app';
 import { formatNumber } from './numbers';
+import { texts } from '../texts';
 
 /** How refinement came to the pose on view: what remains between the outlines, drawing by drawing. */
 export function ConvergenceSheet({ state }: { state: State }) {
@@ -10,30 +11,27 @@ export function ConvergenceSheet({ state }: { state: State }) {
   const cell = currentCell(state);
   const candidate = chosenCandidate(cell);
   const trace = convergence.of(candidate);
-  if (candidate?.residual == null) return <p class="sheet-body">A refined pose has one; there is none here.</p>;
+  if (candidate?.residual == null) return <p class="sheet-body">{texts.convergence.none}</p>;
   if (!trace) {
     const started = poser.detail(cell.outline, candidate)?.start ?? null;
-    return <p class="sheet-body">{started ? 'Following it ...' : 'Refining it once more ...'}</p>;
+    return <p class="sheet-body">{started ? texts.convergence.following : texts.convergence.refining}</p>;
   }
-  if ('refusal' in trace) return <p class="sheet-body">Not to be followed: {trace.refusal}</p>;
+  if ('refusal' in trace) return <p class="sheet-body">{texts.convergence.refused(trace.refusal)}</p>;
   return <Trace steps={trace.steps} />;
 }
 
 function Trace({ steps }: { steps: readonly ConvergenceStep[] }) {
   const last = steps.at(-1);
-  if (!last) return <p class="sheet-body">Not a step was needed.</p>;
+  if (!last) return <p class="sheet-body">{texts.convergence.noStep}</p>;
   return (
     <div class="sheet-body">
-      <p class="sheet-text">
-        {steps.length} poses, the model drawn {last.renders} times. Each stage looks less far round the outline and trusts
-        what is far off less.
-      </p>
+      <p class="sheet-text">{texts.convergence.summary(steps.length, last.renders)}</p>
       <Chart steps={steps} />
-      <div class="trace-scroll" tabIndex={0} role="region" aria-label="Steps of refinement">
-        <table class="trace" aria-label="Poses on the way">
+      <div class="trace-scroll" tabIndex={0} role="region" aria-label={texts.convergence.region}>
+        <table class="trace" aria-label={texts.convergence.table}>
           <thead>
             <tr>
-              {HEAD.map((text) => (
+              {texts.convergence.columns.map((text) => (
                 <th key={text} scope="col">
                   {text}
                 </th>
@@ -44,7 +42,7 @@ function Trace({ steps }: { steps: readonly ConvergenceStep[] }) {
             {steps.map((step) => (
               <tr key={step.renders}>
                 {cellsOf(step).map((text, at) => (
-                  <td key={HEAD[at]}>{text}</td>
+                  <td key={texts.convergence.columns[at]}>{text}</td>
                 ))}
               </tr>
             ))}
@@ -54,8 +52,6 @@ function Trace({ steps }: { steps: readonly ConvergenceStep[] }) {
     </div>
   );
 }
-
-const HEAD = ['Stage', 'Drawn', 'Residual px', 'x mm', 'y mm', 'z mm', 'z rot °', 'x rot °', 'y rot °'];
 
 function cellsOf({ stage, renders, residual, pose }: ConvergenceStep): string[] {
   const { x, y, z, zRot, xRot, yRot } = pose;
@@ -76,17 +72,17 @@ function Chart({ steps }: { steps: readonly ConvergenceStep[] }) {
   const decades = Array.from({ length: high - low + 1 }, (_, at) => low + at);
   const [first, last] = [steps[0]?.residual ?? 0, steps.at(-1)?.residual ?? 0];
   return (
-    <svg class="trace-chart" viewBox={`0 0 ${CHART.width} ${CHART.height}`} role="img" aria-label={`Residual from ${first.toFixed(2)} to ${last.toFixed(3)} px over ${most} drawings`}>
+    <svg class="trace-chart" viewBox={`0 0 ${CHART.width} ${CHART.height}`} role="img" aria-label={texts.convergence.chart(first.toFixed(2), last.toFixed(3), most)}>
       {decades.map((decade) => (
         <g key={decade}>
           <line x1={CHART.left} x2={CHART.width - 6} y1={y(decade)} y2={y(decade)} />
           <text x={CHART.left - 6} y={y(decade) + 4} text-anchor="end">
-            {10 ** decade} px
+            {texts.convergence.pixels(10 ** decade)}
           </text>
         </g>
       ))}
       <text x={CHART.width - 6} y={CHART.height - 2} text-anchor="end">
-        {most} drawings
+        {texts.convergence.drawings(most)}
       </text>
       <polyline points={points.map((point) => point.join(',')).join(' ')} />
       {points.map(([cx, cy]) => (

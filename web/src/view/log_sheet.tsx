@@ -1,9 +1,10 @@
 import type { State } from '../document/store';
+import { texts } from '../texts';
 
 /** Everything that was said, the latest first. */
 export function LogSheet({ state }: { state: State }) {
   const { log } = state.ui;
-  if (log.length === 0) return <p class="sheet-body sheet-text">Nothing has been said yet.</p>;
+  if (log.length === 0) return <p class="sheet-body sheet-text">{texts.log.empty}</p>;
   return (
     <ol class="sheet-body log">
       {log.toReversed().map(({ kind, text, at }, index) => (

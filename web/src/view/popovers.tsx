@@ -10,6 +10,7 @@ import { Icon } from './icons';
 import { KeySheet } from './key_sheet';
 import { LogSheet } from './log_sheet';
 import { SessionSheet } from './session_sheet';
+import { texts } from '../texts';
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
 export function Popovers({ state }: { state: State }) {
@@ -23,13 +24,13 @@ export function Popovers({ state }: { state: State }) {
 }
 
 const TITLES: Readonly<Record<Popover, string>> = {
-  calibration: 'Calibration',
+  calibration: texts.sheets.calibration,
   femur: titleOf('femur'),
   tibia: titleOf('tibia'),
-  keys: 'Keys and mouse',
-  log: 'Log',
-  session: 'Save',
-  convergence: 'Convergence',
+  keys: texts.sheets.keys,
+  log: texts.sheets.log,
+  session: texts.sheets.session,
+  convergence: texts.sheets.convergence,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -64,7 +65,7 @@ function Sheet({ name, title, children }: { name: Popover; title: string; childr
     <section ref={sheet} class={`sheet ${name}-sheet`} role="dialog" aria-label={title} tabIndex={-1}>
       <div class="sheet-head">
         <h2>{title}</h2>
-        <button type="button" class="button square small" aria-label={`Close ${title}`} title="Close (Esc)" onClick={() => store.show({ popover: null })}>
+        <button type="button" class="button square small" aria-label={texts.close(title)} title={texts.closeTitle} onClick={() => store.show({ popover: null })}>
           <Icon name="close" />
         </button>
       </div>

@@ -2,6 +2,7 @@ import { useState } from 'preact/hooks';
 import type { State } from '../document/store';
 import { COMPONENT_NAMES, titleOf } from '../document/types';
 import { useApp } from './app';
+import { texts } from '../texts';
 
 /** The whole work as one file, or the poses of one component. */
 export function SessionSheet({ state }: { state: State }) {
@@ -10,17 +11,14 @@ export function SessionSheet({ state }: { state: State }) {
   const empty = state.history.present.frames.length === 0;
   return (
     <div class="sheet-body">
-      <p class="sheet-text">
-        A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file. A table
-        holds poses with their standard deviations and the reason of each choice.
-      </p>
+      <p class="sheet-text">{texts.session.meaning}</p>
       <label class="check">
         <input type="checkbox" checked={include} onChange={(event) => setInclude(event.currentTarget.checked)} />
-        Include images and models (otherwise named by their SHA-256)
+        {texts.session.include}
       </label>
       <div class="sheet-buttons">
-        <button type="button" class="button primary" disabled={empty} onClick={() => actions.saveSession(include)}>
-          Save session file
+        <button type="button" class="button primary" disabled={empty} onClick={() => void actions.saveSession(include)}>
+          {texts.session.save}
         </button>
         {COMPONENT_NAMES.map((component) => (
           <button
@@ -30,7 +28,7 @@ export function SessionSheet({ state }: { state: State }) {
             disabled={!actions.hasPoses(component)}
             onClick={() => actions.savePoses(component)}
           >
-            {titleOf(component)} poses (.jts)
+            {texts.session.poses(titleOf(component))}
           </button>
         ))}
         {COMPONENT_NAMES.map((component) => (
@@ -38,11 +36,11 @@ export function SessionSheet({ state }: { state: State }) {
             key={component}
             type="button"
             class="button"
-            title="With standard deviations and the reason of the choice, a row a frame"
+            title={texts.session.tableTitle}
             disabled={!actions.hasPoses(component)}
             onClick={() => actions.saveTable(component)}
           >
-            {titleOf(component)} table (.csv)
+            {texts.session.table(titleOf(component))}
           </button>
         ))}
       </div>

@@ -3,6 +3,7 @@ import { currentCell, currentFrame, type Job, type State } from '../document/sto
 import { hint } from '../interaction/hints';
 import { useApp } from './app';
 import { usePointer } from './pointer';
+import { texts } from '../texts';
 
 /** One line: what the next click does, or what just went wrong and what to do. */
 export function StatusLine({ state }: { state: State }) {
@@ -11,7 +12,7 @@ export function StatusLine({ state }: { state: State }) {
   const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' });
   useInfoExpires(state);
   return (
-    <footer class="status" aria-label="Status">
+    <footer class="status" aria-label={texts.status.region}>
       <p class={`status-text ${kind}`} role="status" aria-live="polite" title={text}>
         {text}
       </p>
@@ -26,7 +27,7 @@ export function StatusLine({ state }: { state: State }) {
         aria-expanded={state.ui.popover === 'log'}
         onClick={() => store.show({ popover: state.ui.popover === 'log' ? null : 'log' })}
       >
-        Log
+        {texts.status.log}
       </button>
     </footer>
   );
@@ -37,7 +38,7 @@ function message(state: State, hit: Parameters<typeof hint>[3]): { text: string;
   if (notice) return notice;
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
-  if (!currentFrame(state)) return { text: 'Open frames, or the demonstration, to begin.', kind: 'hint' };
+  if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
   return { text: hint(tool, component, outline, hit), kind: 'hint' };
 }
 
@@ -56,15 +57,15 @@ const INFO_LENGTH = 6000;
 
 function JobBar({ job }: { job: Job }) {
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
-  const count = job.total > 0 ? `${job.done} of ${job.total} ${job.unit}` : 'preparing';
+  const count = job.total > 0 ? texts.status.count(job.done, job.total, job.unit) : texts.status.preparing;
   return (
     <div class="job">
       <span class="job-text">
-        {job.title}: {count}, {seconds} s
+        {texts.status.job(job.title, count, seconds)}
       </span>
       <progress aria-label={job.title} value={job.total > 0 ? job.done : undefined} max={job.total > 0 ? job.total : 1} />
-      <button type="button" class="button small" aria-label={`Cancel: ${job.title}`} onClick={job.cancel}>
-        Cancel
+      <button type="button" class="button small" aria-label={texts.status.cancelJob(job.title)} onClick={job.cancel}>
+        {texts.cancel}
       </button>
     </div>
   );
@@ -78,8 +79,6 @@ function PointerReadout({ state }: { state: State }) {
   const { column, row } = pointer.at;
   const grey = studio.greyAt(frame.id, column, row);
   return (
-    <span class="readout">
-      {column.toFixed(1)}, {row.toFixed(1)} px{grey === null ? '' : ` · ${grey}`}
-    </span>
+    <span class="readout">{texts.status.pointer(column.toFixed(1), row.toFixed(1), grey)}</span>
   );
 }

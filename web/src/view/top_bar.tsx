@@ -1,17 +1,21 @@
 import * as commands from '../document/commands';
-import { hasUnsavedWork, nextRedo, nextUndo } from '../document/history';
+import { nextRedo, nextUndo } from '../document/history';
 import type { Popover, State } from '../document/store';
 import { COMPONENT_NAMES, titleOf, type ComponentName, type Side } from '../document/types';
 import { useApp } from './app';
 import { Icon } from './icons';
+import { SavedState } from './saved_state';
+import { texts } from '../texts';
+
+const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
 
 export function TopBar({ state }: { state: State }) {
   const { actions, services } = useApp();
   const undoStep = nextUndo(state.history);
   const redoStep = nextRedo(state.history);
   return (
-    <header class="top-bar" aria-label="Study">
-      <h1 class="for-readers">fluoropose</h1>
+    <header class="top-bar" aria-label={texts.top.region}>
+      <h1 class="for-readers">{texts.program}</h1>
       <StudyName state={state} />
       <div class="chips">
         <CalibrationChip state={state} />
@@ -20,33 +24,38 @@ export function TopBar({ state }: { state: State }) {
         ))}
       </div>
       <div class="bar-buttons">
-        <IconButton icon="undo" label={undoStep ? `Undo: ${undoStep.label}` : 'Undo'} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
-        <IconButton icon="redo" label={redoStep ? `Redo: ${redoStep.label}` : 'Redo'} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
-        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} title="Open files (Ctrl+O)" onClick={() => void actions.openPicked()}>
-          <Icon name="open" /> Open files
+        <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
+        <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
+        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
+          <Icon name="open" /> {texts.top.open}
         </button>
         <button
           type="button"
           class="button"
-          aria-label="Save session"
-          title="Save the session (Ctrl+S)"
+          aria-label={texts.top.saveLabel}
+          title={texts.top.saveTitle}
           aria-haspopup="dialog"
           aria-expanded={state.ui.popover === 'session'}
           onClick={() => toggle(services.store, 'session')}
         >
-          <Icon name="save" /> Save
+          <Icon name="save" /> {texts.top.save}
         </button>
         <SavedState state={state} />
+        {state.ui.update ? (
+          <button type="button" class="button update" title={texts.top.updateTitle} onClick={state.ui.update}>
+            {texts.top.update}
+          </button>
+        ) : null}
         <button
           type="button"
           class="button round"
-          aria-label="Keys and mouse"
-          title="Keys and mouse (?)"
+          aria-label={texts.top.keys}
+          title={texts.top.keysTitle}
           aria-haspopup="dialog"
           aria-expanded={state.ui.popover === 'keys'}
           onClick={() => toggle(services.store, 'keys')}
         >
-          ?
+          {texts.top.keysSign}
         </button>
       </div>
     </header>
@@ -60,20 +69,22 @@ function StudyName({ state }: { state: State }) {
     <div class="study">
       <input
         class="study-name"
-        aria-label="Name of the study"
-        placeholder="fluoropose"
+        aria-label={texts.top.studyName}
+        placeholder={texts.program}
         value={name}
         onInput={(event) => store.perform(commands.rename(event.currentTarget.value))}
       />
       <select
         class="side"
-        aria-label="Side of the body"
+        aria-label={texts.top.side}
         value={side}
         onChange={(event) => store.perform(commands.setSide(event.currentTarget.value as Side))}
       >
-        <option value="unknown">side?</option>
-        <option value="left">left</option>
-        <option value="right">right</option>
+        {SIDES.map((side) => (
+          <option key={side} value={side}>
+            {texts.top.sides[side]}
+          </option>
+        ))}
       </select>
     </div>
   );
@@ -81,15 +92,15 @@ function StudyName({ state }: { state: State }) {
 
 function CalibrationChip({ state }: { state: State }) {
   const { calibration } = state.history.present;
-  const text = calibration ? calibration.name : 'none';
-  return <Chip state={state} popover="calibration" label="Calibration" text={text} missing={!calibration} />;
+  const text = calibration ? calibration.name : texts.top.noCalibration;
+  return <Chip state={state} popover="calibration" label={texts.top.calibration} text={text} missing={!calibration} />;
 }
 
 function ComponentChip({ state, component }: { state: State; component: ComponentName }) {
   const { model, libraryFile } = state.history.present.components[component];
   const library = state.ui.libraries[component];
-  const text = model?.name ?? libraryFile?.name ?? 'no model';
-  const suffix = library.state === 'building' ? ' · building' : library.state === 'stopped' ? ' · no library' : '';
+  const text = model?.name ?? libraryFile?.name ?? texts.top.noModel;
+  const suffix = library.state === 'building' ? ` · ${texts.top.building}` : library.state === 'stopped' ? ` · ${texts.top.noLibrary}` : '';
   return <Chip state={state} popover={component} label={titleOf(component)} text={text + suffix} missing={!model && !libraryFile} tint={component} />;
 }
 
@@ -110,21 +121,13 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
       class={`chip${missing ? ' missing' : ''}${tint ? ` ${tint}` : ''}`}
       aria-haspopup="dialog"
       aria-expanded={state.ui.popover === popover}
-      title={`${label}: ${text}`}
+      title={texts.top.chip(label, text)}
       onClick={() => toggle(store, popover)}
     >
       <span class="chip-label">{label}:</span>{' '}
       <span class="chip-text">{text}</span>
     </button>
   );
-}
-
-function SavedState({ state }: { state: State }) {
-  const unsaved = hasUnsavedWork(state.history);
-  const { savedAt } = state.ui;
-  const time = savedAt && new Date(savedAt).toLocaleTimeString([], { hour: '2-digit', minute: '2-digit' });
-  const text = unsaved ? 'not saved' : time ? `saved ${time}` : '';
-  return <span class="saved">{text}</span>;
 }
 
 interface IconButtonProps {
@@ -137,7 +140,7 @@ interface IconButtonProps {
 
 function IconButton({ icon, label, keys, disabled, onClick }: IconButtonProps) {
   return (
-    <button type="button" class="button square" aria-label={label} title={`${label} (${keys})`} disabled={disabled} onClick={onClick}>
+    <button type="button" class="button square" aria-label={label} title={texts.withKey(label, keys)} disabled={disabled} onClick={onClick}>
       <Icon name={icon} />
     </button>
   );

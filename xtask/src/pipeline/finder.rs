@@ -147,6 +147,7 @@ impl<'l> Finder<'l> {
         self.edges = edges;
         self.refiner.set_options(RefineOptions {
             edge_offset: edges.edge_offset,
+            ..RefineOptions::default()
         });
         self
     }

@@ -1,4 +1,4 @@
-//! Programs that tests drive: Chromium and QEMU.
+//! Programs that tests drive: Chromium, Firefox and QEMU.
 
 use std::path::PathBuf;
 
@@ -25,6 +25,13 @@ const CHROMIUM: Program = Program {
     variable: "FLUOROPOSE_CHROMIUM",
 };
 
+const FIREFOX: Program = Program {
+    what: "Firefox",
+    names: &["firefox-esr", "firefox"],
+    packages: &["firefox-esr"],
+    variable: "FLUOROPOSE_FIREFOX",
+};
+
 const QEMU_ARM: Program = Program {
     what: "QEMU for Arm (qemu-system-arm)",
     names: &["qemu-system-arm"],
@@ -35,6 +42,11 @@ const QEMU_ARM: Program = Program {
 /// A Chromium, installed if need be. `FLUOROPOSE_CHROMIUM` names another one.
 pub fn chromium() -> Result<PathBuf, Missing> {
     CHROMIUM.ensure()
+}
+
+/// A Firefox, installed if need be. `FLUOROPOSE_FIREFOX` names another one.
+pub fn firefox() -> Result<PathBuf, Missing> {
+    FIREFOX.ensure()
 }
 
 /// QEMU's Arm machine emulator, installed if need be. `FLUOROPOSE_QEMU_ARM` names another one.

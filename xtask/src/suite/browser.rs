@@ -1,4 +1,4 @@
-//! The page: its types, its unit tests, and the whole of it in headless Chromium.
+//! The page: its types, its unit tests, and the whole of it in headless Chromium and Firefox.
 
 use std::path::Path;
 use std::process::Command;
@@ -9,18 +9,23 @@ use super::counts;
 use super::report::Report;
 use crate::setup::{command, node, programs};
 use crate::static_server::Server;
-use crate::{page, workspace};
+use crate::{package, page, workspace};
 
 const TYPES: &str = "browser: types of the page";
 const UNITS: &str = "browser: unit tests of the page";
+const PACKAGES: &str = "browser: packages of the page";
 const CHROMIUM: &str = "browser: the page in Chromium";
+const FIREFOX: &str = "browser: the page in Firefox";
+
+/// What is driven in Firefox too: the way from opening to a pose, and the keys. All the rest is the page's own code.
+const IN_FIREFOX: [&str; 1] = ["firefox.test.mjs"];
 
 /// Runs the suite.
 pub fn run(report: &mut Report) {
     if !report.step("browser: page built", || {
         page::build().map(|_| String::new())
     }) {
-        for name in [TYPES, UNITS, CHROMIUM] {
+        for name in [TYPES, UNITS, PACKAGES, CHROMIUM, FIREFOX] {
             report.skip(name, "the page was not built");
         }
         return;
@@ -37,27 +42,45 @@ pub fn run(report: &mut Report) {
         );
         counts::of_vitest(&output)
     });
-    report.step(CHROMIUM, || in_chromium(&web.join("dist")));
+    let dist = web.join("dist");
+    report.step(PACKAGES, || {
+        package::make(&dist, &package::usual_folder()).map(|_| String::new())
+    });
+    report.step(CHROMIUM, || in_chromium(&dist));
+    report.step(FIREFOX, || in_firefox(&dist));
 }
 
-/// Serves the page and runs the tests of `tests/browser` against it.
 fn in_chromium(dist: &Path) -> Result<String> {
+    let chromium = programs::chromium()?;
+    drive(dist, |tests| {
+        tests.env("FLUOROPOSE_CHROMIUM", chromium);
+    })
+}
+
+fn in_firefox(dist: &Path) -> Result<String> {
+    let firefox = programs::firefox()?;
+    drive(dist, |tests| {
+        tests.env("FLUOROPOSE_FIREFOX", firefox).args(IN_FIREFOX);
+    })
+}
+
+/// Serves the page and runs the tests of `tests/browser` against it; `with` says in which browser, and which tests.
+fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<String> {
     let folder = workspace::root().join("tests/browser");
     let node = node::node()?;
-    let chromium = programs::chromium()?;
     node::install(&folder)?;
     let server = Server::start(dist, 0)?;
     let mut tests = Command::new(node);
     tests
         .args(["--test", "--test-reporter=spec"])
-        .current_dir(&folder);
-    tests
+        .current_dir(&folder)
         .env("FLUOROPOSE_URL", server.url())
-        .env("FLUOROPOSE_CHROMIUM", chromium);
+        .env("FLUOROPOSE_PACKAGE", package::usual_folder());
+    with(&mut tests);
     let (success, output) = command::tee(&mut tests)?;
     ensure!(
         success,
-        "the tests in Chromium failed; their output above says where"
+        "the tests in the browser failed; their output above says where"
     );
     counts::of_node(&output)
 }

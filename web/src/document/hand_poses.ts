@@ -1,0 +1,82 @@
+import { withCell, type Command, type Place } from './commands';
+import { cellOf, isByHand, type Candidate, type Doc, type PoseNumbers, type Posed } from './types';
+
+/** Poses that somebody set by hand. */
+
+/** How a pose set by hand was begun, or what was done to it since: the origin that its result keeps. */
+export type HandOrigin = 'set by hand' | 'refined from a pose set by hand';
+
+/** What refinement found from a pose set by hand. */
+export interface HandFit {
+  readonly candidate: Candidate;
+  /** A sentence: against what it was refined, and what was held. */
+  readonly reason: string;
+}
+
+/** Sets a pose by hand. Nudges with the same `mergeKey` are one step back. */
+export function setPoseByHand(place: Place, pose: PoseNumbers, label = 'adjust the pose', mergeKey?: string): Command {
+  return {
+    label,
+    place,
+    ...(mergeKey === undefined ? {} : { mergeKey }),
+    apply: (doc) => withResult(doc, place, byHand('set by hand', bare(pose), null)),
+  };
+}
+
+/** Takes over what refinement made of a pose set by hand. */
+export function takeHandFit(place: Place, { candidate, reason }: HandFit): Command {
+  return {
+    label: 'refine from the hand-made pose',
+    place,
+    apply: (doc) => withResult(doc, place, byHand('refined from a pose set by hand', candidate, reason)),
+  };
+}
+
+/** Gives the cell back to its outline: the page finds its pose anew. */
+export function dropHandPose(place: Place): Command {
+  return {
+    label: 'drop the pose set by hand',
+    place,
+    apply: (doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      return isByHand(cell.result) ? withCell(doc, place, { ...cell, result: null, resultOf: null }) : doc;
+    },
+  };
+}
+
+/** Offers one more pose of an outline, and chooses it. The same view twice is one candidate. */
+export function offerCandidate(place: Place, candidate: Candidate): Command {
+  return {
+    label: 'take a view of the landscape',
+    place,
+    apply: (doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      if (cell.result?.kind !== 'posed' || cell.result.from !== 'outline') return doc;
+      const candidates = [...cell.result.candidates.filter((other) => !isPicked(cell.result as Posed, other)), candidate];
+      const result = { ...cell.result, candidates, chosen: candidates.length - 1 };
+      return withCell(doc, place, { ...cell, result });
+    },
+  };
+}
+
+/** Was this candidate taken from the landscape? The model has been drawn at the others, not at this one. */
+export function isPicked(result: Posed, candidate: Candidate): boolean {
+  const drawn = result.candidates.some((other) => other.residual !== null || other.drawn !== null);
+  return result.from === 'outline' && drawn && candidate.residual === null && candidate.drawn === null;
+}
+
+// --- Parts ----------------------------------------------------------------------------------------------------------
+
+/** A pose of which nothing else is known. */
+export function bare(pose: PoseNumbers): Candidate {
+  return { pose, unmatched: null, drawn: null, residual: null, deviations: null };
+}
+
+function byHand(origin: HandOrigin, candidate: Candidate, reason: string | null): Posed {
+  return { kind: 'posed', from: 'hand', origin, candidates: [candidate], chosen: 0, reason, decided: true };
+}
+
+function withResult(doc: Doc, place: Place, result: Posed): Doc {
+  const cell = cellOf(doc, place.frameId, place.component);
+  return withCell(doc, place, { ...cell, result, resultOf: cell.outline });
+}

@@ -1,0 +1,32 @@
+import type { Command, Place } from './commands';
+import { cellKey, cellOf, chosenCandidate, COMPONENT_NAMES, type Doc, type PoseNumbers } from './types';
+
+/** The set of poses to compare with: those of a file that was opened, or what was on view when somebody kept them. */
+
+/** Keeps every pose on view as the set to compare with. */
+export function keepReference(name: string): Command {
+  return { label: 'keep the poses to compare with', apply: (doc) => ({ ...doc, reference: { name, poses: chosenPoses(doc) } }) };
+}
+
+export function forgetReference(): Command {
+  return { label: 'forget the poses to compare with', apply: (doc) => ({ ...doc, reference: null }) };
+}
+
+/** Poses of a file become the set to compare with; what it says nothing of stays as it was. */
+export function withReference(doc: Doc, name: string, poses: Readonly<Record<string, PoseNumbers>>): Doc {
+  return { ...doc, reference: { name, poses: { ...doc.reference?.poses, ...poses } } };
+}
+
+export function referencePose(doc: Doc, place: Place | null): PoseNumbers | null {
+  return (place && doc.reference?.poses[cellKey(place.frameId, place.component)]) ?? null;
+}
+
+function chosenPoses(doc: Doc): Record<string, PoseNumbers> {
+  const entries = doc.frames.flatMap(({ id }) =>
+    COMPONENT_NAMES.flatMap((component) => {
+      const candidate = chosenCandidate(cellOf(doc, id, component));
+      return candidate ? [[cellKey(id, component), candidate.pose] as const] : [];
+    }),
+  );
+  return Object.fromEntries(entries);
+}

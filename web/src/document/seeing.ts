@@ -1,0 +1,110 @@
+import { flag, missingAs, number, object, oneOf, type Reader } from './reader';
+import type { PoseNumbers } from './types';
+
+/** How things are shown, and how far a key moves a model: taste, not work. Remembered by the browser, not undone. */
+
+export const FILM_LOOKS = ['original', 'inverted', 'edges', 'equalised'] as const;
+export type FilmLook = (typeof FILM_LOOKS)[number];
+
+export const OVERLAY_LOOKS = ['outline', 'fill', 'shaded'] as const;
+export type OverlayLook = (typeof OVERLAY_LOOKS)[number];
+
+/** The picture in the panel: unmatched pixels, the scores of all views, or the models in space. */
+export const PICTURES = ['unmatched', 'landscape', 'space'] as const;
+export type PictureName = (typeof PICTURES)[number];
+
+export interface Seeing {
+  readonly film: FilmLook;
+  readonly overlay: OverlayLook;
+  readonly magnifier: boolean;
+  readonly scaleBar: boolean;
+  /** Outlines of the frames before and after. */
+  readonly ghosts: boolean;
+  readonly picture: PictureName;
+  /** The poses to compare with are on view too, and differences take the place of deviations. Not remembered. */
+  readonly comparing: boolean;
+}
+
+/** How far one press of a key moves a model. */
+export interface Steps {
+  /** In the image plane, mm. */
+  readonly plane: number;
+  /** Along the view, mm: a silhouette shows it ten times less. */
+  readonly depth: number;
+  /** Degrees. */
+  readonly turn: number;
+}
+
+export type Grain = 'fine' | 'coarse';
+
+export type Locks = Readonly<Record<keyof PoseNumbers, boolean>>;
+
+export interface HandSettings {
+  readonly grain: Grain;
+  readonly fine: Steps;
+  readonly coarse: Steps;
+  /** Numbers that neither keys nor the mouse nor refinement change. Not remembered: a forgotten lock is a trap. */
+  readonly locks: Locks;
+}
+
+export const NO_LOCKS: Locks = { x: false, y: false, z: false, zRot: false, xRot: false, yRot: false };
+
+export const DEFAULT_SEEING: Seeing = {
+  film: 'original',
+  overlay: 'fill',
+  magnifier: false,
+  scaleBar: true,
+  ghosts: false,
+  picture: 'unmatched',
+  comparing: false,
+};
+
+export const DEFAULT_HAND: HandSettings = {
+  grain: 'coarse',
+  fine: { plane: 0.1, depth: 1, turn: 0.1 },
+  coarse: { plane: 1, depth: 10, turn: 1 },
+  locks: NO_LOCKS,
+};
+
+/** What the browser remembers, as a text. */
+export interface Taste {
+  readonly seeing: Seeing;
+  readonly hand: HandSettings;
+}
+
+export function writeTaste({ seeing, hand }: Taste): string {
+  const { comparing: _, ...shown } = seeing;
+  const { locks: __, ...steps } = hand;
+  return JSON.stringify({ seeing: shown, hand: steps });
+}
+
+const positive: Reader<number> = (value, path) => Math.max(1e-4, number(value, path));
+const readSteps = object<Steps>({ plane: positive, depth: positive, turn: positive });
+
+const readTasteObject = object<Taste>({
+  seeing: object<Seeing>({
+    film: oneOf(...FILM_LOOKS),
+    overlay: oneOf(...OVERLAY_LOOKS),
+    magnifier: flag,
+    scaleBar: flag,
+    ghosts: flag,
+    picture: oneOf(...PICTURES),
+    comparing: missingAs(false, flag),
+  }),
+  hand: object<HandSettings>({
+    grain: oneOf('fine', 'coarse'),
+    fine: readSteps,
+    coarse: readSteps,
+    locks: () => NO_LOCKS,
+  }),
+});
+
+/** Null for a text that an older page wrote, or somebody else: then the usual things are shown. */
+export function readTaste(text: string | null): Taste | null {
+  if (text === null) return null;
+  try {
+    return readTasteObject(JSON.parse(text), 'taste');
+  } catch {
+    return null;
+  }
+}

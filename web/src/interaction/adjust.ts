@@ -1,0 +1,148 @@
+import { setPoseByHand } from '../document/hand_poses';
+import type { Locks } from '../document/seeing';
+import type { PoseNumbers } from '../document/types';
+import { canvasPoint, distance, framePoint, type CanvasPoint } from '../geometry/points';
+import { inCamera, movedInDepth, projected, shifted, turned, type Pinhole, type Vector } from '../geometry/pose_motion';
+import { canvasFromFrame, type Viewport } from '../geometry/viewport';
+import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+
+/** What a hand on the model needs to know. */
+export interface HandScene {
+  /** Where the model is, or where it would be placed. */
+  readonly pose: PoseNumbers;
+  /** The model is not there yet: the first press places it. */
+  readonly absent: boolean;
+  /** The middle of the model in its own coordinates, mm. */
+  readonly middle: Vector;
+  readonly camera: Pinhole;
+  readonly locks: Locks;
+  /** The mouse moves the model a fifth as far. */
+  readonly fine: boolean;
+}
+
+/** In the image plane, round the line of sight, round lines across it, along it. */
+export type Motion = 'move' | 'turn' | 'tilt' | 'depth';
+
+export type AdjustState =
+  | { readonly name: 'idle' }
+  | { readonly name: 'dragging'; readonly motion: Motion; readonly last: CanvasPoint; readonly pose: PoseNumbers; readonly moved: boolean };
+
+const IDLE: AdjustState = { name: 'idle' };
+
+/** Dragging a model: in the plane, or by its handles or with keys held round its axes. */
+export const adjust: Machine<AdjustState> = { start: IDLE, next };
+
+function next(state: AdjustState, input: Input, scene: Scene): Outcome<AdjustState> {
+  if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
+  const { hand } = scene;
+  if (!hand) return outcome(IDLE);
+  return state.name === 'idle' ? press(input, scene, hand) : whileDragging(state, input, scene, hand);
+}
+
+function press(input: Input, scene: Scene, hand: HandScene): Outcome<AdjustState> {
+  if (input.type !== 'down' || input.button !== 'primary') return outcome(IDLE);
+  const motion = heldMotion(input) ?? handleAt(hand, scene.viewport, input.at) ?? 'move';
+  const state = { name: 'dragging', motion, last: input.at, pose: hand.pose, moved: false } as const;
+  if (!hand.absent) return outcome(state);
+  return outcome({ ...state, moved: true }, { type: 'preview', command: setPoseByHand(scene.place, hand.pose, 'place the model') });
+}
+
+/** Keys held with the mouse: Shift tilts, Ctrl turns in the plane, both move along the view. */
+function heldMotion({ ctrl, shift }: Input): Motion | null {
+  if (ctrl && shift) return 'depth';
+  if (shift) return 'tilt';
+  return ctrl ? 'turn' : null;
+}
+
+function whileDragging(
+  state: Extract<AdjustState, { name: 'dragging' }>,
+  input: Input,
+  scene: Scene,
+  hand: HandScene,
+): Outcome<AdjustState> {
+  if (input.type === 'up' && !state.moved) return outcome(IDLE);
+  if (!state.moved && distance(state.last, input.at) < DRAG_THRESHOLD) return outcome(state);
+  const pose = dragged(state, input.at, scene.viewport, hand);
+  const command = setPoseByHand(scene.place, pose, LABELS[state.motion]);
+  if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
+  if (input.type !== 'move') return outcome(state);
+  return outcome({ ...state, last: input.at, pose, moved: true }, { type: 'preview', command });
+}
+
+const LABELS: Readonly<Record<Motion, string>> = {
+  move: 'move the model',
+  turn: 'turn the model',
+  tilt: 'tilt the model',
+  depth: 'move the model along the view',
+};
+
+/** A model tilts by this much a CSS pixel, degrees, and moves along the view by this share of its depth. */
+const TILT = 0.25;
+const DEPTH = 0.001;
+/** The mouse in fine steps, as a share of the usual. */
+const FINE = 0.2;
+
+/** The pose after the pointer went from the last place to `to`. */
+function dragged(
+  { motion, last, pose }: { motion: Motion; last: CanvasPoint; pose: PoseNumbers },
+  to: CanvasPoint,
+  viewport: Viewport,
+  { middle, camera, locks, fine }: HandScene,
+): PoseNumbers {
+  const share = fine ? FINE : 1;
+  const [right, down] = [(to.x - last.x) * share, (to.y - last.y) * share];
+  const depth = -inCamera(pose, middle)[2];
+  switch (motion) {
+    case 'move': {
+      const perPixel = depth / viewport.scale;
+      return shifted(pose, (right * perPixel) / camera.fx, (-down * perPixel) / camera.fy, locks);
+    }
+    case 'tilt':
+      return turned(pose, [down * TILT, right * TILT, 0], middle, locks);
+    case 'turn': {
+      const centre = centreOf({ pose, middle, camera }, viewport);
+      return centre ? turned(pose, [0, 0, share * angleBetween(centre, last, to)], middle, locks) : pose;
+    }
+    case 'depth':
+      return movedInDepth(pose, down * DEPTH * depth, middle, locks);
+  }
+}
+
+/** Degrees from one place to another round a centre, positive against the clock. */
+function angleBetween(centre: CanvasPoint, from: CanvasPoint, to: CanvasPoint): number {
+  const angle = (at: CanvasPoint) => Math.atan2(centre.y - at.y, at.x - centre.x);
+  const turn = ((angle(to) - angle(from)) * 180) / Math.PI;
+  return turn - 360 * Math.round(turn / 360);
+}
+
+// --- Handles: what a finger or a pen can take hold of --------------------------------------------------------------------
+
+/** CSS pixels: the ring round the middle of the model, and how near a press must be. */
+export const RING = 64;
+const KNOB_REACH = 14;
+const RING_REACH = 7;
+
+/** Where the middle of the model is on the canvas. */
+export function centreOf({ pose, middle, camera }: Pick<HandScene, 'pose' | 'middle' | 'camera'>, viewport: Viewport): CanvasPoint | null {
+  const at = projected(camera, inCamera(pose, middle));
+  return at && canvasFromFrame(viewport, framePoint(at.column, at.row));
+}
+
+/** Places of the knobs: turning at the right of the ring, depth below, tilting in the middle. */
+export function knobs(centre: CanvasPoint): Readonly<Record<Exclude<Motion, 'move'>, CanvasPoint>> {
+  return {
+    turn: canvasPoint(centre.x + RING, centre.y),
+    depth: canvasPoint(centre.x, centre.y + RING),
+    tilt: centre,
+  };
+}
+
+/** Which handle lies under the pointer. */
+export function handleAt(hand: HandScene, viewport: Viewport, at: CanvasPoint): Motion | null {
+  const centre = hand.absent ? null : centreOf(hand, viewport);
+  if (!centre) return null;
+  const places = Object.entries(knobs(centre)) as [Motion, CanvasPoint][];
+  const knob = places.find(([, place]) => distance(place, at) <= KNOB_REACH);
+  if (knob) return knob[0];
+  return Math.abs(distance(centre, at) - RING) <= RING_REACH ? 'turn' : null;
+}

@@ -1,0 +1,148 @@
+//! Verb `package`: the page as a folder for any static host, the page as one file, and the npm module.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::setup::{announce, command, node};
+use crate::{page, workspace};
+
+/// Options of `package`.
+///
+/// Builds the page as `serve` does and writes three things into the folder:
+/// `site`, to be copied to any static host, into any folder of it; `fluoropose.html`, the same page in one file,
+/// which a browser opens from the disk; `npm`, the module for other programs (see its README.md).
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder to write to [default: package in cargo's target folder]
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+/// Runs the verb.
+pub fn run(args: Args) -> Result<()> {
+    let dist = page::build()?;
+    let package = make(&dist, &args.out.unwrap_or_else(usual_folder))?;
+    let size = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
+    println!("For a static host: {}", package.site.display());
+    let bytes = fs::metadata(&package.single)?.len();
+    println!(
+        "In one file:       {} ({})",
+        package.single.display(),
+        size(bytes)
+    );
+    println!("For npm:           {}", package.module.display());
+    Ok(())
+}
+
+/// Where packages go unless somebody says otherwise.
+pub fn usual_folder() -> PathBuf {
+    workspace::target_dir().join("package")
+}
+
+/// What was written.
+pub struct Package {
+    /// Folder for a static host.
+    pub site: PathBuf,
+    /// The page in one file.
+    pub single: PathBuf,
+    /// Folder of the npm module.
+    pub module: PathBuf,
+}
+
+/// Writes all three into `out`; `dist` is the page as [`page::build`] left it.
+///
+/// Errors name the part that could not be made.
+pub fn make(dist: &Path, out: &Path) -> Result<Package> {
+    Ok(Package {
+        site: site(dist, &out.join("site")).context("cannot package the page's folder")?,
+        single: single(&out.join("fluoropose.html"))
+            .context("cannot package the page in one file")?,
+        module: module(&out.join("npm")).context("cannot package the npm module")?,
+    })
+}
+
+fn site(dist: &Path, to: &Path) -> Result<PathBuf> {
+    empty(to)?;
+    copy_folder(dist, to)?;
+    Ok(to.to_path_buf())
+}
+
+fn single(to: &Path) -> Result<PathBuf> {
+    let web = workspace::root().join("web");
+    announce("bundling the page into one file (npm run build-embedded)");
+    command::run(&mut node::script(&web, "build-embedded")?)?;
+    let made = web.join("dist-embedded/fluoropose.html");
+    fs::copy(&made, to).with_context(|| format!("cannot copy {}", made.display()))?;
+    Ok(to.to_path_buf())
+}
+
+/// The module's own TypeScript compiled, and beside it what `wasm-bindgen` made for the page.
+fn module(to: &Path) -> Result<PathBuf> {
+    let root = workspace::root();
+    let (web, npm) = (root.join("web"), root.join("npm"));
+    empty(to)?;
+    announce("compiling the npm module (npm run build-module)");
+    let mut compile = node::script(&web, "build-module")?;
+    command::run(compile.arg("--").arg("--outDir").arg(to))?;
+    copy_folder(&web.join("src/pkg"), &to.join("pkg"))?;
+    for name in ["package.json", "README.md"] {
+        fs::copy(npm.join(name), to.join(name))?;
+    }
+    fs::copy(root.join("LICENSE"), to.join("LICENSE"))?;
+    ensure!(
+        to.join("index.js").is_file() && to.join("index.d.ts").is_file(),
+        "the compiler left no index.js with types in {}",
+        to.display()
+    );
+    Ok(to.to_path_buf())
+}
+
+/// An empty folder, whatever was in it before.
+fn empty(folder: &Path) -> Result<()> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).with_context(|| format!("cannot empty {}", folder.display()))?;
+    }
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))
+}
+
+/// Copies a folder with all that is in it, but for hidden files: those are notes of the build.
+fn copy_folder(from: &Path, to: &Path) -> Result<()> {
+    fs::create_dir_all(to).with_context(|| format!("cannot make {}", to.display()))?;
+    let entries = fs::read_dir(from).with_context(|| format!("cannot list {}", from.display()))?;
+    for entry in entries {
+        let entry = entry?;
+        let (source, target) = (entry.path(), to.join(entry.file_name()));
+        if entry.file_name().to_string_lossy().starts_with('.') {
+            continue;
+        }
+        if entry.file_type()?.is_dir() {
+            copy_folder(&source, &target)?;
+        } else {
+            fs::copy(&source, &target)
+                .with_context(|| format!("cannot copy {}", source.display()))?;
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_is_copied_without_hidden_files() {
+        let scratch = std::env::temp_dir().join(format!("fluoropose-copy-{}", std::process::id()));
+        let (from, to) = (scratch.join("from"), scratch.join("to"));
+        fs::create_dir_all(from.join("deep")).unwrap();
+        fs::write(from.join("deep/file"), "text").unwrap();
+        fs::write(from.join(".stamp"), "note").unwrap();
+        copy_folder(&from, &to).unwrap();
+        assert_eq!(fs::read_to_string(to.join("deep/file")).unwrap(), "text");
+        assert!(!to.join(".stamp").exists());
+        empty(&to).unwrap();
+        assert_eq!(fs::read_dir(&to).unwrap().count(), 0);
+        fs::remove_dir_all(scratch).unwrap();
+    }
+}
