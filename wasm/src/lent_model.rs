@@ -8,7 +8,7 @@ use fluoropose::mask::{MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::raster::Projected;
+use fluoropose::raster::{Projected, scratch_needed};
 use fluoropose::refine::{
     BorderPixel, Iterate, RefineMemory, RefineOptions, Refined, View, refine_traced, uncertainty,
 };
@@ -20,6 +20,7 @@ use wasm_bindgen::JsError;
 
 use crate::error::sentence;
 use crate::pieces::Pieces;
+use crate::surface::Surface;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
@@ -71,16 +72,11 @@ impl Ranked {
 
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
 pub(crate) struct LentModel {
-    shape: Shape,
+    surface: Surface,
     buffers: Buffers,
     pieces: Pieces,
     /// Found with the first refinement: it takes some tens of milliseconds.
     planes: Option<Vec<SymmetryPlane>>,
-}
-
-struct Shape {
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
 }
 
 struct Buffers {
@@ -88,12 +84,6 @@ struct Buffers {
     drawn: Vec<Word>,
     places: Vec<u16>,
     border: Vec<BorderPixel>,
-}
-
-impl Shape {
-    fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        Mesh::new(&self.vertices, &self.triangles).map_err(sentence)
-    }
 }
 
 impl Buffers {
@@ -113,21 +103,23 @@ impl Buffers {
 
 impl LentModel {
     /// Takes vertices (x, y, z by turns, mm) and triangles (three vertex indices each).
-    pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Self {
-        Self {
-            shape: Shape {
-                vertices: vertices.as_chunks().0.to_vec(),
-                triangles: triangles.as_chunks().0.to_vec(),
-            },
+    ///
+    /// # Errors
+    /// The core's sentence about the vertex or triangle at fault.
+    pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Result<Self, JsError> {
+        let surface = Surface::new(vertices, triangles)?;
+        let projected = scratch_needed(&surface.mesh()?);
+        Ok(Self {
+            surface,
             buffers: Buffers {
-                projected: vec![Projected::default(); vertices.len() / 3],
+                projected: vec![Projected::default(); projected],
                 drawn: Vec::new(),
                 places: Vec::new(),
                 border: Vec::new(),
             },
             pieces: Pieces::default(),
             planes: None,
-        }
+        })
     }
 
     /// The core's view of the model.
@@ -135,7 +127,7 @@ impl LentModel {
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
     pub(crate) fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        self.shape.mesh()
+        self.surface.mesh()
     }
 
     /// Poses from pieces of the outline, best first.
@@ -148,7 +140,7 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let found = self.pieces.locate(silhouette, camera, library, &mesh)?;
         Ok(found.into_iter().map(Ranked::by_pieces).collect())
     }
@@ -190,7 +182,7 @@ impl LentModel {
         let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(&mesh).to_vec())
@@ -226,7 +218,7 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Option<Deviations>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let view = View::only(camera, *silhouette);
         let mut memory = self.buffers.lend(camera);
         let covariance = uncertainty(&mesh, &[view], refined, &mut memory).map_err(sentence)?;
@@ -244,7 +236,7 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Iterate>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let view = View::only(camera, *silhouette);
         let mut memory = self.buffers.lend(camera);
         let mut steps = Vec::new();
@@ -267,7 +259,7 @@ impl LentModel {
             projected, drawn, ..
         } = &mut self.buffers;
         drawn.resize(words_needed(width, height), 0);
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut drawn = MaskMut::new(drawn, width, height).map_err(sentence)?;
         Ok(unmatched_at(&mesh, camera, pose, silhouette, projected, &mut drawn).ok())
     }

@@ -17,6 +17,7 @@ mod model;
 mod paint;
 mod pieces;
 mod pose_numbers;
+mod surface;
 mod traced;
 mod unmatched;
 

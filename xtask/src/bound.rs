@@ -11,7 +11,7 @@ use crate::pipeline::bound::{Limit, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, camera_for};
 use crate::pipeline::disturb::DisturbanceOptions;
 use crate::pipeline::files::{
-    mesh_of, read_calibration, read_mask, read_model, read_poses, write_json,
+    read_calibration, read_mask, read_model, read_poses, write_json,
 };
 
 /// Options of `bound`.
@@ -127,7 +127,7 @@ pub fn run(args: Args) -> Result<()> {
         correlation_px: args.correlation,
         ..Noise::ROUNDING
     };
-    let mut outlines = Outlines::new(mesh_of(&model)?, camera);
+    let mut outlines = Outlines::new(model.mesh()?, camera);
     let limits: Result<Vec<PoseLimits>> = poses
         .iter()
         .map(|&pose| {
