@@ -67,24 +67,28 @@ pub fn render(
         return Ok(());
     }
     let height = out.height();
-    for_each_span(mesh, projected, height, |_, row, from, to| {
+    for_each_span(mesh, projected, height, |_| true, |_, row, from, to| {
         out.fill_span(row, from, to);
     });
     Ok(())
 }
 
-/// Calls `visit(triangle, row, from, to)` for each row of each triangle that covers pixel
-/// centres: columns `from..to`, not yet cut to the frame's width. `projected` holds the vertices
-/// as [`render`] left them in its working memory.
+/// Calls `visit(triangle, row, from, to)` for each row of each triangle that is `wanted` and
+/// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `projected` holds
+/// the vertices as [`render`] left them in its working memory.
 pub(crate) fn for_each_span(
     mesh: &Mesh<'_>,
     projected: &[Projected],
     height: usize,
+    wanted: impl Fn([Projected; 3]) -> bool,
     mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
 ) {
     for triangle in mesh.triangles() {
         // Indices were checked when the mesh was made.
         let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
+        if !wanted(corners) {
+            continue;
+        }
         triangle_spans(corners, height, |row, from, to| {
             visit(triangle, row, from, to)
         });

@@ -127,6 +127,16 @@ impl Edge {
     }
 }
 
+/// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
+/// Most triangles of a CAD model are smaller than a pixel and cover none.
+pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [core::ops::Range<i32>; 2] {
+    let range = |of: fn(FixedPoint) -> i32| {
+        let [a, b, c] = corners.map(|corner| first_centre(of(corner)));
+        a.min(b).min(c)..a.max(b).max(c)
+    };
+    [range(|corner| corner.column), range(|corner| corner.row)]
+}
+
 /// Calls `fill(row, from, to)` for each row of the triangle that has pixel centres: columns
 /// `from..to`, not yet cut to a frame's width.
 pub(crate) fn triangle_spans(
@@ -134,11 +144,7 @@ pub(crate) fn triangle_spans(
     height: usize,
     mut fill: impl FnMut(usize, i64, i64),
 ) {
-    let columns = corners.map(|p| first_centre(p.column));
-    let rows = corners.map(|p| first_centre(p.row));
-    let all_equal = |v: [i32; 3]| v[0] == v[1] && v[1] == v[2];
-    // Most triangles of a CAD model are smaller than a pixel: no centre, nothing to do.
-    if all_equal(columns) || all_equal(rows) {
+    if pixel_box(corners).iter().any(core::ops::Range::is_empty) {
         return;
     }
     let [a, b, c] = sorted_by_row(corners);

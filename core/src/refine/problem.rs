@@ -50,7 +50,7 @@ impl<'a> Problem<'a> {
     pub(super) fn new(
         mesh: &'a Mesh<'a>,
         views: &'a [View<'a>],
-        memory: &RefineMemory<'_>,
+        memory: &mut RefineMemory<'_>,
     ) -> Result<Self, RefineError> {
         if views.is_empty() {
             return Err(RefineError::NoView);
@@ -66,6 +66,7 @@ impl<'a> Problem<'a> {
                 return Err(MaskError::Empty.into());
             }
         }
+        memory.places.fill(0);
         Ok(Self {
             mesh,
             views,
