@@ -165,7 +165,9 @@ impl Tiles {
         let mut tiles = Self {
             column,
             row,
-            places: (width.max(height) / TILES).checked_ilog2().map_or(0, |log| log + 1),
+            places: (width.max(height) / TILES)
+                .checked_ilog2()
+                .map_or(0, |log| log + 1),
             marked: [0; TILES],
         };
         for pixel in border {
@@ -185,7 +187,10 @@ impl Tiles {
             let tile = (pixel - first) >> self.places;
             tile.clamp(-1, TILES as i32)
         };
-        let (left, right) = (tile(columns.start, self.column), tile(columns.end - 1, self.column));
+        let (left, right) = (
+            tile(columns.start, self.column),
+            tile(columns.end - 1, self.column),
+        );
         let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
         let last = TILES as i32 - 1;
         if right < 0 || bottom < 0 || left > last || top > last {
@@ -193,7 +198,9 @@ impl Tiles {
         }
         let (left, right) = (left.max(0) as u32, right.min(last) as u32);
         let wanted = (u128::MAX >> (TILES as u32 - 1 - (right - left))) << left;
-        let rows = self.marked.get(top.max(0) as usize..=bottom.min(last) as usize);
+        let rows = self
+            .marked
+            .get(top.max(0) as usize..=bottom.min(last) as usize);
         rows.unwrap_or_default().iter().any(|row| row & wanted != 0)
     }
 }
