@@ -1,8 +1,8 @@
 import { defineConfig } from 'vitest/config';
 import project from './package.json' with { type: 'json' };
-import { embedded } from './build/embedded';
-import { offline } from './build/offline';
-import { contentPolicy } from './build/policy';
+import { embedded } from './build/embedded.ts';
+import { offline } from './build/offline.ts';
+import { contentPolicy } from './build/policy.ts';
 
 /** `vite build` makes the page for a host, `vite build --mode embedded` the page that is one file. */
 export default defineConfig(({ mode }) => ({
@@ -11,7 +11,7 @@ export default defineConfig(({ mode }) => ({
   define: { __VERSION__: JSON.stringify(project.version) },
   plugins: mode === 'embedded' ? [embedded()] : [contentPolicy(), offline()],
   oxc: { jsx: { runtime: 'automatic' as const, importSource: 'preact' } },
-  worker: { format: 'es' as const },
+  ...(mode === 'embedded' ? {} : { worker: { format: 'es' as const } }),
   build: { target: 'es2022', assetsInlineLimit: 0 },
   test: { include: ['tests/**/*.test.ts'], environment: 'node' as const },
 }));

@@ -27,24 +27,6 @@ pub(crate) fn lagrange(nodes: &core::ops::Range<usize>, at: usize, x: f64) -> f6
         .product()
 }
 
-/// Little-endian words of canonical bits.
-fn words(bytes: &[u8]) -> impl Iterator<Item = Word> + '_ {
-    let four = bytes.as_chunks::<4>().0.iter();
-    four.map(|&four| Word::from_le_bytes(four))
-}
-
-/// Pixels of the band that `silhouette` covers: those set in `ahead` alone minus those set in
-/// `behind` alone.
-fn covered(silhouette: impl Iterator<Item = Word>, ahead: &[u8], behind: &[u8]) -> f64 {
-    let sum: i64 = silhouette
-        .zip(words(ahead).zip(words(behind)))
-        .map(|(s, (a, b))| {
-            i64::from((s & a & !b).count_ones()) - i64::from((s & b & !a).count_ones())
-        })
-        .sum();
-    sum as f64
-}
-
 /// The functional of one grid axis: its value for the 3 x 3 nearest views and the silhouette.
 struct Functional {
     nodes: [[f64; 3]; 3],
@@ -66,17 +48,19 @@ impl Neighbourhood {
         behind: usize,
     ) -> Functional {
         let grid = &library.info().grid;
-        let band = (library.bits(ahead), library.bits(behind));
+        // Pixels set ahead alone minus pixels set behind alone: what both have cancels.
+        let covered =
+            |pixels: &dyn Fn(usize) -> u32| f64::from(pixels(ahead)) - f64::from(pixels(behind));
         let mut nodes = [[0.0; 3]; 3];
         for (v, row) in self.y.clone().zip(&mut nodes) {
             for (u, node) in self.x.clone().zip(row) {
-                let bits = library.bits(grid.view(u, v));
-                *node = covered(words(bits), band.0, band.1);
+                let view = grid.view(u, v);
+                *node = covered(&|end| library.overlap(view, end));
             }
         }
         Functional {
             nodes,
-            target: covered(canonical.iter().copied(), band.0, band.1),
+            target: covered(&|end| library.covered(end, canonical)),
         }
     }
 
@@ -190,16 +174,5 @@ mod tests {
         assert_eq!(window(8, 9, 2), 4..9);
         assert_eq!(window(1, 3, 2), 0..3);
         assert_eq!(window(0, 1, 1), 0..1);
-    }
-
-    #[test]
-    fn covered_pixels_are_signed_by_the_part_of_the_band() {
-        let (ahead, behind) = ([0b0111_1000, 0, 0, 0], [0b0001_1110, 0, 0, 0]);
-        // Bits 5, 6 are ahead alone, 1, 2 behind alone.
-        let count = |bits: Word| covered(core::iter::once(bits), &ahead, &behind);
-        assert_eq!(count(0b0010_0000), 1.0);
-        assert_eq!(count(0b0110_0110), 0.0);
-        assert_eq!(count(0b0001_1010), -1.0);
-        assert_eq!(count(Word::MAX), 0.0);
     }
 }

@@ -78,18 +78,22 @@ impl Crack {
         Some((column, row))
     }
 
-    /// Whether the pixel ahead, on the left or the right hand, is set.
-    fn ahead(self, mask: &Mask<'_>, left_hand: bool) -> bool {
-        let pixel = self.pixel_ahead(left_hand);
-        pixel.is_some_and(|(column, row)| mask.get(column, row))
-    }
-
     /// The way to go on with the silhouette on the right hand. Pixels that touch by a corner
     /// alone are kept apart, so the border never meets itself in a side.
     pub(crate) fn turn(self, mask: &Mask<'_>) -> Self {
-        let heading = if !self.ahead(mask, false) {
+        self.turn_where(|column, row| mask.get(column, row))
+    }
+
+    /// [`Crack::turn`] round the pixels of which `inside` says so; it is asked of pixels beyond
+    /// the right and the lower border too.
+    pub(crate) fn turn_where(self, inside: impl Fn(usize, usize) -> bool) -> Self {
+        let ahead = |left_hand| {
+            let pixel = self.pixel_ahead(left_hand);
+            pixel.is_some_and(|(column, row)| inside(column, row))
+        };
+        let heading = if !ahead(false) {
             self.heading.turn_right()
-        } else if self.ahead(mask, true) {
+        } else if ahead(true) {
             self.heading.turn_left()
         } else {
             self.heading

@@ -18,12 +18,8 @@ pub struct CanonicalSpec {
 }
 
 impl Default for CanonicalSpec {
-    /// The source's: 15 000 pixels in a frame of 256 x 256.
     fn default() -> Self {
-        Self {
-            size: 256,
-            area: 15_000,
-        }
+        Self::USUAL
     }
 }
 
@@ -49,6 +45,12 @@ pub enum CanonicalError {
 }
 
 impl CanonicalSpec {
+    /// The source's: 15 000 pixels in a frame of 256 x 256.
+    pub const USUAL: Self = Self {
+        size: 256,
+        area: 15_000,
+    };
+
     /// A canonical frame of `size` x `size` pixels in which every silhouette has `area` pixels.
     ///
     /// # Errors
@@ -67,7 +69,7 @@ impl CanonicalSpec {
 
     /// Side of the canonical frame, pixels.
     #[must_use]
-    pub fn size(&self) -> usize {
+    pub const fn size(&self) -> usize {
         self.size
     }
 

@@ -102,7 +102,7 @@ impl<'a> Outline<'a> {
         if on_one_line(points) {
             return Err(OutlineError::ZeroArea);
         }
-        match first_crossing(points) {
+        match first_crossing(points.len(), |number| points[number]) {
             Some((first, second)) => Err(OutlineError::SelfCrossing { first, second }),
             None => Ok(Self { points }),
         }
@@ -151,10 +151,13 @@ fn on_one_line(points: &[Point]) -> bool {
     other.is_none_or(|other| points.iter().all(|&p| orientation(first, other, p) == 0.0))
 }
 
-fn first_crossing(points: &[Point]) -> Option<(usize, usize)> {
-    let count = points.len();
-    for (first, a) in sides(points).enumerate() {
-        for (second, b) in sides(points).enumerate().skip(first + 1) {
+/// The first two sides of a closed line through `count` points that meet where they should not.
+pub(crate) fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usize, usize)> {
+    let side = |number: usize| (at(number), at((number + 1) % count));
+    for first in 0..count {
+        let a = side(first);
+        for second in first + 1..count {
+            let b = side(second);
             let neighbours = second == first + 1 || (first == 0 && second == count - 1);
             let touch = if neighbours {
                 folds_back(a, b)

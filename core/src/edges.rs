@@ -47,7 +47,11 @@ pub fn link<'e>(mesh: &Mesh<'_>, room: &'e mut [MeshEdge]) -> Option<&'e [MeshEd
 
 /// One side of a triangle, from the lower to the higher vertex.
 fn half(from: u32, to: u32, triangle: u32) -> MeshEdge {
-    let (forth, back) = if from < to { (triangle, NONE) } else { (NONE, triangle) };
+    let (forth, back) = if from < to {
+        (triangle, NONE)
+    } else {
+        (NONE, triangle)
+    };
     MeshEdge {
         from: from.min(to),
         to: from.max(to),

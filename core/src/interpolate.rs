@@ -2,9 +2,9 @@
 
 use crate::bands::{self, lagrange, window};
 use crate::library::{Grid, Library, ViewRecord};
-use crate::mask::Word;
-use crate::matching::{Candidate, Scores};
+use crate::matching::Candidate;
 use crate::math::{solve_spd, wrap};
+use crate::search::Search;
 
 /// A view between the views of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,22 +25,20 @@ pub struct FineView {
 const REACH: usize = 2;
 
 /// Finds the rotation between the views round `candidate` and reads scale, angle and offset
-/// there. `canonical` is the canonical mask in the candidate's direction of the axis.
+/// there.
 ///
 /// The rotation comes from the bands that the outline sweeps between neighbouring views
 /// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
 /// is the minimum of a quadratic fitted to the scores.
 #[must_use]
-pub fn interpolate(
-    library: &Library<'_>,
-    scores: &Scores<'_>,
-    candidate: &Candidate,
-    canonical: &[Word],
-) -> FineView {
-    let grid = scores.grid();
+pub fn interpolate(search: &mut Search<'_, '_>, candidate: &Candidate) -> FineView {
+    let library = search.library();
+    let grid = &library.info().grid;
     let (x, y) = grid.place(candidate.view);
+    let canonical = search.query().canonical(candidate.reversed);
     let [fine_x, fine_y] = bands::solve(library, canonical, (x, y)).unwrap_or_else(|| {
-        let (dx, dy) = fit_minimum(grid, scores.surface(candidate.reversed), x, y);
+        let score = |view| search.score(view, candidate.reversed);
+        let (dx, dy) = fit_minimum(grid, score, x, y);
         [x as f64 + dx, y as f64 + dy]
     });
     let last = |count: usize| count.saturating_sub(1) as f64;
@@ -59,17 +57,14 @@ pub fn interpolate(
 
 /// Offset in steps from the view at (x, y) to the minimum of the fitted quadratic; (0, 0) where
 /// the surface has none near.
-fn fit_minimum(grid: &Grid, surface: &[u32], x: usize, y: usize) -> (f64, f64) {
+fn fit_minimum(grid: &Grid, mut score: impl FnMut(usize) -> u32, x: usize, y: usize) -> (f64, f64) {
     let mut normal = [[0.0; 6]; 6];
     let mut right = [0.0; 6];
     for v in window(y, grid.y.count, REACH) {
         for u in window(x, grid.x.count, REACH) {
-            let Some(&score) = surface.get(grid.view(u, v)) else {
-                return (0.0, 0.0);
-            };
             let (a, b) = (u as f64 - x as f64, v as f64 - y as f64);
             let terms = [1.0, a, b, a * a, a * b, b * b];
-            let value = f64::from(score);
+            let value = f64::from(score(grid.view(u, v)));
             for (row, &term) in terms.iter().enumerate() {
                 right[row] += term * value;
                 for (column, &other) in terms.iter().enumerate() {
@@ -144,7 +139,7 @@ mod tests {
                 *score = (80.0 + 300.0 * a * a + 90.0 * a * b + 150.0 * b * b) as u32;
             }
             let (x, y) = (libm::round(mx), libm::round(my));
-            let (dx, dy) = fit_minimum(&grid, &surface, x as usize, y as usize);
+            let (dx, dy) = fit_minimum(&grid, |view| surface[view], x as usize, y as usize);
             assert!((x + dx - mx).abs() < 0.02, "{mx}: {}", x + dx);
             assert!((y + dy - my).abs() < 0.02, "{my}: {}", y + dy);
         }

@@ -11,6 +11,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod aids;
 mod bands;
 pub mod border;
 pub mod calibration;
@@ -23,8 +24,10 @@ pub mod edges;
 mod eigen;
 pub mod estimate;
 pub mod frame;
+pub mod grid;
 pub mod interpolate;
 pub mod jts;
+pub mod kernels;
 pub mod kinematics;
 pub mod library;
 pub mod locate;
@@ -36,6 +39,7 @@ pub mod mesh;
 pub mod mirror;
 pub mod moments;
 pub mod nearby;
+pub mod oneclick;
 pub mod partial;
 pub mod pose;
 pub mod raster;
@@ -43,6 +47,7 @@ pub mod refine;
 pub mod region;
 pub mod rivals;
 pub mod scan;
+pub mod search;
 pub mod silhouette;
 pub mod symmetry;
 pub mod verify;

@@ -1,16 +1,23 @@
 //! The library: canonical silhouettes of one component over a grid of out-of-plane rotations.
 //!
 //! [`Library::open`] reads it in place from bytes (flash, file, fetched buffer) after checking
-//! all of it once; [`Builder`] renders it into bytes that the caller lends. The layout is described
-//! in `library/wire.rs` and `DESIGN.md`.
+//! all of it once; [`Builder`] renders it into bytes that the caller lends, and [`compact()`] makes
+//! a tenth of them. Both layouts are described in `library/wire.rs` and `DESIGN.md`.
 
 mod build;
+mod compact;
+#[cfg(test)]
+pub(crate) mod fake;
 mod open;
+pub(crate) mod runs;
+pub(crate) mod sketch;
 mod wire;
 
 pub use build::{BuildError, Builder, ViewScratch};
+pub(crate) use compact::Sketches;
+pub use compact::compact;
 pub use open::{Library, LibraryError};
-pub use wire::{HEADER_BYTES, MAGIC, RECORD_BYTES, VERSION};
+pub use wire::{HEADER_BYTES, MAGIC, PLAIN_VERSION, RECORD_BYTES, VERSION};
 
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;

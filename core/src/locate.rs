@@ -4,13 +4,15 @@ use heapless::Vec;
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::canonical::{CanonicalError, CanonicalForm, canonicalise};
+use crate::canonical::{CanonicalError, CanonicalForm, CanonicalSpec, canonicalise, reverse};
 use crate::estimate::pose_from_view;
 use crate::interpolate::{FineView, interpolate};
+use crate::kernels::Kernels;
 use crate::library::Library;
 use crate::mask::{Mask, Word};
-use crate::matching::{MatchError, Scores, score, scores_needed};
+use crate::matching::{MatchError, Scores, scores_needed};
 use crate::pose::Pose;
+use crate::search::{Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed};
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -30,15 +32,53 @@ pub struct Workspace<'a> {
     pub canonical: &'a mut [Word],
     /// As many words again.
     pub turned: &'a mut [Word],
-    /// [`scores_needed`] numbers; afterwards the score surfaces.
+    /// [`scores_needed`] numbers.
     pub scores: &'a mut [u32],
+    /// [`workspace_bytes_needed`] bytes.
+    pub bytes: &'a mut [u8],
+    /// The loops to run.
+    pub kernels: Kernels,
 }
 
-/// Lengths of a [`Workspace`] for a library: words of each mask, and scores.
+impl Workspace<'_> {
+    /// The same memory, lent on.
+    pub fn lend(&mut self) -> Workspace<'_> {
+        Workspace {
+            canonical: self.canonical,
+            turned: self.turned,
+            scores: self.scores,
+            bytes: self.bytes,
+            kernels: self.kernels,
+        }
+    }
+}
+
+/// Lengths of a [`Workspace`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkspaceNeeds {
+    /// Words of each of the two masks.
+    pub words: usize,
+    /// Scores.
+    pub scores: usize,
+    /// Bytes.
+    pub bytes: usize,
+}
+
+/// Lengths of a [`Workspace`] for a library.
 #[must_use]
-pub fn workspace_needed(library: &Library<'_>) -> (usize, usize) {
-    let words = library.info().canonical.words_needed();
-    (words, scores_needed(library.views()))
+pub fn workspace_needed(library: &Library<'_>) -> WorkspaceNeeds {
+    let spec = &library.info().canonical;
+    WorkspaceNeeds {
+        words: spec.words_needed(),
+        scores: scores_needed(library.views()),
+        bytes: workspace_bytes_needed(spec),
+    }
+}
+
+/// Bytes of a [`Workspace`] for libraries of a canonical frame.
+#[must_use]
+pub const fn workspace_bytes_needed(spec: &CanonicalSpec) -> usize {
+    query_bytes_needed(spec, false) + search_bytes_needed(spec)
 }
 
 /// A pose that explains the silhouette, and the view that led to it.
@@ -54,11 +94,9 @@ pub struct Located {
 
 /// What [`locate`] found.
 #[derive(Clone, Debug)]
-pub struct Found<'w, const K: usize> {
+pub struct Found<const K: usize> {
     /// What was taken away from the silhouette to reach canonical form.
     pub form: CanonicalForm,
-    /// Unmatched pixels of every view.
-    pub scores: Scores<'w>,
     /// At most `K` poses, one for each local minimum of the score surface, fewest unmatched
     /// pixels first. More than one with similar scores means that the silhouette is ambiguous.
     pub poses: Vec<Located, K>,
@@ -68,25 +106,27 @@ pub struct Found<'w, const K: usize> {
 ///
 /// # Errors
 /// [`LocateError`] for a mask without a canonical form or working memory of the wrong length.
-pub fn locate<'w, const K: usize>(
+pub fn locate<const K: usize>(
     mask: &Mask<'_>,
     camera: &Camera,
     library: &Library<'_>,
-    work: Workspace<'w>,
-) -> Result<Found<'w, K>, LocateError> {
+    work: Workspace<'_>,
+) -> Result<Found<K>, LocateError> {
     let info = library.info();
     let form = canonicalise(mask, &info.canonical, camera.aspect(), work.canonical)?;
-    let scores = score(library, work.canonical, work.turned, work.scores)?;
-    let minima: Vec<_, K> = scores.minima();
+    reverse(work.canonical, work.turned);
+    let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
+    let query = Query::new(&info.canonical, work.canonical, work.turned, None, prepared)?;
+    let memory = SearchMemory {
+        bounds: work.scores,
+        sketches,
+    };
+    let mut search = Search::new(library, &query, &work.kernels, memory)?;
+    let minima: Vec<_, K> = search.minima();
     let poses = minima
         .iter()
         .map(|candidate| {
-            let canonical = if candidate.reversed {
-                &*work.turned
-            } else {
-                &*work.canonical
-            };
-            let fine = interpolate(library, &scores, candidate, canonical);
+            let fine = interpolate(&mut search, candidate);
             Located {
                 pose: pose_from_view(camera, info, &form, &fine),
                 view: candidate.view,
@@ -94,9 +134,42 @@ pub fn locate<'w, const K: usize>(
             }
         })
         .collect();
-    Ok(Found {
-        form,
-        scores,
-        poses,
-    })
+    Ok(Found { form, poses })
+}
+
+/// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them
+/// than it has to.
+///
+/// # Errors
+/// As [`locate`].
+pub fn score_views<'w>(
+    mask: &Mask<'_>,
+    camera: &Camera,
+    library: &Library<'_>,
+    work: Workspace<'w>,
+) -> Result<(CanonicalForm, Scores<'w>), LocateError> {
+    let spec = &library.info().canonical;
+    let form = canonicalise(mask, spec, camera.aspect(), work.canonical)?;
+    reverse(work.canonical, work.turned);
+    let (prepared, _) = split_bytes(work.bytes, spec)?;
+    let query = Query::new(spec, work.canonical, work.turned, None, prepared)?;
+    let scores = Scores::fill(library, work.scores, |view, reversed| {
+        query.unmatched(library, view, reversed, &work.kernels)
+    })?;
+    Ok((form, scores))
+}
+
+/// The query's bytes and the sketches'.
+fn split_bytes<'a>(
+    bytes: &'a mut [u8],
+    spec: &CanonicalSpec,
+) -> Result<(&'a mut [u8], &'a mut [u8]), MatchError> {
+    let memory = MatchError::Memory {
+        what: "bytes",
+        needed: workspace_bytes_needed(spec),
+        given: bytes.len(),
+    };
+    bytes
+        .split_at_mut_checked(query_bytes_needed(spec, false))
+        .ok_or(memory)
 }

@@ -218,7 +218,7 @@ fn next_bit(words: &[Word], from: usize, wanted: bool) -> usize {
 }
 
 /// The bits of a row's last word that are pixels.
-const fn tail_mask(width: usize) -> Word {
+pub(crate) const fn tail_mask(width: usize) -> Word {
     match width % WORD_BITS {
         0 => Word::MAX,
         used => (1 << used) - 1,
@@ -337,20 +337,29 @@ impl<'a> MaskMut<'a> {
                 self.toggle_edge(Edge::new(a, b));
             }
         }
-        let tail = tail_mask(self.width);
-        for row in 0..self.height {
-            prefix_parity(self.row_mut(row), tail);
-        }
+        self.fill_parity();
     }
 
     fn toggle_edge(&mut self, edge: Edge) {
         for row in edge.rows(self.height) {
-            let column = edge.column_at(row).max(0) as usize;
-            if column < self.width
-                && let Some(word) = self.row_mut(row).get_mut(column / WORD_BITS)
-            {
-                *word ^= 1 << (column % WORD_BITS);
-            }
+            self.toggle(edge.column_at(row).max(0) as usize, row);
+        }
+    }
+
+    /// Sets a clear pixel and clears a set one; outside the mask nothing happens.
+    pub(crate) fn toggle(&mut self, column: usize, row: usize) {
+        if column < self.width
+            && let Some(word) = self.row_mut(row).get_mut(column / WORD_BITS)
+        {
+            *word ^= 1 << (column % WORD_BITS);
+        }
+    }
+
+    /// Replaces each pixel by the parity of those set up to it in its row.
+    pub(crate) fn fill_parity(&mut self) {
+        let tail = tail_mask(self.width);
+        for row in 0..self.height {
+            prefix_parity(self.row_mut(row), tail);
         }
     }
 }

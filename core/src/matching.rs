@@ -1,4 +1,6 @@
 //! Matching: unmatched pixels between a canonical silhouette and every view of a library.
+//!
+//! This is the plain way, view by view and bit by bit: what [`crate::search`] is held against.
 
 use heapless::Vec;
 use thiserror::Error;
@@ -20,6 +22,11 @@ pub enum MatchError {
         /// Length lent.
         given: usize,
     },
+    /// Silhouette and library differ in their canonical frames.
+    #[error(
+        "the silhouette was brought to another canonical frame than the library's views: size and area must be the library's"
+    )]
+    Canonical,
 }
 
 /// Unmatched pixels of every view in both directions of the principal axis, over memory that
@@ -63,56 +70,57 @@ pub fn score<'s>(
     scores: &'s mut [u32],
 ) -> Result<Scores<'s>, MatchError> {
     let words = library.info().canonical.words_needed();
-    let lengths = [
-        ("words of canonical mask", words, canonical.len()),
-        ("words of working memory", words, turned.len()),
-        ("scores", scores_needed(library.views()), scores.len()),
-    ];
-    for (what, needed, given) in lengths {
-        if needed != given {
-            return Err(MatchError::Memory {
-                what,
-                needed,
-                given,
-            });
-        }
-    }
+    check("words of canonical mask", words, canonical.len())?;
+    check("words of working memory", words, turned.len())?;
     reverse(canonical, turned);
-    let (straight, reversed) = scores.split_at_mut(library.views());
-    for ((a, b), bits) in straight
-        .iter_mut()
-        .zip(&mut *reversed)
-        .zip(library.all_bits())
-    {
-        *a = unmatched(canonical, bits);
-        *b = unmatched(turned, bits);
-    }
-    Ok(Scores {
-        grid: library.info().grid,
-        straight,
-        reversed,
+    let area: u32 = canonical.iter().map(|word| word.count_ones()).sum();
+    Scores::fill(library, scores, |view, reversed| {
+        let ours = if reversed { &*turned } else { canonical };
+        area + library.pixels(view) - 2 * library.covered(view, ours)
     })
 }
 
-/// Number of bits in which words and little-endian bytes differ, two words at a time.
-fn unmatched(words: &[Word], bytes: &[u8]) -> u32 {
-    let pairs = words.chunks_exact(2).zip(bytes.chunks_exact(8));
-    pairs
-        .map(|(words, bytes)| {
-            let ours = words
-                .iter()
-                .rev()
-                .fold(0u64, |joined, &word| joined << 32 | u64::from(word));
-            let theirs = bytes
-                .iter()
-                .rev()
-                .fold(0u64, |joined, &byte| joined << 8 | u64::from(byte));
-            (ours ^ theirs).count_ones()
-        })
-        .sum()
+/// Refuses memory of a wrong length.
+pub(crate) fn check(what: &'static str, needed: usize, given: usize) -> Result<(), MatchError> {
+    if needed == given {
+        return Ok(());
+    }
+    Err(MatchError::Memory {
+        what,
+        needed,
+        given,
+    })
 }
 
-impl Scores<'_> {
+/// The eight views round a view of a grid, or as many as there are, in view order.
+pub(crate) fn neighbours(grid: &Grid, view: usize) -> impl Iterator<Item = usize> + use<> {
+    let grid = *grid;
+    let (x, y) = grid.place(view);
+    let columns = x.saturating_sub(1)..=(x + 1).min(grid.x.count - 1);
+    let rows = y.saturating_sub(1)..=(y + 1).min(grid.y.count - 1);
+    rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
+        .filter(move |&neighbour| neighbour != view)
+}
+
+impl<'a> Scores<'a> {
+    /// Asks for the score of every view in both directions.
+    pub(crate) fn fill(
+        library: &Library<'_>,
+        scores: &'a mut [u32],
+        score: impl Fn(usize, bool) -> u32,
+    ) -> Result<Self, MatchError> {
+        check("scores", scores_needed(library.views()), scores.len())?;
+        let (straight, reversed) = scores.split_at_mut(library.views());
+        for (view, (a, b)) in straight.iter_mut().zip(&mut *reversed).enumerate() {
+            (*a, *b) = (score(view, false), score(view, true));
+        }
+        Ok(Self {
+            grid: library.info().grid,
+            straight,
+            reversed,
+        })
+    }
+
     /// The grid of views behind the scores.
     #[must_use]
     pub fn grid(&self) -> &Grid {
@@ -156,18 +164,12 @@ impl Scores<'_> {
 
     fn is_minimum(&self, candidate: &Candidate) -> bool {
         let surface = self.surface(candidate.reversed);
-        let (x, y) = self.grid.place(candidate.view);
-        let columns = x.saturating_sub(1)..=(x + 1).min(self.grid.x.count - 1);
-        let rows = y.saturating_sub(1)..=(y + 1).min(self.grid.y.count - 1);
-        rows.flat_map(|y| columns.clone().map(move |x| (x, y)))
-            .map(|(x, y)| self.grid.view(x, y))
-            .filter(|&neighbour| neighbour != candidate.view)
-            .all(|neighbour| match surface.get(neighbour) {
-                // Of equal neighbours the first counts.
-                Some(&score) if neighbour < candidate.view => candidate.unmatched < score,
-                Some(&score) => candidate.unmatched <= score,
-                None => true,
-            })
+        neighbours(&self.grid, candidate.view).all(|neighbour| match surface.get(neighbour) {
+            // Of equal neighbours the first counts.
+            Some(&score) if neighbour < candidate.view => candidate.unmatched < score,
+            Some(&score) => candidate.unmatched <= score,
+            None => true,
+        })
     }
 }
 
@@ -192,7 +194,6 @@ fn smallest<const K: usize>(candidates: impl Iterator<Item = Candidate>) -> Vec<
 mod tests {
     use super::*;
     use crate::library::GridAxis;
-    use bitvec::prelude::{BitSlice, Lsb0};
     use proptest::prelude::*;
 
     fn axis(count: usize) -> GridAxis {
@@ -204,17 +205,6 @@ mod tests {
     }
 
     proptest! {
-        #[test]
-        fn words_count_what_bits_count(
-            words in proptest::collection::vec(any::<u32>(), 64),
-            bytes in proptest::collection::vec(any::<u8>(), 256)
-        ) {
-            let ours = BitSlice::<u32, Lsb0>::from_slice(&words);
-            let theirs = BitSlice::<u8, Lsb0>::from_slice(&bytes);
-            let naive = ours.iter().zip(theirs).filter(|(a, b)| **a != **b).count();
-            prop_assert_eq!(unmatched(&words, &bytes) as usize, naive);
-        }
-
         #[test]
         fn the_best_are_the_head_of_the_sorted_list(
             scores in proptest::collection::vec(0u32..40, 48)

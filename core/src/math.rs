@@ -49,6 +49,12 @@ pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
+/// Natural logarithm.
+#[must_use]
+pub fn ln(x: f64) -> f64 {
+    libm::log(x)
+}
+
 /// Nearest whole number, halves away from zero.
 #[must_use]
 pub fn round(x: f64) -> f64 {

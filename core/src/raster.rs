@@ -67,9 +67,15 @@ pub fn render(
         return Ok(());
     }
     let height = out.height();
-    for_each_span(mesh, projected, height, |_| true, |_, row, from, to| {
-        out.fill_span(row, from, to);
-    });
+    for_each_span(
+        mesh,
+        projected,
+        height,
+        |_| true,
+        |_, row, from, to| {
+            out.fill_span(row, from, to);
+        },
+    );
     Ok(())
 }
 

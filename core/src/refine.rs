@@ -11,6 +11,7 @@
 //! saw the implant at once add their residuals to the same equations.
 
 mod edge;
+mod locks;
 mod outline;
 mod probe;
 mod problem;
@@ -20,6 +21,7 @@ mod stages;
 mod uncertainty;
 mod view;
 
+pub use locks::Locks;
 pub use outline::BorderPixel;
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::uncertainty;
@@ -106,6 +108,8 @@ pub struct RefineOptions {
     /// Estimates with the pose how far the target's edges lie beyond the model's outline, where
     /// the data can tell that from depth; see [`Refined::offset_px`].
     pub edge_offset: bool,
+    /// Numbers of the pose that stay as they are at the start.
+    pub locks: Locks,
 }
 
 /// A pose on the way, for who wants to see how refinement converges.
@@ -152,7 +156,8 @@ pub fn refine_traced(
     memory: &mut RefineMemory<'_>,
     trace: &mut dyn FnMut(&Iterate),
 ) -> Result<Refined, RefineError> {
-    let problem = Problem::new(mesh, views, memory)?;
+    let mut problem = Problem::new(mesh, views, memory)?;
+    problem.hold(options.locks, start);
     let mut state = Refined {
         pose: *start,
         offset_px: 0.0,

@@ -1,17 +1,12 @@
 /** Names, roles, contrast and the keyboard's way through the page. */
 import assert from 'node:assert/strict';
-import { createRequire } from 'node:module';
+import { bringAxe, isAccessible } from './support/axe.mjs';
 import { pageTest, screenshot, step } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline } from './support/study.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
-
-const AXE = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
-/** The rules of version 2.1 of the web's accessibility guidelines, A and AA. */
-const RULES = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa'];
-const CONTROLS = /^(button|radio|checkbox|slider|spinbutton|textbox|combobox|application|img|progressbar|dialog|link|menuitem|tab|switch)$/;
 
 /** Controls that Tab has to reach once there is a pose, in this order. */
 const MAIN_CONTROLS = [
@@ -45,7 +40,7 @@ const MAIN_CONTROLS = [
 ];
 
 pageTest('accessibility', async (page, t) => {
-  await page.addScriptTag({ path: AXE });
+  await bringAxe(page);
   await step(page, t, 'the empty page', () => isAccessible(page));
 
   await step(page, t, 'with a pose', async () => {
@@ -83,21 +78,6 @@ pageTest('accessibility', async (page, t) => {
     }
   });
 });
-
-/** No rule of the guidelines is broken, and every control has a name. @param {Page} page */
-async function isAccessible(page) {
-  const violations = await page.evaluate(async (rules) => {
-    const { violations } = await globalThis.axe.run(document, { runOnly: rules });
-    return violations.map(({ id, help, nodes }) => `${id}: ${help}: ${nodes.map((node) => node.html.slice(0, 160)).join(' and ')}`);
-  }, RULES);
-  assert.deepEqual(violations, []);
-  const lines = (await page.locator('body').ariaSnapshot()).split('\n').map((line) => line.trim());
-  const nameless = lines.filter((line) => {
-    const [, role, rest] = /^- '?([a-z]+)(.*)$/.exec(line) ?? [];
-    return role && CONTROLS.test(role) && !rest.startsWith(' "');
-  });
-  assert.deepEqual(nameless, [], 'controls without a name');
-}
 
 /** The name of what has the keyboard's focus. @param {Page} page @returns {Promise<string>} */
 function focused(page) {

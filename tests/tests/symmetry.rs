@@ -3,7 +3,7 @@
 use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose_tests::{mesh, study};
 use xtask::implant::{self, Parameters, Side, Size, Triangles};
-use xtask::pipeline::files::{read_model};
+use xtask::pipeline::files::read_model;
 use xtask::pipeline::study::Study;
 
 /// Asserts that the planes are one, the mediolateral: its normal within `off_deg` of z.

@@ -1,10 +1,12 @@
 //! Frames held and painted with window and level.
 
-use fluoropose::frame::{Frame, Pixel};
+use fluoropose::aids::smoothed::{Scale, Smoothed};
+use fluoropose::frame::{Frame, Grey, Pixel};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
 use crate::error::sentence;
+use crate::looks;
 use crate::paint::put;
 
 /// One frame's pixels.
@@ -13,9 +15,23 @@ pub struct Film {
     pixels: Pixels,
     width: usize,
     height: usize,
+    /// The picture that was last shown instead of the film itself.
+    derived: Option<(FilmLook, Vec<u8>)>,
 }
 
-enum Pixels {
+/// A picture made from a frame.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmLook {
+    /// Strength of edges.
+    Edges,
+    /// Contrast equalised region by region.
+    Equalised,
+}
+
+/// Grey values as they came.
+#[derive(Clone)]
+pub(crate) enum Pixels {
     Eight(Vec<u8>),
     Sixteen(Vec<u16>),
 }
@@ -36,6 +52,7 @@ impl Film {
             pixels: Pixels::Eight(pixels),
             width: width as usize,
             height: height as usize,
+            derived: None,
         })
     }
 
@@ -50,6 +67,7 @@ impl Film {
             pixels: Pixels::Sixteen(pixels),
             width: width as usize,
             height: height as usize,
+            derived: None,
         })
     }
 
@@ -81,6 +99,69 @@ impl Film {
         put(context, &rgba[..self.width * self.height], self.width, 0, 0)
     }
 
+    /// The same with dark and bright exchanged.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    #[wasm_bindgen(js_name = paintInverted)]
+    pub fn paint_inverted(
+        &self,
+        context: &CanvasRenderingContext2d,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        let mut shades = shades(centre, width, self.levels());
+        shades.iter_mut().for_each(|word| *word ^= 0x00FF_FFFF);
+        let rgba: Vec<u32> = match &self.pixels {
+            Pixels::Eight(pixels) => developed(pixels, &shades),
+            Pixels::Sixteen(pixels) => developed(pixels, &shades),
+        };
+        put(context, &rgba[..self.width * self.height], self.width, 0, 0)
+    }
+
+    /// Paints a picture made from the frame, whose own grey values run from 0 to 255. It is made once and kept until
+    /// another one is asked for.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    #[wasm_bindgen(js_name = paintDerived)]
+    pub fn paint_derived(
+        &mut self,
+        context: &CanvasRenderingContext2d,
+        look: FilmLook,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        let shades = shades(centre, width, 1 << 8);
+        let kept = self.derived.take().filter(|(made, _)| *made == look);
+        let (_, picture) = self.derived.insert(kept.unwrap_or_else(|| {
+            (
+                look,
+                Self::derive(&self.pixels, look, self.width, self.height),
+            )
+        }));
+        let rgba = developed(picture, &shades);
+        put(context, &rgba, self.width, 0, 0)
+    }
+
+    /// The pixels of an 8-bit frame; nothing of a 16-bit one.
+    #[wasm_bindgen(js_name = eightBit)]
+    pub fn eight_bit(&self) -> Option<Vec<u8>> {
+        match &self.pixels {
+            Pixels::Eight(pixels) => Some(pixels.clone()),
+            Pixels::Sixteen(_) => None,
+        }
+    }
+
+    /// The pixels of a 16-bit frame; nothing of an 8-bit one.
+    #[wasm_bindgen(js_name = sixteenBit)]
+    pub fn sixteen_bit(&self) -> Option<Vec<u16>> {
+        match &self.pixels {
+            Pixels::Eight(_) => None,
+            Pixels::Sixteen(pixels) => Some(pixels.clone()),
+        }
+    }
+
     /// The grey value of the pixel at a column and row; nothing outside the frame.
     #[wasm_bindgen(js_name = greyAt)]
     pub fn grey_at(&self, column: u32, row: u32) -> Option<u32> {
@@ -99,6 +180,72 @@ impl Film {
         match self.pixels {
             Pixels::Eight(_) => 1 << 8,
             Pixels::Sixteen(_) => 1 << 16,
+        }
+    }
+}
+
+impl Film {
+    pub(crate) fn pixels(&self) -> &Pixels {
+        &self.pixels
+    }
+
+    /// Smooths the film into as many cells as it has pixels.
+    ///
+    /// # Errors
+    /// The core's sentence where there are fewer.
+    pub(crate) fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
+        let (width, height) = (self.width, self.height);
+        let smoothed = match &self.pixels {
+            Pixels::Eight(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+            Pixels::Sixteen(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+        };
+        smoothed.map_err(sentence)
+    }
+
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// Calls `with` with the frame, to be read between its pixels' centres.
+    ///
+    /// # Errors
+    /// That of `with`.
+    pub(crate) fn look<T>(
+        &self,
+        with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let (width, height) = (self.width, self.height);
+        match &self.pixels {
+            Pixels::Eight(pixels) => {
+                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
+            }
+            Pixels::Sixteen(pixels) => {
+                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
+            }
+        }
+    }
+
+    fn derive(pixels: &Pixels, look: FilmLook, width: usize, height: usize) -> Vec<u8> {
+        match (pixels, look) {
+            (Pixels::Eight(pixels), FilmLook::Edges) => {
+                looks::edges(&pixels[..width * height], width, height)
+            }
+            (Pixels::Eight(pixels), FilmLook::Equalised) => {
+                looks::equalised(&pixels[..width * height], width, height)
+            }
+            (Pixels::Sixteen(pixels), FilmLook::Edges) => {
+                looks::edges(&pixels[..width * height], width, height)
+            }
+            (Pixels::Sixteen(pixels), FilmLook::Equalised) => {
+                looks::equalised(&pixels[..width * height], width, height)
+            }
         }
     }
 }

@@ -2,15 +2,17 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::covariance::Deviations;
+use fluoropose::frame::Grey;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
 use fluoropose::mask::{MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::raster::{Projected, scratch_needed};
+use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{
-    BorderPixel, Iterate, RefineMemory, RefineOptions, Refined, View, refine_traced, uncertainty,
+    BorderPixel, Iterate, Polarity, RefineMemory, RefineOptions, Refined, View, outline_samples,
+    refine, refine_traced, uncertainty,
 };
 use fluoropose::rivals::{RefinedRival, refine_rivals, worth_refining};
 use fluoropose::silhouette::Silhouette;
@@ -24,6 +26,9 @@ use crate::surface::Surface;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
+
+/// So far from the outline a pixel is surely inside or outside of an implant that was set by hand, px.
+const ASIDE: f64 = 5.0;
 
 /// A pose that explains an outline.
 #[derive(Clone, Copy)]
@@ -208,6 +213,22 @@ impl LentModel {
         Ok(refined)
     }
 
+    /// Calls `with` with the mesh, its planes of near-symmetry and memory to refine it.
+    ///
+    /// # Errors
+    /// The core's sentence about the model, and that of `with`.
+    pub(crate) fn lend<T>(
+        &mut self,
+        camera: &Camera,
+        with: impl FnOnce(&Mesh<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let mesh = self.surface.mesh()?;
+        let planes = self
+            .planes
+            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
+        with(&mesh, planes, self.buffers.lend(camera))
+    }
+
     /// Standard deviations of a refined pose's numbers; nothing where the outline does not determine it.
     ///
     /// # Errors
@@ -218,12 +239,82 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Option<Deviations>, JsError> {
+        self.deviations_in(refined, View::only(camera, *silhouette))
+    }
+
+    /// The same for what any camera saw.
+    ///
+    /// # Errors
+    /// The core's sentence about the model.
+    pub(crate) fn deviations_in(
+        &mut self,
+        refined: &Refined,
+        view: View<'_>,
+    ) -> Result<Option<Deviations>, JsError> {
         let mesh = self.surface.mesh()?;
-        let view = View::only(camera, *silhouette);
-        let mut memory = self.buffers.lend(camera);
+        let mut memory = self.buffers.lend(view.camera);
         let covariance = uncertainty(&mesh, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = mesh.bounds().centre;
         Ok(covariance.map(|covariance| covariance.deviations(&refined.pose, &middle)))
+    }
+
+    /// Brings one pose onto what was seen, without rivals or mirror images: somebody chose where to start.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined.
+    pub(crate) fn refine_from(
+        &mut self,
+        start: &Pose,
+        view: View<'_>,
+        options: RefineOptions,
+    ) -> Result<Refined, JsError> {
+        let mesh = self.surface.mesh()?;
+        let mut memory = self.buffers.lend(view.camera);
+        refine(&mesh, &[view], start, options, &mut memory).map_err(sentence)
+    }
+
+    /// Whether the implant is darker or brighter than what surrounds it, by the pixels on both sides of its outline.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    pub(crate) fn polarity(
+        &mut self,
+        pose: &Pose,
+        camera: &Camera,
+        frame: &dyn Grey,
+    ) -> Result<Polarity, JsError> {
+        let mesh = self.surface.mesh()?;
+        let mut memory = self.buffers.lend(camera);
+        let mut darker_inside = 0.0;
+        outline_samples(&mesh, camera, pose, &mut memory, |sample| {
+            let [right, down] = sample.normal;
+            let grey = |away: f64| frame.at(sample.column + away * right, sample.row + away * down);
+            if let (Some(inside), Some(outside)) = (grey(-ASIDE), grey(ASIDE)) {
+                darker_inside += sample.length * (outside - inside).signum();
+            }
+        })
+        .map_err(sentence)?;
+        Ok(if darker_inside < 0.0 {
+            Polarity::BrightImplant
+        } else {
+            Polarity::DarkImplant
+        })
+    }
+
+    /// The model's silhouette at a pose.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    pub(crate) fn drawn_at(&mut self, pose: &Pose, camera: &Camera) -> Result<&[Word], JsError> {
+        let (width, height) = (camera.width(), camera.height());
+        let Buffers {
+            projected, drawn, ..
+        } = &mut self.buffers;
+        drawn.resize(words_needed(width, height), 0);
+        let mesh = self.surface.mesh()?;
+        let mut mask = MaskMut::new(drawn, width, height).map_err(sentence)?;
+        render(&mesh, camera, pose, projected, &mut mask).map_err(sentence)?;
+        Ok(drawn)
     }
 
     /// The poses by which refinement goes from `start`.
@@ -248,7 +339,7 @@ impl LentModel {
 
     /// Known frame pixels that differ from the silhouette when the model is drawn at a pose; nothing where it cannot be
     /// drawn.
-    fn draw(
+    pub(crate) fn draw(
         &mut self,
         pose: &Pose,
         camera: &Camera,

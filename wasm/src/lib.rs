@@ -4,14 +4,19 @@
 //! message is the core's sentence. Nothing here hands out a view of WASM memory: what leaves is copied.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+mod aids;
 mod calibration;
 mod choice;
 mod error;
+mod exchange;
 mod film;
 mod found;
+mod grid;
 mod jts;
+mod kinematics;
 mod lent_model;
 mod library;
+mod looks;
 mod matcher;
 mod model;
 mod paint;
@@ -21,13 +26,20 @@ mod surface;
 mod traced;
 mod unmatched;
 
+pub use aids::{
+    Cooling, LiveWire, Reshaped, ThresholdAid, brush_outline, simplify_outline, smooth_outline,
+    snap_outline, snap_path,
+};
 pub use calibration::{CalibrationText, jt_intcalib_text};
 pub use choice::{Chosen, Surroundings, choose_pose};
-pub use film::Film;
+pub use exchange::{MaskOutline, mask_of_outline, outline_of_mask};
+pub use film::{Film, FilmLook};
 pub use found::Match;
+pub use grid::{BeadGrid, DistortionFit, Straightener, fit_distortion, plate_camera, ruler_scale};
 pub use jts::{read_jts, write_jts};
+pub use kinematics::joint_motion;
 pub use library::{LibraryBuilder, LibraryViews};
-pub use matcher::Matcher;
+pub use matcher::{HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose};
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use unmatched::paint_unmatched;

@@ -162,11 +162,10 @@ impl LibraryBuilder {
         if self.done < self.views() {
             return Err(JsError::new("The library is not complete yet"));
         }
-        self.plan
-            .borrow_dependent()
-            .finish(&mut self.bytes)
-            .map_err(sentence)?;
-        Ok(self.bytes)
+        let mut smaller = vec![0; self.bytes.len()];
+        let builder = self.plan.borrow_dependent();
+        let file = builder.finish_smaller(&mut self.bytes, &mut self.canonical, &mut smaller);
+        Ok(file.map_err(sentence)?.to_vec())
     }
 }
 

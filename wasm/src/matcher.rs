@@ -1,7 +1,16 @@
 //! Outlines matched against an open library.
 
+mod from_here;
+mod landscape;
+mod one_click;
+
+pub use from_here::{HandFit, HiddenPixels};
+pub use landscape::{Landscape, ViewPose};
+pub use one_click::{OneClick, OneClickAnswer};
+
 use fluoropose::canonical::reverse;
 use fluoropose::choice::Candidate as Contender;
+use fluoropose::kernels::Kernels;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
 use fluoropose::mask::Word;
@@ -46,6 +55,7 @@ pub struct Matcher {
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
+    bytes: Vec<u8>,
 }
 
 #[wasm_bindgen]
@@ -57,13 +67,14 @@ impl Matcher {
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: Vec<u8>) -> Result<Matcher, JsError> {
         let library = OpenLibrary::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))?;
-        let (words, scores) = workspace_needed(library.borrow_dependent());
+        let needs = workspace_needed(library.borrow_dependent());
         Ok(Self {
             library,
             model: None,
-            canonical: vec![0; words],
-            turned: vec![0; words],
-            scores: vec![0; scores],
+            canonical: vec![0; needs.words],
+            turned: vec![0; needs.words],
+            scores: vec![0; needs.scores],
+            bytes: vec![0; needs.bytes],
         })
     }
 
@@ -249,6 +260,8 @@ impl Matcher {
             canonical: &mut self.canonical,
             turned: &mut self.turned,
             scores: &mut self.scores,
+            bytes: &mut self.bytes,
+            kernels: Kernels::PORTABLE,
         };
         let found =
             locate::<MINIMA>(silhouette.mask(), &camera, library, work).map_err(sentence)?;
@@ -296,7 +309,12 @@ impl Matcher {
         }
         let input = input.iter().flat_map(|word| word.to_le_bytes()).collect();
         let library = self.library.borrow_dependent();
-        (input, library.bits(ranked.located.view).to_vec())
+        let mut view = vec![0; self.canonical.len()];
+        library.draw(ranked.located.view, &mut view);
+        (
+            input,
+            view.iter().flat_map(|word| word.to_le_bytes()).collect(),
+        )
     }
 
     /// The same with how sure the pose is.

@@ -2,8 +2,8 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
 import { transformWithOxc, type Plugin, type UserConfig } from 'vite';
-import { filesBelow, isForThePage } from './files';
-import { hashSource, policyElement, readPolicy, type Policy } from './policy';
+import { filesBelow, isForThePage } from './files.ts';
+import { hashSource, policyElement, readPolicy, type Policy } from './policy.ts';
 
 const UNPACK = new URL('../embedded/unpack.ts', import.meta.url);
 
@@ -11,6 +11,7 @@ const UNPACK = new URL('../embedded/unpack.ts', import.meta.url);
 const NAME = 'fluoropose.html';
 
 const CONFIG: UserConfig = {
+  worker: { format: 'iife' },
   build: {
     outDir: 'dist-embedded',
     copyPublicDir: false,
@@ -94,7 +95,7 @@ function policyFor(script: string, style: string): Policy {
     ['script-src', `${hashSource(script)} 'wasm-unsafe-eval'`],
     ['style-src', hashSource(style)],
     ['worker-src', 'blob:'],
-    ['connect-src', 'blob:'],
+    ['connect-src', 'blob: data:'],
     ['img-src', 'blob: data:'],
     ['manifest-src', "'none'"],
   ]);

@@ -2,7 +2,7 @@ import { createHash } from 'node:crypto';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { transformWithOxc, type Plugin } from 'vite';
-import { filesBelow, isForThePage } from './files';
+import { filesBelow, isForThePage } from './files.ts';
 
 const SOURCE = new URL('../service_worker/service_worker.ts', import.meta.url);
 

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import * as history from '../src/document/history';
 import { cellOf, EMPTY_DOC, type Outline } from '../src/document/types';
-import { canvasPoint } from '../src/geometry/points';
+import { canvasPoint, framePoint } from '../src/geometry/points';
 import { Controller } from '../src/interaction/controller';
 import { hitDraft, hitTest } from '../src/interaction/hit';
 import type { Button, Effect, Input, Scene } from '../src/interaction/machine';
@@ -32,6 +32,7 @@ class Bench {
       place: { frameId: 'f', component: 'femur' },
       outline: this.outline,
       window: { centre: 100, width: 200 },
+      erase: false,
     };
     const input = { type, at: canvasPoint(x, y), button, alt };
     for (const effect of this.controller.handle(this.tool, input, scene, this.space)) this.#apply(effect);
@@ -244,5 +245,14 @@ describe('hit tests', () => {
   it('has the first point easier to hit than the others while drafting', () => {
     expect(hitDraft(outline, viewport, canvasPoint(55, 50)).kind).toBe('vertex');
     expect(hitDraft(outline, viewport, canvasPoint(155, 50)).kind).toBe('nothing');
+  });
+});
+
+describe('a finger', () => {
+  it('reaches twice as far as a mouse', () => {
+    const outline: Outline = { points: [framePoint(10, 10), framePoint(110, 10), framePoint(60, 90)], closed: true, unknownSides: [] };
+    const viewport = { scale: 1, left: 0, top: 0 };
+    expect(hitTest(outline, viewport, canvasPoint(10, 25)).kind).toBe('nothing');
+    expect(hitTest(outline, viewport, canvasPoint(10, 25), 2)).toEqual({ kind: 'vertex', index: 0 });
   });
 });

@@ -44,12 +44,14 @@ const doc: Doc = {
   calibration: { name: 'c.txt', text: 'JT_INTCALIB\n1198\n0\n0\n0.373\n' },
   cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
   window: { centre: 2000, width: 4095 },
+  marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
 };
 
 const bytes = Uint8Array.from({ length: 70_001 }, (_, i) => (i * 31) & 255);
 const session: Session = {
   doc,
   view: { frameIndex: 0, component: 'tibia', overlayOpacity: 0.35 },
+  audit: null,
   files: [
     { name: 'film.tif', sha256: 'ab', bytes },
     { name: 'fem.stl', sha256: 'cd', bytes: null },
@@ -86,7 +88,7 @@ describe('session', () => {
   });
 
   it('names kind, version and program', () => {
-    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 1, program: 'fluoropose 0' });
+    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 2, program: 'fluoropose 0' });
   });
 
   it('refuses a file that is cut at any of many places', () => {
@@ -97,7 +99,7 @@ describe('session', () => {
   });
 
   it.each([
-    ['"version":1', '"version":2', /version 2/],
+    ['"version":2', '"version":3', /version 3.*newer page/],
     ['fluoropose-session', 'something', /not a fluoropose session/],
     ['"width":1024', '"width":"1024"', /document\.frames\[0\]\.width should be a finite number/],
     ['"closed":true', '"closed":1', /closed should be true or false but is 1/],

@@ -13,9 +13,7 @@ use crate::pipeline::accuracy::Errors;
 use crate::pipeline::bound::{Comparison, Noise};
 use crate::pipeline::decide::Reasons;
 use crate::pipeline::disturb::DisturbanceOptions;
-use crate::pipeline::files::{
-    known_pose, read_calibration, read_poses, write_json, write_poses,
-};
+use crate::pipeline::files::{known_pose, read_calibration, read_poses, write_json, write_poses};
 use crate::pipeline::finder::{EdgeOptions, Method};
 use crate::pipeline::report::{self, report, write_report};
 use crate::pipeline::study::Study;

@@ -4,6 +4,7 @@
 pub mod bench;
 pub mod biplane;
 pub mod bound;
+pub mod calibrate;
 pub mod ci;
 pub mod demo;
 pub mod evaluate;
@@ -24,4 +25,5 @@ pub mod stl;
 pub mod suite;
 pub mod synthetic;
 pub mod test;
+pub mod undistort;
 pub mod workspace;

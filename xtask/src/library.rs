@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fluoropose::library::Library;
+use fluoropose::mask::WORD_BITS;
 
 use crate::pipeline::build::{Pair, ViewOptions, build_library};
 use crate::pipeline::files::{read_calibration, read_model};
@@ -76,9 +77,14 @@ fn write_sheet(library: &Library<'_>, path: &Path) -> Result<()> {
     let size = library.info().canonical.size();
     let (columns, rows) = (grid.x.count * THUMBNAIL, grid.y.count * THUMBNAIL);
     let mut sheet = image::GrayImage::new(columns as u32, rows as u32);
+    let words = library.info().canonical.words_needed();
+    let mut views = vec![vec![0; words]; library.views()];
+    for (view, words) in views.iter_mut().enumerate() {
+        library.draw(view, words);
+    }
     for (x, y, pixel) in sheet.enumerate_pixels_mut() {
         let (x, y) = (x as usize, y as usize);
-        let bits = library.bits(grid.view(x / THUMBNAIL, y / THUMBNAIL));
+        let words = &views[grid.view(x / THUMBNAIL, y / THUMBNAIL)];
         let block = |at: usize| {
             let first = at % THUMBNAIL * size / THUMBNAIL;
             first..(first + size / THUMBNAIL).max(first + 1)
@@ -87,7 +93,7 @@ fn write_sheet(library: &Library<'_>, path: &Path) -> Result<()> {
         let area = columns.len() * rows.len();
         let set = rows
             .flat_map(|row| columns.clone().map(move |column| row * size + column))
-            .filter(|bit| bits[bit / 8] >> (bit % 8) & 1 == 1)
+            .filter(|bit| words[bit / WORD_BITS] >> (bit % WORD_BITS) & 1 == 1)
             .count();
         let line = x.is_multiple_of(THUMBNAIL) || y.is_multiple_of(THUMBNAIL);
         pixel.0 = [if line {

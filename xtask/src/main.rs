@@ -28,6 +28,10 @@ enum Verb {
     Evaluate(xtask::evaluate::Args),
     /// How well a pose can be known from a noisy outline (Cramer and Rao)
     Bound(xtask::bound::Args),
+    /// Find camera and distortion in a picture of a bead grid
+    Calibrate(xtask::calibrate::Args),
+    /// Write frames without their distortion
+    Undistort(xtask::undistort::Args),
     /// Turn femoral and tibial poses into joint kinematics
     Kinematics(xtask::kinematics::Args),
     /// Build the page and serve it on this machine
@@ -63,6 +67,8 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Synthetic(args) => xtask::synthetic::run(args),
         Verb::Evaluate(args) => xtask::evaluate::run(args),
         Verb::Bound(args) => xtask::bound::run(args),
+        Verb::Calibrate(args) => xtask::calibrate::run(args),
+        Verb::Undistort(args) => xtask::undistort::run(args),
         Verb::Kinematics(args) => xtask::kinematics::run(args),
         Verb::Serve(args) => xtask::serve::run(args),
         Verb::Package(args) => xtask::package::run(args),

@@ -5,6 +5,7 @@ pub mod biplane;
 pub mod bound;
 pub mod build;
 pub mod decide;
+pub mod distortion;
 pub mod disturb;
 pub mod files;
 pub mod finder;

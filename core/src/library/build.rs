@@ -2,9 +2,12 @@
 
 use thiserror::Error;
 
+use super::compact::compact;
 use super::open::{check_info, library_bytes, view_bytes};
-use super::wire::{HEADER_BYTES, RECORD_BYTES, checksum, write_header, write_record};
-use super::{Grid, LibraryError, LibraryInfo, ViewRecord};
+use super::wire::{
+    Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
+};
+use super::{Grid, Library, LibraryError, LibraryInfo, ViewRecord};
 use crate::camera::{Camera, CameraError};
 use crate::canonical::{CanonicalError, CanonicalSpec, canonicalise};
 use crate::mask::{MaskError, MaskMut, Word, words_needed};
@@ -129,7 +132,7 @@ impl<'m> Builder<'m> {
         self.info.grid.views()
     }
 
-    /// Bytes of the finished library.
+    /// Bytes of the finished library in the plain layout.
     #[must_use]
     pub fn bytes_needed(&self) -> usize {
         // The counts were checked: 4096 x 4096 views at most, which fits where memory does.
@@ -234,7 +237,7 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// Writes the header, once all views are in their places.
+    /// Writes the header of a plain library, once all views are in their places.
     ///
     /// # Errors
     /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
@@ -247,11 +250,50 @@ impl<'m> Builder<'m> {
             given,
         };
         let (header, body) = bytes.split_first_chunk_mut().ok_or(memory)?;
-        write_header(header, &self.info, body.len() as u64, checksum(body));
+        let body = Body {
+            version: PLAIN_VERSION,
+            blocks: 0,
+            bytes: body.len() as u64,
+            crc: checksum([&*body]),
+        };
+        write_header(header, &self.info, &body);
         Ok(())
     }
 
-    /// Builds the whole library with one thread's working memory.
+    /// The library as drawn so far, once all views are in their places: what
+    /// [`super::compact()`] makes a file of, so that [`Self::finish`] and opening are not needed.
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
+    pub fn drawn<'b>(&self, bytes: &'b [u8]) -> Result<Library<'b>, BuildError> {
+        self.check_length(bytes.len())?;
+        Ok(Library::plain(self.info, &bytes[HEADER_BYTES..]))
+    }
+
+    /// The file to keep, once all views are in their places in `bytes`: in the compact layout, or
+    /// in the plain one where that is not larger. `words` is working memory for one view
+    /// ([`CanonicalSpec::words_needed`]), `out` has [`Self::bytes_needed`] bytes like `bytes`.
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] or [`BuildError::Mask`] for lent memory of a wrong length.
+    pub fn finish_smaller<'b>(
+        &self,
+        bytes: &'b mut [u8],
+        words: &mut [Word],
+        out: &'b mut [u8],
+    ) -> Result<&'b [u8], BuildError> {
+        self.check_length(out.len())?;
+        match compact(&self.drawn(bytes)?, words, out) {
+            Ok(length) => Ok(&out[..length]),
+            Err(BuildError::Memory { .. }) => {
+                self.finish(bytes)?;
+                Ok(bytes)
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Builds the whole library, in the plain layout, with one thread's working memory.
     ///
     /// # Errors
     /// As [`Self::render_view`] and [`Self::places`].

@@ -2,13 +2,16 @@
 
 use thiserror::Error;
 
+use super::compact::{self, Compact, Sketches};
+use super::runs::{bands, draw_runs, overlap, spans};
 use super::wire::{
-    HEADER_BYTES, HEADER_CRC_AT, MAGIC, RECORD_BYTES, Reader, VERSION, checksum, read_grid,
-    read_record,
+    Body, HEADER_BYTES, HEADER_CRC_AT, MAGIC, PLAIN_VERSION, RECORD_BYTES, Reader, VERSION,
+    checksum, read_grid, read_record,
 };
 use super::{Grid, LibraryInfo, ViewRecord};
 use crate::camera::{Camera, CameraError};
 use crate::canonical::{CanonicalError, CanonicalSpec};
+use crate::mask::{MaskMut, WORD_BITS, Word};
 
 /// Why bytes are not a library.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -17,7 +20,9 @@ pub enum LibraryError {
     #[error("this is not a library file: it does not begin with FLUOROPL")]
     Magic,
     /// The layout is unknown.
-    #[error("the library has version {0}; this program reads version {VERSION}. Build it again")]
+    #[error(
+        "the library has version {0}; this program reads versions {PLAIN_VERSION} and {VERSION}. Build it again"
+    )]
     Version(u16),
     /// The file is shorter or longer than its header says.
     #[error("the library has {given} bytes but should have {needed}: the file is cut or padded")]
@@ -45,8 +50,16 @@ pub enum LibraryError {
 #[derive(Clone, Copy, Debug)]
 pub struct Library<'a> {
     info: LibraryInfo,
-    records: &'a [u8],
-    bits: &'a [u8],
+    pub(super) views: Views<'a>,
+}
+
+/// The views in either layout.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Views<'a> {
+    /// Bits.
+    Plain { records: &'a [u8], bits: &'a [u8] },
+    /// Runs and sketches.
+    Compact(Compact<'a>),
 }
 
 /// Bytes of the canonical bits of one view.
@@ -54,7 +67,7 @@ pub(super) fn view_bytes(canonical: &CanonicalSpec) -> usize {
     canonical.size() * canonical.size() / 8
 }
 
-/// Bytes of a whole library; `None` where that overflows.
+/// Bytes of a whole library in the plain layout; `None` where that overflows.
 pub(super) fn library_bytes(canonical: &CanonicalSpec, grid: &Grid) -> Option<usize> {
     let views = grid.x.count.checked_mul(grid.y.count)?;
     views
@@ -63,31 +76,52 @@ pub(super) fn library_bytes(canonical: &CanonicalSpec, grid: &Grid) -> Option<us
 }
 
 impl<'a> Library<'a> {
-    /// Checks `bytes` and reads them in place: heading, length, both checksums, and that every
-    /// number is finite and possible. Takes time proportional to the length, once.
+    /// Checks `bytes` and reads them in place: heading, length, both checksums, that every
+    /// number is finite and possible, that runs stay in their frames and sketches are those of
+    /// their runs. Takes time proportional to the length, once.
     ///
     /// # Errors
     /// [`LibraryError`] says what is wrong. A file in which any one bit was flipped is refused.
     pub fn open(bytes: &'a [u8]) -> Result<Self, LibraryError> {
-        let (header, body) = split_header(bytes)?;
-        let (info, body_bytes, body_crc) = read_header(header)?;
-        let needed = library_bytes(&info.canonical, &info.grid)
-            .ok_or(LibraryError::Value("number of views"))? as u64;
+        let (header, rest) = split_header(bytes)?;
+        let (info, body) = read_header(header)?;
         let given = bytes.len() as u64;
-        if given != needed || body_bytes != body.len() as u64 {
-            return Err(LibraryError::Length { needed, given });
+        let length = |needed| LibraryError::Length { needed, given };
+        if body.bytes != rest.len() as u64 {
+            return Err(length(body.bytes.saturating_add(HEADER_BYTES as u64)));
         }
-        if checksum(body) != body_crc {
+        let plain_bytes = library_bytes(&info.canonical, &info.grid)
+            .ok_or(LibraryError::Value("number of views"))? as u64;
+        if body.version == PLAIN_VERSION && given != plain_bytes {
+            return Err(length(plain_bytes));
+        }
+        if checksum([rest]) != body.crc {
             return Err(LibraryError::Checksum("body"));
         }
-        let (records, bits) = body.split_at(info.grid.views() * RECORD_BYTES);
-        let library = Self {
-            info,
-            records,
-            bits,
+        let library = match body.version {
+            PLAIN_VERSION => Self::plain(info, rest),
+            _ => Self {
+                info,
+                views: Compact::split(rest, &info, body.blocks)
+                    .map(Views::Compact)
+                    .ok_or(LibraryError::Value("length of the body"))?,
+            },
         };
         library.check_records()?;
+        if let Views::Compact(compact) = &library.views {
+            compact.check(&info)?;
+        }
         Ok(library)
+    }
+
+    /// A plain body that is right by construction: of the length that `info` gives.
+    pub(super) fn plain(info: LibraryInfo, body: &'a [u8]) -> Self {
+        let length = (info.grid.views() * RECORD_BYTES).min(body.len());
+        let (records, bits) = body.split_at(length);
+        Self {
+            info,
+            views: Views::Plain { records, bits },
+        }
     }
 
     /// What the library was made from.
@@ -105,24 +139,112 @@ impl<'a> Library<'a> {
     /// The record of a view; all zero beyond the last.
     #[must_use]
     pub fn record(&self, view: usize) -> ViewRecord {
-        let start = view.saturating_mul(RECORD_BYTES);
-        read_record(self.records.get(start..).unwrap_or_default())
+        match &self.views {
+            Views::Plain { records, .. } => {
+                let start = view.saturating_mul(RECORD_BYTES);
+                read_record(records.get(start..).unwrap_or_default())
+            }
+            Views::Compact(compact) => compact::read_record(compact, &self.info, view),
+        }
     }
 
-    /// The canonical bits of a view, row by row, least significant bit leftmost; empty beyond
-    /// the last.
+    /// Draws the canonical bits of a view into as many words as a canonical mask has
+    /// ([`CanonicalSpec::words_needed`]); clears them beyond the last view. Words of another
+    /// number are left alone.
+    pub fn draw(&self, view: usize, out: &mut [Word]) {
+        let size = self.info.canonical.size();
+        if out.len() != self.info.canonical.words_needed() {
+            return;
+        }
+        match &self.views {
+            Views::Plain { .. } => {
+                out.fill(0);
+                for (word, &four) in out.iter_mut().zip(self.bits(view).as_chunks().0) {
+                    *word = Word::from_le_bytes(four);
+                }
+            }
+            Views::Compact(compact) => {
+                if let Ok(mut mask) = MaskMut::new(out, size, size) {
+                    draw_runs(compact.runs(view), &mut mask);
+                }
+            }
+        }
+    }
+
+    /// Number of canonical pixels set in both of two views.
     #[must_use]
-    pub fn bits(&self, view: usize) -> &'a [u8] {
+    pub fn overlap(&self, a: usize, b: usize) -> u32 {
+        match &self.views {
+            Views::Plain { .. } => {
+                let ours = words(self.bits(a)).zip(words(self.bits(b)));
+                ours.map(|(a, b)| (a & b).count_ones()).sum()
+            }
+            Views::Compact(compact) => overlap(compact.runs(a), compact.runs(b)),
+        }
+    }
+
+    /// Number of canonical pixels set in a view and in a canonical mask.
+    #[must_use]
+    pub fn covered(&self, view: usize, canonical: &[Word]) -> u32 {
+        match &self.views {
+            Views::Plain { .. } => {
+                let pairs = words(self.bits(view)).zip(canonical);
+                pairs.map(|(a, b)| (a & b).count_ones()).sum()
+            }
+            Views::Compact(compact) => {
+                let row_words = self.info.canonical.size() / WORD_BITS;
+                let rows = bands(compact.runs(view)).flat_map(|band| band.rows());
+                rows.map(|(row, pieces)| {
+                    let row = canonical.get(row * row_words..(row + 1) * row_words);
+                    let row = row.unwrap_or_default();
+                    let runs = spans(pieces);
+                    runs.map(|(start, end)| set_within(row, start, end))
+                        .sum::<u32>()
+                })
+                .sum()
+            }
+        }
+    }
+
+    /// Number of canonical pixels set in a view.
+    #[must_use]
+    pub fn pixels(&self, view: usize) -> u32 {
+        match &self.views {
+            Views::Plain { .. } => words(self.bits(view)).map(|word| word.count_ones()).sum(),
+            Views::Compact(compact) => {
+                let pieces = bands(compact.runs(view)).flat_map(|band| band.pieces);
+                pieces.map(|&[_, pixels]| u32::from(pixels)).sum()
+            }
+        }
+    }
+
+    /// The canonical bits of a view of a plain library, row by row, least significant bit
+    /// leftmost; empty beyond the last, and in a compact library.
+    pub(crate) fn bits(&self, view: usize) -> &'a [u8] {
+        let Views::Plain { bits, .. } = &self.views else {
+            return &[];
+        };
         let length = view_bytes(&self.info.canonical);
         let start = view.saturating_mul(length);
-        self.bits
-            .get(start..start.saturating_add(length))
+        bits.get(start..start.saturating_add(length))
             .unwrap_or_default()
     }
 
-    /// The canonical bits of all views, one after another.
-    pub fn all_bits(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
-        self.bits.chunks_exact(view_bytes(&self.info.canonical))
+    /// Sketches, where the library is compact.
+    pub(crate) fn sketches(&self) -> Option<Sketches<'a>> {
+        match &self.views {
+            Views::Plain { .. } => None,
+            Views::Compact(compact) => Some(compact.sketches()),
+        }
+    }
+
+    /// The runs of a view of a compact library; none in a plain one.
+    #[inline]
+    pub(crate) fn runs(&self, view: usize) -> &'a [u8] {
+        match &self.views {
+            Views::Plain { .. } => &[],
+            Views::Compact(compact) => compact.runs(view),
+        }
     }
 
     fn check_records(&self) -> Result<(), LibraryError> {
@@ -147,6 +269,29 @@ impl<'a> Library<'a> {
     }
 }
 
+/// Little-endian words of canonical bits.
+fn words(bytes: &[u8]) -> impl Iterator<Item = Word> + '_ {
+    let four = bytes.as_chunks::<4>().0.iter();
+    four.map(|&four| Word::from_le_bytes(four))
+}
+
+/// Bits set from column `start` to before `end` of a row.
+fn set_within(row: &[Word], start: usize, end: usize) -> u32 {
+    if start >= end {
+        return 0;
+    }
+    let (first, last) = (start / WORD_BITS, (end - 1) / WORD_BITS);
+    let head = Word::MAX << (start % WORD_BITS);
+    let tail = Word::MAX >> (WORD_BITS - 1 - (end - 1) % WORD_BITS);
+    let words = row.get(first..=last).unwrap_or_default().iter();
+    let ones = (first..).zip(words).map(|(at, &word)| {
+        let head = if at == first { head } else { Word::MAX };
+        let tail = if at == last { tail } else { Word::MAX };
+        (word & head & tail).count_ones()
+    });
+    ones.sum()
+}
+
 fn split_header(bytes: &[u8]) -> Result<(&[u8; HEADER_BYTES], &[u8]), LibraryError> {
     if !bytes.starts_with(&MAGIC) {
         return Err(LibraryError::Magic);
@@ -158,16 +303,16 @@ fn split_header(bytes: &[u8]) -> Result<(&[u8; HEADER_BYTES], &[u8]), LibraryErr
     bytes.split_first_chunk().ok_or(short)
 }
 
-fn read_header(header: &[u8; HEADER_BYTES]) -> Result<(LibraryInfo, u64, u32), LibraryError> {
+fn read_header(header: &[u8; HEADER_BYTES]) -> Result<(LibraryInfo, Body), LibraryError> {
     let (checked, crc) = header.split_at(HEADER_CRC_AT);
     let reader = &mut Reader::new(checked);
     let _: [u8; MAGIC.len()] = reader.bytes();
     let version = reader.u16();
     // The version comes before the checksum: a later layout may keep it elsewhere.
-    if version != VERSION {
+    if version != PLAIN_VERSION && version != VERSION {
         return Err(LibraryError::Version(version));
     }
-    if checksum(checked) != Reader::new(crc).u32() {
+    if checksum([checked]) != Reader::new(crc).u32() {
         return Err(LibraryError::Checksum("header"));
     }
     if usize::from(reader.u16()) != HEADER_BYTES {
@@ -194,7 +339,13 @@ fn read_header(header: &[u8; HEADER_BYTES]) -> Result<(LibraryInfo, u64, u32), L
         model: reader.bytes(),
     };
     check_info(&info)?;
-    Ok((info, reader.u64(), reader.u32()))
+    let body = Body {
+        version,
+        bytes: reader.u64(),
+        crc: reader.u32(),
+        blocks: usize::from(reader.u16()),
+    };
+    Ok((info, body))
 }
 
 pub(super) fn check_info(info: &LibraryInfo) -> Result<(), LibraryError> {

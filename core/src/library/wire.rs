@@ -1,8 +1,11 @@
 //! Every byte of a library file, and nothing else.
 //!
-//! Little-endian throughout. Header (256 bytes), then a record of 64 bytes a view, then the
-//! canonical bits of each view (`size * size / 8` bytes, row by row, least significant bit
-//! leftmost). Two CRC-32 (ISO-HDLC): of the header up to its own, and of the body.
+//! Little-endian throughout. Header (256 bytes), then the body. Two CRC-32 (ISO-HDLC): of the
+//! header up to its own, and of the body.
+//!
+//! Version 0, plain: a record of 64 bytes a view, then the canonical bits of each view
+//! (`size * size / 8` bytes, row by row, least significant bit leftmost). Version 1, compact: see
+//! `compact.rs`.
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
@@ -10,20 +13,27 @@ use super::{Grid, GridAxis, LibraryInfo, ViewRecord};
 
 /// First eight bytes of the file.
 pub const MAGIC: [u8; 8] = *b"FLUOROPL";
-/// Version of the layout. Version 0 may still change: its speed and size are being measured.
-pub const VERSION: u16 = 0;
+/// Version of the plain layout, bits: what views are drawn into.
+pub const PLAIN_VERSION: u16 = 0;
+/// Version of the compact layout, runs: what is kept.
+pub const VERSION: u16 = 1;
 /// Bytes of the header.
 pub const HEADER_BYTES: usize = 256;
-/// Bytes of a view's record.
+/// Bytes of a view's record in the plain layout.
 pub const RECORD_BYTES: usize = 64;
+/// Bytes of a view's record in the compact layout: without the rotations, which are the grid's.
+pub(super) const SHORT_RECORD_BYTES: usize = 40;
 
 /// Where the header's own checksum stands.
 pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
 
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-pub(super) fn checksum(bytes: &[u8]) -> u32 {
-    CRC.checksum(bytes)
+/// Of parts that follow one another.
+pub(super) fn checksum<const N: usize>(parts: [&[u8]; N]) -> u32 {
+    let mut digest = CRC.digest();
+    parts.iter().for_each(|part| digest.update(part));
+    digest.finalize()
 }
 
 /// Reads numbers one after another; zero beyond the end, so no index can be wrong.
@@ -89,11 +99,11 @@ impl<'a> Writer<'a> {
         self.bytes(&value.to_le_bytes());
     }
 
-    fn u32(&mut self, value: usize) {
+    pub(super) fn u32(&mut self, value: usize) {
         self.bytes(&(value as u32).to_le_bytes());
     }
 
-    fn u16(&mut self, value: usize) {
+    pub(super) fn u16(&mut self, value: usize) {
         self.bytes(&(value as u16).to_le_bytes());
     }
 }
@@ -103,17 +113,22 @@ fn write_axis(out: &mut Writer<'_>, axis: &GridAxis) {
     out.f64(axis.step);
 }
 
-/// Writes the header for a body of `body_bytes` bytes with the checksum `body_crc`.
-pub(super) fn write_header(
-    header: &mut [u8; HEADER_BYTES],
-    info: &LibraryInfo,
-    body_bytes: u64,
-    body_crc: u32,
-) {
+/// What the header says of the body.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Body {
+    pub(super) version: u16,
+    /// Of a sketch; 0 in the plain layout.
+    pub(super) blocks: usize,
+    pub(super) bytes: u64,
+    pub(super) crc: u32,
+}
+
+/// Writes the header.
+pub(super) fn write_header(header: &mut [u8; HEADER_BYTES], info: &LibraryInfo, body: &Body) {
     header.fill(0);
     let out = &mut Writer::new(header);
     out.bytes(&MAGIC);
-    out.bytes(&VERSION.to_le_bytes());
+    out.bytes(&body.version.to_le_bytes());
     out.u16(HEADER_BYTES);
     out.u32(info.canonical.area() as usize);
     out.u16(info.canonical.size());
@@ -131,9 +146,10 @@ pub(super) fn write_header(
     let centre = info.camera.principal_point();
     centre.iter().for_each(|&value| out.f64(value));
     out.bytes(&info.model);
-    out.bytes(&body_bytes.to_le_bytes());
-    out.bytes(&body_crc.to_le_bytes());
-    let crc = checksum(&header[..HEADER_CRC_AT]).to_le_bytes();
+    out.bytes(&body.bytes.to_le_bytes());
+    out.bytes(&body.crc.to_le_bytes());
+    out.u16(body.blocks);
+    let crc = checksum([&header[..HEADER_CRC_AT]]).to_le_bytes();
     header[HEADER_CRC_AT..].copy_from_slice(&crc);
 }
 
@@ -154,6 +170,11 @@ pub(super) fn write_record(bytes: &mut [u8], record: &ViewRecord) {
     let out = &mut Writer::new(bytes);
     out.f64(record.x_deg);
     out.f64(record.y_deg);
+    write_short_record(out, record);
+}
+
+/// A record without the rotations.
+pub(super) fn write_short_record(out: &mut Writer<'_>, record: &ViewRecord) {
     out.f64(record.scale);
     out.f64(record.angle);
     record.offset.iter().for_each(|&value| out.f64(value));
@@ -162,10 +183,16 @@ pub(super) fn write_record(bytes: &mut [u8], record: &ViewRecord) {
 }
 
 pub(super) fn read_record(bytes: &[u8]) -> ViewRecord {
-    let mut reader = Reader::new(bytes);
+    let reader = &mut Reader::new(bytes);
+    let rotations = [reader.f64(), reader.f64()];
+    read_short_record(reader, rotations)
+}
+
+/// A record of which the rotations are known.
+pub(super) fn read_short_record(reader: &mut Reader<'_>, [x_deg, y_deg]: [f64; 2]) -> ViewRecord {
     ViewRecord {
-        x_deg: reader.f64(),
-        y_deg: reader.f64(),
+        x_deg,
+        y_deg,
         scale: reader.f64(),
         angle: reader.f64(),
         offset: [reader.f64(), reader.f64()],

@@ -31,16 +31,7 @@ pub(super) fn view_outline<'m>(
     memory: &'m mut ViewMemory<'_>,
 ) -> Option<OutlinePoints<'m>> {
     let size = library.info().canonical.size();
-    let words = memory
-        .bits
-        .iter_mut()
-        .zip(library.bits(view).chunks_exact(4));
-    for (word, bytes) in words {
-        *word = bytes
-            .iter()
-            .rev()
-            .fold(0, |joined, &byte| joined << 8 | Word::from(byte));
-    }
+    library.draw(view, memory.bits);
     let mask = Mask::new(memory.bits, size, size).ok()?;
     let mut visited = MaskMut::new(memory.visited, size, size).ok()?;
     let least = (LEAST * units.spacing) as usize;

@@ -1,6 +1,7 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
 use super::edge;
+use super::locks::{Hold, Locks};
 use super::outline::{BorderPixel, Outliner};
 use super::probe::{self, Found};
 use super::solve::{Equations, Step};
@@ -10,7 +11,7 @@ use super::{Iterate, RefineError, RefineMemory, Refined, check_memory};
 use crate::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
 use crate::mesh::Mesh;
-use crate::pose::Pose;
+use crate::pose::{EulerPose, Pose};
 use crate::raster::{RenderError, render};
 
 /// Part of a loss that is not known, because the model is drawn in whole pixels.
@@ -25,6 +26,8 @@ pub(super) struct Problem<'a> {
     pub(super) views: &'a [View<'a>],
     /// Middle of the model: turns about it hardly move the image.
     pub(super) middle: Vector3,
+    /// Numbers of the pose that do not change.
+    hold: Option<Hold>,
 }
 
 /// One stage as it applies to all views.
@@ -64,7 +67,40 @@ impl<'a> Problem<'a> {
             mesh,
             views,
             middle: mesh.bounds().centre,
+            hold: None,
         })
+    }
+
+    /// Holds the locked numbers as they are at `start`.
+    pub(super) fn hold(&mut self, locks: Locks, start: &Pose) {
+        self.hold = (!locks.is_empty()).then(|| Hold {
+            locks,
+            start: EulerPose::from(*start),
+        });
+    }
+
+    /// The step that the equations ask for at a pose, and the change of the offset.
+    fn step(
+        &self,
+        equations: &Equations,
+        damping: f64,
+        pass: &Pass,
+        pose: &Pose,
+    ) -> Option<(Step, f64)> {
+        match &self.hold {
+            None => equations.step(damping, pass.free),
+            Some(hold) => {
+                let rows = hold.locks.rows(pose, &self.middle);
+                equations.held_step(damping, pass.free, rows)
+            }
+        }
+    }
+
+    fn apply(&self, step: &Step, pose: &Pose) -> Pose {
+        match &self.hold {
+            None => step.apply(pose, &self.middle),
+            Some(hold) => hold.apply(step, pose, &self.middle),
+        }
     }
 
     /// Levenberg's and Marquardt's damping: a step that does not lower the loss is taken back
@@ -81,10 +117,10 @@ impl<'a> Problem<'a> {
         let mut damping = 1e-3;
         state.converged = false;
         for _ in 0..STEPS[pass.index] {
-            let Some((step, more)) = equations.step(damping, pass.free) else {
+            let Some((step, more)) = self.step(&equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            let pose = step.apply(&state.pose, &self.middle);
+            let pose = self.apply(&step, &state.pose);
             let offset = state.offset_px + more;
             let tried = self.observe(&pose, offset, pass, memory);
             state.renders += self.views.len();
@@ -122,14 +158,14 @@ impl<'a> Problem<'a> {
         for _ in 0..POLISHING {
             let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
             next.renders += self.views.len();
-            let Some((step, more)) = equations.step(0.0, pass.free) else {
+            let Some((step, more)) = self.step(&equations, 0.0, pass, &next.pose) else {
                 break;
             };
             if step.size() > last {
                 share *= 0.6;
             }
             last = step.size();
-            next.pose = step.scaled(share).apply(&next.pose, &self.middle);
+            next.pose = self.apply(&step.scaled(share), &next.pose);
             next.offset_px += share * more;
             next.converged = step.is_small();
             if next.converged {

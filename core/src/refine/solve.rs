@@ -22,6 +22,19 @@ const SMALL_DEG: f64 = 1e-4;
 const SMALL_MM: f64 = 1e-3;
 
 impl Step {
+    /// The step of a solution, and the change of the offset.
+    fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Self, f64) {
+        (Self::of([a, b, c, x, y, z]), offset)
+    }
+
+    /// Three turns, then three shifts.
+    pub(super) fn of([a, b, c, x, y, z]: [f64; 6]) -> Self {
+        Self {
+            turn: [a, b, c],
+            shift: [x, y, z],
+        }
+    }
+
     /// A Jacobian in the camera's axes, turned into those of the world that the camera stands in.
     pub(super) fn in_world(jacobian: [f64; 6], placement: &Pose) -> [f64; 6] {
         let [a, b, c, x, y, z] = jacobian;
@@ -137,9 +150,15 @@ impl Loss {
     }
 }
 
+type Normal = [[f64; UNKNOWNS]; UNKNOWNS];
+
+fn dot(a: &[f64; UNKNOWNS], b: &[f64; UNKNOWNS]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// Normal equations of robust least squares.
 pub(super) struct Equations {
-    normal: [[f64; UNKNOWNS]; UNKNOWNS],
+    normal: Normal,
     right: [f64; UNKNOWNS],
     /// Length of the outline, and of what is known of it.
     length: f64,
@@ -210,6 +229,42 @@ impl Equations {
     /// The damped step and the change of the offset, which stays where it is unless `free`;
     /// `None` where too little of the outline was found or it does not determine the pose.
     pub(super) fn step(&self, damping: f64, free: bool) -> Option<(Step, f64)> {
+        let (normal, right) = self.damped(damping, free)?;
+        Some(Step::with_offset(solve_spd(normal, right)?))
+    }
+
+    /// The same where some combinations of the six parameters stay zero: the solution conditioned
+    /// on them one by one.
+    pub(super) fn held_step(
+        &self,
+        damping: f64,
+        free: bool,
+        rows: impl Iterator<Item = [f64; 6]>,
+    ) -> Option<(Step, f64)> {
+        let (normal, right) = self.damped(damping, free)?;
+        let mut covariance = inverse_spd(&normal)?;
+        let mut solution = covariance.map(|row| dot(&row, &right));
+        for [a, b, c, x, y, z] in rows {
+            let row = [a, b, c, x, y, z, 0.0];
+            let gain = covariance.map(|column| dot(&column, &row));
+            let variance = dot(&gain, &row);
+            if variance <= 0.0 {
+                // Held by the rows before it.
+                continue;
+            }
+            let excess = dot(&solution, &row) / variance;
+            for (at, &gain_at) in gain.iter().enumerate() {
+                solution[at] -= gain_at * excess;
+                for (value, &other) in covariance[at].iter_mut().zip(&gain) {
+                    *value -= gain_at * other / variance;
+                }
+            }
+        }
+        Some(Step::with_offset(solution))
+    }
+
+    /// Damped normal equations; `None` where too little of the outline was found.
+    fn damped(&self, damping: f64, free: bool) -> Option<(Normal, [f64; UNKNOWNS])> {
         if !self.is_enough() {
             return None;
         }
@@ -222,12 +277,7 @@ impl Equations {
         for (k, row) in normal.iter_mut().enumerate() {
             row[k] *= 1.0 + damping;
         }
-        let [a, b, c, x, y, z, offset] = solve_spd(normal, right)?;
-        let step = Step {
-            turn: [a, b, c],
-            shift: [x, y, z],
-        };
-        Some((step, offset))
+        Some((normal, right))
     }
 
     /// The offset is worth having when the pose leaves it more than this part of its information

@@ -1,18 +1,20 @@
 /**
- * One Chromium for a test file and a fresh page for each test. The runner serves the page and names both:
+ * One browser for a test file and a fresh page for each test. The runner serves the page and names both:
  * `cargo xtask test --browser`.
  */
 import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
 import { mkdir } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { after, test } from 'node:test';
-import { chromium } from 'playwright-core';
+import { chromium, firefox } from 'playwright-core';
 
 /** Long enough for two libraries on a busy machine; nothing is asserted about time. */
 export const PATIENCE = 60_000;
 
 const WINDOW = { width: 1440, height: 900 };
-const ARGUMENTS = [
+/** Of Chromium. */
+export const ARGUMENTS = [
   '--no-sandbox',
   '--disable-gpu',
   '--disable-quic',
@@ -21,24 +23,41 @@ const ARGUMENTS = [
   '--disable-component-update',
   '--disable-sync',
 ];
+/** What Firefox's protocol has no words for is left out there. */
+const CUSTOMARY = process.env.FLUOROPOSE_FIREFOX
+  ? {}
+  : /** @type {const} */ ({ reducedMotion: 'reduce', permissions: ['clipboard-read', 'clipboard-write'] });
 const SCREENSHOTS = fileURLToPath(new URL('../../../target/screenshots/', import.meta.url));
 
 /** Where the runner serves the page, with a slash at its end. */
 export const ADDRESS = setting('FLUOROPOSE_URL');
 
 /** @param {string} name */
-function setting(name) {
+export function setting(name) {
   const value = process.env[name];
   if (!value) throw new Error(`${name} is not set: run these tests with \`cargo xtask test --browser\``);
   return value;
 }
 
+/** Whether the runner wants Firefox. */
+export const IN_FIREFOX = process.env.FLUOROPOSE_FIREFOX !== undefined;
+
 /** @type {Promise<import('playwright-core').Browser> | undefined} */
 let launched;
 
-function browser() {
-  launched ??= chromium.launch({ executablePath: setting('FLUOROPOSE_CHROMIUM'), args: ARGUMENTS });
+/** The browser under test, for pages with settings of their own. */
+export function browser() {
+  launched ??= IN_FIREFOX ? launchFirefox() : launchChromium();
   return launched;
+}
+
+function launchChromium() {
+  return chromium.launch({ executablePath: setting('FLUOROPOSE_CHROMIUM'), args: ARGUMENTS });
+}
+
+/** An ordinary Firefox, driven by the protocol that all browsers are to have in common. */
+function launchFirefox() {
+  return firefox.launch({ channel: 'moz-firefox', executablePath: setting('FLUOROPOSE_FIREFOX') });
 }
 
 after(async () => (await launched)?.close());
@@ -49,8 +68,9 @@ after(async () => (await launched)?.close());
  *
  * @param {string} name
  * @param {(page: import('playwright-core').Page, t: import('node:test').TestContext) => Promise<void>} body
+ * @param {{ refusals?: boolean }} [options] `refusals`: the test provokes errors that the browser logs
  */
-export function pageTest(name, body) {
+export function pageTest(name, body, { refusals = false } = {}) {
   test(name, { timeout: 3 * PATIENCE }, async (t) => {
     const { page, troubles } = await freshPage();
     try {
@@ -61,7 +81,7 @@ export function pageTest(name, body) {
     } finally {
       await page.context().close();
     }
-    assert.deepEqual(troubles, [], 'the page threw, logged an error, or asked another computer');
+    if (!refusals) assert.deepEqual(troubles, [], 'the page threw, logged an error, or asked another computer');
   });
 }
 
@@ -86,33 +106,84 @@ export async function step(page, t, name, body) {
 
 /** An empty page, and the list of what goes wrong in it. */
 async function freshPage() {
-  const context = await (await browser()).newContext({
-    viewport: WINDOW,
-    reducedMotion: 'reduce',
-    permissions: ['clipboard-read', 'clipboard-write'],
-  });
-  const page = await context.newPage();
-  page.setDefaultTimeout(PATIENCE);
-  /** @type {string[]} */
-  const troubles = [];
-  page.on('pageerror', (error) => troubles.push(`thrown: ${error.stack ?? error.message}`));
-  page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
-  page.on('request', (request) => isOurs(request.url()) || troubles.push(`asked: ${request.url()}`));
+  const page = await openWindow({ serviceWorkers: 'block' });
+  const troubles = watch(page);
   await visit(page);
   return { page, troubles };
 }
 
-/** Opens the page anew, and waits until it listens. @param {import('playwright-core').Page} page */
-export async function visit(page) {
-  await page.goto(ADDRESS);
+/**
+ * An empty window of its own, with nothing kept from others.
+ *
+ * @param {import('playwright-core').BrowserContextOptions} [options]
+ */
+export async function openWindow(options = {}) {
+  const context = await (await browser()).newContext({ viewport: WINDOW, ...CUSTOMARY, ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(PATIENCE);
+  return page;
+}
+
+/**
+ * What goes wrong in a page from now on.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {string} [address] of its host, where it is another than usual
+ */
+export function watch(page, address = ADDRESS) {
+  /** @type {string[]} */
+  const troubles = [];
+  page.on('pageerror', (error) => isOfTheDriver(error) || troubles.push(`thrown: ${error.stack ?? error.message}`));
+  page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
+  page.on('request', (request) => isOf(address, request.url()) || troubles.push(`asked: ${request.url()}`));
+  return troubles;
+}
+
+/**
+ * Opens the page anew with nothing kept from before, and waits until it listens.
+ *
+ * @param {import('playwright-core').Page} page
+ * @param {string} [address] where else than usual
+ */
+export async function visit(page, address = ADDRESS) {
+  if (page.url().startsWith(address)) await forget(page, address);
+  await page.goto(address);
   await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
   await drawn(page);
 }
 
-/** @param {string} url */
-function isOurs(url) {
-  return url.startsWith(ADDRESS) || url.startsWith('blob:') || url.startsWith('data:');
+/** Clears the browser's storage of the page, which keeps its work there. @param {import('playwright-core').Page} page @param {string} address */
+async function forget(page, address) {
+  await page.goto(`${address}icon.svg`);
+  await page.evaluate(
+    () =>
+      new Promise((resolve, reject) => {
+        const request = indexedDB.deleteDatabase('fluoropose');
+        request.onsuccess = () => resolve(null);
+        request.onerror = () => reject(request.error);
+      }),
+  );
 }
+
+const DRIVERS_STYLE = createHash('sha256').update('body {}').digest('base64');
+
+/**
+ * For a picture the driver puts an empty style into the page for a moment. Firefox refuses it, as the page's policy says,
+ * and tells its digest.
+ *
+ * @param {Error} error
+ */
+function isOfTheDriver({ message }) {
+  return IN_FIREFOX && message.includes('inline style') && message.includes(DRIVERS_STYLE);
+}
+
+/** @param {string} host @param {string} url */
+function isOf(host, url) {
+  return url.startsWith(host) || url.startsWith('blob:') || url.startsWith('data:');
+}
+
+/** Without a style to hide the text cursor, which the page's policy would refuse. */
+export const AS_IT_IS = /** @type {const} */ ({ caret: 'initial' });
 
 /**
  * Writes what the page looks like to `target/screenshots`.
@@ -124,7 +195,7 @@ function isOurs(url) {
 export async function screenshot(page, name, part) {
   await mkdir(SCREENSHOTS, { recursive: true });
   const file = `${name.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
-  await (part ?? page).screenshot({ path: SCREENSHOTS + file });
+  await (part ?? page).screenshot({ ...AS_IT_IS, path: SCREENSHOTS + file });
 }
 
 /**

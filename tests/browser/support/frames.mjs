@@ -127,3 +127,74 @@ function element(group, number, representation, value) {
   else head.writeUInt16LE(bytes.length, 6);
   return Buffer.concat([head, bytes]);
 }
+
+// --- Compressed pixels and further attributes --------------------------------------------------------------------------
+
+/**
+ * A JPEG 2000 codestream of 12 x 9 pixels of 12 bits, lossless, by OpenJPEG: nothing in Node writes one. It is the one
+ * that the decoder's own tests read, and so is its pattern.
+ */
+const CODESTREAM = [
+  'ff4fff51002900000000000c0000000900000000000000000000000c00000009000000000000000000010b0101ff52000c00',
+  '000001000004040001ff5c00044060ff90000a0000000000770001ff93dfe19812322a1595506c15f95fff16657ad59f51aa',
+  '12133b6690860f4b4b8d0de2a3463b432e58bbeac477c0fd426a848fe3d9db3377b4b0ce04733a47c604a198d771c32cef65',
+  'cb8829008a535ab4aab83553c6a2cec30f58cba2eaf2ebc73945add685a11247e7dfffd9',
+].join('');
+
+export const JPEG_2000 = {
+  file: { syntax: '1.2.840.10008.1.2.4.90', width: 12, height: 9, codestream: Buffer.from(CODESTREAM, 'hex'), stated: {} },
+  /** @param {number} column @param {number} row */
+  greyAt(column, row) {
+    const at = 12 * row + column;
+    return 16 * ((7 * column + 31 * row + ((at * at) % 5)) % 256);
+  },
+};
+
+/**
+ * A DICOM file of one frame in a fragment. `stated` holds further values (DS) by their tags, such as `0018,1110`.
+ *
+ * @param {{ syntax: string, width: number, height: number, codestream: Buffer, stated: Record<string, string> }} image
+ */
+export function dicomOf({ syntax, width, height, codestream, stated }) {
+  const meta = Buffer.concat([
+    element(0x0002, 0x0001, 'OB', Buffer.from([0, 1])),
+    element(0x0002, 0x0010, 'UI', syntax.length % 2 ? `${syntax}\0` : syntax),
+  ]);
+  const length = Buffer.alloc(4);
+  length.writeUInt32LE(meta.length);
+  const further = Object.entries(stated).map(([tag, value]) => ({ tag, content: Buffer.from(value.length % 2 ? `${value} ` : value), kind: 'DS' }));
+  const image = [
+    { tag: '0028,0002', kind: 'US', content: words([1]) },
+    { tag: '0028,0004', kind: 'CS', content: Buffer.from('MONOCHROME2 ') },
+    { tag: '0028,0010', kind: 'US', content: words([height]) },
+    { tag: '0028,0011', kind: 'US', content: words([width]) },
+    { tag: '0028,0100', kind: 'US', content: words([16]) },
+    { tag: '0028,0101', kind: 'US', content: words([12]) },
+    { tag: '0028,0102', kind: 'US', content: words([11]) },
+    { tag: '0028,0103', kind: 'US', content: words([0]) },
+    ...further,
+  ];
+  image.sort((a, b) => a.tag.localeCompare(b.tag));
+  const elements = image.map(({ tag, kind, content }) => element(...numbersOf(tag), kind, content));
+  const file_ = [Buffer.alloc(128), Buffer.from('DICM'), element(0x0002, 0x0000, 'UL', length), meta, ...elements, fragments(codestream)];
+  return file('compressed.dcm', Buffer.concat(file_));
+}
+
+/** @param {string} tag @returns {[number, number]} */
+function numbersOf(tag) {
+  const [group, number] = tag.split(',').map((half) => Number.parseInt(half, 16));
+  return [group ?? 0, number ?? 0];
+}
+
+/** Encapsulated pixel data of one fragment, without an offset table. @param {Buffer} content */
+function fragments(content) {
+  const padded = content.length % 2 ? Buffer.concat([content, Buffer.alloc(1)]) : content;
+  const head = Buffer.from([0xe0, 0x7f, 0x10, 0, 0x4f, 0x42, 0, 0, 0xff, 0xff, 0xff, 0xff]);
+  const item = (/** @type {number} */ length) => {
+    const bytes = Buffer.from([0xfe, 0xff, 0, 0xe0, 0, 0, 0, 0]);
+    bytes.writeUInt32LE(length, 4);
+    return bytes;
+  };
+  const end = Buffer.from([0xfe, 0xff, 0xdd, 0xe0, 0, 0, 0, 0]);
+  return Buffer.concat([head, item(0), item(padded.length), padded, end]);
+}

@@ -1,6 +1,6 @@
 /** What the page says in words and numbers, by role and accessible name. */
 import assert from 'node:assert/strict';
-import { until } from './browser.mjs';
+import { drawn, until } from './browser.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./study.mjs').Pose} Pose */
@@ -111,7 +111,7 @@ export async function unmatched(page) {
 
 /** What the bottom line says. @param {Page} page */
 export function said(page) {
-  return page.getByRole('status').innerText();
+  return page.getByRole('contentinfo', { name: 'Status' }).getByRole('status').innerText();
 }
 
 /** Waits until the bottom line says something. @param {Page} page @param {RegExp} pattern */
@@ -155,4 +155,11 @@ export async function waitForLibraries(page, ...components) {
 export async function openDemonstration(page) {
   await page.getByRole('button', { name: 'Open the demonstration' }).click();
   await waitForFrames(page, 8);
+}
+
+/** Waits until the last change is kept in the browser. @param {Page} page */
+export async function waitUntilKept(page) {
+  await drawn(page);
+  const shown = () => page.getByRole('group', { name: 'Saved state' }).innerText();
+  await until(shown, (text) => text.startsWith('Saved'), 'the work to be kept');
 }

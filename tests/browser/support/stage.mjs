@@ -1,6 +1,6 @@
 /** The film and a hand with a mouse on it. Points are columns and rows of the frame, as in the page's readout. */
 import assert from 'node:assert/strict';
-import { drawn, until } from './browser.mjs';
+import { AS_IT_IS, drawn, until } from './browser.mjs';
 
 /** @typedef {import('./study.mjs').Point} Point */
 
@@ -106,7 +106,7 @@ export class Stage {
     await drawn(this.page);
     const { x, y, width, height } = await this.box();
     const clip = { x: x + INSET, y: y + INSET, width: width - 2 * INSET, height: height - 2 * INSET };
-    return this.page.screenshot({ clip });
+    return this.page.screenshot({ ...AS_IT_IS, clip });
   }
 
   /** Waits until the film looks as in a picture taken before. @param {Buffer} before @param {string} what */

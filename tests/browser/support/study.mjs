@@ -77,6 +77,18 @@ export function readJts(text) {
  * @returns {Promise<Point[]>}
  */
 export async function trueOutline(component, frame) {
+  return polygonWithin(component, frame, HAND);
+}
+
+/**
+ * The same with as few points as stay within so many pixels of the border.
+ *
+ * @param {'femur' | 'tibia'} component
+ * @param {number} frame from 1
+ * @param {number} away px
+ * @returns {Promise<Point[]>}
+ */
+export async function polygonWithin(component, frame, away) {
   const name = String(frame).padStart(4, '0');
   const { width, height, data } = decode((await demoFile(`masks/${component}/${name}.png`)).buffer);
   const inside = Array.from(data, (value) => (value > 0 ? 1 : 0));
@@ -84,7 +96,7 @@ export async function trueOutline(component, frame) {
   const [border] = contours().size([width, height]).thresholds([0.5])(inside);
   const rings = border.coordinates.map(([outer]) => outer);
   const ring = rings.reduce((longest, other) => (other.length > longest.length ? other : longest));
-  const kept = simplify(ring.map(([x, y]) => ({ x, y })), HAND, true);
+  const kept = simplify(ring.map(([x, y]) => ({ x, y })), away, true);
   // A ring ends where it begins.
   return kept.slice(0, -1).map(({ x, y }) => [x, y]);
 }

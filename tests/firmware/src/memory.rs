@@ -1,6 +1,8 @@
 //! All memory that the way from outline to pose uses, of one size known when it is built.
 
+use fluoropose::canonical::CanonicalSpec;
 use fluoropose::contour::Contour;
+use fluoropose::locate::workspace_bytes_needed;
 use fluoropose::mask::{Word, words_needed};
 use fluoropose::matching::scores_needed;
 
@@ -11,9 +13,7 @@ pub const MAX_POINTS: usize = 1024;
 /// Views of the library: 7 rotations about x times 9 about y.
 pub const MAX_VIEWS: usize = 63;
 
-/// Side of the canonical frame, pixels.
-const CANONICAL_SIDE: usize = 256;
-const CANONICAL_WORDS: usize = words_needed(CANONICAL_SIDE, CANONICAL_SIDE);
+const CANONICAL_WORDS: usize = words_needed(CanonicalSpec::USUAL.size(), CanonicalSpec::USUAL.size());
 
 /// The working memory; a microcontroller holds one in a static.
 pub struct Memory {
@@ -22,6 +22,7 @@ pub struct Memory {
     pub(crate) canonical: [Word; CANONICAL_WORDS],
     pub(crate) turned: [Word; CANONICAL_WORDS],
     pub(crate) scores: [u32; scores_needed(MAX_VIEWS)],
+    pub(crate) bytes: [u8; workspace_bytes_needed(&CanonicalSpec::USUAL)],
 }
 
 impl Memory {
@@ -33,6 +34,7 @@ impl Memory {
             canonical: [0; CANONICAL_WORDS],
             turned: [0; CANONICAL_WORDS],
             scores: [0; scores_needed(MAX_VIEWS)],
+            bytes: [0; workspace_bytes_needed(&CanonicalSpec::USUAL)],
         }
     }
 }

@@ -3,6 +3,7 @@
 use core::fmt::{self, Write};
 
 use fluoropose::contour::{Contour, Outline, OutlineError, Point};
+use fluoropose::kernels::Kernels;
 use fluoropose::library::{Library, LibraryError};
 use fluoropose::locate::{Found, LocateError, Located, Workspace, locate};
 use fluoropose::mask::{MaskError, MaskMut};
@@ -94,8 +95,10 @@ pub fn prove(
         canonical: &mut memory.canonical,
         turned: &mut memory.turned,
         scores: &mut memory.scores,
+        bytes: &mut memory.bytes,
+        kernels: Kernels::PORTABLE,
     };
-    let found: Found<'_, RIVALS> =
+    let found: Found<RIVALS> =
         locate(&mask, &info.camera, &library, work).map_err(Failure::Locate)?;
     stage("canonical form, match, pose");
     report(out, &found)
@@ -123,7 +126,7 @@ fn read_outline(bytes: &[u8], points: &mut Contour<MAX_POINTS>) -> Result<(), Fa
     Ok(())
 }
 
-fn report(out: &mut dyn Write, found: &Found<'_, RIVALS>) -> Result<(), Failure> {
+fn report(out: &mut dyn Write, found: &Found<RIVALS>) -> Result<(), Failure> {
     number(out, "centroid column", found.form.centroid.column)?;
     number(out, "centroid row", found.form.centroid.row)?;
     number(out, "axis angle rad", found.form.angle)?;

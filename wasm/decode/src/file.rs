@@ -7,9 +7,9 @@ use crate::error::{DecodeError, Problem};
 use crate::frame::GreyFrame;
 use crate::limits::MAX_PIXEL_BYTES_AT_ONCE;
 use crate::sniff::{Kind, sniff};
-use crate::{jpeg, png, tiff};
+use crate::{jpeg, jpeg2000, png, tiff};
 
-/// A PNG, JPEG, TIFF or DICOM file whose structure has been checked and whose frames are decoded when asked for.
+/// A PNG, JPEG, JPEG 2000, TIFF or DICOM file whose structure has been checked and whose frames are decoded when asked for.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -33,6 +33,7 @@ pub struct FrameFile<'a> {
 enum Content {
     Png,
     Jpeg,
+    Jpeg2000,
     Tiff { pages: Vec<usize> },
     Dicom(Box<Dicom>),
 }
@@ -43,7 +44,7 @@ impl<'a> FrameFile<'a> {
     ///
     /// # Errors
     /// [`DecodeError`] if the content is not a frame of a known format, is damaged, is of a kind that is not read
-    /// (JPEG 2000, JPEG-LS, ...), or larger than the [limits](crate::limits).
+    /// (JPEG-LS, video, ...), or larger than the [limits](crate::limits).
     pub fn open(bytes: impl Into<Cow<'a, [u8]>>, name: &str) -> Result<Self, DecodeError> {
         let mut bytes = bytes.into();
         let kind = sniff(&bytes, name);
@@ -69,7 +70,7 @@ impl<'a> FrameFile<'a> {
     /// How many frames it holds, at least 1.
     pub fn count(&self) -> usize {
         match &self.content {
-            Content::Png | Content::Jpeg => 1,
+            Content::Png | Content::Jpeg | Content::Jpeg2000 => 1,
             Content::Tiff { pages } => pages.len(),
             Content::Dicom(dicom) => dicom.count(),
         }
@@ -91,6 +92,7 @@ impl<'a> FrameFile<'a> {
         match &self.content {
             Content::Png => png::decode(&self.bytes),
             Content::Jpeg => jpeg::decode(&self.bytes),
+            Content::Jpeg2000 => jpeg2000::decode(&self.bytes),
             Content::Tiff { pages } => tiff::decode(&self.bytes, pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
         }
@@ -107,6 +109,10 @@ impl Content {
             Kind::Jpeg => {
                 jpeg::check(bytes)?;
                 Self::Jpeg
+            }
+            Kind::Jpeg2000 => {
+                jpeg2000::check(bytes)?;
+                Self::Jpeg2000
             }
             Kind::Tiff => Self::Tiff {
                 pages: tiff::pages(bytes)?,

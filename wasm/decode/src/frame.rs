@@ -51,12 +51,32 @@ pub struct Geometry {
     /// Distance between pixel centres at the detector (DICOM Imager Pixel Spacing), mm: along a row, then from
     /// row to row.
     pub detector_spacing_mm: Option<[f64; 2]>,
+    /// Distance between pixel centres (DICOM Pixel Spacing), mm: along a row, then from row to row. Where it holds,
+    /// [`Self::pixel_spacing_calibration`] tells; without that it may be the detector or anything else.
+    pub pixel_spacing_mm: Option<[f64; 2]>,
+    /// How the pixel spacing was worked out.
+    pub pixel_spacing_calibration: Option<SpacingCalibration>,
+    /// Distance between pixel centres on a digitised film (DICOM Nominal Scanned Pixel Spacing), mm.
+    pub scanned_spacing_mm: Option<[f64; 2]>,
+    /// Distance from the X-ray focus to the point that the stand turns about, mm.
+    pub source_to_isocentre_mm: Option<f64>,
+    /// Estimated ratio of the size at the detector to the size of the object.
+    pub magnification: Option<f64>,
     /// Distance from the X-ray focus to the detector, mm.
     pub source_to_detector_mm: Option<f64>,
     /// Distance from the X-ray focus to the patient, mm.
     pub source_to_patient_mm: Option<f64>,
     /// Height of a pixel over its width (1 for square pixels).
     pub pixel_aspect: Option<f64>,
+}
+
+/// How a pixel spacing that is not the detector's was worked out (DICOM Pixel Spacing Calibration Type).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpacingCalibration {
+    /// From distances: it holds at one assumed depth in the patient.
+    Geometry,
+    /// From an object of known size in the picture: it holds at the depth of that object.
+    Fiducial,
 }
 
 impl Pixels {

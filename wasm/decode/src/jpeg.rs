@@ -1,16 +1,21 @@
 //! JPEG: baseline, progressive and lossless, grey or colour.
 //!
+//! [`lossless`] is decoded here, the other processes by a library.
+//!
 //! The markers are walked before the decoder sees a byte: it fills what is missing from a cut file with grey, and
 //! a wrong measure is worse here than no measure. A camera's wish to have its picture turned (Exif) is not followed:
 //! pixels are as stored.
+
+mod lossless;
 
 use jpeg_decoder::{Decoder, PixelFormat};
 
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, checked_area};
-use crate::luminance::grey_from_u8;
+use crate::luminance::{grey_from_u8, luminance};
 
 const FORMAT: &str = "JPEG";
+const REMEDY: &str = "Export it as an ordinary JPEG, PNG or TIFF";
 
 /// Most scans of one image. Encoders write about ten; a file of thousands would keep the decoder busy for hours.
 const MAX_SCANS: usize = 100;
@@ -121,18 +126,17 @@ fn walk(bytes: &[u8]) -> Result<Header, Problem> {
 fn checked_header(bytes: &[u8]) -> Result<Header, Problem> {
     let header = walk(bytes)?;
     let area = checked_area(header.width.into(), header.height.into())?;
-    let remedy = "Export it as an ordinary JPEG, PNG or TIFF";
     if header.process > LOSSLESS {
         let what = "a rare coding (hierarchical or arithmetic)";
-        return Err(Problem::unsupported(FORMAT, what, remedy));
+        return Err(Problem::unsupported(FORMAT, what, REMEDY));
     }
     if header.process != LOSSLESS && header.precision != 8 {
         let what = format!("{}-bit lossy pixels", header.precision);
-        return Err(Problem::unsupported(FORMAT, what, remedy));
+        return Err(Problem::unsupported(FORMAT, what, REMEDY));
     }
     if !matches!(header.components, 1 | 3) {
         let what = format!("{} colour channels", header.components);
-        return Err(Problem::unsupported(FORMAT, what, remedy));
+        return Err(Problem::unsupported(FORMAT, what, REMEDY));
     }
     let least_bits = match header.process {
         LOSSLESS => area,
@@ -149,30 +153,62 @@ pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
     checked_header(bytes).map(drop)
 }
 
+/// What the colours of a lossless image are: its own markers do not tell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LosslessColour {
+    /// Red, green, blue.
+    Rgb,
+    /// Luminance first.
+    LuminanceFirst,
+}
+
 /// Decodes the image.
 pub(crate) fn decode(bytes: &[u8]) -> Result<GreyFrame, Problem> {
+    decode_with(bytes, LosslessColour::Rgb)
+}
+
+/// Decodes the image; what the colours are if it is lossless, the caller knows.
+pub(crate) fn decode_with(bytes: &[u8], colour: LosslessColour) -> Result<GreyFrame, Problem> {
     let header = checked_header(bytes)?;
     let (width, height) = (u32::from(header.width), u32::from(header.height));
     let area = checked_area(width.into(), height.into())?;
-    let mut decoder = Decoder::new(bytes);
-    decoder.set_max_decoding_buffer_size(3 * 2 * area);
-    let samples = decoder.decode().map_err(|e| cut(&e.to_string()))?;
-    let format = decoder.info().map(|info| info.pixel_format);
-    let pixels = match format {
-        Some(PixelFormat::L8) => Pixels::U8(samples),
-        Some(PixelFormat::L16) => {
-            let wide = samples.as_chunks::<2>().0.iter().copied();
-            Pixels::U16(wide.map(u16::from_ne_bytes).collect())
-        }
-        Some(PixelFormat::RGB24) => Pixels::U8(grey_from_u8(&samples, 3)),
-        _ => return Err(cut("its colours cannot be told")),
+    let pixels = match header.process {
+        LOSSLESS => lossless_pixels(bytes, header.precision, colour)?,
+        _ => lossy_pixels(bytes, area)?,
     };
     if pixels.len() != area {
         return Err(cut("its pixels do not fill its stated size"));
     }
     let mut frame = GreyFrame::plain(width, height, pixels);
-    if let Pixels::U16(_) = frame.pixels {
-        frame.bits = header.precision.clamp(9, 16);
-    }
+    frame.bits = match frame.pixels {
+        Pixels::U8(_) => header.precision.min(8),
+        Pixels::U16(_) => header.precision.clamp(9, 16),
+    };
     Ok(frame)
+}
+
+fn lossy_pixels(bytes: &[u8], area: usize) -> Result<Pixels, Problem> {
+    let mut decoder = Decoder::new(bytes);
+    decoder.set_max_decoding_buffer_size(3 * 2 * area);
+    let samples = decoder.decode().map_err(|e| cut(&e.to_string()))?;
+    match decoder.info().map(|info| info.pixel_format) {
+        Some(PixelFormat::L8) => Ok(Pixels::U8(samples)),
+        Some(PixelFormat::RGB24) => Ok(Pixels::U8(grey_from_u8(&samples, 3))),
+        _ => Err(cut("its colours cannot be told")),
+    }
+}
+
+fn lossless_pixels(bytes: &[u8], precision: u8, colour: LosslessColour) -> Result<Pixels, Problem> {
+    let mut planes = lossless::decode(bytes)?.planes;
+    let grey = match (planes.as_slice(), colour) {
+        ([red, green, blue], LosslessColour::Rgb) => {
+            let channels = red.iter().zip(green).zip(blue);
+            channels.map(|((&r, &g), &b)| luminance(r, g, b)).collect()
+        }
+        _ => planes.swap_remove(0),
+    };
+    Ok(match precision {
+        ..=8 => Pixels::U8(grey.into_iter().map(|value| value as u8).collect()),
+        _ => Pixels::U16(grey),
+    })
 }

@@ -3,14 +3,14 @@
 use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::{DecodeError, FrameFile, GreyFrame, Model, Pixels};
+use crate::{DecodeError, FrameFile, GreyFrame, Model, Pixels, SpacingCalibration};
 
 fn thrown(error: DecodeError) -> Error {
     Error::new(&error.to_string())
 }
 
-/// Tells what a file is: one of `png`, `jpeg`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
-/// `mayacam`, `library`, `session`, `unknown`.
+/// Tells what a file is: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
+/// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `video`, `unknown`.
 #[wasm_bindgen]
 pub fn sniff(bytes: &[u8], name: &str) -> String {
     crate::sniff(bytes, name).word().to_owned()
@@ -37,7 +37,7 @@ impl PageFrameFile {
         self.0.count()
     }
 
-    /// The format: `png`, `jpeg`, `tiff` or `dicom`.
+    /// The format: `png`, `jpeg`, `jpeg2000`, `tiff` or `dicom`.
     #[wasm_bindgen(getter)]
     pub fn kind(&self) -> String {
         self.0.kind().word().to_owned()
@@ -50,6 +50,10 @@ impl PageFrameFile {
     pub fn frame(&self, index: usize) -> Result<PageFrame, Error> {
         self.0.frame(index).map(PageFrame).map_err(thrown)
     }
+}
+
+fn pair(spacing: Option<[f64; 2]>) -> Vec<f64> {
+    spacing.map(|pair| pair.to_vec()).unwrap_or_default()
 }
 
 /// One decoded frame.
@@ -118,6 +122,46 @@ impl PageFrame {
         self.0.geometry.source_to_detector_mm
     }
 
+    /// Distance from the X-ray focus to the patient, mm, if stated.
+    #[wasm_bindgen(getter, js_name = sourceToPatientMm)]
+    pub fn source_to_patient_mm(&self) -> Option<f64> {
+        self.0.geometry.source_to_patient_mm
+    }
+
+    /// Distance from the X-ray focus to the stand's centre of turning, mm, if stated.
+    #[wasm_bindgen(getter, js_name = sourceToIsocentreMm)]
+    pub fn source_to_isocentre_mm(&self) -> Option<f64> {
+        self.0.geometry.source_to_isocentre_mm
+    }
+
+    /// Estimated magnification of the object, if stated.
+    #[wasm_bindgen(getter)]
+    pub fn magnification(&self) -> Option<f64> {
+        self.0.geometry.magnification
+    }
+
+    /// Pixel spacing along a row and from row to row, mm; empty where it is not stated.
+    #[wasm_bindgen(getter, js_name = pixelSpacingMm)]
+    pub fn pixel_spacing_mm(&self) -> Vec<f64> {
+        pair(self.0.geometry.pixel_spacing_mm)
+    }
+
+    /// How the pixel spacing was worked out, if stated: `geometry` or `fiducial`.
+    #[wasm_bindgen(getter, js_name = pixelSpacingCalibration)]
+    pub fn pixel_spacing_calibration(&self) -> Option<String> {
+        let word = match self.0.geometry.pixel_spacing_calibration? {
+            SpacingCalibration::Geometry => "geometry",
+            SpacingCalibration::Fiducial => "fiducial",
+        };
+        Some(word.to_owned())
+    }
+
+    /// Spacing on a digitised film along a row and from row to row, mm; empty where it is not stated.
+    #[wasm_bindgen(getter, js_name = scannedSpacingMm)]
+    pub fn scanned_spacing_mm(&self) -> Vec<f64> {
+        pair(self.0.geometry.scanned_spacing_mm)
+    }
+
     /// Height of a pixel over its width, if stated.
     #[wasm_bindgen(getter, js_name = pixelAspect)]
     pub fn pixel_aspect(&self) -> Option<f64> {
@@ -131,6 +175,15 @@ impl PageFrame {
     }
 }
 
+/// A PNG of a mask: 255 where `inside` is not 0.
+///
+/// # Errors
+/// Throws if the number of pixels is not that of the size.
+#[wasm_bindgen(js_name = encodeMask)]
+pub fn page_encode_mask(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Error> {
+    crate::encode_mask(inside, width, height).map_err(thrown)
+}
+
 /// A decoded model.
 #[wasm_bindgen(js_name = ModelData)]
 pub struct PageModel(Model);
@@ -141,6 +194,12 @@ impl PageModel {
     #[wasm_bindgen(getter)]
     pub fn vertices(&self) -> Float32Array {
         Float32Array::from(self.0.vertices.as_flattened())
+    }
+
+    /// What was left out of the file, a sentence each.
+    #[wasm_bindgen(getter)]
+    pub fn notes(&self) -> Vec<String> {
+        self.0.notes.clone()
     }
 
     /// A copy of the vertex indices, three of each triangle.

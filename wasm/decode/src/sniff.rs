@@ -10,6 +10,8 @@ pub enum Kind {
     Png,
     /// A JPEG image.
     Jpeg,
+    /// A JPEG 2000 image: a codestream or a JP2 file.
+    Jpeg2000,
     /// A TIFF image of one or more pages.
     Tiff,
     /// A DICOM object.
@@ -30,17 +32,27 @@ pub enum Kind {
     Library,
     /// A saved session of the page.
     Session,
+    /// Outlines as the page writes them.
+    Outlines,
+    /// Outlines in the form of the COCO data set.
+    Coco,
+    /// A correction of distortion.
+    Distortion,
+    /// A video, which only a browser reads.
+    Video,
     /// None of these.
     Unknown,
 }
 
 impl Kind {
-    /// A word for programs: `png`, `jpeg`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`, `mayacam`,
-    /// `library`, `session`, `unknown`.
+    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`, `mayacam`,
+    /// `library`, `session`, `outlines`, `coco`, `distortion`, `video`,
+    /// `unknown`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Png => "png",
             Self::Jpeg => "jpeg",
+            Self::Jpeg2000 => "jpeg2000",
             Self::Tiff => "tiff",
             Self::Dicom => "dicom",
             Self::Stl => "stl",
@@ -51,6 +63,10 @@ impl Kind {
             Self::Mayacam => "mayacam",
             Self::Library => "library",
             Self::Session => "session",
+            Self::Outlines => "outlines",
+            Self::Coco => "coco",
+            Self::Distortion => "distortion",
+            Self::Video => "video",
             Self::Unknown => "unknown",
         }
     }
@@ -60,6 +76,7 @@ impl Kind {
         match self {
             Self::Png => "a PNG image",
             Self::Jpeg => "a JPEG image",
+            Self::Jpeg2000 => "a JPEG 2000 image",
             Self::Tiff => "a TIFF image",
             Self::Dicom => "a DICOM file",
             Self::Stl => "an STL model",
@@ -70,6 +87,10 @@ impl Kind {
             Self::Mayacam => "a camera matrix",
             Self::Library => "a pose library",
             Self::Session => "a saved session",
+            Self::Outlines => "a file of outlines",
+            Self::Coco => "outlines in COCO form",
+            Self::Distortion => "a correction of distortion",
+            Self::Video => "a video",
             Self::Unknown => "a file of an unknown kind",
         }
     }
@@ -78,10 +99,15 @@ impl Kind {
 /// How much of a text is looked at.
 const TEXT_BYTES: usize = 64 << 10;
 
+/// Any of these stands near the beginning of a COCO file, in whatever order it lists its parts.
+const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""];
+
 /// First bytes that leave no doubt.
-const SIGNATURES: [(&[u8], Kind); 11] = [
+const SIGNATURES: [(&[u8], Kind); 13] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
+    (&crate::jpeg2000::CODESTREAM, Kind::Jpeg2000),
+    (&crate::jpeg2000::JP2, Kind::Jpeg2000),
     (b"II*\0", Kind::Tiff),
     (b"MM\0*", Kind::Tiff),
     (b"II+\0", Kind::Tiff),
@@ -113,10 +139,28 @@ fn by_content(bytes: &[u8]) -> Option<Kind> {
     if bytes.get(128..132) == Some(b"DICM") {
         return Some(Kind::Dicom);
     }
+    if is_video(bytes) {
+        return Some(Kind::Video);
+    }
     if stl::is_binary(bytes) {
         return Some(Kind::Stl);
     }
     text_kind(bytes)
+}
+
+/// First bytes of Matroska and WebM, MPEG, Windows Media; then the forms that begin with a length: MP4 and QuickTime
+/// (still pictures come in the same boxes), AVI.
+fn is_video(bytes: &[u8]) -> bool {
+    const BEGINNINGS: [&[u8]; 3] = [b"\x1A\x45\xDF\xA3", b"\0\0\x01\xBA", b"\x30\x26\xB2\x75"];
+    const STILLS: [&[u8; 4]; 5] = [b"heic", b"heix", b"mif1", b"avif", b"avis"];
+    let still = bytes
+        .get(8..12)
+        .is_some_and(|brand| STILLS.iter().any(|known| brand == *known));
+    BEGINNINGS
+        .iter()
+        .any(|beginning| bytes.starts_with(beginning))
+        || (bytes.get(4..8) == Some(b"ftyp") && !still)
+        || (bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"AVI "))
 }
 
 fn text_kind(bytes: &[u8]) -> Option<Kind> {
@@ -131,6 +175,12 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
         Some(Kind::Mayacam)
     } else if text.starts_with('{') && text.contains("fluoropose-session") {
         Some(Kind::Session)
+    } else if text.starts_with('{') && text.contains("fluoropose-outlines") {
+        Some(Kind::Outlines)
+    } else if text.starts_with('{') && text.contains("fluoropose-distortion") {
+        Some(Kind::Distortion)
+    } else if text.starts_with('{') && COCO_WORDS.iter().any(|word| text.contains(word)) {
+        Some(Kind::Coco)
     } else if stl::is_ascii(bytes) {
         Some(Kind::Stl)
     } else if text.lines().any(is_obj_line) {
@@ -153,11 +203,15 @@ fn by_name(name: &str) -> Kind {
     match extension.as_deref() {
         Some("png") => Kind::Png,
         Some("jpg" | "jpeg") => Kind::Jpeg,
+        Some("jp2" | "j2k" | "j2c" | "jpc") => Kind::Jpeg2000,
         Some("tif" | "tiff") => Kind::Tiff,
         Some("dcm" | "dicom") => Kind::Dicom,
         Some("stl") => Kind::Stl,
         Some("obj") => Kind::Obj,
         Some("ply") => Kind::Ply,
+        Some("mp4" | "m4v" | "mov" | "webm" | "mkv" | "avi" | "mpg" | "mpeg" | "wmv") => {
+            Kind::Video
+        }
         _ => Kind::Unknown,
     }
 }

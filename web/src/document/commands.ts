@@ -1,4 +1,5 @@
 import { withReference } from './reference';
+import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
 import type { FramePoint } from '../geometry/points';
 import {
@@ -17,6 +18,7 @@ import {
   type PoseNumbers,
   type GreyWindow,
 } from './types';
+import { texts } from '../texts';
 
 /** A change to the document that undo takes back as one. */
 export interface Command {
@@ -37,7 +39,7 @@ export interface Place {
 // --- Outlines ---------------------------------------------------------------------------------------------------
 
 export function addPoint(place: Place, point: FramePoint): Command {
-  return onOutline('add a point', place, (outline) => ({
+  return onOutline(texts.steps.addPoint, place, (outline) => ({
     points: [...(outline?.points ?? []), point],
     closed: false,
     unknownSides: outline?.unknownSides ?? [],
@@ -45,17 +47,17 @@ export function addPoint(place: Place, point: FramePoint): Command {
 }
 
 export function closeOutline(place: Place): Command {
-  return onOutline('close the outline', place, (outline) => outline && { ...outline, closed: true });
+  return onOutline(texts.steps.closeOutline, place, (outline) => outline && { ...outline, closed: true });
 }
 
 export function movePoint(place: Place, index: number, to: FramePoint): Command {
-  return onOutline('move a point', place, (outline) => outline && { ...outline, points: outline.points.with(index, to) });
+  return onOutline(texts.steps.movePoint, place, (outline) => outline && { ...outline, points: outline.points.with(index, to) });
 }
 
 /** Inserts before `index`; an index past the end appends. */
 export function insertPoint(place: Place, index: number, point: FramePoint): Command {
   return onOutline(
-    'insert a point',
+    texts.steps.insertPoint,
     place,
     (outline) =>
       outline && {
@@ -68,21 +70,21 @@ export function insertPoint(place: Place, index: number, point: FramePoint): Com
 
 /** Deleting the last point deletes the outline. */
 export function deletePoint(place: Place, index: number): Command {
-  return onOutline('delete a point', place, (outline) => {
+  return onOutline(texts.steps.deletePoint, place, (outline) => {
     if (!outline || outline.points.length <= 1) return null;
     return { ...outline, points: outline.points.toSpliced(index, 1), unknownSides: sidesAfterDeletion(outline, index) };
   });
 }
 
 export function deleteOutline(place: Place): Command {
-  return onOutline('delete the outline', place, () => null);
+  return onOutline(texts.steps.deleteOutline, place, () => null);
 }
 
 /** Marks a side as unknown, or as known again where it was marked. */
 export function toggleUnknownSide(place: Place, side: number): Command {
   const toggled = (sides: readonly number[]) =>
     sides.includes(side) ? sides.filter((other) => other !== side) : [...sides, side].sort((a, b) => a - b);
-  return onOutline('mark a side', place, (outline) =>
+  return onOutline(texts.steps.markSide, place, (outline) =>
     outline?.points[side] ? { ...outline, unknownSides: toggled(outline.unknownSides) } : outline,
   );
 }
@@ -125,12 +127,13 @@ export function withCell(doc: Doc, place: Place, cell: Cell): Doc {
 
 export function chooseCandidate(place: Place, chosen: number): Command {
   return {
-    label: 'choose another candidate',
+    label: texts.steps.chooseCandidate,
     place,
     apply: (doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result?.kind !== 'posed' || !cell.result.candidates[chosen]) return doc;
-      return withCell(doc, place, { ...cell, result: { ...cell.result, chosen } });
+      const own = withItsOutline(cell, cell.result.candidates[chosen]);
+      return withCell(doc, place, { ...own, result: { ...cell.result, chosen } });
     },
   };
 }
@@ -138,7 +141,7 @@ export function chooseCandidate(place: Place, chosen: number): Command {
 /** Poses by frame, in frame order; null leaves a frame as it is. */
 export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers | null)[], fileName: string): Command {
   return {
-    label: `load poses of the ${component}`,
+    label: texts.steps.loadPoses(texts.component[component]),
     apply: (doc) =>
       doc.frames.reduce((changed, frame, index) => {
         const pose = poses[index];
@@ -158,7 +161,7 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
 
 export function addFrames(frames: readonly FrameEntry[]): Command {
   return {
-    label: frames.length === 1 ? 'open a frame' : `open ${frames.length} frames`,
+    label: texts.steps.openFrames(frames.length),
     apply: (doc) => {
       const known = new Set(doc.frames.map((frame) => frame.id));
       const fresh = frames.filter((frame) => !known.has(frame.id));
@@ -168,19 +171,19 @@ export function addFrames(frames: readonly FrameEntry[]): Command {
 }
 
 export function setCalibration(calibration: Calibration | null): Command {
-  return { label: 'change the calibration', apply: (doc) => ({ ...doc, calibration }) };
+  return { label: texts.steps.changeCalibration, apply: (doc) => ({ ...doc, calibration }) };
 }
 
 export function setModel(name: ComponentName, model: FileReference): Command {
-  return onComponent(`open a model of the ${name}`, name, (component) => ({ ...component, model }));
+  return onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({ ...component, model }));
 }
 
 export function setLibraryFile(name: ComponentName, libraryFile: FileReference | null): Command {
-  return onComponent(`open a library of the ${name}`, name, (component) => ({ ...component, libraryFile }));
+  return onComponent(texts.steps.openLibrary(texts.component[name]), name, (component) => ({ ...component, libraryFile }));
 }
 
 export function setLibrarySpec(name: ComponentName, librarySpec: LibrarySpec): Command {
-  return onComponent(`change the library of the ${name}`, name, (component) => ({
+  return onComponent(texts.steps.changeLibrary(texts.component[name]), name, (component) => ({
     ...component,
     librarySpec,
     libraryFile: null,
@@ -195,13 +198,13 @@ function onComponent(label: string, name: ComponentName, change: (component: Com
 }
 
 export function setWindow(window: GreyWindow | null): Command {
-  return { label: 'change window and level', mergeKey: 'window', apply: (doc) => ({ ...doc, window }) };
+  return { label: texts.steps.changeWindow, mergeKey: 'window', apply: (doc) => ({ ...doc, window }) };
 }
 
 export function rename(name: string): Command {
-  return { label: 'rename the study', mergeKey: 'name', apply: (doc) => ({ ...doc, name }) };
+  return { label: texts.steps.rename, mergeKey: 'name', apply: (doc) => ({ ...doc, name }) };
 }
 
 export function setSide(side: Doc['side']): Command {
-  return { label: 'change the side', apply: (doc) => ({ ...doc, side }) };
+  return { label: texts.steps.changeSide, apply: (doc) => ({ ...doc, side }) };
 }

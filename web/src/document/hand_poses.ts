@@ -1,5 +1,6 @@
 import { withCell, type Command, type Place } from './commands';
 import { cellOf, isByHand, type Candidate, type Doc, type PoseNumbers, type Posed } from './types';
+import { texts } from '../texts';
 
 /** Poses that somebody set by hand. */
 
@@ -14,7 +15,7 @@ export interface HandFit {
 }
 
 /** Sets a pose by hand. Nudges with the same `mergeKey` are one step back. */
-export function setPoseByHand(place: Place, pose: PoseNumbers, label = 'adjust the pose', mergeKey?: string): Command {
+export function setPoseByHand(place: Place, pose: PoseNumbers, label = texts.steps.adjustPose, mergeKey?: string): Command {
   return {
     label,
     place,
@@ -26,7 +27,7 @@ export function setPoseByHand(place: Place, pose: PoseNumbers, label = 'adjust t
 /** Takes over what refinement made of a pose set by hand. */
 export function takeHandFit(place: Place, { candidate, reason }: HandFit): Command {
   return {
-    label: 'refine from the hand-made pose',
+    label: texts.steps.refineFromHand,
     place,
     apply: (doc) => withResult(doc, place, byHand('refined from a pose set by hand', candidate, reason)),
   };
@@ -35,7 +36,7 @@ export function takeHandFit(place: Place, { candidate, reason }: HandFit): Comma
 /** Gives the cell back to its outline: the page finds its pose anew. */
 export function dropHandPose(place: Place): Command {
   return {
-    label: 'drop the pose set by hand',
+    label: texts.steps.dropHandPose,
     place,
     apply: (doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
@@ -47,7 +48,7 @@ export function dropHandPose(place: Place): Command {
 /** Offers one more pose of an outline, and chooses it. The same view twice is one candidate. */
 export function offerCandidate(place: Place, candidate: Candidate): Command {
   return {
-    label: 'take a view of the landscape',
+    label: texts.steps.takeView,
     place,
     apply: (doc) => {
       const cell = cellOf(doc, place.frameId, place.component);

@@ -1,5 +1,6 @@
 import type { Command, Place } from './commands';
 import { cellKey, cellOf, chosenCandidate, type Cell, type Doc, type Mark } from './types';
+import { texts } from '../texts';
 
 export const NO_MARK: Mark = { checked: null, flagged: false, note: '' };
 
@@ -22,7 +23,7 @@ export function checkState(cell: Cell, mark: Mark): CheckState {
 
 /** Marks what is there now as checked, or takes the mark away where it still holds. */
 export function toggleChecked(place: Place): Command {
-  return onMark('mark as checked', place, (mark, cell) => {
+  return onMark(texts.steps.check, place, (mark, cell) => {
     if (checkState(cell, mark) === 'yes') return { ...mark, checked: null };
     return canBeChecked(cell) ? { ...mark, checked: fingerprint(cell) } : { ...mark, checked: null };
   });
@@ -35,7 +36,7 @@ export function toggleFlagged(place: Place): Command {
 /** Typing is one unit of undo for each cell. */
 export function setNote(place: Place, note: string): Command {
   const mergeKey = `note ${cellKey(place.frameId, place.component)}`;
-  return { ...onMark('write a note', place, (mark) => ({ ...mark, note })), mergeKey };
+  return { ...onMark(texts.steps.writeNote, place, (mark) => ({ ...mark, note })), mergeKey };
 }
 
 function onMark(label: string, place: Place, change: (mark: Mark, cell: Cell) => Mark): Command {

@@ -9,6 +9,10 @@ export interface Proposal {
   /** Names of what the files say an outline is of (a category, a folder, a grey value), and the component meant by it. */
   readonly subjects: Readonly<Record<string, ComponentName | null>>;
   readonly match: Match;
+  /** Masks: every pixel as it is, instead of few points. */
+  readonly exact: boolean;
+  /** Opens the files as frames after all; null where they cannot be frames. */
+  readonly asFrames: (() => void) | null;
   /** What did not go smoothly on the way, a sentence each. */
   readonly remarks: readonly string[];
 }
@@ -29,6 +33,8 @@ export interface ProposedItem {
   /** Of the image it was drawn on, px; null where the file does not tell. */
   readonly size: { readonly width: number; readonly height: number } | null;
   readonly outline: Outline;
+  /** Of a mask: with every corner of its pixels. */
+  readonly exactOutline: Outline | null;
   /** What was done on the way from a mask: specks, holes. */
   readonly notes: readonly string[];
 }
@@ -107,10 +113,9 @@ function lastNumber(stem: string): number | null {
   return digits === undefined ? null : Number(digits);
 }
 
-/** By name where every image has a frame of its own by name, else by order where there are as many, else by name. */
+/** By order where no image has the name of a frame and there are as many of one as of the other, else by name. */
 export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): Match {
-  const named = items.every((item) => frameOf(doc, item, 'name') >= 0);
-  if (named) return 'name';
+  if (items.some((item) => frameOf(doc, item, 'name') >= 0)) return 'name';
   const most = Math.max(0, ...items.map(({ order }) => order + 1));
   return most === doc.frames.length ? 'order' : 'name';
 }

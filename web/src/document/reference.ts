@@ -1,15 +1,16 @@
 import type { Command, Place } from './commands';
 import { cellKey, cellOf, chosenCandidate, COMPONENT_NAMES, type Doc, type PoseNumbers } from './types';
+import { texts } from '../texts';
 
 /** The set of poses to compare with: those of a file that was opened, or what was on view when somebody kept them. */
 
 /** Keeps every pose on view as the set to compare with. */
 export function keepReference(name: string): Command {
-  return { label: 'keep the poses to compare with', apply: (doc) => ({ ...doc, reference: { name, poses: chosenPoses(doc) } }) };
+  return { label: texts.steps.keepReference, apply: (doc) => ({ ...doc, reference: { name, poses: chosenPoses(doc) } }) };
 }
 
 export function forgetReference(): Command {
-  return { label: 'forget the poses to compare with', apply: (doc) => ({ ...doc, reference: null }) };
+  return { label: texts.steps.forgetReference, apply: (doc) => ({ ...doc, reference: null }) };
 }
 
 /** Poses of a file become the set to compare with; what it says nothing of stays as it was. */

@@ -1,5 +1,6 @@
 import { framePoint, type FramePoint } from '../geometry/points';
 import { readAudit, type Audit } from './audit';
+import { readDistortion } from './distortion';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from './reader';
 import type {
   Calibration,
@@ -217,6 +218,8 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   window: nullable(object<GreyWindow>({ centre: number, width: number })),
   reference: readPosesToCompare,
   marks: missingAs({}, dictionary(readMark)),
+  // Sessions from before distortion could be corrected have none.
+  distortion: optional(readDistortion),
 });
 
 /** The reverse of `plainDoc`. */

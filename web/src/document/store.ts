@@ -1,7 +1,9 @@
 import type { Viewport } from '../geometry/viewport';
+import { USUAL_OPTIONS, type AidOptions } from '../interaction/aid';
 import type { ToolName } from '../interaction/tools';
 import type { Command, Place } from './commands';
 import * as history from './history';
+import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
 import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
@@ -23,6 +25,9 @@ export interface Ui {
   /** How things are shown; `view/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
+  readonly aids: AidOptions;
+  /** The threshold that was taken and can still be moved, grey values. */
+  readonly aidLevel: AidLevel | null;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
@@ -34,13 +39,25 @@ export interface Ui {
   readonly keeping: Keeping;
   /** What is about to be imported; null while nothing is. */
   readonly proposal: Proposal | null;
+  /** What the calibration helper has before it; null before it is first opened. */
+  readonly measuring: Measuring | null;
   /** Brings a newer version of the page into use; null while there is none. */
   readonly update: (() => void) | null;
+  readonly theme: Theme;
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import';
+/** Dark like a reading room, or light for projectors. Print is light by itself. */
+export type Theme = 'dark' | 'light';
+
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video';
+
+export interface AidLevel {
+  readonly level: number;
+  readonly least: number;
+  readonly greatest: number;
+}
 
 export interface Notice {
   readonly kind: 'info' | 'error';
@@ -89,6 +106,8 @@ const EMPTY_UI: Ui = {
   overlayOpacity: 0.35,
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
+  aids: USUAL_OPTIONS,
+  aidLevel: null,
   overlaysHidden: false,
   popover: null,
   notice: null,
@@ -97,7 +116,9 @@ const EMPTY_UI: Ui = {
   savedAt: null,
   keeping: { state: 'nothing' },
   proposal: null,
+  measuring: null,
   update: null,
+  theme: 'dark',
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
 
@@ -187,6 +208,10 @@ export class Store {
 
   see(change: Partial<Seeing>): void {
     this.show({ seeing: { ...this.ui.seeing, ...change } });
+  }
+
+  setAids(change: Partial<AidOptions>): void {
+    this.show({ aids: { ...this.ui.aids, ...change } });
   }
 
   setHand(change: Partial<HandSettings>): void {

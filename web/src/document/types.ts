@@ -1,4 +1,5 @@
 import type { FramePoint } from '../geometry/points';
+import type { Distortion } from './distortion';
 
 /**
  * The document: everything a person made or opened, as one immutable value. Bytes (files, pixels, libraries) live in
@@ -18,6 +19,8 @@ export interface Doc {
   readonly reference: Reference | null;
   /** What people noted about cells, by `cellKey`. */
   readonly marks: Readonly<Record<string, Mark>>;
+  /** How frames or outlines are straightened; null: they are straight. */
+  readonly distortion: Distortion | null;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
   readonly work: string;
 }
@@ -182,6 +185,7 @@ export const EMPTY_DOC: Doc = {
   window: null,
   reference: null,
   marks: {},
+  distortion: null,
   work: '',
 };
 

@@ -1,10 +1,12 @@
 import { withCell, type Place } from '../document/commands';
+import { withItsOutline } from '../document/own_outlines';
 import type { Store } from '../document/store';
 import { cellOf, COMPONENT_NAMES, isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import type { Choice, PoseProtocol, Surroundings } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
+import { texts } from '../texts';
 
 interface Open {
   readonly place: Place;
@@ -42,7 +44,7 @@ export class Chooser {
       const choice = await this.#worker.call('choose', { component: place.component, candidates, around });
       if (choice) this.#apply(open, choice);
     } catch (error) {
-      if (!(error instanceof Aborted)) this.#store.say('error', `No choice between rival poses: ${sentenceOf(error)}`);
+      if (!(error instanceof Aborted)) this.#store.say('error', texts.said.noChoice(sentenceOf(error)));
     } finally {
       this.#busy = false;
       queueMicrotask(() => void this.#next());
@@ -73,7 +75,7 @@ export class Chooser {
       const candidates = index === 0 || !first ? result.candidates : [first, ...others];
       const known = this.#knownThen.get(result.candidates);
       if (known !== undefined) this.#knownThen.set(candidates, known);
-      return withCell(doc, place, { ...cell, result: { ...result, candidates, decided, reason } });
+      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason } });
     });
   }
 }

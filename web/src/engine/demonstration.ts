@@ -4,6 +4,7 @@ import { EMPTY_DOC, type ComponentName } from '../document/types';
 import { addressOf } from './address';
 import { openFiles, type Incoming } from './opener';
 import type { Services } from './services';
+import { texts } from '../texts';
 
 const FOLDER = 'demo/';
 
@@ -27,7 +28,7 @@ const readManifest: Reader<Manifest> = object<Manifest>({
 export async function openDemonstration(services: Services): Promise<void> {
   const { store } = services;
   const untouched = store.doc === EMPTY_DOC;
-  store.say('info', 'Fetching the demonstration ...');
+  store.say('info', texts.said.demonstration);
   const manifest = readManifest(await (await fetched('demo.json')).json(), 'demo.json');
   const names = [manifest.calibration, ...manifest.frames];
   const files = await Promise.all([
@@ -49,6 +50,6 @@ async function incoming(name: string, component?: ComponentName): Promise<Incomi
 
 async function fetched(name: string): Promise<Response> {
   const response = await fetch(addressOf(FOLDER + name));
-  if (!response.ok) throw new Error(`the demonstration's ${name} could not be fetched (${response.status})`);
+  if (!response.ok) throw new Error(texts.said.notFetched(name, response.status));
   return response;
 }

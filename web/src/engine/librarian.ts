@@ -5,6 +5,7 @@ import { cameraOf, libraryKey } from './keys';
 import type { LibraryFacts, PoseProtocol } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from './workers';
+import { texts } from '../texts';
 
 /**
  * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
@@ -71,7 +72,7 @@ export class Librarian {
   #openFile(component: ComponentName, sha256: string, doc: Doc, signal: AbortSignal): Promise<LibraryFacts> {
     const { assets, studio } = this.#services;
     const asset = assets.get(sha256);
-    if (!asset) throw new Error('the library file is not at hand');
+    if (!asset) throw new Error(texts.said.library.noFile);
     const { model } = doc.components[component];
     const mesh = model && studio.meshOf(model.sha256);
     return this.#poser.call('open', { component, bytes: asset.bytes, mesh }, { signal });
@@ -82,11 +83,11 @@ export class Librarian {
     const { model, librarySpec: spec } = doc.components[component];
     const mesh = model && studio.meshOf(model.sha256);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
-    if (!mesh || !camera) throw new Error('the model or the calibration is not at hand');
+    if (!mesh || !camera) throw new Error(texts.said.library.noInputs);
     const worker = libraryWorker();
     const cancel = () => abort.abort();
     try {
-      return await asJob(store, { title: `${titleOf(component)} library`, unit: 'views', total: 0, cancel }, async (report) => {
+      return await asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (report) => {
         const bytes = await worker.call('build', { mesh, camera, spec }, {
           signal: abort.signal,
           onProgress: ({ done, total }) => report(done, total),
@@ -104,9 +105,9 @@ export class Librarian {
     // Another one has been asked for in the meantime.
     if (library.state !== 'building' || library.key !== key) return;
     const calledOff = error instanceof Aborted;
-    const reason = calledOff ? 'called off' : sentenceOf(error);
+    const reason = calledOff ? texts.said.library.calledOff : sentenceOf(error);
     store.setLibrary(component, { state: 'stopped', key, reason });
-    if (calledOff) store.say('info', `The library of the ${component} was called off; its panel builds it again.`);
-    else store.say('error', `${titleOf(component)} library: ${reason}`);
+    if (calledOff) store.say('info', texts.said.library.saidCalledOff(texts.component[component]));
+    else store.say('error', texts.said.library.failed(titleOf(component), reason));
   }
 }

@@ -1,6 +1,7 @@
 import { currentCell, currentFrame, type State } from '../document/store';
 import type { ComponentName } from '../document/types';
 import { poseKey } from './keys';
+import { texts } from '../texts';
 
 /** What a pose still needs, in the order in which a person would bring it; empty when nothing is missing. */
 export function missingForPose(state: State, component: ComponentName): readonly string[] {
@@ -9,13 +10,13 @@ export function missingForPose(state: State, component: ComponentName): readonly
   const { outline } = currentCell(state);
   const library = state.ui.libraries[component];
   const missing: string[] = [];
-  if (doc.frames.length === 0) missing.push('frames');
-  if (!doc.calibration) missing.push('a calibration');
-  if (!model && !libraryFile) missing.push(`a model or a library of the ${component}`);
-  if (library.state === 'building') missing.push('its library (being built)');
-  if (library.state === 'stopped') missing.push(`its library (${library.reason})`);
-  if (!outline) missing.push(`an outline of the ${component}`);
-  else if (!outline.closed) missing.push('the outline closed');
+  if (doc.frames.length === 0) missing.push(texts.said.missing.frames);
+  if (!doc.calibration) missing.push(texts.said.missing.calibration);
+  if (!model && !libraryFile) missing.push(texts.said.missing.model(texts.component[component]));
+  if (library.state === 'building') missing.push(texts.said.missing.building);
+  if (library.state === 'stopped') missing.push(texts.said.missing.stopped(library.reason));
+  if (!outline) missing.push(texts.said.missing.outline(texts.component[component]));
+  else if (!outline.closed) missing.push(texts.said.missing.closed);
   return missing;
 }
 
@@ -28,6 +29,5 @@ export function isOutdated(state: State): boolean {
 }
 
 export function inWords(items: readonly string[]): string {
-  if (items.length <= 1) return items[0] ?? '';
-  return `${items.slice(0, -1).join(', ')} and ${items.at(-1)}`;
+  return texts.listed(items);
 }

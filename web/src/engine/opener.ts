@@ -1,17 +1,22 @@
 import * as commands from '../document/commands';
 import type { Asset } from '../document/assets';
-import { readSession } from '../document/session';
+import { readDistortionFile } from '../document/distortion';
 import { COMPONENT_NAMES, type ComponentName, type Doc, type FrameEntry } from '../document/types';
 import { Aborted } from '../worker/bridge';
+import { texts } from '../texts';
 import { componentFor } from './guess';
-import { inWords } from './missing';
-import type { FileKind } from './protocol';
+import type { OutlineFile } from './exchange/importer';
+import { takeDistortion } from './distorting';
+import type { FileKind, StatedGeometry } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
+import { mismatchOf, openSession } from './session_opener';
 
 /** A file as it came, from a button, a drop or an address. */
 export interface Incoming {
   readonly name: string;
   readonly bytes: Uint8Array<ArrayBuffer>;
+  /** With its folders, where the browser tells. */
+  readonly path?: string;
   /** Where the person said what it is for. */
   readonly component?: ComponentName | undefined;
 }
@@ -24,25 +29,116 @@ interface Recognised extends Incoming {
  * Opens whatever it is given: each file is recognised by its content. A file that cannot be read is named and the
  * others are opened all the same.
  */
-export async function openFiles(services: Services, files: readonly Incoming[]): Promise<void> {
+export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
   const recognised: Recognised[] = [];
   for (const file of files) recognised.push({ ...file, kind: await recognise(services, file) });
-  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.name, b.name));
+  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
   const failed: string[] = [];
-  const frames = recognised.filter((file) => file.kind === 'frames');
-  for (const file of recognised.filter((file) => file.kind !== 'frames' && file.kind !== 'poses')) {
-    await attempt(file, () => openOne(services, file, failed), opened, failed);
+  for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
+    const sentence = await mismatchOf(services, file);
+    if (sentence) failed.push(sentence);
   }
+  const outlines = await outlineFiles(services, recognised);
+  const others = recognised.filter((file) => !outlines.some(({ bytes }) => bytes === file.bytes));
+  const frames = others.filter((file) => file.kind === 'frames');
+  // Of a whole folder what is not recognised is told in one sentence.
+  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.bytes.length > 0) : [];
+  const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
+  for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
   if (frames.length > 0) await openFrames(services, frames, opened, failed);
   for (const file of recognised.filter((file) => file.kind === 'poses')) {
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
+  if (strangers.length > 0) failed.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
+  await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
+  tell(services, opened, failed);
+  offerStated(services, frames.length > 0);
+  if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** Frames, poses and videos have their own time. */
+const LATER: readonly FileKind[] = ['frames', 'poses', 'video'];
+
+/** What opens the first of the videos that were given. */
+export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
+
+async function beginFirstVideo(videos: readonly Recognised[], begin: BeginVideo, failed: string[]): Promise<void> {
+  const [first, ...others] = videos;
+  if (!first) return;
+  await attempt(first, async () => ((await begin(first)), ''), [], failed);
+  if (others.length > 0) failed.push(texts.files.video.oneAtATime);
+}
+
+/** A few names, and how many more there are. */
+function fewNames(files: readonly Incoming[]): string {
+  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const rest = files.length - names.length;
+  return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
+}
+
+/** Frames that state sizes and distances: said once, with a button to look at them. Nothing is taken by itself. */
+function offerStated({ store, studio }: Services, framesCame: boolean): void {
+  const frame = store.doc.frames[store.ui.frameIndex];
+  if (!framesCame || !frame || store.doc.calibration) return;
+  const count = statesSomething(studio.statedGeometry(frame.id));
+  if (count === 0) return;
+  const { notice } = store.ui;
+  const said = notice?.kind === 'info' ? `${notice.text} ` : '';
+  if (notice?.kind === 'error') return;
+  const look = () => store.show({ popover: 'calibration' });
+  store.say('info', said + texts.calibrate.stated.offer(count), { label: texts.calibrate.stated.look, take: look });
+}
+
+/** How many values there are that a calibration may begin with. */
+export function statesSomething(stated: StatedGeometry | null): number {
+  return stated ? [stated.detectorSpacing, stated.scannedSpacing, stated.sourceToDetector].filter((value) => value !== null).length : 0;
+}
+
+/**
+ * Files of outlines among others: those that say so, and images with no more grey values than a mask has, where there
+ * are frames that they can be masks of.
+ */
+async function outlineFiles({ store }: Services, files: readonly Recognised[]): Promise<readonly OutlineFile[]> {
+  const told = files.flatMap((file): OutlineFile[] => {
+    const { kind } = file;
+    return kind === 'outlines' || kind === 'coco' ? [{ ...file, kind }] : [];
+  });
+  const images = files.filter(({ kind }) => kind === 'frames');
+  if (images.length === 0) return told;
+  const { masksAmong } = await import('./exchange/importer');
+  const masks = await masksAmong(images);
+  const frames = store.doc.frames.length + images.length - masks.size;
+  const found = images.filter((file) => masks.has(file)).map((file): OutlineFile => ({ ...file, kind: 'mask' }));
+  return frames === 0 ? told : [...told, ...found];
+}
+
+async function proposeOutlines(services: Services, outlines: readonly OutlineFile[], files: readonly Incoming[]): Promise<void> {
+  const { store } = services;
+  if (store.doc.frames.length === 0) {
+    return store.say('error', texts.said.of(outlines[0]?.name ?? '', texts.said.outlinesNeedFrames));
+  }
+  const { propose } = await import('./exchange/importer');
+  const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ bytes }) => bytes);
+  const images = files.filter(({ bytes }) => masks.includes(bytes));
+  const asFrames = () => {
+    void openAsFrames(services, images);
+  };
+  await propose(services, outlines, images.length > 0 ? asFrames : null);
+}
+
+/** Opens images as frames, whatever they look like. */
+async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
+  const opened: string[] = [];
+  const failed: string[] = [];
+  await openFrames(services, files, opened, failed);
   tell(services, opened, failed);
 }
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
-const ORDER: readonly FileKind[] = ['session', 'calibration', 'model', 'library', 'frames', 'poses', 'unknown'];
+const ORDER: readonly FileKind[] = [
+  'session', 'calibration', 'distortion', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
+];
 
 function byName(a: string, b: string): number {
   return a.localeCompare(b, undefined, { numeric: true });
@@ -67,11 +163,11 @@ async function attempt(
 
 /** The sentence with the file's name, which some begin with already. */
 function named(name: string, sentence: string): string {
-  return sentence.startsWith(name) ? sentence : `${name}: ${sentence}`;
+  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
 }
 
 function tell({ store }: Services, opened: readonly string[], failed: readonly string[]): void {
-  if (opened.length > 0) store.say('info', `Opened ${opened.join(', ')}.`);
+  if (opened.length > 0) store.say('info', texts.said.opened(opened.join(', ')));
   for (const sentence of failed) store.say('error', sentence);
 }
 
@@ -86,11 +182,11 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
       return openLibrary(services, file);
     case 'session':
       return openSession(services, file, remarks);
+    case 'distortion':
+      return openDistortion(services, file);
     default:
-      if (file.bytes.length === 0) throw new Error('the file is empty; export or copy it again');
-      throw new Error(
-        'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, .jts poses, libraries and sessions',
-      );
+      if (file.bytes.length === 0) throw new Error(texts.said.emptyFile);
+      throw new Error(texts.said.notRecognised);
   }
 }
 
@@ -101,24 +197,31 @@ async function openCalibration({ store, studio }: Services, { name, bytes }: Inc
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);
   store.perform(commands.setCalibration({ name, text }));
-  return `the calibration ${name}`;
+  return texts.said.theCalibration(name);
+}
+
+async function openDistortion(services: Services, { name, bytes }: Incoming): Promise<string> {
+  takeDistortion(services, readDistortionFile(new TextDecoder().decode(bytes)));
+  return texts.calibrate.opened(name);
 }
 
 async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
-  await holdModel(services, asset);
+  const notes = await holdModel(services, asset);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
-  return `${file.name} as the model of the ${component}`;
+  const opened = texts.said.asModel(file.name, texts.component[component]);
+  return notes.length === 0 ? opened : texts.files.modelNotes(opened, notes.join(' '));
 }
 
-/** Decodes a model and lends it to the studio; the document is left alone. */
-async function holdModel(services: Services, asset: Asset): Promise<void> {
-  if (services.studio.meshOf(asset.sha256)) return;
+/** Decodes a model and lends it to the studio; the document is left alone. Returns what was left out of the file. */
+async function holdModel(services: Services, asset: Asset): Promise<readonly string[]> {
+  if (services.studio.meshOf(asset.sha256)) return [];
   const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });
   services.studio.addModel(asset.sha256, mesh);
+  return mesh.notes ?? [];
 }
 
 async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {
@@ -126,17 +229,18 @@ async function openLibrary({ store, studio, assets }: Services, file: Incoming):
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
-  return `${file.name} as the library of the ${component}`;
+  return texts.said.asLibrary(file.name, texts.component[component]);
 }
 
 async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
   const poses = studio.readPoses(new TextDecoder().decode(file.bytes));
   const frames = store.doc.frames.length;
-  if (frames === 0) throw new Error('the poses are for frames: open the frames first, then the poses');
+  if (frames === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);
   store.perform(commands.loadPoses(component, poses, file.name));
-  const surplus = poses.length === frames ? '' : ` (${poses.length} rows for ${frames} frames: in order, from the first)`;
-  return `${file.name} as poses of the ${component}${surplus}`;
+  const { asPoses, asPosesInOrder } = texts.said;
+  const of = texts.component[component];
+  return poses.length === frames ? asPoses(file.name, of) : asPosesInOrder(file.name, of, poses.length, frames);
 }
 
 // --- Frames -------------------------------------------------------------------------------------------------------
@@ -150,8 +254,8 @@ async function openFrames(
   const abort = new AbortController();
   const entries: FrameEntry[] = [];
   const job = {
-    title: files.length === 1 ? 'Opening frames' : `Opening ${files.length} files of frames`,
-    unit: files.length === 1 ? 'frames' : 'files',
+    title: texts.said.openingFrames(files.length),
+    unit: files.length === 1 ? texts.said.frames : texts.said.files,
     total: files.length,
     cancel: () => abort.abort(),
   };
@@ -173,7 +277,7 @@ async function openFrames(
   });
   if (entries.length === 0) return;
   addToDocument(services, entries);
-  opened.push(entries.length === 1 ? `the frame ${entries[0]!.name}` : `${entries.length} frames`);
+  opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
 function addToDocument({ store }: Services, entries: readonly FrameEntry[]): void {
@@ -206,31 +310,10 @@ export async function decodeFrames(
 }
 
 function studyName(frame: FrameEntry): string {
-  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || 'Study';
+  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || texts.said.study;
 }
 
-// --- Sessions -----------------------------------------------------------------------------------------------------
-
-async function openSession(services: Services, file: Incoming, remarks: string[]): Promise<string> {
-  const session = readSession(new TextDecoder().decode(file.bytes));
-  const damaged: string[] = [];
-  for (const included of session.files) {
-    if (!included.bytes) continue;
-    const asset = await services.assets.add(included.name, included.bytes);
-    if (asset.sha256 !== included.sha256) damaged.push(included.name);
-  }
-  const missing = await bringFiles(services, session.doc, 'Opening the session');
-  const { store } = services;
-  // A command like any other: undo brings back what was open before.
-  store.perform({ label: 'open a session', apply: () => session.doc });
-  store.markSaved(store.doc);
-  const { frameIndex, component, overlayOpacity } = session.view;
-  store.show({ component, overlayOpacity: Math.min(1, Math.max(0, overlayOpacity)), viewport: null, savedAt: null });
-  store.goTo(frameIndex);
-  for (const name of damaged) remarks.push(`${name}: the copy in the session was changed; drop the original on the page`);
-  if (missing.length > 0) remarks.push(`The session only names ${inWords(missing)}: drop ${missing.length === 1 ? 'it' : 'them'} on the page`);
-  return `the session ${file.name}`;
-}
+// --- Files that a document names ---------------------------------------------------------------------------------
 
 /** Brings the files that a document names into the studio; returns the names of those that are not at hand. */
 export async function bringFiles(services: Services, doc: Doc, title: string): Promise<string[]> {
@@ -238,7 +321,7 @@ export async function bringFiles(services: Services, doc: Doc, title: string): P
   const never = new AbortController().signal;
   const sources = new Map(doc.frames.map((frame) => [frame.source, frame.name.replace(/ #\d+$/, '')]));
   const total = sources.size;
-  const job = { title, unit: 'files', total, cancel: () => undefined };
+  const job = { title, unit: texts.said.files, total, cancel: () => undefined };
   await asJob(services.store, job, async (report) => {
     let done = 0;
     for (const [sha256, name] of sources) {

@@ -18,6 +18,7 @@ import { PROGRAM } from './program';
 import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
+import { texts } from '../texts';
 
 interface Task {
   /** A match gives the library's pose at once; refinement takes longer and makes it better. */
@@ -49,7 +50,7 @@ export interface Findings {
 
 const NOTHING_FOUND = { details: [], canonicalArea: 0, clipped: false, partial: false, milliseconds: 0 };
 
-const NO_MODEL = 'the library was opened without its model.';
+const NO_MODEL = texts.said.library.withoutModel;
 
 /** How long the outline on view has to be at rest before poses are refined, ms: refining would hold up a drag. */
 export const REST = 120;

@@ -1,3 +1,5 @@
+import type { HandProtocol } from './hand_protocol';
+import type { OneClickProtocol } from './one_click_protocol';
 import type { Candidate, ComponentName, LibrarySpec, PoseNumbers } from '../document/types';
 
 /** What the workers can do; the page knows no more of WASM than this and `engine/film.ts`. */
@@ -7,6 +9,14 @@ export interface CameraInput {
   readonly text: string;
   readonly width: number;
   readonly height: number;
+  /** Outlines and overlays of frames that are shown as they were taken; absent where frames are straight. */
+  readonly bend?: Bend;
+}
+
+/** A correction of distortion as the core takes it, and a text that tells it from others. */
+export interface Bend {
+  readonly key: string;
+  readonly numbers: Float64Array<ArrayBuffer>;
 }
 
 /** What a calibration says, for chips and forms. Millimetres; the camera in pixels. */
@@ -27,6 +37,8 @@ export interface ModelMesh {
   readonly vertices: Float32Array<ArrayBuffer>;
   /** Three vertices each. */
   readonly triangles: Uint32Array<ArrayBuffer>;
+  /** What was left out of the file, a sentence each. */
+  readonly notes?: readonly string[];
 }
 
 export interface DecodedFrame {
@@ -37,6 +49,20 @@ export interface DecodedFrame {
   readonly window: { readonly centre: number; readonly width: number } | null;
   /** What was done to the pixels on the way, a sentence each. */
   readonly notes: readonly string[];
+  /** What the file says of sizes and distances. */
+  readonly geometry: StatedGeometry;
+}
+
+/** Lengths in mm as a file states them; null where it does not. Pairs: along a row, then from row to row. */
+export interface StatedGeometry {
+  readonly detectorSpacing: readonly [number, number] | null;
+  readonly pixelSpacing: readonly [number, number] | null;
+  readonly pixelSpacingCalibration: 'geometry' | 'fiducial' | null;
+  readonly scannedSpacing: readonly [number, number] | null;
+  readonly sourceToDetector: number | null;
+  readonly sourceToPatient: number | null;
+  readonly sourceToIsocentre: number | null;
+  readonly magnification: number | null;
 }
 
 /** What the matcher found for an outline, the chosen pose first. */
@@ -76,7 +102,7 @@ export interface LibraryFacts {
   readonly bytes: number;
 }
 
-export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'unknown';
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'video' | 'unknown';
 
 export interface DecodeProtocol {
   sniff: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: FileKind; progress: never };
@@ -132,7 +158,7 @@ export interface ConvergenceStep {
   readonly pose: PoseNumbers;
 }
 
-export interface PoseProtocol {
+export interface PoseProtocol extends HandProtocol, OneClickProtocol {
   /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
   open: {
     input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer>; mesh: ModelMesh | null };

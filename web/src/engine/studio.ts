@@ -1,19 +1,27 @@
 import init, {
   CalibrationText,
   Film,
+  jointMotion,
   jtIntcalibText,
   Matcher,
   Model,
   paintUnmatched,
+  plateCamera,
   readJts,
+  rulerScale,
   unknownReach,
   writeJts,
 } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { GreyWindow, PoseNumbers } from '../document/types';
+import type { Distortion } from '../document/distortion';
+import type { FramePoint } from '../geometry/points';
 import type { Size } from '../geometry/viewport';
+import type { Motion } from '../document/motion';
 import { poseArray, poseFrom } from './pose_array';
-import type { CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture } from './protocol';
+import { paintLook, type Look } from './film_looks';
+import type { Bend, CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture, StatedGeometry } from './protocol';
+import { Bender, StraightFilms } from './straight_films';
 
 /** Grey values of a frame, and the window to begin with. */
 export interface FilmFacts {
@@ -23,8 +31,11 @@ export interface FilmFacts {
 }
 
 interface HeldFilm {
+  /** As it was taken. */
   readonly film: Film;
   readonly facts: FilmFacts;
+  readonly size: Size;
+  readonly stated: StatedGeometry;
 }
 
 interface HeldModel {
@@ -38,6 +49,8 @@ interface HeldModel {
  */
 export class Studio {
   readonly #films = new Map<string, HeldFilm>();
+  readonly #straight = new StraightFilms();
+  #bender: Bender | null = null;
   /** By the file's SHA-256: undo may go back to an earlier one. */
   readonly #models = new Map<string, HeldModel>();
 
@@ -55,7 +68,32 @@ export class Studio {
       pixels instanceof Uint8Array ? Film.fromEightBit(pixels, width, height) : Film.fromSixteenBit(pixels, width, height);
     const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = film.greyRange();
     const window = frame.window ?? { centre, width: windowWidth };
-    this.#films.set(id, { film, facts: { least, greatest, window } });
+    this.#films.set(id, { film, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
+  }
+
+  /** Films are shown straight from now on, or as they were taken. */
+  useDistortion(distortion: Distortion | null): void {
+    this.#straight.use(distortion);
+  }
+
+  /** Changes whenever films look otherwise: what was painted or worked out from their pixels is of the past. */
+  get filmsKey(): string {
+    return this.#straight.key;
+  }
+
+  /** What the file of a frame says of sizes and distances. */
+  statedGeometry(id: string): StatedGeometry | null {
+    return this.#films.get(id)?.stated ?? null;
+  }
+
+  #shown(id: string): Film | null {
+    const held = this.#films.get(id);
+    return held ? this.#straight.shown(id, held.film, held.size) : null;
+  }
+
+  /** The frame in WASM memory, for tools that look at its pixels. */
+  filmOf(id: string): Film | null {
+    return this.#shown(id);
   }
 
   hasFilm(id: string): boolean {
@@ -66,13 +104,25 @@ export class Studio {
     return this.#films.get(id)?.facts ?? null;
   }
 
-  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow): void {
-    this.#films.get(id)?.film.paint(context, window.centre, window.width);
+  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow, look: Look = 'original'): void {
+    const held = this.#films.get(id);
+    const film = this.#shown(id);
+    if (held && film) paintLook(film, held.facts.window, context, window, look);
+  }
+
+  /** A copy of a frame's grey values, for a worker. */
+  filmPixels(id: string): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+    return pixelsOf(this.#shown(id));
+  }
+
+  /** The same of the frame as it was taken, whether it is shown straight or not. */
+  takenPixels(id: string): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+    return pixelsOf(this.#films.get(id)?.film ?? null);
   }
 
   greyAt(id: string, column: number, row: number): number | null {
     if (column < 0 || row < 0) return null;
-    return this.#films.get(id)?.film.greyAt(Math.floor(column), Math.floor(row)) ?? null;
+    return this.#shown(id)?.greyAt(Math.floor(column), Math.floor(row)) ?? null;
   }
 
   // --- Models -------------------------------------------------------------------------------------------------
@@ -98,11 +148,21 @@ export class Studio {
   ): Float64Array | null {
     const model = this.#models.get(sha256)?.model;
     if (!model) return null;
-    const { text, width, height } = camera;
+    const { text, width, height, bend } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));
     context.clearRect(0, 0, width, height);
     model.paint(context, width, height, rgb);
-    return model.border(width, height);
+    const border = model.border(width, height);
+    if (!bend) return border;
+    const bender = this.#benderOf(bend);
+    bender.picture(context, width, height);
+    return border && bender.border(border);
+  }
+
+  #benderOf({ key, numbers }: Bend): Bender {
+    if (this.#bender?.key === key) return this.#bender;
+    this.#bender?.free();
+    return (this.#bender = new Bender(key, numbers));
   }
 
   paintUnmatched(context: CanvasRenderingContext2D, picture: Picture): void {
@@ -145,6 +205,20 @@ export class Studio {
     return jtIntcalibText(distance, offsetX, offsetY, pitch, frame.width, frame.height);
   }
 
+  /**
+   * The camera of a bead plate: pitch and its deviation, principal point x and y from the middle and their deviations
+   * (mm), 1 where the picture tells that point, tilt (degrees), residual (px), beads. Throws the core's sentence.
+   */
+  plateCamera(beads: Float64Array, spacing: number, toDetector: number, toPlate: number, frame: Size): Float64Array {
+    return plateCamera(beads, spacing, toDetector, toPlate, frame.width, frame.height);
+  }
+
+  /** Length of a ruler in px, pitch in mm, focal length in px. Throws the core's sentence. */
+  rulerScale(marks: readonly FramePoint[], length: number, toDetector: number, toRuler: number): Float64Array {
+    const places = Float64Array.from(marks.flatMap(({ column, row }) => [column, row]));
+    return rulerScale(places, length, toDetector, toRuler);
+  }
+
   /** Null for the rows of zeros that stand for "no pose". */
   readPoses(text: string): (PoseNumbers | null)[] {
     const numbers = readJts(text);
@@ -154,9 +228,23 @@ export class Studio {
     });
   }
 
+  /** The tibial component relative to the femoral one. */
+  motionOf(femur: PoseNumbers, tibia: PoseNumbers, side: 'left' | 'right'): Motion {
+    const [anterior = NaN, superior = NaN, lateral = NaN, flexion = NaN, abduction = NaN, internal = NaN] = jointMotion(
+      Float64Array.from(poseArray(femur)),
+      Float64Array.from(poseArray(tibia)),
+      side === 'left',
+    );
+    return { anterior, superior, lateral, flexion, abduction, internal };
+  }
+
   writePoses(poses: readonly (PoseNumbers | null)[]): string {
     return writeJts(Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE))));
   }
+}
+
+function pixelsOf(film: Film | null): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+  return (film && ((film.eightBit() ?? film.sixteenBit()) as Uint8Array<ArrayBuffer> | undefined)) ?? null;
 }
 
 /** At the focus, where nothing can be: other programs of the field read it without complaint. */

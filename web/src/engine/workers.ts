@@ -1,4 +1,6 @@
 import { Bridge, type WorkerPort } from '../worker/bridge';
+import type { MasksProtocol } from './exchange/protocol';
+import type { CalibrateProtocol } from './calibrate_protocol';
 import type { DecodeProtocol, LibraryProtocol, PoseProtocol } from './protocol';
 
 /** Each worker starts with its first call. A library has a worker of its own: two are built at the same time. */
@@ -17,6 +19,18 @@ export function libraryWorker(): Bridge<LibraryProtocol> {
 export function poseWorker(): Bridge<PoseProtocol> {
   return new Bridge<PoseProtocol>(() =>
     port(new Worker(new URL('../worker/pose.ts', import.meta.url), { type: 'module', name: 'pose' })),
+  );
+}
+
+export function masksWorker(): Bridge<MasksProtocol> {
+  return new Bridge<MasksProtocol>(() =>
+    port(new Worker(new URL('../worker/masks.ts', import.meta.url), { type: 'module', name: 'masks' })),
+  );
+}
+
+export function calibrateWorker(): Bridge<CalibrateProtocol> {
+  return new Bridge<CalibrateProtocol>(() =>
+    port(new Worker(new URL('../worker/calibrate.ts', import.meta.url), { type: 'module', name: 'calibrate' })),
   );
 }
 

@@ -138,7 +138,16 @@ function tidy(pose: PoseNumbers): PoseNumbers {
   return { ...pose, zRot: wrapped(pose.zRot), xRot, yRot: wrapped(pose.yRot) };
 }
 
-function wrapped(degrees: number): number {
+/** The same angle from -180 to 180. */
+export function wrapped(degrees: number): number {
   const round = degrees - 360 * Math.round(degrees / 360);
   return round === -180 ? 180 : round;
+}
+
+/** The angle of the rotation that leads from one pose to another, degrees. */
+export function turnBetween(a: PoseNumbers, b: PoseNumbers): number {
+  const [p, q] = [rotationOf(a), rotationOf(b)];
+  const squares = p.flatMap((row, r) => row.map((value, c) => (value - (q[r]?.[c] ?? 0)) ** 2)).reduce((sum, square) => sum + square, 0);
+  // |P - Q| = 2 sqrt(2) sin(angle / 2) keeps the digits that the arc cosine of the trace loses.
+  return (2 * Math.asin(Math.min(1, Math.sqrt(squares / 8))) * 180) / Math.PI;
 }

@@ -5,6 +5,7 @@ import { canvasPoint, distance, framePoint, type CanvasPoint } from '../geometry
 import { inCamera, movedInDepth, projected, shifted, turned, type Pinhole, type Vector } from '../geometry/pose_motion';
 import { canvasFromFrame, type Viewport } from '../geometry/viewport';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+import { texts } from '../texts';
 
 /** What a hand on the model needs to know. */
 export interface HandScene {
@@ -44,7 +45,7 @@ function press(input: Input, scene: Scene, hand: HandScene): Outcome<AdjustState
   const motion = heldMotion(input) ?? handleAt(hand, scene.viewport, input.at) ?? 'move';
   const state = { name: 'dragging', motion, last: input.at, pose: hand.pose, moved: false } as const;
   if (!hand.absent) return outcome(state);
-  return outcome({ ...state, moved: true }, { type: 'preview', command: setPoseByHand(scene.place, hand.pose, 'place the model') });
+  return outcome({ ...state, moved: true }, { type: 'preview', command: setPoseByHand(scene.place, hand.pose, texts.steps.placeModel) });
 }
 
 /** Keys held with the mouse: Shift tilts, Ctrl turns in the plane, both move along the view. */
@@ -70,10 +71,10 @@ function whileDragging(
 }
 
 const LABELS: Readonly<Record<Motion, string>> = {
-  move: 'move the model',
-  turn: 'turn the model',
-  tilt: 'tilt the model',
-  depth: 'move the model along the view',
+  move: texts.steps.moveModel,
+  turn: texts.steps.turnModel,
+  tilt: texts.steps.tiltModel,
+  depth: texts.steps.modelAlongView,
 };
 
 /** A model tilts by this much a CSS pixel, degrees, and moves along the view by this share of its depth. */

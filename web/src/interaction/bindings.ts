@@ -1,8 +1,13 @@
+import { texts } from '../texts';
+import { AID_KEYS, AID_ROWS, type AidCommand, type AidKey } from './aid_keys';
 import { TOOLS, type ToolName } from './tools';
+import { WORK_KEYS, type WorkCommand, type WorkKey } from './work_keys';
 
 /** What keys do. The sheet that `?` shows is made from this table, so the two cannot differ. */
 export type Action =
   | { readonly name: 'tool'; readonly tool: ToolName }
+  | { readonly name: 'aid'; readonly command: AidCommand }
+  | { readonly name: 'work'; readonly command: WorkCommand }
   | {
       readonly name:
         | 'undo'
@@ -24,6 +29,7 @@ export type Action =
         | 'zoom-in'
         | 'zoom-out'
         | 'reset-window'
+        | 'theme'
         | 'keys';
     };
 
@@ -31,10 +37,12 @@ export interface Binding {
   /** As shown on the sheet. */
   readonly shown: readonly string[];
   readonly does: string;
-  readonly group: 'Tracing' | 'Seeing' | 'Working' | 'Mouse';
+  readonly group: 'Tracing' | 'Shaping' | 'Seeing' | 'Working' | 'Mouse';
   readonly matches: (key: KeyInput) => boolean;
   /** Null: the sheet tells of it, something else does it. */
   readonly action: Action | null;
+  /** With these tools alone, and before what the key means otherwise. */
+  readonly tools?: readonly ToolName[] | undefined;
 }
 
 /** The part of a `KeyboardEvent` that matters. */
@@ -46,50 +54,62 @@ export interface KeyInput {
 }
 
 export const BINDINGS: readonly Binding[] = [
+  ...AID_KEYS.map(aidKey),
+  ...AID_ROWS.map(({ shown, does }): Binding => ({ group: 'Shaping', shown, does, matches: () => false, action: null })),
   ...TOOLS.map(({ name, key, title }) =>
     binding('Tracing', [key.toUpperCase()], title, plainly(key), { name: 'tool', tool: name }),
   ),
-  binding('Tracing', ['Enter'], 'Close the outline', plainly('enter'), { name: 'close-outline' }),
-  binding('Tracing', ['Delete', 'Backspace'], 'Delete the selected point, or the last one of a draft', plainly('delete', 'backspace'), {
+  binding('Tracing', ['Enter'], texts.keys.closeOutline, plainly('enter'), { name: 'close-outline' }),
+  binding('Tracing', ['Delete', 'Backspace'], texts.keys.deletePoint, plainly('delete', 'backspace'), {
     name: 'delete-point',
   }),
-  binding('Tracing', ['Shift + Delete'], 'Delete the whole outline', shifted('delete', 'backspace'), { name: 'delete-outline' }),
-  binding('Tracing', [','], 'Select the previous point', plainly(','), { name: 'previous-point' }),
-  binding('Tracing', ['.'], 'Select the next point', plainly('.'), { name: 'next-point' }),
-  binding('Tracing', ['U'], 'Mark the side under the pointer, or after the selected point, unknown or known', plainly('u'), {
+  binding('Tracing', ['Shift + Delete'], texts.keys.deleteOutline, shifted('delete', 'backspace'), { name: 'delete-outline' }),
+  binding('Tracing', [','], texts.keys.previousPoint, plainly(','), { name: 'previous-point' }),
+  binding('Tracing', ['.'], texts.keys.nextPoint, plainly('.'), { name: 'next-point' }),
+  binding('Tracing', ['U'], texts.keys.toggleUnknown, plainly('u'), {
     name: 'toggle-unknown',
   }),
-  binding('Tracing', ['Esc'], 'Leave the tool; a draft stays', plainly('escape'), { name: 'leave' }),
-  binding('Tracing', ['X'], 'Switch between the pose and its rivals', plainly('x'), { name: 'other-candidate' }),
-  binding('Working', ['D', 'Page Up'], 'Previous frame', plainly('d', 'pageup'), { name: 'previous-frame' }),
-  binding('Working', ['F', 'Page Down'], 'Next frame', plainly('f', 'pagedown'), { name: 'next-frame' }),
-  binding('Working', ['C'], 'Other component', plainly('c'), { name: 'other-component' }),
-  binding('Working', ['Ctrl + Z'], 'Undo', (key) => key.ctrl && !key.shift && is(key, 'z'), { name: 'undo' }),
+  binding('Tracing', ['Esc'], texts.keys.leave, plainly('escape'), { name: 'leave' }),
+  binding('Tracing', ['X'], texts.keys.otherCandidate, plainly('x'), { name: 'other-candidate' }),
+  binding('Working', ['D', 'Page Up'], texts.keys.previousFrame, plainly('d', 'pageup'), { name: 'previous-frame' }),
+  binding('Working', ['F', 'Page Down'], texts.keys.nextFrame, plainly('f', 'pagedown'), { name: 'next-frame' }),
+  binding('Working', ['C'], texts.keys.otherComponent, plainly('c'), { name: 'other-component' }),
+  ...WORK_KEYS.map(workKey),
+  binding('Working', ['Ctrl + Z'], texts.keys.undo, (key) => key.ctrl && !key.shift && is(key, 'z'), { name: 'undo' }),
   binding(
     'Working',
     ['Ctrl + Y', 'Ctrl + Shift + Z'],
-    'Redo',
+    texts.keys.redo,
     (key) => key.ctrl && (is(key, 'y') || (key.shift && is(key, 'z'))),
     { name: 'redo' },
   ),
-  binding('Working', ['Ctrl + S'], 'Save the session', (key) => key.ctrl && is(key, 's'), { name: 'save' }),
-  binding('Working', ['Ctrl + O'], 'Open files', (key) => key.ctrl && is(key, 'o'), { name: 'open' }),
-  binding('Working', ['?'], 'This sheet', (key) => is(key, '?'), { name: 'keys' }),
-  binding('Seeing', ['0'], 'Fit the film to the window', plainly('0'), { name: 'fit' }),
-  binding('Seeing', ['+'], 'Zoom in', (key) => is(key, '+', '='), { name: 'zoom-in' }),
-  binding('Seeing', ['-'], 'Zoom out', plainly('-'), { name: 'zoom-out' }),
-  binding('Seeing', ['R'], 'Window and level as the film suggests', plainly('r'), { name: 'reset-window' }),
-  mouse('Space held', 'Hide outlines and overlays; dragging moves the film'),
-  mouse('Wheel', 'Zoom at the cursor'),
-  mouse('Middle drag', 'Move the film'),
-  mouse('Right drag', 'Window (sideways) and level (up and down)'),
-  mouse('Alt + click on a point', 'Delete the point'),
-  mouse('Click on an edge', 'Insert a point (closed outline, or Edit points)'),
-  mouse('Double click', 'Close the outline'),
+  binding('Working', ['Ctrl + S'], texts.keys.save, (key) => key.ctrl && is(key, 's'), { name: 'save' }),
+  binding('Working', ['Ctrl + O'], texts.keys.open, (key) => key.ctrl && is(key, 'o'), { name: 'open' }),
+  binding('Working', ['?'], texts.keys.sheet, (key) => is(key, '?'), { name: 'keys' }),
+  binding('Seeing', ['0'], texts.keys.fit, plainly('0'), { name: 'fit' }),
+  binding('Seeing', ['+'], texts.keys.zoomIn, (key) => is(key, '+', '='), { name: 'zoom-in' }),
+  binding('Seeing', ['-'], texts.keys.zoomOut, plainly('-'), { name: 'zoom-out' }),
+  binding('Seeing', ['R'], texts.keys.resetWindow, plainly('r'), { name: 'reset-window' }),
+  binding('Seeing', ['Shift + L'], texts.top.themeDoes, shifted('l'), { name: 'theme' }),
+  ...Object.values(texts.keys.mouse).map(({ shown, does }) => mouse(shown, does)),
 ];
 
-export function actionFor(key: KeyInput): Action | null {
-  return BINDINGS.find((binding) => binding.action && binding.matches(key))?.action ?? null;
+/** What a key does with a tool in hand. */
+export function actionFor(key: KeyInput, tool: ToolName | null = null): Action | null {
+  const meant = BINDINGS.filter(({ action, matches }) => action && matches(key));
+  const special = meant.find(({ tools }) => tool !== null && tools?.includes(tool));
+  return (special ?? meant.find(({ tools }) => !tools))?.action ?? null;
+}
+
+function aidKey({ shown, does, key, held, tools, command }: AidKey): Binding {
+  const matches = (input: KeyInput) =>
+    !input.alt && is(input, key) && (held === 'any' || (input.ctrl === (held === 'ctrl') && input.shift === (held === 'shift')));
+  return { group: 'Shaping', shown, does, matches, action: { name: 'aid', command }, tools };
+}
+
+function workKey({ shown, key, shift, alt = false, command }: WorkKey): Binding {
+  const matches = (input: KeyInput) => !input.ctrl && input.shift === shift && input.alt === alt && is(input, key);
+  return { group: 'Working', shown: [shown], does: texts.work.keys[command], matches, action: { name: 'work', command } };
 }
 
 function binding(

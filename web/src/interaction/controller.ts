@@ -1,8 +1,16 @@
-import { edit, type EditState } from './edit';
-import type { Effect, Input, Scene } from './machine';
+import { adjust } from './adjust';
+import { brush } from './brush';
+import { edit } from './edit';
+import type { Effect, Input, Machine, Scene } from './machine';
 import { drag, gestureOf, hand, windowing, type DragState } from './navigate';
-import { trace, type TraceState } from './trace';
+import { oneClick } from './one_click';
+import { ruler } from './ruler';
+import { stretch } from './stretch';
+import { threshold } from './threshold';
 import type { ToolName } from './tools';
+import { trace } from './trace';
+import { transform } from './transform';
+import { wire, wireBusy } from './wire';
 
 /**
  * Sends each input to whoever has the pointer: a navigation gesture that began before, or the tool. Holds the states
@@ -10,20 +18,30 @@ import type { ToolName } from './tools';
  */
 export class Controller {
   #navigation: { kind: 'panning' | 'windowing'; state: DragState } | null = null;
-  #edit: EditState = edit.start;
-  #trace: TraceState = trace.start;
-  #drag: DragState = hand.start;
+  readonly #tools: Readonly<Record<ToolName | 'ruler', Running>> = {
+    edit: new Held(edit),
+    trace: new Held(trace, (state) => state.name === 'adding' || state.edit.name !== 'idle'),
+    wire: new Held(wire, wireBusy),
+    threshold: new Held(threshold),
+    'one-click': new Held(oneClick),
+    brush: new Held(brush),
+    transform: new Held(transform),
+    stretch: new Held(stretch),
+    pose: new Held(adjust),
+    hand: new Held(hand),
+    window: new Held(windowing),
+    ruler: new Held(ruler),
+  };
 
-  handle(tool: ToolName, input: Input, scene: Scene, spaceHeld: boolean): readonly Effect[] {
+  handle(tool: ToolName | 'ruler', input: Input, scene: Scene, spaceHeld: boolean): readonly Effect[] {
     const navigation = this.#navigation ?? this.#beginNavigation(input, spaceHeld);
     if (navigation) return this.#navigate(navigation, input, scene);
-    return this.#toTool(tool, input, scene);
+    return this.#tools[tool].handle(input, scene);
   }
 
   /** Is a gesture under way? Then keys do not change tools under it. */
   get busy(): boolean {
-    const tracing = this.#trace.name === 'adding' || this.#trace.edit.name !== 'idle';
-    return this.#navigation !== null || tracing || this.#edit.name !== 'idle' || this.#drag.name !== 'idle';
+    return this.#navigation !== null || Object.values(this.#tools).some((tool) => tool.busy);
   }
 
   #beginNavigation(input: Input, spaceHeld: boolean) {
@@ -40,22 +58,32 @@ export class Controller {
     this.#navigation = state.name === 'idle' ? null : { kind: navigation.kind, state };
     return effects;
   }
-
-  #toTool(tool: ToolName, input: Input, scene: Scene): readonly Effect[] {
-    switch (tool) {
-      case 'edit':
-        return keep(edit.next(this.#edit, input, scene), (state) => (this.#edit = state));
-      case 'trace':
-        return keep(trace.next(this.#trace, input, scene), (state) => (this.#trace = state));
-      case 'hand':
-        return keep(hand.next(this.#drag, input, scene), (state) => (this.#drag = state));
-      case 'window':
-        return keep(windowing.next(this.#drag, input, scene), (state) => (this.#drag = state));
-    }
-  }
 }
 
-function keep<State>(result: { state: State; effects: readonly Effect[] }, store: (state: State) => void) {
-  store(result.state);
-  return result.effects;
+interface Running {
+  handle(input: Input, scene: Scene): readonly Effect[];
+  readonly busy: boolean;
+}
+
+/** A tool's machine and the state that it is in. */
+class Held<State extends { readonly name: string }> implements Running {
+  readonly #machine: Machine<State>;
+  readonly #isBusy: (state: State) => boolean;
+  #state: State;
+
+  constructor(machine: Machine<State>, isBusy: (state: State) => boolean = (state) => state.name !== 'idle') {
+    this.#machine = machine;
+    this.#isBusy = isBusy;
+    this.#state = machine.start;
+  }
+
+  get busy(): boolean {
+    return this.#isBusy(this.#state);
+  }
+
+  handle(input: Input, scene: Scene): readonly Effect[] {
+    const { state, effects } = this.#machine.next(this.#state, input, scene);
+    this.#state = state;
+    return effects;
+  }
 }

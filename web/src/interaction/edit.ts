@@ -1,7 +1,7 @@
 import { deletePoint, insertPoint, movePoint } from '../document/commands';
 import { canvasPoint, distance, type CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
-import { hitTest, type Hit } from './hit';
+import { hitTest, reachOf, type Hit } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /** Moving, inserting and deleting the points of an outline. */
@@ -17,7 +17,7 @@ const IDLE: EditState = { name: 'idle' };
 
 export const edit: Machine<EditState> = {
   start: IDLE,
-  next: (state, input, scene) => nextEdit(state, input, scene, hitTest(scene.outline, scene.viewport, input.at)),
+  next: (state, input, scene) => nextEdit(state, input, scene, hitTest(scene.outline, scene.viewport, input.at, reachOf(input))),
 };
 
 /** The same with what lies under the pointer told by the tool. */

@@ -1,4 +1,6 @@
-import type { PoseNumbers } from '../document/types';
+import type { ComponentName, PoseNumbers } from '../document/types';
+import { texts } from '../texts';
+import type { Motion } from './adjust';
 import type { Binding, KeyInput } from './bindings';
 
 /** Keys while the model is adjusted by hand: arrows as in JointTrack. They come before the keys of the page. */
@@ -24,46 +26,47 @@ function isHeld({ ctrl, shift, alt }: KeyInput, held: Held): boolean {
 }
 
 export const HAND_BINDINGS: readonly HandBinding[] = [
-  nudge('←', 'Left: x less', 'nothing', 'ArrowLeft', 'x', -1),
-  nudge('→', 'Right: x more', 'nothing', 'ArrowRight', 'x', 1),
-  nudge('↑', 'Up: y more', 'nothing', 'ArrowUp', 'y', 1),
-  nudge('↓', 'Down: y less', 'nothing', 'ArrowDown', 'y', -1),
-  nudge('Ctrl + ↑', 'Nearer: z more', 'ctrl', 'ArrowUp', 'z', 1),
-  nudge('Ctrl + ↓', 'Farther: z less', 'ctrl', 'ArrowDown', 'z', -1),
-  nudge('Ctrl + ←', 'Turn against the clock: z rotation more', 'ctrl', 'ArrowLeft', 'zRot', 1),
-  nudge('Ctrl + →', 'Turn with the clock: z rotation less', 'ctrl', 'ArrowRight', 'zRot', -1),
-  nudge('Shift + ↑', 'x rotation less', 'shift', 'ArrowUp', 'xRot', -1),
-  nudge('Shift + ↓', 'x rotation more', 'shift', 'ArrowDown', 'xRot', 1),
-  nudge('Shift + ←', 'y rotation less', 'shift', 'ArrowLeft', 'yRot', -1),
-  nudge('Shift + →', 'y rotation more', 'shift', 'ArrowRight', 'yRot', 1),
+  nudge('←', texts.keys.hand.left, 'nothing', 'ArrowLeft', 'x', -1),
+  nudge('→', texts.keys.hand.right, 'nothing', 'ArrowRight', 'x', 1),
+  nudge('↑', texts.keys.hand.up, 'nothing', 'ArrowUp', 'y', 1),
+  nudge('↓', texts.keys.hand.down, 'nothing', 'ArrowDown', 'y', -1),
+  nudge('Ctrl + ↑', texts.keys.hand.nearer, 'ctrl', 'ArrowUp', 'z', 1),
+  nudge('Ctrl + ↓', texts.keys.hand.farther, 'ctrl', 'ArrowDown', 'z', -1),
+  nudge('Ctrl + ←', texts.keys.hand.againstClock, 'ctrl', 'ArrowLeft', 'zRot', 1),
+  nudge('Ctrl + →', texts.keys.hand.withClock, 'ctrl', 'ArrowRight', 'zRot', -1),
+  nudge('Shift + ↑', texts.keys.hand.xLess, 'shift', 'ArrowUp', 'xRot', -1),
+  nudge('Shift + ↓', texts.keys.hand.xMore, 'shift', 'ArrowDown', 'xRot', 1),
+  nudge('Shift + ←', texts.keys.hand.yLess, 'shift', 'ArrowLeft', 'yRot', -1),
+  nudge('Shift + →', texts.keys.hand.yMore, 'shift', 'ArrowRight', 'yRot', 1),
   {
     shown: ['+'],
-    does: 'Coarse steps',
+    does: texts.keys.hand.coarse,
     matches: ({ key, ctrl, alt }) => !ctrl && !alt && (key === '+' || key === '='),
     action: { name: 'coarse' },
   },
   {
     shown: ['-'],
-    does: 'Fine steps',
+    does: texts.keys.hand.fine,
     matches: ({ key, ctrl, alt }) => !ctrl && !alt && (key === '-' || key === '_'),
     action: { name: 'fine' },
   },
   {
     shown: ['Enter'],
-    does: 'Refine from here; where there is no pose, place the model',
+    does: texts.keys.hand.refine,
     matches: (input) => isHeld(input, 'nothing') && input.key === 'Enter',
     action: { name: 'refine-from-here' },
   },
 ];
 
 /** What the mouse does meanwhile; the sheet of keys tells it. */
-export const HAND_MOUSE: readonly { readonly shown: readonly string[]; readonly does: string }[] = [
-  { shown: ['Drag'], does: 'Move in the image plane' },
-  { shown: ['Shift + drag'], does: 'Tilt; also by the knob in the middle' },
-  { shown: ['Ctrl + drag'], does: 'Turn in the plane; also by the ring' },
-  { shown: ['Ctrl + Shift + drag'], does: 'Nearer and farther; also by the knob below' },
-];
+export const HAND_MOUSE: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.hand.mouse;
 
 export function handActionFor(key: KeyInput): HandAction | null {
   return HAND_BINDINGS.find((binding) => binding.matches(key))?.action ?? null;
+}
+
+/** One line: what the next press does to the model. */
+export function handHint(component: ComponentName, there: boolean, motion: Motion | null): string {
+  const words = texts.hand.hints;
+  return there ? words.over[motion ?? 'move'] : words.absent(texts.component[component]);
 }

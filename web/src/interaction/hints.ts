@@ -1,10 +1,19 @@
+import { aidHint, type AidSituation } from './aid_hints';
 import type { Outline } from '../document/types';
 import { FEWEST_POINTS, type Hit } from './hit';
 import type { ToolName } from './tools';
 import { texts } from '../texts';
 
 /** One line: what the next click does. */
-export function hint(tool: ToolName, component: string, outline: Outline | null, hit: Hit): string {
+export function hint(
+  tool: ToolName,
+  component: string,
+  outline: Outline | null,
+  hit: Hit,
+  aid: AidSituation = { erase: false, adjusting: false },
+): string {
+  const aided = aidHint(tool, component, outline, hit, aid);
+  if (aided !== null) return aided;
   switch (tool) {
     case 'hand':
       return texts.hints.hand;
@@ -13,6 +22,7 @@ export function hint(tool: ToolName, component: string, outline: Outline | null,
     case 'edit':
       return outline ? editHint(outline, hit) : texts.hints.noOutline(component);
     case 'trace':
+    default:
       return outline?.closed ? editHint(outline, hit) : draftHint(component, outline?.points.length ?? 0, hit);
   }
 }

@@ -1,6 +1,7 @@
 import { distance, nearestOnSegment, type CanvasPoint, type FramePoint } from '../geometry/points';
 import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
 import type { Outline } from '../document/types';
+import type { Input } from './machine';
 
 /** What of an outline lies under the pointer. */
 export type Hit =
@@ -21,17 +22,23 @@ export const SAME_SPOT = 1.5;
 
 const NOTHING: Hit = { kind: 'nothing' };
 
-export function hitTest(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
+/** `wide`: how many times as far as a mouse the pointer reaches. */
+export function hitTest(outline: Outline | null, viewport: Viewport, at: CanvasPoint, wide = 1): Hit {
   if (!outline || outline.points.length === 0) return NOTHING;
   const points = outline.points.map((point) => canvasFromFrame(viewport, point));
-  return hitVertex(points, at, () => VERTEX_REACH) ?? hitEdge(points, outline.closed, viewport, at) ?? NOTHING;
+  return hitVertex(points, at, () => wide * VERTEX_REACH) ?? hitEdge(points, outline.closed, viewport, at, wide) ?? NOTHING;
 }
 
 /** While tracing: only the point that closes the draft is easy to hit; no edges. */
-export function hitDraft(outline: Outline | null, viewport: Viewport, at: CanvasPoint): Hit {
+export function hitDraft(outline: Outline | null, viewport: Viewport, at: CanvasPoint, wide = 1): Hit {
   const points = (outline?.points ?? []).map((point) => canvasFromFrame(viewport, point));
   const closes = points.length >= FEWEST_POINTS;
-  return hitVertex(points, at, (index) => (index === 0 && closes ? CLOSING_REACH : DRAFT_REACH)) ?? NOTHING;
+  return hitVertex(points, at, (index) => (index === 0 && closes ? wide * CLOSING_REACH : DRAFT_REACH)) ?? NOTHING;
+}
+
+/** A finger reaches twice as far. */
+export function reachOf({ touch }: Pick<Input, 'touch'>): number {
+  return touch ? 2 : 1;
 }
 
 /** An outline with fewer points encloses nothing. */
@@ -56,13 +63,13 @@ export function sideMeant(hit: Hit, selectedPoint: number | null, points: number
   return hit.kind === 'vertex' ? hit.index : null;
 }
 
-function hitEdge(points: readonly CanvasPoint[], closed: boolean, viewport: Viewport, at: CanvasPoint): Hit | null {
+function hitEdge(points: readonly CanvasPoint[], closed: boolean, viewport: Viewport, at: CanvasPoint, wide: number): Hit | null {
   const edges = closed ? points.length : points.length - 1;
   let best: { before: number; on: CanvasPoint; away: number } | null = null;
   for (let start = 0; start < edges; start++) {
     const on = nearestOnSegment(at, points[start]!, points[(start + 1) % points.length]!);
     const away = distance(on, at);
-    if (away <= EDGE_REACH && (best === null || away < best.away)) best = { before: start + 1, on, away };
+    if (away <= wide * EDGE_REACH && (best === null || away < best.away)) best = { before: start + 1, on, away };
   }
   return best && { kind: 'edge', before: best.before, at: frameFromCanvas(viewport, best.on) };
 }

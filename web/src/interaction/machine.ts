@@ -1,4 +1,6 @@
-import type { CanvasPoint } from '../geometry/points';
+import type { HandScene } from './adjust';
+import type { AidIntent } from './aid';
+import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
 import type { Command, Place } from '../document/commands';
 import type { GreyWindow, Outline } from '../document/types';
@@ -14,6 +16,10 @@ export interface Input {
   readonly at: CanvasPoint;
   readonly button: Button;
   readonly alt: boolean;
+  readonly shift?: boolean;
+  /** A finger: it covers more than it points at. */
+  readonly touch?: boolean;
+  readonly ctrl?: boolean;
 }
 
 export interface Scene {
@@ -22,6 +28,10 @@ export interface Scene {
   readonly place: Place;
   readonly outline: Outline | null;
   readonly window: GreyWindow;
+  /** The brush takes away; with Alt held the other way round. */
+  readonly erase: boolean;
+  /** Null where no model can be adjusted: it, the calibration or the frame is missing. */
+  readonly hand?: HandScene | null;
 }
 
 export type Effect =
@@ -30,7 +40,9 @@ export type Effect =
   | { readonly type: 'commit'; readonly command: Command }
   | { readonly type: 'cancel-preview' }
   | { readonly type: 'select'; readonly index: number | null }
-  | { readonly type: 'viewport'; readonly viewport: Viewport };
+  | { readonly type: 'viewport'; readonly viewport: Viewport }
+  | { readonly type: 'mark'; readonly at: FramePoint; readonly begins: boolean }
+  | { readonly type: 'aid'; readonly intent: AidIntent };
 
 export interface Outcome<State> {
   readonly state: State;

@@ -1,5 +1,6 @@
 import type { FilmLook, OverlayLook } from '../document/seeing';
 import type { Binding, KeyInput } from './bindings';
+import { texts } from '../texts';
 
 /** Keys of how things are shown. */
 export type SeeingAction =
@@ -17,18 +18,18 @@ function binding(key: string, does: string, action: SeeingAction): SeeingBinding
 }
 
 export const SEEING_BINDINGS: readonly SeeingBinding[] = [
-  binding('1', 'The film as it is', { name: 'film', look: 'original' }),
-  binding('2', 'The film inverted', { name: 'film', look: 'inverted' }),
-  binding('3', 'The film’s edges', { name: 'film', look: 'edges' }),
-  binding('4', 'The film with its contrast equalised', { name: 'film', look: 'equalised' }),
-  binding('5', 'The model as an outline', { name: 'overlay', look: 'outline' }),
-  binding('6', 'The model as a translucent fill', { name: 'overlay', look: 'fill' }),
-  binding('7', 'The model shaded', { name: 'overlay', look: 'shaded' }),
-  binding('z', 'Magnifier at the cursor', { name: 'magnifier' }),
-  binding('g', 'Outlines of the frames before and after', { name: 'ghosts' }),
-  binding('q', 'Compare with the other set of poses', { name: 'compare' }),
-  binding('8', 'Scale bar', { name: 'scale-bar' }),
-  binding('9', 'All of how things are shown', { name: 'view-sheet' }),
+  binding('1', texts.keys.seeing.original, { name: 'film', look: 'original' }),
+  binding('2', texts.keys.seeing.inverted, { name: 'film', look: 'inverted' }),
+  binding('3', texts.keys.seeing.edges, { name: 'film', look: 'edges' }),
+  binding('4', texts.keys.seeing.equalised, { name: 'film', look: 'equalised' }),
+  binding('5', texts.keys.seeing.outline, { name: 'overlay', look: 'outline' }),
+  binding('6', texts.keys.seeing.fill, { name: 'overlay', look: 'fill' }),
+  binding('7', texts.keys.seeing.shaded, { name: 'overlay', look: 'shaded' }),
+  binding('z', texts.keys.seeing.magnifier, { name: 'magnifier' }),
+  binding('g', texts.keys.seeing.ghosts, { name: 'ghosts' }),
+  binding('q', texts.keys.seeing.compare, { name: 'compare' }),
+  binding('8', texts.keys.seeing.scaleBar, { name: 'scale-bar' }),
+  binding('9', texts.keys.seeing.sheet, { name: 'view-sheet' }),
 ];
 
 export function seeingActionFor(key: KeyInput): SeeingAction | null {

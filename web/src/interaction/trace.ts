@@ -2,7 +2,7 @@ import { addPoint, closeOutline } from '../document/commands';
 import { distance } from '../geometry/points';
 import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
 import { edit, nextEdit, type EditState } from './edit';
-import { FEWEST_POINTS, hitDraft, hitTest, SAME_SPOT } from './hit';
+import { FEWEST_POINTS, hitDraft, hitTest, reachOf, SAME_SPOT } from './hit';
 import { outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
 
 /**
@@ -29,7 +29,7 @@ function whileEditing(
   scene: Scene,
 ): Outcome<TraceState> {
   const find = isDraft(scene) ? hitDraft : hitTest;
-  const hit = find(scene.outline, scene.viewport, input.at);
+  const hit = find(scene.outline, scene.viewport, input.at, reachOf(input));
   const fresh = input.type === 'down' && input.button === 'primary' && state.edit.name === 'idle';
   if (fresh && isDraft(scene) && hit.kind !== 'vertex') return whileAdding(input, scene);
   if (input.type === 'up' && state.maybeClosing && state.edit.name === 'pressed') {

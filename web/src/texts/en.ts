@@ -1,10 +1,26 @@
 import type { ComponentName } from '../document/types';
 import { aids } from './en_aids';
+import { calibrate } from './en_calibrate';
+import { files } from './en_files';
+import { hand } from './en_hand';
+import { keys } from './en_keys';
+import { panel } from './en_panel';
+import { said } from './en_said';
+import { seeing } from './en_seeing';
+import { steps } from './en_steps';
 
 /** English, as the page speaks it. Grouped as the page is. */
 export const en = {
   program: 'fluoropose',
   aids,
+  calibrate,
+  files,
+  hand,
+  keys,
+  panel,
+  said,
+  seeing,
+  steps,
   failedToStart: (why: string) => `The page could not start: ${why}. It needs a current browser with WebAssembly.`,
   /** Alone, as a heading or a label. */
   componentTitle: { femur: 'Femur', tibia: 'Tibia' } satisfies Record<ComponentName, string>,
@@ -49,6 +65,9 @@ export const en = {
     chip: (label: string, text: string) => `${label}: ${text}`,
     notSaved: 'not saved',
     savedAt: (time: string) => `saved ${time}`,
+    theme: 'Light page',
+    themeDoes: 'Light page, or dark again',
+    themeTitle: 'Light page, for projectors; the film stays dark (Shift+L)',
     update: 'Update',
     updateTitle: 'A newer version is here. It takes over when the page is next opened; this button does it now, and asks first if work is not saved.',
     updateSaid: 'A newer version of the page is ready. Nothing changes until the page is opened again, or Update is pressed.',
@@ -238,7 +257,7 @@ export const en = {
     checkTitle: 'What is here has been looked at and is right (Y)',
     changedTitle: 'It was checked, and changed since: check it again (Y)',
     flag: 'Flag',
-    flagTitle: 'For another look (Q)',
+    flagTitle: 'For another look (I)',
     noteLabel: (frame: number, component: string) => `Note on frame ${frame}, ${component}`,
     notePlaceholder: 'Note',
     list: 'Work list',
@@ -288,6 +307,59 @@ export const en = {
     here: (value: string) => value,
     none: '–',
     title: 'Click to go to a frame; hollow: a pose there is ambiguous',
+  },
+
+  /** Outlines and masks from files and into files. */
+  exchange: {
+    title: 'Import outlines',
+    nothing: 'There is no outline in what was opened.',
+    reading: 'Reading masks',
+    writing: 'Writing masks',
+    files: 'files',
+    masks: 'masks',
+    emptyMask: (name: string) => `${name} is empty: no pixel of it is set`,
+    unnamed: 'masks without a name',
+    value: (value: number) => `grey value ${value}`,
+    specks: (pixels: number) => `specks of ${pixels} px left out`,
+    holes: (pixels: number) => `holes of ${pixels} px filled`,
+    simplifiedTo: 'simplified:',
+    differing: (percent: string) => `simplified: ${percent} % of the pixels differ`,
+    matching: 'Frames are found by',
+    match: { name: 'name', order: 'order' },
+    exact: 'Exactly along the pixels (many points)',
+    remarks: 'What could not be read',
+    apply: (count: number) => (count === 1 ? 'Import 1 outline' : `Import ${count} outlines`),
+    applied: (count: number) => (count === 1 ? '1 outline imported; Ctrl+Z takes it back.' : `${count} outlines imported; Ctrl+Z takes them back.`),
+    asFrames: 'Open as frames instead',
+    leftOut: (count: number) => (count === 0 ? '' : `${count} left out`),
+    subjects: 'What the outlines are of',
+    subject: (name: string) => name,
+    subjectIs: (name: string) => `Component of ${name}`,
+    leaveOut: 'leave out',
+    table: 'Where each outline goes',
+    columns: { from: 'From', to: 'To', notes: 'Notes' },
+    to: (number: number, name: string, component: string) => `frame ${number} (${name}), ${component}`,
+    nowhere: (reason: string) => `left out: ${reason}`,
+    replaces: 'replaces the outline there',
+    region: 'Outlines and masks',
+    saveOutlines: 'Outlines (.json)',
+    saveCoco: 'COCO polygons (.json)',
+    saveMasks: 'Masks (.zip)',
+    saved: (count: number, drafts: number, unknown: number) =>
+      `${count === 1 ? '1 outline' : `${count} outlines`} saved.${drafts > 0 ? ` ${drafts} not closed: left out.` : ''}${unknown > 0 ? ` ${unknown} with unknown sides: this format cannot say so.` : ''}`,
+    noneClosed: 'No outline is closed yet: there is nothing to save in this form.',
+  },
+
+  /** What does not match the SHA-256 by which a session names it. */
+  digests: {
+    job: 'Opening the session',
+    openLabel: 'open a session',
+    trouble: (what: string) => `Not as it was saved: ${what}.`,
+    damaged: (name: string, found: string, wanted: string) =>
+      `${name}: the copy in the session was changed (SHA-256 ${found} instead of ${wanted}); drop the original on the page`,
+    missing: (names: string, count: number) => `The session only names ${names}: drop ${count === 1 ? 'it' : 'them'} on the page`,
+    another: (name: string, found: string, wanted: string) =>
+      `${name} is another file than the one that the session names (SHA-256 ${found} instead of ${wanted}): opened all the same, Ctrl+Z takes it back`,
   },
 };
 

@@ -5,14 +5,24 @@ import { poseTable } from '../document/table';
 import { cellOf, chosenCandidate, type ComponentName } from '../document/types';
 import { openDemonstration } from '../engine/demonstration';
 import { openFiles, type Incoming } from '../engine/opener';
+import { readFiles, type Located } from '../engine/reading';
 import { saveSession } from '../engine/saver';
 import { sentenceOf, type Services } from '../engine/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
+import type { AidCommand } from '../interaction/aid_keys';
 import type { Action } from '../interaction/bindings';
 import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
-import { download, pickFiles } from './files';
+import type { Aids } from '../engine/aids/aids';
+import type { Videos } from '../engine/videos';
+import { Aborted } from '../worker/bridge';
+import { texts } from '../texts';
+import { AidActions } from './aid_actions';
+import { ExchangeActions } from './exchange_actions';
+import { download, fileStem, pickFiles } from './files';
 import { pointerStore } from './pointer';
+import { otherTheme } from './theme';
+import { WorkActions } from './work_actions';
 
 const NOTHING_HIT = { kind: 'nothing' } as const;
 
@@ -24,6 +34,9 @@ export interface StageControls {
   busy(): boolean;
   focus(): void;
   cancel(): void;
+  /** The keyboard moves the pointer by frame pixels, and presses there. */
+  point(columns: number, rows: number): void;
+  press(): void;
 }
 
 /** What buttons and keys do. */
@@ -33,9 +46,22 @@ export class Actions {
   /** Lent by the stage: what "fit" and "zoom" refer to. */
   stage: StageControls | null = null;
 
-  constructor(services: Services) {
+  /** Lent when there are any: pictures of videos come back through `open`. */
+  videos: Pick<Videos, 'begin'> | null = null;
+
+  /** Marks, notes and what is next. */
+  readonly work: WorkActions;
+  readonly exchange: ExchangeActions;
+
+  /** Whole outlines and the tools' options. */
+  readonly aid: AidActions;
+
+  constructor(services: Services, aids: Aids) {
     this.#services = services;
     this.#store = services.store;
+    this.aid = new AidActions(services, aids, () => this.stage);
+    this.work = new WorkActions(services);
+    this.exchange = new ExchangeActions(services);
   }
 
   /** Runs what a key or a button asks for. Returns false when there is nothing to do. */
@@ -44,12 +70,16 @@ export class Actions {
     if (this.stage?.busy()) {
       // The hand is in the middle of something: Esc lets go of it, everything else waits.
       if (action.name === 'leave') this.stage.cancel();
+      // The keyboard drags as the mouse does: by pointing and pressing once more.
+      if (action.name === 'aid' && (action.command.what === 'point' || action.command.what === 'press')) this.aid.run(action.command);
       return true;
     }
     switch (action.name) {
       case 'tool':
         store.show({ tool: action.tool });
         return true;
+      case 'aid':
+        return this.#aid(action.command);
       case 'undo':
         store.undo();
         return true;
@@ -71,6 +101,8 @@ export class Actions {
       case 'other-component':
         store.selectComponent(store.ui.component === 'femur' ? 'tibia' : 'femur');
         return true;
+      case 'work':
+        return this.work.run(action.command);
       case 'keys':
         store.show({ popover: store.ui.popover === 'keys' ? null : 'keys' });
         return true;
@@ -104,12 +136,22 @@ export class Actions {
         return this.#zoom(1.25);
       case 'zoom-out':
         return this.#zoom(0.8);
+      case 'theme':
+        this.#store.show({ theme: otherTheme(this.#store.ui.theme) });
+        return true;
       case 'reset-window':
         this.#store.perform(commands.setWindow(null));
         return true;
       default:
         return false;
     }
+  }
+
+  /** What a tool has no use for is what the key means otherwise. */
+  #aid(command: AidCommand): boolean {
+    if (this.aid.run(command)) return true;
+    if (command.what === 'accept') return this.closeOutline();
+    return command.what === 'take-back' && this.deletePoint();
   }
 
   // --- Outlines -----------------------------------------------------------------------------------------------
@@ -120,7 +162,7 @@ export class Actions {
     if (!place || !outline || outline.closed) return false;
     const missing = FEWEST_POINTS - outline.points.length;
     if (missing > 0) {
-      this.#store.say('info', `An outline needs ${FEWEST_POINTS} points: ${missing} more, then it can be closed.`);
+      this.#store.say('info', texts.said.tooFewPoints(FEWEST_POINTS, missing));
       return true;
     }
     this.#store.perform(commands.closeOutline(place));
@@ -155,7 +197,7 @@ export class Actions {
     const { selectedPoint } = state.ui;
     const next = selectedPoint === null ? (step > 0 ? 0 : count - 1) : (selectedPoint + step + count) % count;
     this.#store.show({ selectedPoint: next });
-    this.#store.say('info', `Point ${next + 1} of ${count}: Delete removes it; U marks the side after it unknown.`);
+    this.#store.say('info', texts.said.selectedPoint(next + 1, count));
     return true;
   }
 
@@ -165,12 +207,12 @@ export class Actions {
     const place = currentPlace(state);
     const { outline } = currentCell(state);
     if (!place || !outline?.closed) {
-      this.#store.say('info', 'Sides can be marked unknown once the outline is closed.');
+      this.#store.say('info', texts.said.closeFirst);
       return true;
     }
     const side = sideMeant(pointerStore.place?.hit ?? NOTHING_HIT, state.ui.selectedPoint, outline.points.length);
     if (side === null) {
-      this.#store.say('info', 'Point at a side of the outline, or select the point before it with , and . keys, then press U.');
+      this.#store.say('info', texts.said.whichSide);
       return true;
     }
     this.#store.perform(commands.toggleUnknownSide(place, side));
@@ -182,9 +224,12 @@ export class Actions {
     const { outline } = currentCell(this.#store.state);
     if (!outline) return;
     const { points, unknownSides } = outline;
-    const marked = unknownSides.includes(side) ? `unknown: what lies within ${this.#services.studio.unknownReach} px of it is ignored` : 'known';
     const share = Math.round(100 * unknownShare(outline));
-    this.#store.say('info', `Side ${side + 1} of ${points.length} is ${marked}. ${share} % of the outline is unknown.`);
+    const { sideKnown, sideUnknown } = texts.said;
+    const sentence = unknownSides.includes(side)
+      ? sideUnknown(side + 1, points.length, this.#services.studio.unknownReach, share)
+      : sideKnown(side + 1, points.length, share);
+    this.#store.say('info', sentence);
   }
 
   chooseOtherCandidate(): boolean {
@@ -221,11 +266,26 @@ export class Actions {
   // --- Files --------------------------------------------------------------------------------------------------
 
   async openPicked(component?: ComponentName): Promise<void> {
-    await this.open((await pickFiles()).map((file) => ({ ...file, component })));
+    await this.openLocated(await pickFiles(), component);
+  }
+
+  async openFolder(): Promise<void> {
+    await this.openLocated(await pickFiles('folder'));
+  }
+
+  /** Reads files and opens them, whatever they are. */
+  async openLocated(files: readonly Located[], component?: ComponentName): Promise<void> {
+    try {
+      const read = await readFiles(this.#store, files);
+      if (files.length > 0 && read.length === 0) this.#store.say('info', texts.files.nothing);
+      await this.open(read.map((file) => ({ ...file, component })));
+    } catch (error) {
+      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
+    }
   }
 
   async open(files: readonly Incoming[]): Promise<void> {
-    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files));
+    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files, (file) => this.videos?.begin(file)));
   }
 
   async openDemonstration(): Promise<void> {
@@ -238,7 +298,7 @@ export class Actions {
     download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
     store.show({ savedAt: Date.now(), popover: null });
-    store.say('info', includeFiles ? 'Session saved, with every file it needs.' : 'Session saved; its files are named by digest, keep them.');
+    store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
   }
 
   savePoses(component: ComponentName): void {
@@ -247,15 +307,14 @@ export class Actions {
     const poses = doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
     const without = doc.frames.filter((_, index) => !poses[index]).length;
     download([studio.writePoses(poses)], `${fileStem(doc.name)}_${component}.jts`, 'text/plain');
-    const rest = without === 0 ? '' : ` ${without} without a pose: rows of zeros.`;
-    store.say('info', `Poses of the ${component} saved, a row for each of ${poses.length} frames.${rest}`);
+    store.say('info', texts.said.posesSaved(texts.component[component], poses.length, without));
   }
 
   /** Poses with their standard deviations and why they were chosen, which a .jts file has no room for. */
   saveTable(component: ComponentName): void {
     const { doc } = this.#store;
     download([poseTable(doc, component)], `${fileStem(doc.name)}_${component}.csv`, 'text/csv');
-    this.#store.say('info', `Poses of the ${component} saved with their standard deviations, a row for each of ${doc.frames.length} frames.`);
+    this.#store.say('info', texts.said.tableSaved(texts.component[component], doc.frames.length));
   }
 
   hasPoses(component: ComponentName): boolean {
@@ -271,8 +330,3 @@ export class Actions {
     }
   }
 }
-
-function fileStem(name: string): string {
-  return name.trim().replace(/[^\p{L}\p{N}._-]+/gu, '_') || 'study';
-}
-

@@ -5,6 +5,7 @@ import type { CalibrationFacts } from '../engine/protocol';
 import { sentenceOf } from '../engine/services';
 import { useApp } from './app';
 import { NumberField } from './number_field';
+import { StatedGeometry } from './stated_geometry';
 import { texts } from '../texts';
 
 /** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
@@ -50,6 +51,7 @@ export function CalibrationSheet({ state }: { state: State }) {
       <p class="sheet-text quiet">
         {texts.calibration.meaning} {frame ? texts.calibration.frameSize(frame.width, frame.height) : ''}
       </p>
+      <StatedGeometry state={state} onDistance={set('distance')} onPitch={set('pitch')} />
       <p class="sheet-trouble" role="alert">
         {trouble}
       </p>
@@ -59,6 +61,9 @@ export function CalibrationSheet({ state }: { state: State }) {
         </button>
         <button type="button" class="button" onClick={() => void actions.openPicked()}>
           {texts.calibration.open}
+        </button>
+        <button type="button" class="button" onClick={() => store.show({ popover: 'calibrate' })}>
+          {texts.calibrate.open}
         </button>
       </div>
     </form>

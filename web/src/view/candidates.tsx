@@ -1,51 +1,61 @@
 import type { Findings } from '../engine/poser';
+import { isPicked } from '../document/hand_poses';
+import { texts } from '../texts';
 import { useApp } from './app';
 import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
-/** As many as the matcher offers. */
-const NAMES = ['Best', 'Rival', 'Third'] as const;
+/** Of poses that were not found by matching and refining. */
+function nameOf(result: Posed | null, index: number): string | null {
+  const candidate = result?.candidates[index];
+  if (!result || !candidate) return null;
+  if (result.from === 'file') return texts.panel.candidates.loaded;
+  if (result.from === 'hand') return texts.hand.candidate;
+  return isPicked(result, candidate) ? texts.hand.view : null;
+}
 
 const CANONICAL_AREA = '15 000';
 
 /** The score, and the rival pose where there is one: ambiguity is a visible choice. */
 export function Candidates({ cell }: { cell: Cell }) {
   const { actions, poser } = useApp();
+  const words = texts.panel.candidates;
   const result = cell.result?.kind === 'posed' ? cell.result : null;
   const findings = poser.findings(cell.outline);
   const area = findings?.canonicalArea ?? 0;
   const chosen = result?.candidates[result.chosen] ?? null;
   const beyondBorder = chosen !== null && (poser.detail(cell.outline, chosen)?.atBorder ?? false);
   return (
-    <section class="card candidates" aria-label="Score and candidates">
+    <section class="card candidates" aria-label={words.region}>
       <div class="number score">
-        <span class="label">Unmatched</span>
-        <span class="value" role="group" aria-label={`Unmatched pixels${method(result, findings)}`}>
+        <span class="label">{words.unmatched}</span>
+        <span class="value" role="group" aria-label={scoreName(result, findings)}>
           {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
         </span>
-        <span class="unit">px of {area > 0 ? grouped(area) : CANONICAL_AREA}</span>
+        <span class="unit">{words.of(area > 0 ? grouped(area) : CANONICAL_AREA)}</span>
       </div>
-      <div class="rivals" role="radiogroup" aria-label="Candidate poses">
-        {NAMES.slice(0, Math.max(2, result?.candidates.length ?? 0)).map((name, index) => (
+      <div class="rivals" role="radiogroup" aria-label={words.list}>
+        {words.names.slice(0, Math.max(2, result?.candidates.length ?? 0)).map((name, index) => (
           <CandidateButton
             key={name}
             index={index}
-            name={index === 0 && result?.from === 'file' ? 'Loaded' : name}
+            name={nameOf(result, index) ?? name}
             candidate={result?.candidates[index] ?? null}
             chosen={result !== null && result.chosen === index}
             onChoose={() => result && result.chosen !== index && actions.chooseCandidate(index)}
           />
         ))}
       </div>
-      <p class="card-note">{result ? (beyondBorder ? BORDER_NOTE : reason(result)) : ''}</p>
+      <p class="card-note">{result ? (beyondBorder ? words.atBorder : reason(result)) : ''}</p>
     </section>
   );
 }
 
-/** Completes the name of the score. */
-function method(result: Posed | null, findings: Findings | null): string {
-  if (result?.from !== 'outline') return '';
-  if (isRefined(result)) return ', pose refined';
-  return findings?.refusal ? ', pose of the library' : ', pose of the library, being refined';
+/** The score's name tells how far the pose has come. */
+function scoreName(result: Posed | null, findings: Findings | null): string {
+  const words = texts.panel.candidates;
+  if (result?.from !== 'outline') return words.unmatchedPixels;
+  if (isRefined(result)) return words.refined;
+  return findings?.refusal ? words.ofLibrary : words.beingRefined;
 }
 
 interface CandidateButtonProps {
@@ -64,28 +74,25 @@ function CandidateButton({ index, name, candidate, chosen, onChoose }: Candidate
       role="radio"
       class="rival"
       aria-checked={chosen}
-      aria-label={`${name} candidate`}
+      aria-label={texts.panel.candidates.candidate(name)}
       aria-keyshortcuts="X"
       disabled={!candidate}
-      title={index > 0 ? 'Another pose that explains the outline nearly as well (X switches)' : 'The pose that was chosen; the reason stands below (X switches)'}
+      title={index > 0 ? texts.panel.candidates.rivalTitle : texts.panel.candidates.bestTitle}
       onClick={onChoose}
     >
       <span>{name}</span>
       <span class="rival-score">{candidate ? scoreOf(candidate) : '–'}</span>
-      <span class="rival-pose">{pose ? `x ${degrees(pose.xRot)}, y ${degrees(pose.yRot)}` : 'none'}</span>
-      <span class="rival-pose">{candidate?.drawn == null ? '' : `${grouped(candidate.drawn)} px drawn`}</span>
+      <span class="rival-pose">{pose ? texts.panel.candidates.turned(degrees(pose.xRot), degrees(pose.yRot)) : texts.panel.candidates.none}</span>
+      <span class="rival-pose">{candidate?.drawn == null ? '' : texts.panel.candidates.drawn(grouped(candidate.drawn))}</span>
     </button>
   );
 }
 
 /** What remains between the outlines; of a pose of the library, unmatched canonical pixels. */
 function scoreOf({ residual, unmatched }: Candidate): string {
-  if (residual !== null) return `${residual.toFixed(2)} px`;
-  return unmatched === null ? '–' : `${grouped(unmatched)} px`;
+  if (residual !== null) return texts.panel.candidates.pixels(residual.toFixed(2));
+  return unmatched === null ? '–' : texts.panel.candidates.pixels(grouped(unmatched));
 }
-
-const BORDER_NOTE =
-  'The best view lies at the border of the library: the true rotation may lie beyond it. Choose another nominal view under the component above.';
 
 /** Below this ratio of scores the better one is not to be relied on. */
 const DECISIVE = 1.3;
@@ -93,10 +100,11 @@ const DECISIVE = 1.3;
 /** Why the first candidate comes first. */
 function reason({ from, candidates, chosen, reason: stated }: Posed): string {
   const [best, rival] = candidates;
+  if (from === 'hand') return stated ?? texts.hand.source;
   if (from === 'file' || !best) return '';
-  if (chosen !== 0) return 'Chosen by hand; X goes back to the best.';
-  if (stated !== null) return rival ? `${stated} X compares.` : stated;
-  if (!rival) return 'No other view comes near: the choice is clear.';
+  if (chosen !== 0) return texts.panel.candidates.byHand;
+  if (stated !== null) return rival ? texts.panel.candidates.compares(stated) : stated;
+  if (!rival) return texts.panel.candidates.alone;
   return libraryReason(best, rival);
 }
 
@@ -105,11 +113,9 @@ function libraryReason(best: Candidate, rival: Candidate): string {
   const drawn = best.drawn !== null && rival.drawn !== null;
   const [least, more] = drawn ? [best.drawn, rival.drawn] : [best.unmatched, rival.unmatched];
   const ratio = (more ?? 0) / Math.max(1, least ?? 0);
-  const as = ratio < 1.005 ? 'just as many pixels' : `only ${ratio.toFixed(2)} times as many pixels`;
-  const what = drawn ? 'Drawn at its pose, the rival' : 'The rival';
-  return ratio >= DECISIVE
-    ? `${what} misses ${ratio.toFixed(2)} times as many pixels: the choice is clear.`
-    : `${what} misses ${as}: compare both overlays with X.`;
+  const { clear, close, even } = texts.panel.candidates;
+  if (ratio >= DECISIVE) return clear(drawn, ratio.toFixed(2));
+  return ratio < 1.005 ? even(drawn) : close(drawn, ratio.toFixed(2));
 }
 
 function degrees(value: number): string {

@@ -1,10 +1,12 @@
 import * as commands from '../document/commands';
 import { currentFrame, type State } from '../document/store';
+import { texts } from '../texts';
 import { useApp } from './app';
+import { Icon } from './icons';
 
 /** Opacity of the overlay, window and level of the film. */
 export function Display({ state }: { state: State }) {
-  const { actions, services } = useApp();
+  const { actions, seeing, services } = useApp();
   const { store, studio } = services;
   const frame = currentFrame(state);
   const facts = frame && studio.filmFacts(frame.id);
@@ -15,11 +17,11 @@ export function Display({ state }: { state: State }) {
   const change = (part: Partial<typeof window>) =>
     store.perform(commands.setWindow({ ...(store.doc.window ?? window), ...part }));
   return (
-    <section class="card display" aria-label="Display">
+    <section class="card display" aria-label={texts.panel.display.region}>
       <Slider
-        label="Overlay opacity"
-        shown="Overlay"
-        text={`${Math.round(state.ui.overlayOpacity * 100)} %`}
+        label={texts.panel.display.opacity}
+        shown={texts.panel.display.opacityShown}
+        text={texts.panel.display.percent(Math.round(state.ui.overlayOpacity * 100))}
         min={0}
         max={1}
         step={0.01}
@@ -27,7 +29,7 @@ export function Display({ state }: { state: State }) {
         onInput={(overlayOpacity) => store.show({ overlayOpacity })}
       />
       <Slider
-        label="Window width"
+        label={texts.panel.display.width}
         text={String(Math.round(window.width))}
         min={1}
         max={Math.max(2 * span, window.width)}
@@ -37,7 +39,7 @@ export function Display({ state }: { state: State }) {
         onInput={(width) => change({ width })}
       />
       <Slider
-        label="Window level"
+        label={texts.panel.display.level}
         text={String(Math.round(window.centre))}
         min={Math.min(least - span / 2, window.centre)}
         max={Math.max(greatest + span / 2, window.centre)}
@@ -46,9 +48,22 @@ export function Display({ state }: { state: State }) {
         disabled={!facts}
         onInput={(centre) => change({ centre })}
       />
-      <button type="button" class="button small" disabled={!state.history.present.window} title="R" onClick={() => actions.run({ name: 'reset-window' })}>
-        Reset window and level
-      </button>
+      <div class="display-buttons">
+        <button
+          type="button"
+          class="button small"
+          aria-haspopup="dialog"
+          aria-expanded={state.ui.popover === 'view'}
+          aria-keyshortcuts="9"
+          title={texts.seeing.openTitle}
+          onClick={() => seeing.run({ name: 'view-sheet' })}
+        >
+          <Icon name="eye" /> {texts.seeing.open}
+        </button>
+        <button type="button" class="button small" disabled={!state.history.present.window} title={texts.panel.display.resetTitle} onClick={() => actions.run({ name: 'reset-window' })}>
+          {texts.panel.display.reset}
+        </button>
+      </div>
     </section>
   );
 }

@@ -1,5 +1,5 @@
 import type { ComponentName } from '../document/types';
-import type { CanvasPoint } from '../geometry/points';
+import { distance, type CanvasPoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
 import type { Hit } from '../interaction/hit';
 import { COMPONENT_COLOURS } from './colours';
@@ -35,6 +35,7 @@ interface OutlineStyle {
   readonly handles: boolean;
   readonly hit: Hit;
   readonly selected: number | null;
+  readonly pointer: CanvasPoint | null;
 }
 
 export function drawOutline(context: Context, component: ComponentName, points: readonly CanvasPoint[], style: OutlineStyle): void {
@@ -50,10 +51,24 @@ export function drawOutline(context: Context, component: ComponentName, points: 
   stroke(context, unknown, colour, 2.5);
   context.setLineDash([]);
   if (style.handles) {
-    points.forEach((point, index) => drawHandle(context, colour, point, handleStyle(index, style)));
+    const shown = handlesAmong(points, style);
+    points.forEach((point, index) => shown(point, index) && drawHandle(context, colour, point, handleStyle(index, style)));
     drawInsertion(context, colour, points, style);
   }
   context.restore();
+}
+
+/** Handles nearer to each other than this, CSS px, hide the edge that they are on. */
+const DENSE = 14;
+/** Then those round the pointer are shown. */
+const ROUND_POINTER = 48;
+
+/** Which points get a handle: all of a sparse outline, of a dense one those that the hand is near to. */
+function handlesAmong(points: readonly CanvasPoint[], { closed, selected, pointer }: OutlineStyle) {
+  const length = points.reduce((sum, point, index) => sum + (index > 0 ? distance(point, points[index - 1]!) : 0), 0);
+  if (length >= DENSE * (points.length - 1)) return () => true;
+  return (point: CanvasPoint, index: number) =>
+    index === selected || (index === 0 && !closed) || (pointer !== null && distance(point, pointer) <= ROUND_POINTER);
 }
 
 /** The outline's sides, in a path for what is known and one for what is not. */

@@ -17,7 +17,7 @@ export function useDropTarget(): boolean {
     const onDrop = (event: DragEvent) => {
       event.preventDefault();
       show(-depth);
-      if (event.dataTransfer) void droppedFiles(event.dataTransfer).then((files) => actions.open(files));
+      if (event.dataTransfer) void droppedFiles(event.dataTransfer).then((files) => actions.openLocated(files));
     };
     const listeners = { dragenter: onEnter, dragleave: onLeave, dragover: onOver, drop: onDrop } as const;
     const entries = Object.entries(listeners) as [string, EventListener][];

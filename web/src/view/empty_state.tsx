@@ -14,6 +14,9 @@ export function EmptyState() {
         <button type="button" class="button" onClick={() => void actions.openPicked()}>
           {texts.empty.files}
         </button>
+        <button type="button" class="button" title={texts.files.folderTitle} onClick={() => void actions.openFolder()}>
+          {texts.files.folder}
+        </button>
       </div>
     </section>
   );

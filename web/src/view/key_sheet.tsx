@@ -1,6 +1,16 @@
 import { BINDINGS, type Binding } from '../interaction/bindings';
+import { HAND_BINDINGS, HAND_MOUSE } from '../interaction/hand_bindings';
+import { SEEING_BINDINGS } from '../interaction/seeing_bindings';
 
-const GROUPS: readonly Binding['group'][] = ['Tracing', 'Mouse', 'Seeing', 'Working'];
+const GROUPS = ['Tracing', 'Shaping', 'Mouse', 'Adjusting', 'Seeing', 'Working'] as const;
+
+type Row = Pick<Binding, 'shown' | 'does'>;
+
+function rowsOf(group: (typeof GROUPS)[number]): readonly Row[] {
+  if (group === 'Adjusting') return [...HAND_BINDINGS, ...HAND_MOUSE];
+  const rows = BINDINGS.filter((binding) => binding.group === group && binding.shown.length > 0);
+  return group === 'Seeing' ? [...SEEING_BINDINGS, ...rows] : rows;
+}
 
 export function KeySheet() {
   return (
@@ -9,7 +19,7 @@ export function KeySheet() {
         <section key={group} aria-label={group}>
           <h3>{group}</h3>
           <dl>
-            {BINDINGS.filter((binding) => binding.group === group).map(({ shown, does }) => (
+            {rowsOf(group).map(({ shown, does }) => (
               <div class="key-row" key={does}>
                 <dt>
                   {shown.map((keys) => (

@@ -1,3 +1,4 @@
+import type { FilmLook } from '../document/seeing';
 import type { Candidate, ComponentName, GreyWindow } from '../document/types';
 import type { CameraInput } from '../engine/protocol';
 import type { Studio } from '../engine/studio';
@@ -23,12 +24,17 @@ abstract class Layer {
 export class FilmLayer extends Layer {
   #id = '';
   #window: GreyWindow | null = null;
+  #look: FilmLook = 'original';
+  #films = '';
 
-  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow): void {
-    const same = this.#id === frame.id && this.#window?.centre === window.centre && this.#window.width === window.width;
+  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow, look: FilmLook): void {
+    const sameWindow = this.#window?.centre === window.centre && this.#window.width === window.width;
+    const same = this.#id === frame.id && sameWindow && this.#look === look && this.#films === studio.filmsKey;
     if (same || !studio.hasFilm(frame.id)) return;
     this.resize(frame.width, frame.height);
-    studio.paintFilm(this.context, frame.id, window);
+    studio.paintFilm(this.context, frame.id, window, look);
+    this.#look = look;
+    this.#films = studio.filmsKey;
     this.#id = frame.id;
     this.#window = window;
   }
@@ -53,7 +59,7 @@ export class OverlayLayer extends Layer {
       this.border = null;
       return null;
     }
-    const cameraKey = `${camera.width}x${camera.height} ${camera.text}`;
+    const cameraKey = `${camera.width}x${camera.height} ${camera.text} ${camera.bend?.key ?? ''}`;
     if (candidate === this.#candidate && cameraKey === this.#camera && model === this.#model) return null;
     this.#candidate = candidate;
     this.#camera = cameraKey;

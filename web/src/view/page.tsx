@@ -2,12 +2,14 @@ import { useEffect } from 'preact/hooks';
 import { actionFor } from '../interaction/bindings';
 import { useApp, useAppState } from './app';
 import { useDropTarget } from './drop';
+import { runHandOrSeeingKey } from './hand_keys';
 import { Panel } from './panel';
 import { Popovers } from './popovers';
 import { Rail } from './rail';
 import { Stage } from './stage';
 import { StatusLine } from './status_line';
 import { Timeline } from './timeline';
+import { ToolStrip } from './tool_strip';
 import { TopBar } from './top_bar';
 
 export function Page() {
@@ -25,6 +27,7 @@ export function Page() {
     <div class={dropping ? 'page dropping' : 'page'} onClick={giveBack}>
       <TopBar state={state} />
       <Rail state={state} />
+      <ToolStrip state={state} />
       <Stage state={state} />
       <Panel state={state} />
       <Timeline state={state} />
@@ -36,7 +39,8 @@ export function Page() {
 
 /** Keys for the whole page; a field that is being typed in keeps its own. */
 function useKeys(): void {
-  const { actions, services } = useApp();
+  const app = useApp();
+  const { actions, services } = app;
   useEffect(() => {
     const { store } = services;
     const onDown = (event: KeyboardEvent) => {
@@ -53,12 +57,13 @@ function useKeys(): void {
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
-      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt });
+      if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
+      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
       // Enter belongs to the control that has the focus.
-      if (onControl(target) && action.name === 'close-outline') return false;
+      if (onControl(target) && (action.name === 'close-outline' || (action.name === 'aid' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
       store.quiet();
       return actions.run(action);
@@ -71,7 +76,7 @@ function useKeys(): void {
       window.removeEventListener('keyup', onUp);
       window.removeEventListener('blur', onBlur);
     };
-  }, [actions, services]);
+  }, [app, actions, services]);
 }
 
 function typing(target: EventTarget | null): boolean {

@@ -5,7 +5,9 @@ import { useApp } from './app';
 import { Display } from './display';
 import { PoseNumbersCard } from './pose_card';
 import { Candidates } from './candidates';
-import { Unmatched } from './unmatched';
+import { CompareCard } from './compare_card';
+import { Pictures } from './pictures';
+import { texts } from '../texts';
 
 /** The right side: the selected component's pose, how far to trust it, and how the film is shown. */
 export function Panel({ state }: { state: State }) {
@@ -14,8 +16,8 @@ export function Panel({ state }: { state: State }) {
   const cell = currentCell(state);
   const frame = currentFrame(state);
   return (
-    <aside class={`panel ${component}`} aria-label="Pose">
-      <div class="switch" role="radiogroup" aria-label="Component">
+    <aside class={`panel ${component}`} aria-label={texts.panel.region}>
+      <div class="switch" role="radiogroup" aria-label={texts.panel.component}>
         {COMPONENT_NAMES.map((name) => (
           <button
             key={name}
@@ -23,7 +25,7 @@ export function Panel({ state }: { state: State }) {
             role="radio"
             class={`switch-side ${name}`}
             aria-checked={component === name}
-            title={`${titleOf(name)} (C switches)`}
+            title={texts.panel.switchTitle(titleOf(name))}
             onClick={() => services.store.selectComponent(name)}
           >
             <span class={`state-dot ${dotOf(state, name)}`} aria-hidden="true" />
@@ -32,15 +34,16 @@ export function Panel({ state }: { state: State }) {
         ))}
       </div>
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
+      <CompareCard state={state} />
       <Candidates cell={cell} />
-      <Unmatched state={state} />
+      <Pictures state={state} />
       <Display state={state} />
       <div class="panel-foot">
-        <button type="button" class="button" title="As a .jts file, a row a frame" disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
-          Save {component} poses
+        <button type="button" class="button" title={texts.panel.savePosesTitle} disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
+          {texts.panel.savePoses(texts.component[component])}
         </button>
-        <button type="button" class="button" disabled={!frame || !cell.outline} title="Shift+Delete" onClick={() => actions.deleteOutline()}>
-          Delete outline
+        <button type="button" class="button" disabled={!frame || !cell.outline} title={texts.panel.deleteOutlineTitle} onClick={() => actions.deleteOutline()}>
+          {texts.panel.deleteOutline}
         </button>
       </div>
     </aside>

@@ -1,11 +1,14 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { FramePoint } from '../geometry/points';
+import type { Motion } from '../interaction/adjust';
 import type { Hit } from '../interaction/hit';
 
 /** Where the pointer is over the film. Apart from the store: it changes with every move and nothing is kept of it. */
 export interface PointerPlace {
   readonly at: FramePoint;
   readonly hit: Hit;
+  /** What a press would do to the model that is adjusted. */
+  readonly motion?: Motion | null;
 }
 
 class PointerStore {

@@ -3,13 +3,19 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { Popover, State } from '../document/store';
 import { titleOf } from '../document/types';
 import { useApp } from './app';
+import { CalibrateSheet } from './calibrate_sheet';
 import { CalibrationSheet } from './calibration_sheet';
 import { ComponentSheet } from './component_sheet';
 import { ConvergenceSheet } from './convergence_sheet';
 import { Icon } from './icons';
 import { KeySheet } from './key_sheet';
 import { LogSheet } from './log_sheet';
+import { ShapeSheet } from './shape_sheet';
 import { SessionSheet } from './session_sheet';
+import { WorkSheet } from './work_sheet';
+import { VideoSheet } from './video_sheet';
+import { ViewSheet } from './view_sheet';
+import { ImportSheet } from './import_sheet';
 import { texts } from '../texts';
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
@@ -31,6 +37,12 @@ const TITLES: Readonly<Record<Popover, string>> = {
   log: texts.sheets.log,
   session: texts.sheets.session,
   convergence: texts.sheets.convergence,
+  work: texts.work.list,
+  import: texts.exchange.title,
+  shape: texts.aids.shape.title,
+  view: texts.seeing.sheet,
+  calibrate: texts.calibrate.sheet,
+  video: texts.files.video.sheet,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -46,8 +58,20 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <LogSheet state={state} />;
     case 'session':
       return <SessionSheet state={state} />;
+    case 'work':
+      return <WorkSheet state={state} />;
+    case 'import':
+      return <ImportSheet state={state} />;
     case 'convergence':
       return <ConvergenceSheet state={state} />;
+    case 'shape':
+      return <ShapeSheet state={state} />;
+    case 'calibrate':
+      return <CalibrateSheet state={state} />;
+    case 'video':
+      return <VideoSheet state={state} />;
+    case 'view':
+      return <ViewSheet state={state} />;
   }
 }
 

@@ -1,29 +1,14 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { chosenCandidate, type Cell, type PoseNumbers } from '../document/types';
+import { referencePose } from '../document/reference';
+import { currentPlace } from '../document/store';
+import { chosenCandidate, isByHand, type Cell } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from './numbers';
 import { inWords } from '../engine/missing';
+import { wrapped } from '../geometry/pose_motion';
+import { texts } from '../texts';
 import { useApp } from './app';
-
-interface Quantity {
-  readonly field: keyof PoseNumbers;
-  readonly name: string;
-  readonly label: string;
-  readonly unit: 'mm' | '°';
-  readonly decimals: number;
-}
-
-/** Decimals while the uncertainty is not known: hundredths in the plane, tenths along the view. */
-const TRANSLATIONS: readonly Quantity[] = [
-  { field: 'x', name: 'x', label: 'x', unit: 'mm', decimals: 2 },
-  { field: 'y', name: 'y', label: 'y', unit: 'mm', decimals: 2 },
-  { field: 'z', name: 'z', label: 'z', unit: 'mm', decimals: 1 },
-];
-
-const ROTATIONS: readonly Quantity[] = [
-  { field: 'zRot', name: 'z rotation', label: 'z rot', unit: '°', decimals: 2 },
-  { field: 'xRot', name: 'x rotation', label: 'x rot', unit: '°', decimals: 2 },
-  { field: 'yRot', name: 'y rotation', label: 'y rot', unit: '°', decimals: 2 },
-];
+import { HandNumbers } from './hand_numbers';
+import { QUANTITIES, unitWord, type Quantity } from './quantities';
 
 interface PoseNumbersCardProps {
   readonly cell: Cell;
@@ -33,47 +18,83 @@ interface PoseNumbersCardProps {
 }
 
 export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
-  const { pose = null, deviations = null, residual = null } = chosenCandidate(cell) ?? {};
+  const { pose = null, deviations = null } = chosenCandidate(cell) ?? {};
   const { poser } = useApp();
   const refusal = poser.findings(cell.outline)?.refusal ?? null;
   const source = outdated
-    ? `Found with another model, calibration or library. ${needs(cell, missing)}`
+    ? texts.panel.pose.outdated(needs(cell, missing))
     : sourceOf(cell, refusal);
+  const { store } = useApp().services;
+  const adjusting = store.ui.tool === 'pose';
+  const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
   return (
-    <section class="card pose" aria-label="Pose numbers">
-      <dl class="numbers">
-        {[...TRANSLATIONS, ...ROTATIONS].map((quantity) => (
-          <NumberRow
-            key={quantity.field}
-            quantity={quantity}
-            value={pose && pose[quantity.field]}
-            deviation={deviations && deviations[quantity.field]}
-          />
-        ))}
-      </dl>
-      <div class="pose-source">
-        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
-        <ConvergenceButton disabled={residual === null} />
-      </div>
+    <section class="card pose" aria-label={texts.panel.pose.region}>
+      {adjusting ? (
+        <HandNumbers pose={pose} />
+      ) : (
+        <dl class="numbers">
+          {QUANTITIES.map((quantity) => (
+            <NumberRow
+              key={quantity.field}
+              quantity={quantity}
+              value={pose && pose[quantity.field]}
+              deviation={deviations && deviations[quantity.field]}
+              difference={pose && reference && pose[quantity.field] - reference[quantity.field]}
+            />
+          ))}
+        </dl>
+      )}
+      <p class="card-note pose-note">{pose ? source : needs(cell, missing)}</p>
+      <HandButtons cell={cell} adjusting={adjusting} />
     </section>
+  );
+}
+
+/** To take the model in hand, and what can be done with it there. */
+function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
+  const { hand } = useApp();
+  const { residual = null, pose = null } = chosenCandidate(cell) ?? {};
+  const words = texts.hand;
+  const droppable = isByHand(cell.result) && cell.outline?.closed;
+  return (
+    <div class="pose-buttons">
+      {adjusting ? (
+        <>
+          <button type="button" class="button small primary" aria-keyshortcuts="Enter" title={pose ? words.refineTitle : words.placeTitle} onClick={() => hand.refine()}>
+            {pose ? words.refine : words.place}
+          </button>
+          <button type="button" class="button small" title={words.endTitle} onClick={() => hand.end()}>
+            {words.end}
+          </button>
+        </>
+      ) : (
+        <button type="button" class="button small" title={words.beginTitle} onClick={() => hand.begin()}>
+          {words.begin}
+        </button>
+      )}
+      {droppable && (
+        <button type="button" class="button small" title={words.dropTitle} onClick={() => hand.drop()}>
+          {words.drop}
+        </button>
+      )}
+      {!adjusting && <ConvergenceButton disabled={residual === null || isByHand(cell.result)} />}
+    </div>
   );
 }
 
 /** Where the pose that is shown comes from. */
 function sourceOf(cell: Cell, refusal: string | null): string {
   if (cell.result?.kind !== 'posed') return '';
-  if (cell.result.from === 'file') return `From ${cell.result.origin}.`;
+  if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
+  if (cell.result.from === 'hand') return texts.hand.source;
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
-  if (residual !== null) return `refined, ${residual.toFixed(2)} px; ${deviations ? PLUS_MINUS : NOT_DETERMINED}`;
-  return refusal === null ? 'library' : `library. Not refined: ${refusal}`;
+  if (residual !== null) return texts.panel.pose.refined(residual.toFixed(2), deviations !== null);
+  return refusal === null ? texts.panel.pose.library : texts.panel.pose.notRefined(refusal);
 }
 
-const PLUS_MINUS = '± is one standard deviation';
-const NOT_DETERMINED = 'the outline does not determine how sure';
-
 function needs(cell: Cell, missing: readonly string[]): string {
-  if (missing.length > 0) return `For a pose: ${inWords(missing)}.`;
-  return cell.result?.kind === 'failed' ? 'No pose from this outline; the bottom line says why.' : 'Finding it ...';
+  if (missing.length > 0) return texts.panel.pose.needs(inWords(missing));
+  return cell.result?.kind === 'failed' ? texts.panel.pose.noneFromOutline : texts.panel.pose.finding;
 }
 
 interface NumberRowProps {
@@ -81,19 +102,21 @@ interface NumberRowProps {
   readonly value: number | null;
   /** One standard deviation. */
   readonly deviation: number | null;
+  /** From the set to compare with; it takes the deviation's place. */
+  readonly difference: number | null;
 }
 
-function NumberRow({ quantity, value, deviation }: NumberRowProps) {
+function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
   const { store } = useApp().services;
   const decimals = decimalsFor(deviation, quantity.decimals);
   const text = value === null ? '–' : formatNumber(value, decimals);
-  const unit = quantity.unit === '°' ? 'degrees' : 'mm';
+  const unit = unitWord(quantity.unit);
   const flashing = useFlash(text);
   const copy = () => {
     if (value === null) return;
     void navigator.clipboard.writeText(String(value)).then(
-      () => store.say('info', `${quantity.name} copied: ${value}`),
-      () => store.say('error', 'The browser did not let the page copy to the clipboard.'),
+      () => store.say('info', texts.panel.pose.copied(quantity.name, value)),
+      () => store.say('error', texts.panel.pose.notCopied),
     );
   };
   return (
@@ -103,25 +126,43 @@ function NumberRow({ quantity, value, deviation }: NumberRowProps) {
         <button
           type="button"
           class={flashing ? 'value flash' : 'value'}
-          aria-label={`${quantity.name} ${text} ${unit}`}
-          title="Click to copy with all its decimals"
+          aria-label={texts.panel.pose.number(quantity.name, text, unit)}
+          title={texts.panel.pose.copyTitle}
           disabled={value === null}
           onClick={copy}
         >
           {text}
         </button>
-        <Deviation name={quantity.name} unit={unit} text={value === null || deviation === null ? null : formatDeviation(deviation, decimals)} />
+        {difference !== null ? (
+          <Difference name={quantity.name} unit={unit} text={signed(quantity.unit === '°' ? wrapped(difference) : difference, quantity.decimals)} />
+        ) : (
+          <Deviation name={quantity.name} unit={unit} text={value === null || deviation === null ? null : formatDeviation(deviation, decimals)} />
+        )}
         <span class="unit">{quantity.unit}</span>
       </dd>
     </div>
   );
 }
 
+function Difference({ name, unit, text }: { name: string; unit: string; text: string }) {
+  return (
+    <span class="deviation difference" role="group" aria-label={texts.hand.compare.difference(name, text, unit)}>
+      {text}
+    </span>
+  );
+}
+
+/** With its sign, so that it is not taken for the number itself. */
+function signed(value: number, decimals: number): string {
+  const text = formatNumber(value, decimals);
+  return Number(text.replace('\u2212', '-')) > 0 ? `+${text}` : text;
+}
+
 /** Its place is kept while there is none: nothing jumps when it comes. */
 function Deviation({ name, unit, text }: { name: string; unit: string; text: string | null }) {
   if (text === null) return <span class="deviation" />;
   return (
-    <span class="deviation" role="group" aria-label={`${name} plus or minus ${text} ${unit}`} title="One standard deviation; the truth lies within two of them 95 times in 100">
+    <span class="deviation" role="group" aria-label={texts.panel.pose.deviation(name, text, unit)} title={texts.panel.pose.deviationTitle}>
       ±{text}
     </span>
   );
@@ -136,11 +177,11 @@ function ConvergenceButton({ disabled }: { disabled: boolean }) {
       class="button small"
       aria-haspopup="dialog"
       aria-expanded={open}
-      title="How refinement came to this pose, step by step"
+      title={texts.panel.pose.convergenceTitle}
       disabled={disabled}
       onClick={() => store.show({ popover: open ? null : 'convergence' })}
     >
-      Convergence
+      {texts.panel.pose.convergence}
     </button>
   );
 }

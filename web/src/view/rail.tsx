@@ -2,13 +2,26 @@ import { currentCell, type State } from '../document/store';
 import { TOOLS, type ToolName } from '../interaction/tools';
 import { useApp } from './app';
 import { Icon, type IconName } from './icons';
+import { texts } from '../texts';
 
-const ICONS: Readonly<Record<ToolName, IconName>> = { edit: 'pointer', trace: 'polygon', hand: 'hand', window: 'contrast' };
+const ICONS: Readonly<Record<ToolName, IconName>> = {
+  edit: 'pointer',
+  trace: 'polygon',
+  wire: 'wire',
+  threshold: 'threshold',
+  'one-click': 'wand',
+  brush: 'brush',
+  transform: 'transform',
+  stretch: 'stretch',
+  pose: 'pose',
+  hand: 'hand',
+  window: 'contrast',
+};
 
 export function Rail({ state }: { state: State }) {
   const { actions } = useApp();
   return (
-    <nav class="rail" aria-label="Tools">
+    <nav class="rail" aria-label={texts.panel.rail.region}>
       {TOOLS.map(({ name, key, title }) => (
         <button
           key={name}
@@ -17,7 +30,7 @@ export function Rail({ state }: { state: State }) {
           aria-label={title}
           aria-pressed={state.ui.tool === name}
           aria-keyshortcuts={key}
-          title={`${title} (${key.toUpperCase()})`}
+          title={texts.withKey(title, key.toUpperCase())}
           onClick={() => actions.run({ name: 'tool', tool: name })}
         >
           <Icon name={ICONS[name]} />
@@ -27,9 +40,9 @@ export function Rail({ state }: { state: State }) {
       <button
         type="button"
         class="tool"
-        aria-label="Mark a side unknown or known"
+        aria-label={texts.panel.rail.markSide}
         aria-keyshortcuts="u"
-        title="Mark the side after the selected point unknown, or known again (U)"
+        title={texts.panel.rail.markSideTitle}
         disabled={!currentCell(state).outline?.closed}
         onClick={() => actions.toggleUnknownSide()}
       >
@@ -37,7 +50,7 @@ export function Rail({ state }: { state: State }) {
         <KeyHint shown="U" />
       </button>
       <span class="rail-gap" />
-      <button type="button" class="tool" aria-label="Fit the film to the window" aria-keyshortcuts="0" title="Fit the film to the window (0)" onClick={() => actions.run({ name: 'fit' })}>
+      <button type="button" class="tool" aria-label={texts.panel.rail.fit} aria-keyshortcuts="0" title={texts.panel.rail.fitTitle} onClick={() => actions.run({ name: 'fit' })}>
         <Icon name="fit" />
         <KeyHint shown="0" />
       </button>

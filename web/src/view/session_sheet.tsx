@@ -2,6 +2,7 @@ import { useState } from 'preact/hooks';
 import type { State } from '../document/store';
 import { COMPONENT_NAMES, titleOf } from '../document/types';
 import { useApp } from './app';
+import { EarlierWork } from './earlier_work';
 import { texts } from '../texts';
 
 /** The whole work as one file, or the poses of one component. */
@@ -44,6 +45,29 @@ export function SessionSheet({ state }: { state: State }) {
           </button>
         ))}
       </div>
+      <OutlineButtons />
+      <p class="sheet-text quiet">{texts.keep.meaning}</p>
+      <EarlierWork state={state} />
+    </div>
+  );
+}
+
+/** Outlines for other programs. */
+function OutlineButtons() {
+  const { exchange } = useApp().actions;
+  const none = !exchange.hasOutlines();
+  const forms = [
+    [texts.exchange.saveOutlines, () => exchange.saveOutlines()],
+    [texts.exchange.saveCoco, () => exchange.saveCoco()],
+    [texts.exchange.saveMasks, () => void exchange.saveMasks()],
+  ] as const;
+  return (
+    <div class="sheet-buttons" role="group" aria-label={texts.exchange.region}>
+      {forms.map(([name, save]) => (
+        <button key={name} type="button" class="button" disabled={none} onClick={save}>
+          {name}
+        </button>
+      ))}
     </div>
   );
 }

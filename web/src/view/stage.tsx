@@ -1,14 +1,19 @@
 import { useEffect, useRef } from 'preact/hooks';
-import { currentCell, currentFrame, currentPlace, type State, type Store } from '../document/store';
+import { currentFrame, type State } from '../document/store';
 import { titleOf } from '../document/types';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
 import { recentre } from '../geometry/viewport';
 import { Controller } from '../interaction/controller';
-import type { Effect, Input, Scene } from '../interaction/machine';
+import type { Input } from '../interaction/machine';
 import { wheelZoom } from '../interaction/navigate';
+import { Touches } from '../interaction/touch';
 import { TOOLS } from '../interaction/tools';
 import { useApp, type App } from './app';
 import { EmptyState } from './empty_state';
+import { pointByKey, pressByKey } from './key_pointer';
+import { ScaleBar } from './scale_bar';
+import { act, cancelGesture, sceneOf } from './stage_input';
+import { takeModel } from './take_model';
 import { StageView } from './stage_view';
 
 /** The frame with everything on it, and the pointer's way into the document. */
@@ -30,6 +35,7 @@ export function Stage({ state }: { state: State }) {
     <main class="stage" aria-label="Film">
       <canvas ref={film} class="film" aria-hidden="true" />
       <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={`${label}. ${titleOf(component)} outline`} />
+      {frame && <ScaleBar state={state} />}
       {!frame && <EmptyState />}
       {frame && !app.services.studio.hasFilm(frame.id) && (
         <p class="absent">{frame.name} is not here: drop the file on the page.</p>
@@ -41,15 +47,19 @@ export function Stage({ state }: { state: State }) {
 function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): () => void {
   const { store, studio } = app.services;
   const view = new StageView(store, studio, film, canvas);
+  view.calibrator = app.calibrator;
+  view.aids = app.aids;
   const controller = new Controller();
   app.actions.stage = {
     size: () => view.size,
     viewport: () => view.viewport(store.state),
     busy: () => controller.busy,
     focus: () => canvas.focus({ preventScroll: true }),
-    cancel: () => cancelGesture(store, view, controller),
+    cancel: () => cancelGesture(app, view, controller),
+    point: (columns, rows) => pointByKey(app, view, canvas, controller, { columns, rows }),
+    press: () => pressByKey(app, view, controller),
   };
-  const stopPointer = attachPointer(store, view, canvas, controller);
+  const stopPointer = attachPointer(app, view, canvas, controller);
   const unsubscribe = store.subscribe(() => view.schedule());
   const observer = new ResizeObserver(([entry]) => {
     if (!entry) return;
@@ -57,6 +67,8 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
     const { viewport } = store.ui;
     if (viewport) store.show({ viewport: recentre(viewport, view.size, { width, height }) });
     view.resize({ width, height });
+    // The scale bar follows.
+    store.show({});
   });
   observer.observe(canvas);
   return () => {
@@ -69,18 +81,20 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
 
 /** Turns DOM events into inputs of the controller, and its effects into changes of the store. */
 function attachPointer(
-  store: Store,
+  app: App,
   view: StageView,
   canvas: HTMLCanvasElement,
   controller: Controller,
 ): () => void {
+  const { store } = app.services;
+  const touches = new Touches();
   const pointOf = (event: MouseEvent): CanvasPoint => canvasPoint(event.offsetX, event.offsetY);
 
   const send = (type: Input['type'], event: MouseEvent) => {
     const scene = sceneOf(store, view);
     if (!scene) return;
-    const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey };
-    act(store, controller, input, scene);
+    const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey, shift: event.shiftKey, touch: event instanceof PointerEvent && event.pointerType === 'touch', ctrl: event.ctrlKey };
+    act(app, controller, input, scene);
   };
   const hover = (event: MouseEvent) => view.setPointer(pointOf(event));
 
@@ -90,26 +104,42 @@ function attachPointer(
       canvas.setPointerCapture(event.pointerId);
       event.preventDefault();
       store.quiet();
-      if (store.ui.popover) store.show({ popover: null });
+      if (store.ui.popover && store.ui.popover !== 'shape' && store.ui.popover !== 'calibrate') store.show({ popover: null });
+      if (event.pointerType === 'pen') touches.pen();
+      const use = event.pointerType === 'touch' ? touches.down(event.pointerId, pointOf(event)) : 'tool';
+      if (use === 'film') return cancelGesture(app, view, controller);
+      if (use === 'nothing') return;
       send('down', event);
       hover(event);
     },
     pointermove: (event) => {
+      const viewport = event.pointerType === 'touch' ? touches.move(event.pointerId, pointOf(event), view.viewport(store.state)) : null;
+      if (viewport) return store.show({ viewport });
       send('move', event);
       hover(event);
     },
     pointerup: (event) => {
+      if (event.pointerType === 'touch' && touches.up(event.pointerId)) return;
       send('up', event);
       hover(event);
     },
-    pointercancel: (event) => send('cancel', event),
-    pointerleave: () => view.setPointer(null),
-    dblclick: (event) => send('double', event),
+    pointercancel: (event) => {
+      if (event.pointerType !== 'touch' || !touches.up(event.pointerId)) send('cancel', event);
+    },
+    pointerleave: () => {
+      app.aids.leave();
+      view.setPointer(null);
+    },
+    dblclick: (event) => {
+      if (!takeModel(app, view, pointOf(event))) send('double', event);
+    },
     contextmenu: (event) => event.preventDefault(),
     wheel: (event) => {
       event.preventDefault();
       if (!currentFrame(store.state)) return;
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
+      // With Shift held some systems turn the wheel sideways.
+      if (event.shiftKey && app.actions.aid.run({ what: 'size', steps: -Math.sign(event.deltaY || event.deltaX) })) return;
       store.show({ viewport: wheelZoom(view.viewport(store.state), pointOf(event), event.deltaY * lines) });
       hover(event);
     },
@@ -121,39 +151,4 @@ function attachPointer(
   };
 }
 
-function act(store: Store, controller: Controller, input: Input, scene: Scene): void {
-  for (const effect of controller.handle(store.ui.tool, input, scene, store.ui.overlaysHidden)) apply(store, effect);
-}
-
-function cancelGesture(store: Store, view: StageView, controller: Controller): void {
-  const scene = sceneOf(store, view);
-  if (scene) act(store, controller, { type: 'cancel', at: canvasPoint(0, 0), button: 'primary', alt: false }, scene);
-}
-
 const BUTTONS = ['primary', 'middle', 'secondary'] as const;
-
-function sceneOf(store: Store, view: StageView): Scene | null {
-  const { state } = store;
-  const frame = currentFrame(state);
-  const place = currentPlace(state);
-  if (!frame || !place) return null;
-  const { outline } = currentCell(state);
-  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state) };
-}
-
-function apply(store: Store, effect: Effect): void {
-  switch (effect.type) {
-    case 'perform':
-      return store.perform(effect.command);
-    case 'preview':
-      return store.preview(effect.command);
-    case 'commit':
-      return store.commit(effect.command);
-    case 'cancel-preview':
-      return store.cancelPreview();
-    case 'select':
-      return store.show({ selectedPoint: effect.index });
-    case 'viewport':
-      return store.show({ viewport: effect.viewport });
-  }
-}

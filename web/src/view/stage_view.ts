@@ -9,14 +9,24 @@ import {
   type GreyWindow,
   type Outline,
 } from '../document/types';
+import type { Aids } from '../engine/aids/aids';
+import type { Calibrator } from '../engine/calibrator';
 import { cameraOf } from '../engine/keys';
 import type { Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
+import { handleAt, type HandScene } from '../interaction/adjust';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
+import { drawBrush, drawHold, drawPreview, drawTransformBox } from './aid_drawing';
+import { drawMeasuring } from './calibrate_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
+import { COMPONENT_COLOURS } from './colours';
+import { handSceneOf } from './hand_scene';
 import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
+import { Shading } from './shading';
+import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
+import { texts } from '../texts';
 
 const NOTHING: Hit = { kind: 'nothing' };
 
@@ -32,18 +42,30 @@ export class StageView {
   readonly #film: HTMLCanvasElement;
   readonly #vectors: HTMLCanvasElement;
   readonly #filmLayer = new FilmLayer();
+  readonly #reference = new ReferenceLayers();
+  readonly #shading: Shading;
+  /** The viewport of the stage, not that of the lens. */
+  #mainView: Viewport | null = null;
   readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
   /** Where the pointer is; what lies under it is found anew whenever something changes. */
   #pointer: CanvasPoint | null = null;
   #size: Size = { width: 1, height: 1 };
   #drawnFilm = '';
   #scheduled = 0;
+  /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
+  aids: Pick<Aids, 'tick' | 'preview' | 'scale'> | null = null;
+  calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
 
   constructor(store: Store, studio: Studio, film: HTMLCanvasElement, vectors: HTMLCanvasElement) {
     this.#store = store;
     this.#studio = studio;
+    this.#shading = new Shading(store, studio);
     this.#film = film;
     this.#vectors = vectors;
+  }
+
+  get pointer(): CanvasPoint | null {
+    return this.#pointer;
   }
 
   get size(): Size {
@@ -83,31 +105,92 @@ export class StageView {
     return state.history.present.window ?? (frame && this.#studio.filmFacts(frame.id)?.window) ?? FALLBACK_WINDOW;
   }
 
+  /** What a hand on the model works with; null with any other tool. */
+  hand(state: State): HandScene | null {
+    return state.ui.tool === 'pose' ? handSceneOf(state, this.#studio) : null;
+  }
+
   draw(): void {
+    this.#letAidsWork();
     const { state } = this.#store;
     const frame = currentFrame(state);
     const view = this.viewport(state);
     const hit = this.#hit(state, view);
-    pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit });
+    const hand = this.hand(state);
+    const motion = hand && this.#pointer && (handleAt(hand, view, this.#pointer) ?? 'move');
+    pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit, motion });
     if (frame) this.#drawFilm(state, frame, view);
     else clear(this.#film, () => (this.#drawnFilm = ''));
     const context = prepare(this.#vectors);
+    this.#mainView = view;
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
+    if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view);
+    if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
+    if (frame) this.#drawMeasuring(context, state, frame, view);
+    if (frame) this.#drawLens(context, state, frame, view);
+  }
+
+  /** Which component's model lies under a place, the selected one first. */
+  modelAt(at: CanvasPoint): ComponentName | null {
+    const { state } = this.#store;
+    const context = this.#vectors.getContext('2d');
+    const { column, row } = frameFromCanvas(this.viewport(state), at);
+    const hit = this.#overlays.filter(({ border }) => border && context?.isPointInPath(border, column, row));
+    return (hit.find(({ component }) => component === state.ui.component) ?? hit[0])?.component ?? null;
+  }
+
+  /** Everything once more, larger, beside the pointer. */
+  #drawLens(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+    const pointer = this.#pointer;
+    if (!state.ui.seeing.magnifier || !pointer) return;
+    const lens = lensAt(pointer, view, this.#size);
+    drawLens(context, lens, () => {
+      context.imageSmoothingEnabled = false;
+      if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, lens.view);
+      if (state.ui.overlaysHidden) return;
+      // A line to the pointer ends in the middle of the lens.
+      this.#pointer = lens.centre;
+      this.#drawVectors(context, state, frame, lens.view, NOTHING);
+      this.#pointer = pointer;
+    });
+  }
+
+  #drawMeasuring(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport): void {
+    const { popover, measuring } = state.ui;
+    if (popover !== 'calibrate' || !measuring || !this.calibrator) return;
+    const { grid } = measuring;
+    const beads = grid?.frameId === frame.id ? this.calibrator.beadsShown(grid, state.history.present) : null;
+    drawMeasuring(context, view, measuring, beads);
+  }
+
+  #letAidsWork(): void {
+    if (!this.aids) return;
+    this.aids.scale = this.viewport(this.#store.state).scale;
+    if (this.aids.tick(this.#store.ui.tool)) this.schedule();
+  }
+
+  #drawAids(context: CanvasRenderingContext2D, state: State, view: Viewport): void {
+    const { tool, component, aids } = state.ui;
+    const { outline } = currentCell(state);
+    if (this.aids) drawPreview(context, view, component, this.aids.preview(tool));
+    if (tool === 'transform' && outline) drawTransformBox(context, view, component, outline, this.#pointer);
+    if (tool === 'stretch' && outline?.closed) drawHold(context, view, component, outline, this.#pointer);
+    if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, aids.radius * view.scale, aids.erase);
   }
 
   #hit(state: State, view: Viewport): Hit {
     const { outline } = currentCell(state);
     if (!this.#pointer || !handlesShown(state)) return NOTHING;
-    const drafting = state.ui.tool === 'trace' && outline?.closed !== true;
+    const drafting = state.ui.tool !== 'edit' && outline?.closed !== true;
     return (drafting ? hitDraft : hitTest)(outline, view, this.#pointer);
   }
 
   #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
     const window = this.window(state);
-    const key = `${frame.id} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    const key = `${frame.id} ${this.#studio.filmsKey} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
     if (key === this.#drawnFilm) return;
     this.#drawnFilm = key;
-    this.#filmLayer.update(this.#studio, frame, window);
+    this.#filmLayer.update(this.#studio, frame, window, state.ui.seeing.film);
     const context = prepare(this.#film);
     // Pixels are shown as pixels as soon as they are large enough to be told apart.
     context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
@@ -120,14 +203,26 @@ export class StageView {
     const { present: doc } = state.history;
     // The selected component lies on top.
     const order = [...this.#overlays].sort((a, b) => Number(a.component === active) - Number(b.component === active));
+    const shaded = view === this.#mainView ? this.#shading.picture(state, frame, view, this.#size) : null;
+    if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
       this.#updateOverlay(overlay, doc, frame);
-      if (overlay.border) drawSilhouette(context, view, overlay, frame, overlayOpacity);
+      if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, frame, overlayOpacity);
     }
+    this.#reference.draw(context, state, this.#studio, frame, view);
+    drawGhosts(context, state, view);
     for (const { component } of order) {
       const { outline } = cellOf(doc, frame.id, component);
       if (outline) this.#drawOutline(context, state, view, component, outline, hit);
     }
+  }
+
+  /** As an outline, filled, or shaded where that can be drawn. */
+  #drawModel(context: CanvasRenderingContext2D, state: State, view: Viewport, overlay: OverlayLayer, frame: FrameEntry, opacity: number): void {
+    if (!overlay.border || opacity === 0) return;
+    const { overlay: look } = state.ui.seeing;
+    if (look === 'fill') return drawSilhouette(context, view, overlay, frame, opacity);
+    strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].light);
   }
 
   #updateOverlay(overlay: OverlayLayer, doc: Doc, frame: FrameEntry): void {
@@ -136,7 +231,7 @@ export class StageView {
     const held = model && this.#studio.meshOf(model.sha256) ? model.sha256 : null;
     const candidate = chosenCandidate(cellOf(doc, frame.id, component));
     const trouble = overlay.update(this.#studio, cameraOf(doc, frame), held, candidate);
-    if (trouble) queueMicrotask(() => this.#store.say('error', `The ${component} cannot be shown: ${trouble}`));
+    if (trouble) queueMicrotask(() => this.#store.say('error', texts.said.notShown(texts.component[component], trouble)));
   }
 
   #drawOutline(
@@ -153,7 +248,7 @@ export class StageView {
     const handles = active && handlesShown(state);
     const selected = handles ? selectedPoint : null;
     const { closed, unknownSides } = outline;
-    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected });
+    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected, pointer: this.#pointer });
     const last = points.at(-1);
     if (active && tool === 'trace' && !outline.closed && last && this.#pointer) {
       drawRubberBand(context, component, last, (hit.kind === 'vertex' && points[hit.index]) || this.#pointer);
@@ -162,7 +257,7 @@ export class StageView {
 }
 
 function handlesShown({ ui }: State): boolean {
-  return ui.tool === 'edit' || ui.tool === 'trace';
+  return ui.tool === 'edit' || ui.tool === 'trace' || ui.tool === 'wire';
 }
 
 /** Cleared, and scaled so that one unit is one CSS pixel. */

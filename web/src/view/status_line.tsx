@@ -1,5 +1,8 @@
 import { useEffect } from 'preact/hooks';
 import { currentCell, currentFrame, type Job, type State } from '../document/store';
+import { chosenCandidate } from '../document/types';
+import type { Motion } from '../interaction/adjust';
+import { handHint } from '../interaction/hand_bindings';
 import { hint } from '../interaction/hints';
 import { useApp } from './app';
 import { usePointer } from './pointer';
@@ -9,13 +12,14 @@ import { texts } from '../texts';
 export function StatusLine({ state }: { state: State }) {
   const { store } = useApp().services;
   const pointer = usePointer();
-  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' });
+  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' }, pointer?.motion ?? null);
   useInfoExpires(state);
   return (
     <footer class="status" aria-label={texts.status.region}>
       <p class={`status-text ${kind}`} role="status" aria-live="polite" title={text}>
         {text}
       </p>
+      <OfferButton state={state} />
       {state.ui.jobs.map((job) => (
         <JobBar key={job.id} job={job} />
       ))}
@@ -33,13 +37,14 @@ export function StatusLine({ state }: { state: State }) {
   );
 }
 
-function message(state: State, hit: Parameters<typeof hint>[3]): { text: string; kind: 'hint' | 'info' | 'error' } {
+function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion | null): { text: string; kind: 'hint' | 'info' | 'error' } {
   const { notice, tool, component } = state.ui;
   if (notice) return notice;
   const { outline, result } = currentCell(state);
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
-  return { text: hint(tool, component, outline, hit), kind: 'hint' };
+  if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
+  return { text: hint(tool, component, outline, hit, { erase: state.ui.aids.erase, adjusting: state.ui.aidLevel !== null }), kind: 'hint' };
 }
 
 /** News passes; errors stay until something is done. */
@@ -47,13 +52,30 @@ function useInfoExpires(state: State): void {
   const { store } = useApp().services;
   const { notice } = state.ui;
   useEffect(() => {
-    if (notice?.kind !== 'info') return undefined;
+    // What offers something waits for an answer.
+    if (notice?.kind !== 'info' || notice.offer) return undefined;
     const timer = setTimeout(() => store.ui.notice === notice && store.quiet(), INFO_LENGTH);
     return () => clearTimeout(timer);
   }, [notice, store]);
 }
 
 const INFO_LENGTH = 6000;
+
+/** What can be done about the news. */
+function OfferButton({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const offer = state.ui.notice?.offer;
+  if (!offer) return null;
+  const take = () => {
+    store.quiet();
+    offer.take();
+  };
+  return (
+    <button type="button" class="button small" onClick={take}>
+      {offer.label}
+    </button>
+  );
+}
 
 function JobBar({ job }: { job: Job }) {
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);

@@ -1,22 +1,52 @@
+import { useEffect, useRef } from 'preact/hooks';
 import type { State } from '../document/store';
-import { cellOf, COMPONENT_NAMES, titleOf, type Cell, type ComponentName, type FrameEntry } from '../document/types';
+import { COMPONENT_NAMES } from '../document/types';
+import { texts } from '../texts';
 import { useApp } from './app';
+import { CellRow } from './cell_row';
+import { CellSide } from './cell_side';
 import { Icon } from './icons';
+import { hasBothComponents, MotionCurve } from './motion_curve';
 
-/** The frames in time, and what is done in each for each component. */
+/** The frames in time, what is done in each for each component, and the joint's motion below. */
 export function Timeline({ state }: { state: State }) {
+  const { frames } = state.history.present;
+  const scroll = useRef<HTMLDivElement>(null);
+  useEffect(() => showFrame(scroll.current, state.ui.frameIndex, frames.length), [state.ui.frameIndex, frames.length]);
+  return (
+    <section class="timeline" aria-label={texts.work.region} style={{ '--count': Math.max(1, frames.length) }}>
+      <div class="timeline-scroll" ref={scroll}>
+        <div class="timeline-track">
+          <FrameSlider state={state} />
+          <table class="cells" aria-label={texts.work.cells}>
+            <tbody>
+              {COMPONENT_NAMES.map((component) => (
+                <CellRow key={component} state={state} component={component} />
+              ))}
+            </tbody>
+          </table>
+          {hasBothComponents(state.history.present) && <MotionCurve state={state} />}
+        </div>
+      </div>
+      <CellSide state={state} />
+    </section>
+  );
+}
+
+function FrameSlider({ state }: { state: State }) {
   const { actions, services } = useApp();
   const { frames } = state.history.present;
   const { frameIndex } = state.ui;
   const last = Math.max(0, frames.length - 1);
   const frame = frames[frameIndex];
+  const { work } = texts;
   return (
-    <section class="timeline" aria-label="Frames" style={{ '--count': Math.max(1, frames.length) }}>
+    <div class="frame-row">
       <div class="frame-steps">
-        <button type="button" class="button square" aria-label="Previous frame" title="Previous frame (D)" disabled={frameIndex <= 0} onClick={() => actions.run({ name: 'previous-frame' })}>
+        <button type="button" class="button square" aria-label={work.previousFrame} title={texts.withKey(work.previousFrame, 'D')} disabled={frameIndex <= 0} onClick={() => actions.run({ name: 'previous-frame' })}>
           <Icon name="previous" />
         </button>
-        <button type="button" class="button square" aria-label="Next frame" title="Next frame (F)" disabled={frameIndex >= last} onClick={() => actions.run({ name: 'next-frame' })}>
+        <button type="button" class="button square" aria-label={work.nextFrame} title={texts.withKey(work.nextFrame, 'F')} disabled={frameIndex >= last} onClick={() => actions.run({ name: 'next-frame' })}>
           <Icon name="next" />
         </button>
         <span class="frame-count">
@@ -24,95 +54,28 @@ export function Timeline({ state }: { state: State }) {
         </span>
       </div>
       <input
-          type="range"
-          class="frame-slider"
-          aria-label="Frame"
-          aria-valuetext={frame ? `${frameIndex + 1} of ${frames.length}, ${frame.name}` : 'no frames'}
-          min={0}
-          max={last}
-          step={1}
-          value={frameIndex}
-          disabled={frames.length < 2}
-          onInput={(event) => services.store.goTo(event.currentTarget.valueAsNumber)}
-        />
-      <span class="frame-name">{frame?.name ?? ''}</span>
-      <table class="cells" aria-label="Frames and components">
-        <tbody>
-          {COMPONENT_NAMES.map((component) => (
-            <CellRow key={component} state={state} component={component} />
-          ))}
-        </tbody>
-      </table>
-      <CellKey />
-    </section>
-  );
-}
-
-const CELL_KEY = [
-  ['draft', 'draft'],
-  ['posed', 'posed'],
-  ['pose-loaded', 'loaded'],
-  ['no-pose', 'no pose'],
-] as const;
-
-/** What a cell's look means; shapes, not colours alone. */
-function CellKey() {
-  return (
-    <div class="cell-key" aria-hidden="true">
-      {CELL_KEY.map(([look, word]) => (
-        <span key={look}>
-          <i class={`cell is-${look}`} />
-          {word}
-        </span>
-      ))}
+        type="range"
+        class="frame-slider"
+        aria-label={work.frame}
+        aria-valuetext={frame ? work.frameOf(frameIndex + 1, frames.length, frame.name) : work.noFrames}
+        min={0}
+        max={last}
+        step={1}
+        value={frameIndex}
+        disabled={frames.length < 2}
+        onInput={(event) => services.store.goTo(event.currentTarget.valueAsNumber)}
+      />
     </div>
   );
 }
 
-function CellRow({ state, component }: { state: State; component: ComponentName }) {
-  const { frames } = state.history.present;
-  return (
-    <tr class={component}>
-      <th scope="row">{titleOf(component)}</th>
-      {frames.map((frame, index) => (
-        <td key={frame.id}>
-          <CellButton state={state} component={component} frame={frame} index={index} />
-        </td>
-      ))}
-    </tr>
-  );
-}
-
-interface CellButtonProps {
-  readonly state: State;
-  readonly component: ComponentName;
-  readonly frame: FrameEntry;
-  readonly index: number;
-}
-
-function CellButton({ state, component, frame, index }: CellButtonProps) {
-  const { store } = useApp().services;
-  const word = stateOf(cellOf(state.history.present, frame.id, component));
-  const current = index === state.ui.frameIndex;
-  const selected = current && component === state.ui.component;
-  return (
-    <button
-      type="button"
-      class={`cell is-${word.replace(' ', '-')}${current ? ' column' : ''}`}
-      aria-label={`Frame ${index + 1}, ${component}: ${word}`}
-      aria-current={selected ? 'true' : undefined}
-      title={`Frame ${index + 1}, ${component}: ${word}`}
-      onClick={() => {
-        store.goTo(index);
-        store.selectComponent(component);
-      }}
-    />
-  );
-}
-
-function stateOf({ outline, result }: Cell): 'empty' | 'draft' | 'traced' | 'posed' | 'pose loaded' | 'no pose' {
-  if (result?.kind === 'failed') return 'no pose';
-  if (result?.kind === 'posed') return result.from === 'file' ? 'pose loaded' : 'posed';
-  if (!outline) return 'empty';
-  return outline.closed ? 'traced' : 'draft';
+/** Where there are more frames than fit, the current one is brought into sight, with one beside it. */
+function showFrame(scroll: HTMLElement | null, index: number, count: number): void {
+  if (!scroll || count === 0 || scroll.scrollWidth <= scroll.clientWidth) return;
+  const side = scroll.querySelector<HTMLElement>('.frame-steps')?.offsetWidth ?? 0;
+  const width = (scroll.scrollWidth - side) / count;
+  const [left, right] = [(index - 1) * width, (index + 2) * width];
+  const room = scroll.clientWidth - side;
+  if (left < scroll.scrollLeft) scroll.scrollLeft = left;
+  else if (right > scroll.scrollLeft + room) scroll.scrollLeft = right - room;
 }

@@ -48,6 +48,17 @@ export function TopBar({ state }: { state: State }) {
         ) : null}
         <button
           type="button"
+          class="button square"
+          aria-label={texts.top.theme}
+          aria-pressed={state.ui.theme === 'light'}
+          aria-keyshortcuts="Shift+L"
+          title={texts.top.themeTitle}
+          onClick={() => actions.run({ name: 'theme' })}
+        >
+          <Icon name="theme" />
+        </button>
+        <button
+          type="button"
           class="button round"
           aria-label={texts.top.keys}
           title={texts.top.keysTitle}

@@ -2,12 +2,14 @@ import { useEffect, useRef } from 'preact/hooks';
 import { currentCell, type State } from '../document/store';
 import type { Findings } from '../engine/poser';
 import { useApp } from './app';
+import { texts } from '../texts';
 
 const SIZE = 256;
 
 function described({ clipped, partial, milliseconds }: Findings): string {
-  const how = partial ? 'from a part of the outline · ' : clipped ? 'cut at the border · ' : 'found in ';
-  return `${how}${milliseconds.toFixed(1)} ms`;
+  const { unmatched } = texts.panel;
+  const say = partial ? unmatched.partial : clipped ? unmatched.clipped : unmatched.found;
+  return say(milliseconds.toFixed(1));
 }
 
 /** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
@@ -27,16 +29,16 @@ export function Unmatched({ state }: { state: State }) {
     else context.clearRect(0, 0, SIZE, SIZE);
   }, [picture, services]);
   return (
-    <section class="card unmatched" aria-label="Unmatched pixels in the canonical frame">
+    <section class="card unmatched" aria-label={texts.panel.unmatched.region}>
       <canvas
         ref={canvas}
         width={picture?.size ?? SIZE}
         height={picture?.size ?? SIZE}
         role="img"
-        aria-label={picture ? 'Outline and library view in canonical form, black where they differ' : 'No match to show'}
+        aria-label={picture ? texts.panel.unmatched.picture : texts.panel.unmatched.none}
       />
       <p class="card-note">
-        <span class="key-swatch" aria-hidden="true" /> differs
+        <span class="key-swatch" aria-hidden="true" /> {texts.panel.unmatched.differs}
         <span class="timing">{findings && findings.details.length > 0 ? described(findings) : ''}</span>
       </p>
     </section>

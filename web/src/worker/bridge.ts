@@ -1,4 +1,5 @@
 import type { FromWorker, Protocol, ToWorker } from './messages';
+import { texts } from '../texts';
 
 /** The half of `Worker` that the bridge needs; tests lend one of their own. */
 export interface WorkerPort {
@@ -82,7 +83,7 @@ export class Bridge<P extends Protocol<P>> {
     if (this.#port) return this.#port;
     const port = this.#start();
     port.onmessage = (event) => this.#receive(event.data);
-    port.onerror = (event) => this.#crashed(event.message || 'it could not be loaded');
+    port.onerror = (event) => this.#crashed(event.message || texts.said.notLoaded);
     this.#port = port;
     return port;
   }
@@ -110,7 +111,7 @@ export class Bridge<P extends Protocol<P>> {
   #crashed(reason: string): void {
     this.#port?.terminate();
     this.#port = null;
-    this.#failAll(new Error(`the worker stopped (${reason}); what you have done is still here, try again`));
+    this.#failAll(new Error(texts.said.workerStopped(reason)));
     this.onCrash();
   }
 

@@ -1,6 +1,6 @@
 import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../pkg/decode/fluoropose_decode.js';
 import wasmAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
-import type { DecodedFrame, DecodeProtocol, FileKind } from '../engine/protocol';
+import type { DecodedFrame, DecodeProtocol, FileKind, StatedGeometry } from '../engine/protocol';
 import { serve, Transferred, type Context } from './serve';
 
 /** Image and model files, decoded away from the page. */
@@ -28,8 +28,9 @@ serve<DecodeProtocol>({
     const model = decode_model(bytes, name);
     const vertices = model.vertices as Float32Array<ArrayBuffer>;
     const triangles = model.triangles as Uint32Array<ArrayBuffer>;
+    const { notes } = model;
     model.free();
-    return new Transferred({ vertices, triangles }, [vertices.buffer, triangles.buffer]);
+    return new Transferred({ vertices, triangles, notes }, [vertices.buffer, triangles.buffer]);
   },
 });
 
@@ -53,13 +54,33 @@ function copied(raw: RawFrame): DecodedFrame {
     pixels: raw.pixels as DecodedFrame['pixels'],
     window: stated ? { centre, width: windowWidth } : null,
     notes,
+    geometry: geometryOf(raw),
   };
+}
+
+function geometryOf(raw: RawFrame): StatedGeometry {
+  const { columnSpacingMm, rowSpacingMm, pixelSpacingCalibration } = raw;
+  return {
+    detectorSpacing: pairOf([columnSpacingMm, rowSpacingMm]),
+    pixelSpacing: pairOf(Array.from(raw.pixelSpacingMm)),
+    pixelSpacingCalibration: (pixelSpacingCalibration as 'geometry' | 'fiducial' | undefined) ?? null,
+    scannedSpacing: pairOf(Array.from(raw.scannedSpacingMm)),
+    sourceToDetector: raw.sourceToDetectorMm ?? null,
+    sourceToPatient: raw.sourceToPatientMm ?? null,
+    sourceToIsocentre: raw.sourceToIsocentreMm ?? null,
+    magnification: raw.magnification ?? null,
+  };
+}
+
+function pairOf([across, along]: readonly (number | undefined)[]): readonly [number, number] | null {
+  return across === undefined || along === undefined ? null : [across, along];
 }
 
 function kindOf(word: string): FileKind {
   switch (word) {
     case 'png':
     case 'jpeg':
+    case 'jpeg2000':
     case 'tiff':
     case 'dicom':
       return 'frames';
@@ -74,6 +95,10 @@ function kindOf(word: string): FileKind {
       return 'calibration';
     case 'library':
     case 'session':
+    case 'outlines':
+    case 'coco':
+    case 'distortion':
+    case 'video':
       return word;
     default:
       return 'unknown';

@@ -1,8 +1,10 @@
-import init, { choosePose, Matcher, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
+import init, { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
 import type { ComponentName } from '../document/types';
 import { poseArray, poseFrom } from '../engine/pose_array';
-import type { ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
+import type { Bend, ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
+import { byHand } from './by_hand';
+import { oneClick } from './one_click';
 import { serve } from './serve';
 
 /** Holds both components' libraries and finds poses in them. */
@@ -10,6 +12,8 @@ const ready = init({ module_or_path: wasmAddress });
 const matchers = new Map<ComponentName, Matcher>();
 
 serve<PoseProtocol>({
+  ...byHand({ withTraced, matcherOf }),
+  ...oneClick({ ready, matcherOf, withSurroundings, read }),
   open: async ({ component, bytes, mesh }) => {
     await ready;
     const matcher = new Matcher(bytes);
@@ -37,12 +41,29 @@ serve<PoseProtocol>({
   },
 });
 
-async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
+async function matcherOf(component: ComponentName): Promise<Matcher> {
   await ready;
-  const { component, outline, unknownSides, camera } = input;
   const matcher = matchers.get(component);
   if (!matcher) throw new Error(`The library of the ${component} is not open`);
-  const traced = new Traced(outline, unknownSides, camera.text, camera.width, camera.height);
+  return matcher;
+}
+
+let straightener: { readonly key: string; readonly tool: Straightener } | null = null;
+
+/** Outlines of frames that are shown as they were taken: their points are straightened before they are looked at. */
+function straightened({ key, numbers }: Bend, outline: Float64Array): Float64Array {
+  if (straightener?.key !== key) {
+    straightener?.tool.free();
+    straightener = { key, tool: new Straightener(numbers) };
+  }
+  return straightener.tool.straight(outline);
+}
+
+async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
+  const { component, outline, unknownSides, camera } = input;
+  const matcher = await matcherOf(component);
+  const points = camera.bend ? straightened(camera.bend, outline) : outline;
+  const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
   try {
     return work(matcher, traced);
   } finally {
@@ -65,9 +86,12 @@ function withSurroundings<T>(component: ComponentName, around: Surroundings, wor
 
 function found(matcher: Matcher, find: () => RawMatch): Match {
   const startedAt = performance.now();
-  const match = find();
+  return read(find(), matcher, performance.now() - startedAt);
+}
+
+function read(match: RawMatch, matcher: Matcher, milliseconds: number): Match {
   try {
-    return copied(match, matcher, performance.now() - startedAt);
+    return copied(match, matcher, milliseconds);
   } finally {
     match.free();
   }

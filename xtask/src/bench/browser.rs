@@ -13,7 +13,7 @@ use crate::{page, workspace};
 /// Builds the page, serves it and has it driven.
 ///
 /// Errors when something that is needed could not be had, or when the page does not do what is to be measured.
-pub fn measure() -> Result<Figures> {
+pub(super) fn measure() -> Result<Figures> {
     let chromium = programs::chromium()?;
     let dist = page::build()?;
     let folder = workspace::root().join("tests/browser");

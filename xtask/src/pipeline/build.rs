@@ -188,10 +188,11 @@ pub fn build_library(
             builder.render_view(view, &mut scratch, record, bits)
         },
     )?;
-    builder.finish(&mut bytes)?;
+    let (mut words, mut smaller) = (vec![0; canonical.words_needed()], vec![0; bytes.len()]);
+    let file = builder.finish_smaller(&mut bytes, &mut words, &mut smaller)?;
     bar.finish_and_clear();
     Ok(Built {
-        bytes,
+        bytes: file.to_vec(),
         took: start.elapsed(),
     })
 }

@@ -59,12 +59,15 @@ impl Surface {
     }
 }
 
-/// Reads an STL, OBJ or PLY model.
+/// Reads an STL, OBJ or PLY model. What was left out of the file is said on standard error.
 ///
 /// # Errors
 /// Names the file and what is wrong with it.
 pub fn read_model(path: &Path) -> Result<Surface> {
     let model = decode_model(&read(path)?, &name_of(path))?;
+    for note in &model.notes {
+        eprintln!("{}: {note}", path.display());
+    }
     let mesh = Mesh::new(&model.vertices, &model.triangles)?;
     let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
     let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);

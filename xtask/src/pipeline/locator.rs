@@ -2,6 +2,7 @@
 
 use anyhow::{Result, bail};
 use fluoropose::camera::Camera;
+use fluoropose::kernels::Kernels;
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
 use fluoropose::mask::Word;
@@ -32,6 +33,7 @@ pub struct Locator<'l> {
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
+    bytes: Vec<u8>,
     projected: Vec<Projected>,
     partial: PartialBuffers,
 }
@@ -46,14 +48,15 @@ impl<'l> Locator<'l> {
         if library.info().model != mesh.digest() {
             bail!("the library was made from another model: build it again");
         }
-        let (words, scores) = workspace_needed(&library);
+        let needs = workspace_needed(&library);
         Ok(Self {
             partial: PartialBuffers::new(&partial_needed(&library, camera, &mesh)),
             library,
             mesh,
-            canonical: vec![0; words],
-            turned: vec![0; words],
-            scores: vec![0; scores],
+            canonical: vec![0; needs.words],
+            turned: vec![0; needs.words],
+            scores: vec![0; needs.scores],
+            bytes: vec![0; needs.bytes],
             projected: vec![Projected::default(); scratch_needed(&mesh)],
         })
     }
@@ -91,6 +94,8 @@ impl<'l> Locator<'l> {
             canonical: &mut self.canonical,
             turned: &mut self.turned,
             scores: &mut self.scores,
+            bytes: &mut self.bytes,
+            kernels: Kernels::PORTABLE,
         };
         let found = locate::<RIVALS>(silhouette.mask(), camera, &self.library, work)?;
         let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;

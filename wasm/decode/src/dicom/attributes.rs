@@ -5,7 +5,8 @@ use dicom_object::{InMemDicomObject, Tag};
 use super::syntax::{Coding, Syntax};
 use super::{FORMAT, damaged};
 use crate::error::Problem;
-use crate::frame::{Geometry, checked_area};
+use crate::frame::{Geometry, SpacingCalibration, checked_area};
+use crate::jpeg::LosslessColour;
 use crate::limits::MAX_FRAMES;
 
 const SAMPLES_PER_PIXEL: u32 = 0x0028_0002;
@@ -26,9 +27,14 @@ const SLOPE: u32 = 0x0028_1053;
 const WINDOW_FUNCTION: u32 = 0x0028_1056;
 const SOURCE_TO_DETECTOR: u32 = 0x0018_1110;
 const SOURCE_TO_PATIENT: u32 = 0x0018_1111;
+const MAGNIFICATION: u32 = 0x0018_1114;
 const DETECTOR_SPACING: u32 = 0x0018_1164;
+const SCANNED_SPACING: u32 = 0x0018_2010;
+const SOURCE_TO_ISOCENTRE: u32 = 0x0018_9402;
+const PIXEL_SPACING: u32 = 0x0028_0030;
+const SPACING_CALIBRATION: u32 = 0x0028_0A02;
 
-const WANTED: [u32; 19] = [
+const WANTED: [u32; 24] = [
     SAMPLES_PER_PIXEL,
     PHOTOMETRIC,
     PLANAR,
@@ -47,7 +53,12 @@ const WANTED: [u32; 19] = [
     WINDOW_FUNCTION,
     SOURCE_TO_DETECTOR,
     SOURCE_TO_PATIENT,
+    MAGNIFICATION,
     DETECTOR_SPACING,
+    SCANNED_SPACING,
+    SOURCE_TO_ISOCENTRE,
+    PIXEL_SPACING,
+    SPACING_CALIBRATION,
 ];
 
 /// Whether an element is one that [`Attributes::read`] looks at.
@@ -68,7 +79,7 @@ pub(super) enum Photometric {
     YbrFull,
     /// As before, with the differences shared by two pixels: Y Y Cb Cr.
     YbrFull422,
-    /// Whatever a JPEG image makes of its own colours.
+    /// Whatever a JPEG or JPEG 2000 image makes of its own colours.
     InsideJpeg,
 }
 
@@ -89,6 +100,8 @@ pub(super) struct Attributes {
     pub frames: usize,
     pub samples: u16,
     pub photometric: Photometric,
+    /// What three components of a compressed image are where it does not tell itself.
+    pub colour_inside: LosslessColour,
     pub planar: bool,
     pub bits_allocated: u16,
     pub bits_stored: u16,
@@ -175,6 +188,7 @@ impl Attributes {
                 .whole_or_absent(SAMPLES_PER_PIXEL, "samples per pixel")?
                 .unwrap_or(1),
             photometric: photometric(&values, syntax.coding)?,
+            colour_inside: colour_inside(&values),
             planar: values.whole_or_absent(PLANAR, "planar configuration")? == Some(1),
             bits_allocated: values.whole(BITS_ALLOCATED, "number of bits allocated")?,
             bits_stored,
@@ -185,6 +199,53 @@ impl Attributes {
             window: window(&values),
             geometry: geometry(&values),
         })
+    }
+
+    /// The attributes of each frame by its functional groups: none where there are none.
+    pub(super) fn of_frames(
+        &self,
+        shared: &[u8],
+        per_frame: &[Vec<u8>],
+        syntax: &Syntax,
+    ) -> Result<Vec<Self>, Problem> {
+        let read = |wanted: &[u8]| {
+            InMemDicomObject::read_dataset_with_ts(wanted, &syntax.of_elements())
+                .map(Values)
+                .map_err(|e| damaged(format!("its functional groups cannot be read ({e})")))
+        };
+        if per_frame.is_empty() && shared.is_empty() {
+            return Ok(Vec::new());
+        }
+        let common = self.overridden(&read(shared)?);
+        let own = |frame: usize| match per_frame.get(frame) {
+            Some(wanted) if !wanted.is_empty() => Ok(common.overridden(&read(wanted)?)),
+            _ => Ok(common.clone()),
+        };
+        (0..self.frames).map(own).collect()
+    }
+
+    /// These attributes where a functional group says nothing else.
+    fn overridden(&self, group: &Values) -> Self {
+        let own = geometry(group);
+        let known = &self.geometry;
+        let rescaled = group.finite(SLOPE).filter(|&slope| slope != 0.0);
+        Self {
+            slope: rescaled.unwrap_or(self.slope),
+            // Slope and intercept belong together.
+            intercept: match rescaled {
+                Some(_) => group.finite(INTERCEPT).unwrap_or(0.0),
+                None => self.intercept,
+            },
+            window: window(group).or(self.window),
+            geometry: Geometry {
+                detector_spacing_mm: own.detector_spacing_mm.or(known.detector_spacing_mm),
+                source_to_detector_mm: own.source_to_detector_mm.or(known.source_to_detector_mm),
+                source_to_patient_mm: own.source_to_patient_mm.or(known.source_to_patient_mm),
+                source_to_isocentre_mm: own.source_to_isocentre_mm.or(known.source_to_isocentre_mm),
+                ..*known
+            },
+            ..self.clone()
+        }
     }
 
     /// Refuses what is inconsistent or not read.
@@ -252,8 +313,10 @@ fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> 
     Ok(match (stated.as_str(), coding) {
         ("MONOCHROME1", _) => Photometric::Monochrome1,
         ("MONOCHROME2", _) => Photometric::Monochrome2,
-        ("RGB", Coding::Jpeg) => Photometric::InsideJpeg,
-        (other, Coding::Jpeg) if other.starts_with("YBR_") => Photometric::InsideJpeg,
+        ("RGB", Coding::Jpeg | Coding::Jpeg2000) => Photometric::InsideJpeg,
+        (other, Coding::Jpeg | Coding::Jpeg2000) if other.starts_with("YBR_") => {
+            Photometric::InsideJpeg
+        }
         ("RGB", _) => Photometric::Rgb,
         ("YBR_FULL", _) => Photometric::YbrFull,
         ("YBR_FULL_422", _) => Photometric::YbrFull422,
@@ -270,6 +333,18 @@ fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> 
     })
 }
 
+/// A JPEG 2000 image undoes its own transforms (YBR_RCT, YBR_ICT); what is stored as YBR_FULL it does not know of.
+fn colour_inside(values: &Values) -> LosslessColour {
+    match values
+        .text(PHOTOMETRIC)
+        .unwrap_or_default()
+        .starts_with("YBR_FULL")
+    {
+        true => LosslessColour::LuminanceFirst,
+        false => LosslessColour::Rgb,
+    }
+}
+
 fn window(values: &Values) -> Option<StatedWindow> {
     let function = values.text(WINDOW_FUNCTION).unwrap_or_default();
     Some(StatedWindow {
@@ -280,11 +355,24 @@ fn window(values: &Values) -> Option<StatedWindow> {
 }
 
 fn geometry(values: &Values) -> Geometry {
-    // Both pairs are stated vertical first.
+    // All pairs are stated vertical first.
+    let spacing = |tag| {
+        values
+            .positive_pair(tag)
+            .map(|[rows, columns]| [columns, rows])
+    };
+    let calibration = values.text(SPACING_CALIBRATION).unwrap_or_default();
     Geometry {
-        detector_spacing_mm: values
-            .positive_pair(DETECTOR_SPACING)
-            .map(|[rows, columns]| [columns, rows]),
+        detector_spacing_mm: spacing(DETECTOR_SPACING),
+        pixel_spacing_mm: spacing(PIXEL_SPACING),
+        pixel_spacing_calibration: match calibration.as_str() {
+            "GEOMETRY" => Some(SpacingCalibration::Geometry),
+            "FIDUCIAL" => Some(SpacingCalibration::Fiducial),
+            _ => None,
+        },
+        scanned_spacing_mm: spacing(SCANNED_SPACING),
+        source_to_isocentre_mm: values.positive(SOURCE_TO_ISOCENTRE),
+        magnification: values.positive(MAGNIFICATION),
         source_to_detector_mm: values.positive(SOURCE_TO_DETECTOR),
         source_to_patient_mm: values.positive(SOURCE_TO_PATIENT),
         pixel_aspect: values

@@ -7,10 +7,10 @@ use super::syntax::Coding;
 use super::{damaged, pixels, rle};
 use crate::error::Problem;
 use crate::frame::GreyFrame;
-use crate::jpeg;
+use crate::{jpeg, jpeg2000};
 
 /// The fragments of each frame: one each; or all for a single frame; or as the basic offset table says; or, for
-/// JPEG without a table, from each fragment that begins an image to the next.
+/// JPEG and JPEG 2000 without a table, from each fragment that begins an image to the next.
 pub(super) fn frames(
     bytes: &[u8],
     offsets: &[u32],
@@ -39,7 +39,12 @@ pub(super) fn frames(
         if offsets.len() == count {
             return u32::try_from(fragment.start - first).is_ok_and(|at| offsets.contains(&at));
         }
-        coding == Coding::Jpeg && bytes[fragment.clone()].starts_with(&[0xFF, 0xD8])
+        let content = &bytes[fragment.clone()];
+        match coding {
+            Coding::Jpeg => content.starts_with(&[0xFF, 0xD8]),
+            Coding::Jpeg2000 => content.starts_with(&jpeg2000::CODESTREAM),
+            _ => false,
+        }
     };
     let mut frames: Vec<Vec<_>> = Vec::new();
     for fragment in fragments {
@@ -64,7 +69,14 @@ pub(super) fn decode(
     coding: Coding,
 ) -> Result<GreyFrame, Problem> {
     match coding {
-        Coding::Jpeg => pixels::frame_from_jpeg(jpeg::decode(coded)?, attributes),
+        Coding::Jpeg => {
+            let image = jpeg::decode_with(coded, attributes.colour_inside)?;
+            pixels::frame_from_jpeg(image, attributes)
+        }
+        Coding::Jpeg2000 => {
+            let image = jpeg2000::decode_with(coded, attributes.colour_inside, attributes.signed)?;
+            pixels::frame_from_jpeg(image, attributes)
+        }
         Coding::Rle => {
             let area = attributes.width as usize * attributes.height as usize;
             let bytes_per_sample = usize::from(attributes.bits_allocated / 8);

@@ -1,7 +1,7 @@
 //! DICOM: X-ray frames, single or many.
 //!
 //! Read: uncompressed little endian (implicit and explicit), big endian and deflated; RLE; JPEG baseline,
-//! extended (8 bits) and lossless. MONOCHROME1 and 2 of 8 to 16 bits, RGB and full YBR of 8 bits.
+//! extended (8 bits) and lossless; JPEG 2000 with and without loss. MONOCHROME1 and 2 of 8 to 16 bits, RGB and full YBR of 8 bits.
 //!
 //! # What happens to pixel values
 //! * Stored values are kept: rescale slope and intercept are **not** applied to pixels. They are applied backwards
@@ -12,7 +12,8 @@
 //!   inverts once more, since it is the rescaled value that is shown.
 //! * Bits above the stored ones (overlays, padding) are masked off; 8 or fewer bits stored give bytes.
 //!
-//! Windows inside functional groups (enhanced multi-frame objects) are not looked for: such frames have none.
+//! In enhanced multi-frame objects windows, rescaling and geometry stand in functional groups: a frame's own counts
+//! first, then what all frames share, then the top level.
 //!
 //! # Where the bytes are trusted
 //! [`structure`] walks the data set and checks each length against the bytes that are there. Only the few small
@@ -21,6 +22,7 @@
 
 mod attributes;
 mod encapsulated;
+mod functional;
 mod pixels;
 mod rle;
 mod structure;
@@ -45,6 +47,8 @@ fn damaged(detail: impl Into<String>) -> Problem {
 /// A DICOM file whose structure and attributes have been checked; frames are decoded when asked for.
 pub(crate) struct Dicom {
     attributes: Attributes,
+    /// Of each frame, where functional groups tell of frames.
+    per_frame: Vec<Attributes>,
     coding: Coding,
     big_endian: bool,
     source: Source,
@@ -73,6 +77,7 @@ impl Dicom {
         let data_set = structure::walk(bytes, start, &syntax)?;
         let attributes = Attributes::read(&data_set.wanted, &syntax)?;
         attributes.check(syntax.coding)?;
+        let per_frame = attributes.of_frames(&data_set.shared, &data_set.per_frame, &syntax)?;
         let source = match data_set.pixels {
             PixelData::Native { range, words } => {
                 Source::native(range, words, &attributes, syntax.coding)?
@@ -83,6 +88,7 @@ impl Dicom {
         };
         Ok(Self {
             attributes,
+            per_frame,
             coding: syntax.coding,
             big_endian: syntax.big_endian,
             source,
@@ -96,18 +102,19 @@ impl Dicom {
 
     /// Decodes frame `index`, below [`Self::count`]; `bytes` are those that [`Self::open`] left.
     pub(crate) fn frame(&self, bytes: &[u8], index: usize) -> Result<GreyFrame, Problem> {
+        let attributes = self.per_frame.get(index).unwrap_or(&self.attributes);
         match &self.source {
             Source::Native { range, words } => {
-                let size = self.attributes.native_frame_bytes();
+                let size = attributes.native_frame_bytes();
                 let start = range.start + index * size;
                 let stored = bytes.get(start..start + size).unwrap_or_default();
-                let ordered = native_order(stored, self.big_endian, *words, &self.attributes);
-                pixels::frame_from_stored(&ordered, &self.attributes)
+                let ordered = native_order(stored, self.big_endian, *words, attributes);
+                pixels::frame_from_stored(&ordered, attributes)
             }
             Source::Encapsulated(frames) => {
                 let fragments = frames.get(index).map(Vec::as_slice).unwrap_or_default();
                 let coded = join(bytes, fragments);
-                encapsulated::decode(&coded, &self.attributes, self.coding)
+                encapsulated::decode(&coded, attributes, self.coding)
             }
         }
     }

@@ -70,14 +70,14 @@ fn is_inverted(attributes: &Attributes) -> bool {
     (attributes.photometric == Photometric::Monochrome1) != (attributes.slope < 0.0)
 }
 
-/// The frame of a decoded JPEG image, whose pixels are stored values of one byte or of two.
+/// The frame of a decoded JPEG or JPEG 2000 image, whose pixels are stored values of one byte or of two.
 pub(super) fn frame_from_jpeg(
     image: GreyFrame,
     attributes: &Attributes,
 ) -> Result<GreyFrame, Problem> {
     if (image.width, image.height) != (attributes.width, attributes.height) {
         return Err(damaged(format!(
-            "it states {} x {} pixels and its JPEG image has {} x {}",
+            "it states {} x {} pixels and its compressed image has {} x {}",
             attributes.width, attributes.height, image.width, image.height
         )));
     }

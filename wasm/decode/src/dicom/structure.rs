@@ -6,7 +6,7 @@ use std::ops::Range;
 use flate2::read::DeflateDecoder;
 
 use super::syntax::{Coding, Syntax};
-use super::{FORMAT, damaged};
+use super::{FORMAT, damaged, functional};
 use crate::error::Problem;
 use crate::limits::MAX_INFLATED_BYTES;
 
@@ -20,12 +20,12 @@ const MAX_WANTED_BYTES: u32 = 4096;
 const MAX_DEPTH: usize = 32;
 
 /// A length that means "until the end mark".
-const UNDEFINED: u32 = u32::MAX;
+pub(super) const UNDEFINED: u32 = u32::MAX;
 
 const PIXEL_DATA: u32 = 0x7FE0_0010;
-const ITEM: u32 = 0xFFFE_E000;
-const ITEM_END: u32 = 0xFFFE_E00D;
-const SEQUENCE_END: u32 = 0xFFFE_E0DD;
+pub(super) const ITEM: u32 = 0xFFFE_E000;
+pub(super) const ITEM_END: u32 = 0xFFFE_E00D;
+pub(super) const SEQUENCE_END: u32 = 0xFFFE_E0DD;
 
 /// The part of the file before the data set.
 pub(super) struct Meta {
@@ -39,6 +39,10 @@ pub(super) struct Meta {
 pub(super) struct DataSet {
     /// The bytes of the wanted small elements, one after the other, in the file's syntax.
     pub wanted: Vec<u8>,
+    /// The same of what all frames share in their functional groups; empty where there are none.
+    pub shared: Vec<u8>,
+    /// The same of each frame's own functional groups; none where there are none.
+    pub per_frame: Vec<Vec<u8>>,
     /// Where the pixels are.
     pub pixels: PixelData,
 }
@@ -55,17 +59,19 @@ pub(super) enum PixelData {
 }
 
 /// One element's tag and length.
-struct Element {
-    tag: u32,
-    representation: Option<[u8; 2]>,
+pub(super) struct Element {
+    pub tag: u32,
+    pub representation: Option<[u8; 2]>,
+    /// Where the tag begins.
+    pub start: usize,
     /// Where the value begins.
-    value: usize,
-    length: u32,
+    pub value: usize,
+    pub length: u32,
 }
 
 impl Element {
     /// The value's range, if its length is stated.
-    fn range(&self, bytes: &[u8]) -> Result<Range<usize>, Problem> {
+    pub(super) fn range(&self, bytes: &[u8]) -> Result<Range<usize>, Problem> {
         let end = usize::try_from(self.length)
             .ok()
             .and_then(|length| self.value.checked_add(length))
@@ -83,10 +89,10 @@ impl Element {
 
 /// Reads tags and lengths in one syntax.
 #[derive(Clone, Copy)]
-struct Walker<'a> {
-    bytes: &'a [u8],
-    explicit: bool,
-    big_endian: bool,
+pub(super) struct Walker<'a> {
+    pub bytes: &'a [u8],
+    pub explicit: bool,
+    pub big_endian: bool,
 }
 
 impl Walker<'_> {
@@ -113,7 +119,7 @@ impl Walker<'_> {
         })
     }
 
-    fn element(&self, at: usize) -> Result<Element, Problem> {
+    pub(super) fn element(&self, at: usize) -> Result<Element, Problem> {
         let tag = u32::from(self.u16(at)?) << 16 | u32::from(self.u16(at + 2)?);
         let delimiter = tag >> 16 == ITEM >> 16;
         let (representation, value, length) = if delimiter || !self.explicit {
@@ -134,13 +140,14 @@ impl Walker<'_> {
         Ok(Element {
             tag,
             representation,
+            start: at,
             value,
             length,
         })
     }
 
     /// The position after an element, whatever its length.
-    fn after(&self, element: &Element, depth: usize) -> Result<usize, Problem> {
+    pub(super) fn after(&self, element: &Element, depth: usize) -> Result<usize, Problem> {
         if element.length != UNDEFINED {
             return Ok(element.range(self.bytes)?.end);
         }
@@ -172,6 +179,14 @@ impl Walker<'_> {
                     )));
                 }
             };
+        }
+    }
+
+    /// The position after an item, whatever its length.
+    pub(super) fn after_any_item(&self, item: &Element) -> Result<usize, Problem> {
+        match item.length {
+            UNDEFINED => self.after_item(item.value, 1),
+            _ => Ok(item.range(self.bytes)?.end),
         }
     }
 
@@ -278,11 +293,22 @@ pub(super) fn walk(bytes: &[u8], start: usize, syntax: &Syntax) -> Result<DataSe
         big_endian: syntax.big_endian,
     };
     let (mut at, mut wanted) = (start, Vec::new());
+    let (mut shared, mut per_frame) = (Vec::new(), Vec::new());
     while at < bytes.len() {
         let element = walker.element(at)?;
         if element.tag == PIXEL_DATA {
             let pixels = pixel_data(&walker, &element, syntax.coding)?;
-            return Ok(DataSet { wanted, pixels });
+            return Ok(DataSet {
+                wanted,
+                shared,
+                per_frame,
+                pixels,
+            });
+        }
+        match element.tag {
+            functional::SHARED => shared = functional::items(&walker, &element)?.concat(),
+            functional::PER_FRAME => per_frame = functional::items(&walker, &element)?,
+            _ => {}
         }
         let end = walker.after(&element, 0)?;
         if is_small_and_wanted(&element) {
@@ -298,7 +324,7 @@ pub(super) fn walk(bytes: &[u8], start: usize, syntax: &Syntax) -> Result<DataSe
 }
 
 /// Whether an element goes to the library: one of the attributes, with a representation whose values are small.
-fn is_small_and_wanted(element: &Element) -> bool {
+pub(super) fn is_small_and_wanted(element: &Element) -> bool {
     super::attributes::is_wanted(element.tag)
         && element.length <= MAX_WANTED_BYTES
         && element.representation.is_none_or(has_short_length)

@@ -14,6 +14,8 @@ pub(super) enum Coding {
     Rle,
     /// JPEG with loss, or lossless: the image itself tells which.
     Jpeg,
+    /// JPEG 2000 with loss, or lossless.
+    Jpeg2000,
 }
 
 /// How the data set is written.
@@ -63,6 +65,10 @@ impl Syntax {
                 coding: Coding::Jpeg,
                 ..explicit_little
             },
+            "1.2.840.10008.1.2.4.90" | "1.2.840.10008.1.2.4.91" => Self {
+                coding: Coding::Jpeg2000,
+                ..explicit_little
+            },
             other => return Err(refused(other)),
         })
     }
@@ -77,21 +83,59 @@ impl Syntax {
     }
 }
 
-/// The sentence for a syntax that is not read.
+/// Where a person gets the same frames in a form that is read.
+const REMEDY: &str = "Export it from the viewer or archive uncompressed (Explicit VR Little Endian), or as lossless \
+                      JPEG, JPEG 2000 or RLE; gdcmconv --raw converts files, too";
+const VIDEO_REMEDY: &str =
+    "Export its frames uncompressed, or as an MP4 or WebM video, which the page opens itself";
+
+/// Names of the syntaxes of encapsulated pixels that are not read, by the end of their identifiers.
+const NOT_READ: [(&str, &str); 16] = [
+    ("52", "hierarchical JPEG pixels"),
+    ("53", "spectral selection JPEG pixels"),
+    ("55", "full progression JPEG pixels"),
+    ("80", "JPEG-LS lossless pixels"),
+    ("81", "JPEG-LS near-lossless pixels"),
+    (
+        "92",
+        "JPEG 2000 pixels of several components (part 2, lossless)",
+    ),
+    ("93", "JPEG 2000 pixels of several components (part 2)"),
+    ("94", "pixels that are fetched from a server (JPIP)"),
+    (
+        "95",
+        "pixels that are fetched from a server (JPIP, deflated)",
+    ),
+    ("110", "JPEG XL lossless pixels"),
+    ("111", "JPEG XL pixels made from JPEG"),
+    ("112", "JPEG XL pixels"),
+    ("201", "high-throughput JPEG 2000 lossless pixels"),
+    (
+        "202",
+        "high-throughput JPEG 2000 lossless pixels with resolutions in order",
+    ),
+    ("203", "high-throughput JPEG 2000 pixels"),
+    (
+        "204",
+        "high-throughput JPEG 2000 pixels fetched from a server",
+    ),
+];
+
+/// The sentence for a syntax that is not read: its name where it has one, its identifier, and what to do.
 fn refused(uid: &str) -> Problem {
-    let remedy = "Export it uncompressed, or as JPEG or RLE";
-    let kind = match uid.strip_prefix("1.2.840.10008.1.2.4.") {
-        Some("80" | "81") => "JPEG-LS pixels",
-        Some("90" | "91" | "92" | "93") => "JPEG 2000 pixels",
-        Some("94" | "95") => "pixels that are fetched from a server",
-        Some("201" | "202" | "203") => "high-throughput JPEG 2000 pixels",
-        Some("110" | "111" | "112") => "JPEG XL pixels",
-        Some(rest) if rest.starts_with("10") => "video (MPEG or H.264 or H.265)",
-        _ => {
-            let shown: String = uid.chars().take(64).collect();
-            let what = format!("the transfer syntax '{shown}'");
-            return Problem::unsupported(FORMAT, what, remedy);
+    let shown: String = uid.chars().take(64).collect();
+    let end = uid.strip_prefix("1.2.840.10008.1.2.4.");
+    let name = NOT_READ.iter().find(|(known, _)| end == Some(known));
+    if let Some((_, name)) = name {
+        let what = format!("{name} (transfer syntax {shown})");
+        return Problem::unsupported(FORMAT, what, REMEDY);
+    }
+    let is_video = end.is_some_and(|rest| rest.len() == 3 && rest.starts_with("10"));
+    match is_video {
+        true => {
+            let what = format!("a video (MPEG, H.264 or H.265; transfer syntax {shown})");
+            Problem::unsupported(FORMAT, what, VIDEO_REMEDY)
         }
-    };
-    Problem::unsupported(FORMAT, kind, remedy)
+        false => Problem::unsupported(FORMAT, format!("the transfer syntax '{shown}'"), REMEDY),
+    }
 }

@@ -22,6 +22,8 @@ pub struct Model {
     pub vertices: Vec<[f32; 3]>,
     /// Three indices into `vertices` each, in the file's winding.
     pub triangles: Vec<[u32; 3]>,
+    /// What was left out of the file, a sentence each, for the person who opened it.
+    pub notes: Vec<String>,
 }
 
 /// Triangles and vertices as a file gives them.
@@ -29,6 +31,7 @@ pub struct Model {
 pub(crate) struct Raw {
     pub vertices: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
+    pub notes: Vec<String>,
 }
 
 /// Decodes an STL (binary or ASCII), OBJ or PLY (ASCII or binary) model.
@@ -108,6 +111,7 @@ fn merge(raw: &Raw) -> Result<Model, Problem> {
     let mut model = Model {
         vertices: Vec::new(),
         triangles: Vec::with_capacity(raw.triangles.len()),
+        notes: raw.notes.clone(),
     };
     for corners in &raw.triangles {
         let mut positions = [[0.0; 3]; 3];

@@ -1,6 +1,11 @@
 //! STL, binary and ASCII.
 //!
 //! Which of the two is told by length, not by the first word: a binary header may begin with `solid`.
+//!
+//! Some exporters fill a binary file up to a block or close it with a few bytes of their own. Such bytes after the last
+//! triangle are left out, and a note says so, as long as they cannot be triangles: zeros and blanks, however many, or
+//! fewer bytes than a triangle takes. Anything else may be triangles that the header does not count, and a model with a
+//! part missing gives a wrong pose: that is refused.
 
 use std::io::Cursor;
 
@@ -44,12 +49,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     }
 }
 
+/// Whether bytes after the last triangle cannot be triangles.
+fn is_filling(rest: &[u8]) -> bool {
+    (rest.len() as u64) < PER_TRIANGLE
+        || rest
+            .iter()
+            .all(|byte| matches!(byte, 0 | b' ' | b'\r' | b'\n'))
+}
+
 fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
     let count = stated_triangles(bytes)
         .ok_or_else(|| Problem::damaged(FORMAT, "it is shorter than its header"))?;
     check_triangles(count as usize)?;
     let needed = binary_length(count);
-    if needed != bytes.len() as u64 {
+    let counted = usize::try_from(needed)
+        .ok()
+        .and_then(|needed| bytes.split_at_checked(needed));
+    let Some((counted, rest)) =
+        counted.filter(|(_, rest)| count > 0 && is_filling(rest) || rest.is_empty())
+    else {
         let found = bytes.len();
         return Err(Problem::damaged(
             FORMAT,
@@ -57,12 +75,18 @@ fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
                 "it states {count} triangles, which take {needed} bytes, and has {found} bytes"
             ),
         ));
-    }
+    };
     // An empty line as header: the library takes `solid ` there for the ASCII form.
-    let mut content = bytes.to_vec();
+    let mut content = counted.to_vec();
     content[..HEADER].fill(b'\n');
     let mut raw = Raw::default();
     push_solid(content, &mut raw)?;
+    if !rest.is_empty() {
+        raw.notes.push(format!(
+            "{} bytes after the last of its {count} triangles were left out.",
+            rest.len()
+        ));
+    }
     Ok(raw)
 }
 

@@ -1,8 +1,8 @@
-use fluoropose_decode::{FrameFile, Problem, Window, decode_frames};
+use fluoropose_decode::{FrameFile, Problem, SpacingCalibration, Window, decode_frames};
 
 use crate::samples::dicom::{
-    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_2000, JPEG_BASELINE, JPEG_LOSSLESS,
-    RLE, run_lengths,
+    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_BASELINE, JPEG_LOSSLESS, RLE,
+    run_lengths,
 };
 use crate::samples::{bytes_of, jpeg, lossless, only_frame, pattern, words_of};
 
@@ -159,12 +159,110 @@ fn signed_pixels_are_moved_up_by_half_their_range() {
     assert_eq!(words_of(&frame), [0, 2047, 2048, 4095]);
 }
 
+/// A sequence of a functional group with one item; lengths stated or not.
+fn group(syntax: &str, tag: u32, stated: bool, elements: &[(u32, &[u8; 2], &str)]) -> Vec<u8> {
+    let mut content = Builder::new(syntax);
+    for &(tag, representation, value) in elements {
+        content.text(tag, representation, value);
+    }
+    nested(syntax, tag, stated, &[content.into_data_set()])
+}
+
+/// A sequence of items.
+fn nested(syntax: &str, tag: u32, stated: bool, items: &[Vec<u8>]) -> Vec<u8> {
+    let mut file = Builder::new(syntax);
+    let length: usize = items.iter().map(|item| 8 + item.len()).sum();
+    file.header(tag, b"SQ", if stated { length as u32 } else { u32::MAX });
+    for item in items {
+        file.item(
+            0xFFFE_E000,
+            if stated { item.len() as u32 } else { u32::MAX },
+        );
+        file.verbatim(item);
+        if !stated {
+            file.item(0xFFFE_E00D, 0);
+        }
+    }
+    if !stated {
+        file.item(0xFFFE_E0DD, 0);
+    }
+    file.into_data_set()
+}
+
+#[test]
+fn functional_groups_tell_windows_rescaling_and_geometry_of_each_frame() {
+    for syntax in UNCOMPRESSED {
+        for stated in [false, true] {
+            let window = |centre: &str, width: &str| {
+                group(
+                    syntax,
+                    0x0028_9132,
+                    stated,
+                    &[(0x0028_1050, b"DS", centre), (0x0028_1051, b"DS", width)],
+                )
+            };
+            let rescale = group(
+                syntax,
+                0x0028_9145,
+                stated,
+                &[(0x0028_1052, b"DS", "10"), (0x0028_1053, b"DS", "2")],
+            );
+            let mut distances = Builder::new(syntax);
+            distances.text(0x0018_1110, b"DS", "1200");
+            let isocentre = match distances.is_big_endian() {
+                true => 800f32.to_be_bytes(),
+                false => 800f32.to_le_bytes(),
+            };
+            distances.bytes(0x0018_9402, b"FL", &isocentre);
+            let distances = nested(syntax, 0x0018_9476, stated, &[distances.into_data_set()]);
+            let spacing = group(
+                syntax,
+                0x0028_9443,
+                stated,
+                &[(0x0018_1164, b"DS", "0.2\\0.2")],
+            );
+            let shared = [window("100", "81"), distances, spacing].concat();
+            let mut file = Builder::image(syntax, 2, 1, 16, 3);
+            file.verbatim(&nested(syntax, 0x5200_9229, stated, &[shared]));
+            file.verbatim(&nested(
+                syntax,
+                0x5200_9230,
+                stated,
+                &[window("50", "21"), rescale, Vec::new()],
+            ));
+            let frames = decode_frames(&file.words(&[1, 2, 3, 4, 5, 6]), "enhanced.dcm")
+                .unwrap_or_else(|e| panic!("{syntax} {stated}: {e}"));
+            let windows: Vec<_> = frames
+                .iter()
+                .map(|frame| frame.window.unwrap())
+                .map(|w| (w.centre, w.width))
+                .collect();
+            // The second frame's own rescaling is undone: (99.5 - 10) / 2.
+            assert_eq!(
+                windows,
+                [(49.5, 20.0), (44.75, 40.0), (99.5, 80.0)],
+                "{syntax} {stated}"
+            );
+            for frame in &frames {
+                assert_eq!(frame.geometry.source_to_detector_mm, Some(1200.0));
+                assert_eq!(frame.geometry.source_to_isocentre_mm, Some(800.0));
+                assert_eq!(frame.geometry.detector_spacing_mm, Some([0.2, 0.2]));
+            }
+            assert_eq!(words_of(&frames[1]), [3, 4]);
+        }
+    }
+}
+
 #[test]
 fn geometry_is_reported() {
     let mut file = Builder::new(EXPLICIT);
     file.text(0x0018_1110, b"DS", "1198.5");
     file.text(0x0018_1111, b"DS", "900");
     file.text(0x0018_1164, b"DS", "0.4\\0.25");
+    file.text(0x0018_1114, b"DS", "1.3");
+    file.text(0x0018_2010, b"DS", "0.1\\0.1");
+    file.text(0x0028_0030, b"DS", "0.3\\0.2");
+    file.text(0x0028_0A02, b"CS", "FIDUCIAL");
     let mut image = Builder::image(EXPLICIT, 2, 1, 8, 1);
     image.text(0x0028_0034, b"IS", "8\\5");
     let geometry = only_frame(&join(file, image).octets(&[1, 2]), "a.dcm").geometry;
@@ -172,6 +270,13 @@ fn geometry_is_reported() {
     assert_eq!(geometry.source_to_detector_mm, Some(1198.5));
     assert_eq!(geometry.source_to_patient_mm, Some(900.0));
     assert_eq!(geometry.pixel_aspect, Some(1.6));
+    assert_eq!(geometry.magnification, Some(1.3));
+    assert_eq!(geometry.scanned_spacing_mm, Some([0.1, 0.1]));
+    assert_eq!(geometry.pixel_spacing_mm, Some([0.2, 0.3]));
+    assert_eq!(
+        geometry.pixel_spacing_calibration,
+        Some(SpacingCalibration::Fiducial)
+    );
 }
 
 /// Elements of one builder before those of another.
@@ -301,15 +406,17 @@ fn colour_run_lengths_are_read() {
 
 #[test]
 fn codings_that_are_not_read_are_named() {
-    let file = Builder::image(JPEG_2000, 2, 1, 8, 1).fragments(&[], &[&[1, 2]]);
+    let file = Builder::image("1.2.840.10008.1.2.4.81", 2, 1, 8, 1).fragments(&[], &[&[1, 2]]);
     let error = decode_frames(&file, "run.dcm").unwrap_err();
     assert_eq!(
         error.to_string(),
-        "run.dcm: this DICOM file holds JPEG 2000 pixels, which is not read. Export it uncompressed, or as JPEG or \
-         RLE."
+        "run.dcm: this DICOM file holds JPEG-LS near-lossless pixels (transfer syntax 1.2.840.10008.1.2.4.81), which \
+         is not read. Export it from the viewer or archive uncompressed (Explicit VR Little Endian), or as lossless \
+         JPEG, JPEG 2000 or RLE; gdcmconv --raw converts files, too."
     );
     for (uid, word) in [
         ("1.2.840.10008.1.2.4.80", "JPEG-LS"),
+        ("1.2.840.10008.1.2.4.201", "high-throughput"),
         ("1.2.840.10008.1.2.4.102", "video"),
         ("9.9", "'9.9'"),
     ] {
@@ -365,7 +472,7 @@ fn lies_are_found_out() {
     let image = jpeg(8, 8, &[1; 64], false);
     refused(
         Builder::image(JPEG_BASELINE, 8, 9, 8, 1).fragments(&[], &[&image]),
-        "8 x 9 pixels and its JPEG image has 8 x 8",
+        "8 x 9 pixels and its compressed image has 8 x 8",
     );
     refused(
         Builder::image(RLE, 80, 80, 8, 1).fragments(&[], &[&run_lengths(&[vec![1, 2]])]),

@@ -16,7 +16,7 @@ use crate::samples::dicom::{
 };
 use crate::samples::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
 use crate::samples::{
-    big_tiff, jpeg, jpeg_of, lossless, pattern, png, predicted_tiff, tiff, tiled_tiff,
+    big_tiff, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff, tiled_tiff,
 };
 
 /// No small file may keep the reader longer than this, in any build.
@@ -73,6 +73,24 @@ fn images() -> Vec<Sample> {
             jpeg_of(6, 6, &pixels, jpeg_encoder::ColorType::Rgb, false),
         ),
         sample("lossless.jpg", lossless::jpeg(12, 9, 12, &words)),
+        sample(
+            "restart.jpg",
+            lossless::coded(
+                12,
+                9,
+                &[&words],
+                lossless::Coding {
+                    precision: 12,
+                    predictor: 6,
+                    shift: 1,
+                    restart_rows: 4,
+                },
+            ),
+        ),
+        sample("grey.j2k", jpeg2000::bytes(jpeg2000::TWELVE)),
+        sample("colour.j2k", jpeg2000::bytes(jpeg2000::COLOUR)),
+        sample("lossy.j2k", jpeg2000::bytes(jpeg2000::LOSSY)),
+        sample("grey.jp2", jpeg2000::bytes(jpeg2000::JP2)),
         sample("plain.tif", two_pages(Compression::Uncompressed)),
         sample("lzw.tif", two_pages(Compression::Lzw)),
         sample(

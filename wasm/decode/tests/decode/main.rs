@@ -8,6 +8,7 @@
 mod dicom;
 mod hostile;
 mod jpeg;
+mod jpeg2000;
 mod masks;
 mod models;
 mod png;

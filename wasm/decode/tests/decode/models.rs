@@ -86,6 +86,31 @@ fn a_wrong_number_of_triangles_is_told() {
 }
 
 #[test]
+fn filling_after_the_last_triangle_is_left_out_and_noted() {
+    for filling in [vec![0; 1], vec![0; 4096], b"\r\n".to_vec(), vec![7; 49]] {
+        let mut file = stl_binary("x");
+        file.extend(&filling);
+        let model = decode_model(&file, "knee.stl").unwrap();
+        assert_tetrahedron(&model);
+        let note = format!(
+            "{} bytes after the last of its 4 triangles were left out.",
+            filling.len()
+        );
+        assert_eq!(model.notes, [note]);
+    }
+    assert!(model(stl_binary("x")).notes.is_empty());
+    let by_name = |file: &[u8]| decode_model(file, "knee.stl").unwrap_err().problem;
+    // What may be a triangle that the header does not count is no filling.
+    let mut more = stl_binary("x");
+    more.extend([7; 50]);
+    assert!(matches!(by_name(&more), Problem::Damaged { .. }));
+    // A header that was never filled in.
+    let mut uncounted = stl_binary("x");
+    uncounted[80..84].fill(0);
+    assert!(matches!(by_name(&uncounted), Problem::Damaged { .. }));
+}
+
+#[test]
 fn an_stl_of_nothing_is_an_empty_model() {
     assert_eq!(refused([0; 84]), Problem::EmptyModel);
     assert_eq!(refused("solid x\nendsolid x\n"), Problem::EmptyModel);

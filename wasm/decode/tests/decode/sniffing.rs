@@ -31,6 +31,22 @@ fn content_decides_whatever_the_name() {
             b"{ \"format\": \"fluoropose-session\" }".to_vec(),
             Kind::Session,
         ),
+        (
+            b"{\"kind\":\"fluoropose-outlines\",\"version\":1}".to_vec(),
+            Kind::Outlines,
+        ),
+        (
+            b"{\"info\": {}, \"images\": [], \"annotations\": []}".to_vec(),
+            Kind::Coco,
+        ),
+        (
+            b"{\"kind\":\"fluoropose-distortion\",\"version\":1}".to_vec(),
+            Kind::Distortion,
+        ),
+        (b"\x1A\x45\xDF\xA3webm".to_vec(), Kind::Video),
+        (b"\0\0\0\x20ftypisom\0\0".to_vec(), Kind::Video),
+        (b"RIFF\0\0\0\0AVI LIST".to_vec(), Kind::Video),
+        (b"\0\0\0\x20ftypheic\0\0".to_vec(), Kind::Unknown),
         (b"{ \"format\": \"another\" }".to_vec(), Kind::Unknown),
         (b"".to_vec(), Kind::Unknown),
         (b"once upon a time".to_vec(), Kind::Unknown),

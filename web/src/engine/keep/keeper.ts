@@ -58,6 +58,17 @@ export class Keeper {
     return this.#claims.claim(id);
   }
 
+  /** Deletes a work that is open nowhere, and the files that nothing else names. */
+  async discard(id: string): Promise<void> {
+    if (!(await this.#claims.claim(id))) throw new Error(texts.keep.elsewhere);
+    const shelf = await this.shelf();
+    await shelf.delete(id);
+    this.#written.delete(id);
+    await shelf.sweep();
+    // What was swept away is written again when it is next needed.
+    this.#filesHere.clear();
+  }
+
   /** A document that was just read from the storage is written there already. */
   adopt(doc: Doc): void {
     this.#written.set(doc.work, { doc, view: this.#view() });

@@ -56,7 +56,10 @@ export class Shelf {
         fresh.createObjectStore('files', { keyPath: 'sha256' });
       },
       // A page of a newer version waits for this one to let go.
-      blocking: (_from, _to, event) => (event.target as IDBDatabase).close(),
+      blocking: (_from, _to, event) => {
+        (event.target as IDBDatabase).close();
+        onLost();
+      },
       terminated: onLost,
     });
     return new Shelf(database);
@@ -84,12 +87,14 @@ export class Shelf {
   async write(work: KeptWork, changes: readonly CellChange[]): Promise<void> {
     const transaction = this.#database.transaction(['works', 'cells'], 'readwrite', { durability: 'relaxed' });
     const cells = transaction.objectStore('cells');
-    const writes: Promise<unknown>[] = [transaction.objectStore('works').put(work)];
-    for (const { key, cell } of changes) {
-      const place: [string, string] = [work.id, key];
-      writes.push(cell === null ? cells.delete(place) : cells.put(cell, place));
-    }
-    await Promise.all([...writes, transaction.done]);
+    await settled(transaction, () => {
+      const writes: Promise<unknown>[] = [transaction.objectStore('works').put(work)];
+      for (const { key, cell } of changes) {
+        const place: [string, string] = [work.id, key];
+        writes.push(cell === null ? cells.delete(place) : cells.put(cell, place));
+      }
+      return writes;
+    });
   }
 
   async putAside(id: string, putAside: boolean): Promise<void> {
@@ -117,7 +122,8 @@ export class Shelf {
   }
 
   async addFile(asset: Asset): Promise<void> {
-    await this.#database.put('files', asset);
+    const transaction = this.#database.transaction('files', 'readwrite', { durability: 'relaxed' });
+    await settled(transaction, () => [transaction.store.put(asset)]);
   }
 
   /** Deletes files that no work names. A work names its files before they are added, so none is taken from under it. */
@@ -132,6 +138,18 @@ export class Shelf {
 
   close(): void {
     this.#database.close();
+  }
+}
+
+/** Waits for writes and their transaction; of what is refused the transaction knows why, its requests only that it was. */
+async function settled(
+  transaction: { readonly done: Promise<void>; readonly error: DOMException | null },
+  write: () => readonly Promise<unknown>[],
+): Promise<void> {
+  try {
+    await Promise.all([...write(), transaction.done]);
+  } catch (error) {
+    throw transaction.error ?? error;
   }
 }
 

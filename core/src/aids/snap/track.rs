@@ -1,0 +1,245 @@
+//! Which place each sample goes to, decided for all together.
+
+use super::{MOST_REACH, Sample, Snap};
+
+/// Between places along a normal, pixels.
+pub(super) const STEP: f64 = 0.5;
+/// Places along a normal: the longest reach to both sides.
+pub(super) const STATES: usize = 2 * (MOST_REACH / STEP) as usize + 1;
+const MIDDLE: usize = STATES / 2;
+
+/// What a place at the end of the reach is worth less than one on the line, where the best edge is worth 1.
+const FAR: f64 = 0.35;
+/// What it costs two neighbours to differ by as much as they are apart (45 degrees).
+const BEND: f64 = 0.6;
+/// How far a sample goes by itself in the end, places.
+const CLIMB: usize = 3;
+/// The greatest difference of neighbours, as a multiple of their distance.
+const STEEPEST: f64 = 1.0;
+
+/// Sets each sample's offset. `slopes` and `ways` hold [`STATES`] numbers a sample.
+pub(super) fn track(
+    samples: &mut [Sample],
+    slopes: &mut [f32],
+    ways: &mut [u8],
+    settings: &Snap,
+    least: f64,
+) {
+    let usual = usual(slopes, samples.len(), least);
+    let half = ((settings.reach / STEP) as usize).min(MIDDLE);
+    let mut tracker = Tracker {
+        samples,
+        slopes,
+        ways,
+        least,
+        usual,
+        half,
+    };
+    let count = tracker.samples.len();
+    if settings.closed {
+        // A ring has no first sample: what the one farthest from the cut chose is held while the cut moves there.
+        tracker.run(0, None);
+        let held = (count / 2, tracker.state_of(count / 2));
+        tracker.run(held.0, Some(held.1));
+    } else {
+        tracker.run_between_ends();
+    }
+    tracker.settle(settings.closed);
+}
+
+/// The middle of the samples' greatest slopes among those that are edges: what counts as a usual edge.
+fn usual(slopes: &[f32], count: usize, least: f64) -> f64 {
+    // By bisection: nothing has to be sorted or stored.
+    let best = |slopes: &[f32]| slopes.iter().copied().fold(0.0, f32::max);
+    let all = slopes.chunks_exact(STATES).take(count).map(best);
+    let edges = all.filter(|&slope| f64::from(slope) >= least);
+    let number = edges.clone().count();
+    let (mut low, mut high) = (least, f64::from(edges.clone().fold(0.0, f32::max)));
+    for _ in 0..20 {
+        let middle = (low + high) / 2.0;
+        let above = edges
+            .clone()
+            .filter(|&slope| f64::from(slope) > middle)
+            .count();
+        if 2 * above > number {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low.max(least).max(f64::MIN_POSITIVE)
+}
+
+struct Tracker<'a> {
+    samples: &'a mut [Sample],
+    slopes: &'a mut [f32],
+    ways: &'a mut [u8],
+    least: f64,
+    usual: f64,
+    /// Places to each side that are within reach.
+    half: usize,
+}
+
+impl Tracker<'_> {
+    fn slope(&self, number: usize, state: usize) -> f64 {
+        f64::from(self.slopes[number * STATES + state])
+    }
+
+    /// What a place is worth to a sample.
+    fn worth(&self, number: usize, state: usize) -> f64 {
+        let slope = self.slope(number, state);
+        let edge = if slope >= self.least {
+            2.0 * slope / (slope + self.usual)
+        } else {
+            0.0
+        };
+        let away = state.abs_diff(MIDDLE) as f64 / self.half.max(1) as f64;
+        edge - FAR * away * away
+    }
+
+    fn states(&self) -> core::ops::RangeInclusive<usize> {
+        MIDDLE - self.half..=MIDDLE + self.half
+    }
+
+    /// Finds the best offsets of a ring that is cut before sample `first`. Where a state is given, that sample has it,
+    /// at the end of the round too.
+    fn run(&mut self, first: usize, held: Option<usize>) {
+        let count = self.samples.len();
+        let mut worth = [f64::NEG_INFINITY; STATES];
+        for state in self.states() {
+            if held.is_none_or(|held| held == state) {
+                worth[state] = self.worth(first, state);
+            }
+        }
+        for k in 1..count {
+            worth = self.forward((first + k) % count, &worth);
+        }
+        let last = match held {
+            // Back to the first sample: its ways are not needed otherwise.
+            Some(held) => {
+                self.forward(first, &worth);
+                usize::from(self.ways[first * STATES + held])
+            }
+            None => best(&worth),
+        };
+        self.backward(first, count, last);
+    }
+
+    /// Finds the best offsets of an open line whose ends stay.
+    fn run_between_ends(&mut self) {
+        let count = self.samples.len();
+        let mut worth = [f64::NEG_INFINITY; STATES];
+        worth[MIDDLE] = 0.0;
+        for number in 1..count {
+            worth = self.forward(number, &worth);
+        }
+        self.backward(0, count, MIDDLE);
+    }
+
+    /// The worth of the best way to each place of a sample from those of the one before it.
+    fn forward(&mut self, number: usize, before: &[f64; STATES]) -> [f64; STATES] {
+        let step = self.samples[number].step.max(1e-3);
+        let most = (libm::ceil(STEEPEST * step / STEP) as usize).clamp(1, 2 * self.half);
+        let price = BEND * STEP * STEP / step;
+        let mut after = [f64::NEG_INFINITY; STATES];
+        for state in self.states() {
+            let low = state.saturating_sub(most).max(*self.states().start());
+            let high = (state + most).min(*self.states().end());
+            let mut best = (f64::NEG_INFINITY, state);
+            for (from, &worth) in before.iter().enumerate().take(high + 1).skip(low) {
+                let difference = state.abs_diff(from) as f64;
+                let worth = worth - price * difference * difference;
+                if worth > best.0 {
+                    best = (worth, from);
+                }
+            }
+            after[state] = best.0 + self.worth(number, state);
+            self.ways[number * STATES + state] = best.1 as u8;
+        }
+        after
+    }
+
+    /// Sets offsets from the last sample of a round back to sample `first`.
+    fn backward(&mut self, first: usize, count: usize, last: usize) {
+        let mut state = last;
+        for k in (0..count).rev() {
+            let number = (first + k) % count;
+            self.samples[number].offset = STEP * (state as f64 - MIDDLE as f64);
+            state = usize::from(self.ways[number * STATES + state]);
+        }
+    }
+
+    fn state_of(&self, number: usize) -> usize {
+        let state = MIDDLE as f64 + self.samples[number].offset / STEP;
+        (state + 0.5) as usize
+    }
+
+    /// From places to offsets: to a part of a place where there is an edge, then a little together with the neighbours
+    /// that have one. The ends of an open line stay.
+    fn settle(&mut self, closed: bool) {
+        let count = self.samples.len();
+        for number in 0..count {
+            let state = self.climbed(number, self.state_of(number));
+            let fixed = !closed && (number == 0 || number + 1 == count);
+            let on_edge = !fixed && self.slope(number, state) >= self.least;
+            self.samples[number].on_edge = on_edge;
+            if on_edge {
+                let place = state as f64 - MIDDLE as f64 + self.part(number, state);
+                self.samples[number].offset = STEP * place;
+            }
+        }
+        let mut before = self.samples[count - 1];
+        let first = self.samples[0];
+        for number in 0..count {
+            let here = self.samples[number];
+            let after = if number + 1 < count {
+                self.samples[number + 1]
+            } else {
+                first
+            };
+            if before.on_edge && here.on_edge && after.on_edge {
+                let mean = (before.offset + 2.0 * here.offset + after.offset) / 4.0;
+                self.samples[number].offset = mean;
+            }
+            before = here;
+        }
+    }
+
+    /// The top of the slope that a place is on, where it is near: keeping together with neighbours leaves samples beside
+    /// it where a line bends.
+    fn climbed(&self, number: usize, state: usize) -> usize {
+        let mut state = state;
+        for _ in 0..CLIMB {
+            let here = self.slope(number, state);
+            let around = [state.saturating_sub(1), (state + 1).min(STATES - 1)];
+            let better = around
+                .into_iter()
+                .find(|&other| self.slope(number, other) > here);
+            state = better.unwrap_or(state);
+        }
+        state
+    }
+
+    /// Where between a place's neighbours the slope is greatest: the top of a parabola, in places.
+    fn part(&self, number: usize, state: usize) -> f64 {
+        if state == 0 || state + 1 >= STATES {
+            return 0.0;
+        }
+        let [before, here, after] = [state - 1, state, state + 1].map(|k| self.slope(number, k));
+        let curve = before - 2.0 * here + after;
+        if here < before || here < after || curve >= 0.0 {
+            return 0.0;
+        }
+        (0.5 * (before - after) / curve).clamp(-0.5, 0.5)
+    }
+}
+
+fn best(worth: &[f64; STATES]) -> usize {
+    let mut best = MIDDLE;
+    for (state, value) in worth.iter().enumerate() {
+        if *value > worth[best] {
+            best = state;
+        }
+    }
+    best
+}

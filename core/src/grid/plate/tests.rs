@@ -1,0 +1,119 @@
+use super::*;
+use std::vec::Vec;
+
+const MEASURED: Distances = Distances {
+    spacing_mm: 12.0,
+    source_to_detector_mm: 1200.0,
+    source_to_plate_mm: 1000.0,
+};
+
+/// Beads of a plate tilted by degrees about x and y, seen by a camera of 0.35 mm pitch and this principal point (mm).
+fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
+    let turn = multiply(
+        &rotation_by(&[tilt[0].to_radians(), 0.0, 0.0]),
+        &multiply(
+            &rotation_by(&[0.0, tilt[1].to_radians(), 0.0]),
+            &rotation_by(&[0.0, 0.0, 0.2]),
+        ),
+    );
+    let view = View {
+        log_focal: f64::ln(1200.0 / 0.35),
+        point: [512.0 + offset[0] / 0.35, 512.0 - offset[1] / 0.35],
+        turn,
+        place: [8.0, -5.0, -1000.0],
+        spacing: 12.0,
+        middle: [0.0, 0.0],
+    };
+    let mut seed = 5u32;
+    let mut random = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        noise * (f64::from(seed >> 8) / f64::from(1 << 23) - 1.0)
+    };
+    let numbers = (-9..=9).flat_map(|i| (-9..=9).map(move |j| [i, j]));
+    numbers
+        .map(|index| {
+            let ([column, row], _) = view.project(index);
+            Bead::new([column + random(), row + random()], Some(index))
+        })
+        .collect()
+}
+
+#[test]
+fn a_level_plate_gives_the_pitch_and_says_nothing_of_the_principal_point() {
+    let found = camera(
+        &beads([0.0, 0.0], [4.0, -2.0], 0.05),
+        MEASURED,
+        (1024, 1024),
+    )
+    .expect("fits");
+    assert!((found.pitch_mm - 0.35).abs() < 1e-4, "{found:?}");
+    assert!(!found.offset_is_measured, "{found:?}");
+    assert!(
+        found.tilt_deg < 0.5 && (0.03..0.06).contains(&found.residual_px),
+        "{found:?}"
+    );
+    // The truth lies within what it claims not to know.
+    assert!(found.offset_mm[0].abs() < 10.0 && found.offset_deviation_mm[0] > 5.0);
+}
+
+#[test]
+fn a_tilted_plate_gives_the_principal_point_too() {
+    let found = camera(
+        &beads([25.0, -20.0], [4.0, -2.0], 0.03),
+        MEASURED,
+        (1024, 1024),
+    )
+    .expect("fits");
+    assert!(found.offset_is_measured, "{found:?}");
+    for (axis, truth) in [4.0, -2.0].into_iter().enumerate() {
+        let error = (found.offset_mm[axis] - truth).abs();
+        assert!(
+            error < 4.0 * found.offset_deviation_mm[axis] && error < 2.0,
+            "{found:?}"
+        );
+    }
+    assert!(
+        (found.pitch_mm - 0.35).abs() < 4.0 * found.pitch_deviation_mm,
+        "{found:?}"
+    );
+    assert!((found.tilt_deg - 31.6).abs() < 1.0, "{found:?}");
+    let exact = camera(
+        &beads([25.0, -20.0], [4.0, -2.0], 0.0),
+        MEASURED,
+        (1024, 1024),
+    )
+    .expect("fits");
+    assert!(
+        (exact.pitch_mm - 0.35).abs() < 1e-6 && (exact.offset_mm[0] - 4.0).abs() < 1e-2,
+        "{exact:?}"
+    );
+}
+
+#[test]
+fn impossible_lengths_and_lines_of_beads_are_refused() {
+    let level = beads([0.0, 0.0], [0.0, 0.0], 0.0);
+    let with = |change: fn(&mut Distances)| {
+        let mut measured = MEASURED;
+        change(&mut measured);
+        camera(&level, measured, (1024, 1024))
+    };
+    assert!(matches!(
+        with(|m| m.spacing_mm = 0.0),
+        Err(GridError::Length { .. })
+    ));
+    assert!(matches!(
+        with(|m| m.source_to_plate_mm = 1300.0),
+        Err(GridError::Order { .. })
+    ));
+    assert!(matches!(
+        camera(&level[..10], MEASURED, (1024, 1024)),
+        Err(GridError::FewBeads { .. })
+    ));
+    let line: Vec<Bead> = level
+        .iter()
+        .copied()
+        .filter(|bead| bead.index.is_some_and(|[i, _]| i == 0))
+        .collect();
+    let twice: Vec<Bead> = line.iter().chain(&line).copied().collect();
+    assert!(camera(&twice, MEASURED, (1024, 1024)).is_err());
+}

@@ -1,0 +1,151 @@
+//! Libraries of any silhouettes, for tests.
+
+use proptest::prelude::*;
+use std::vec::Vec;
+
+use super::wire::{
+    Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
+};
+use super::{Grid, GridAxis, Library, LibraryInfo, ViewRecord, compact};
+use crate::camera::Camera;
+use crate::canonical::CanonicalSpec;
+use crate::mask::{MaskMut, Word};
+
+/// A plain library of these canonical masks: `columns` views along x.
+pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: CanonicalSpec) -> Vec<u8> {
+    let axis = |count| GridAxis {
+        first: -2.0,
+        step: 1.0,
+        count,
+    };
+    let info = LibraryInfo {
+        canonical: spec,
+        grid: Grid {
+            x: axis(columns),
+            y: axis(views.len() / columns),
+        },
+        distance: 1000.0,
+        reference: [0.0; 3],
+        focal: 100.0,
+        camera: Camera::new(640, 480, [1000.0; 2], [320.0, 240.0]).expect("possible"),
+        model: [7; 32],
+    };
+    let mut bytes = std::vec![0; HEADER_BYTES];
+    for view in 0..views.len() {
+        let (x, y) = info.grid.place(view);
+        let record = ViewRecord {
+            x_deg: info.grid.x.at(x as f64),
+            y_deg: info.grid.y.at(y as f64),
+            scale: 1.0 + view as f64,
+            area: 1 + view as u32,
+            ..ViewRecord::default()
+        };
+        let mut place = [0; RECORD_BYTES];
+        write_record(&mut place, &record);
+        bytes.extend(place);
+    }
+    bytes.extend(views.iter().flatten().flat_map(|word| word.to_le_bytes()));
+    let (header, rest) = bytes.split_first_chunk_mut().expect("long enough");
+    let body = Body {
+        version: PLAIN_VERSION,
+        blocks: 0,
+        bytes: rest.len() as u64,
+        crc: checksum([&*rest]),
+    };
+    write_header(header, &info, &body);
+    bytes
+}
+
+/// The same in the compact layout; it may be larger.
+pub(crate) fn compact_library(plain: &[u8]) -> Vec<u8> {
+    let plain_library = Library::open(plain).expect("valid");
+    let mut words = std::vec![0; plain_library.info().canonical.words_needed()];
+    let mut bytes = std::vec![0; 8 * plain.len()];
+    let length = compact(&plain_library, &mut words, &mut bytes).expect("fits");
+    bytes.truncate(length);
+    bytes
+}
+
+/// Silhouettes of `size` x `size` pixels from a few spots of any size, some cut out again.
+pub(crate) fn spots(size: usize) -> impl Strategy<Value = Vec<Word>> {
+    let spot = (0..size, 0..size, 1..size, 1..64usize, any::<bool>());
+    proptest::collection::vec(spot, 0..24).prop_map(move |spots| {
+        let mut words = std::vec![0; size * size / 32];
+        let mut mask = MaskMut::new(&mut words, size, size).expect("fits");
+        for (column, row, width, height, value) in spots {
+            for row in row..row + height {
+                (column..column + width).for_each(|column| mask.set(column, row, value));
+            }
+        }
+        words
+    })
+}
+
+mod tests {
+    use super::*;
+    use crate::library::VERSION;
+    use crate::matching::{score, scores_needed};
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        /// Both layouts say the same.
+        #[test]
+        fn what_is_compacted_is_read_again(
+            views in proptest::collection::vec(spots(64), 6),
+            silhouette in spots(64)
+        ) {
+            let plain = plain_library(&views, 3, CanonicalSpec::new(64, 900).expect("possible"));
+            let bytes = compact_library(&plain);
+            let [plain, compact] = [&plain, &bytes].map(|bytes| Library::open(bytes).expect("valid"));
+            prop_assert_eq!(bytes[8], VERSION as u8);
+            prop_assert_eq!(plain.info(), compact.info());
+            let mut scores = [[0; scores_needed(6)]; 2];
+            let mut turned = silhouette.clone();
+            for (library, scores) in [plain, compact].iter().zip(&mut scores) {
+                let mut drawn = silhouette.clone();
+                for view in 0..7 {
+                    library.draw(view, &mut drawn);
+                    let wanted = views.get(view).cloned().unwrap_or(std::vec![0; drawn.len()]);
+                    prop_assert_eq!(&drawn, &wanted);
+                    prop_assert_eq!(library.record(view), plain.record(view));
+                    prop_assert_eq!(library.pixels(view), plain.pixels(view));
+                    prop_assert_eq!(library.overlap(view, 2), plain.overlap(view, 2));
+                    prop_assert_eq!(library.covered(view, &silhouette), plain.covered(view, &silhouette));
+                }
+                score(library, &silhouette, &mut turned, scores).expect("right lengths");
+            }
+            prop_assert_eq!(scores[0], scores[1]);
+            // What matching says is what bits say.
+            for (view, (bits, score)) in views.iter().zip(scores[0]).enumerate() {
+                let naive: u32 = bits.iter().zip(&silhouette).map(|(a, b)| (a ^ b).count_ones()).sum();
+                prop_assert_eq!(score, naive, "{}", view);
+            }
+        }
+
+        /// A sketch that is not its view's would make the search miss views.
+        #[test]
+        fn sketches_that_lie_are_refused(
+            views in proptest::collection::vec(spots(64), 4),
+            at in 0usize..4096,
+            change in 1u8..
+        ) {
+            let plain = plain_library(&views, 2, CanonicalSpec::new(64, 900).expect("possible"));
+            let mut bytes = compact_library(&plain);
+            let at = HEADER_BYTES + at % (bytes.len() - HEADER_BYTES);
+            bytes[at] ^= change;
+            let (header, body) = bytes.split_first_chunk_mut::<HEADER_BYTES>().expect("long enough");
+            header[176..180].copy_from_slice(&checksum([&*body]).to_le_bytes());
+            let crc = checksum([&header[..252]]).to_le_bytes();
+            header[252..].copy_from_slice(&crc);
+            // Of records any possible number is right.
+            if at >= HEADER_BYTES + 4 * 40 && let Ok(opened) = Library::open(&bytes) {
+                let plain = Library::open(&plain).expect("valid");
+                for view in 0..4 {
+                    prop_assert_eq!(opened.pixels(view), plain.pixels(view));
+                    prop_assert_eq!(opened.overlap(view, view), plain.overlap(view, view));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! A view as runs of set pixels: what the compact form of a library holds instead of bits.
+//!
+//! Bands of consecutive rows with equally many runs. A band is its first row, its number of rows
+//! and its runs a row (three u16, little-endian), and then, row by row and from left to right, two
+//! bytes a run: the pixels between it and the run before (or the border), and its own pixels. A
+//! gap of more than 255 pixels passes through runs of none; a run of more is continued after a
+//! gap of none.
+
+use crate::mask::{Mask, MaskMut};
+
+/// Bytes before a band's runs.
+const BAND_BYTES: usize = 6;
+/// Pixels that one byte tells.
+const LONGEST: usize = 255;
+
+/// Gap and pixels of each run of a row.
+struct Pieces<R> {
+    runs: R,
+    current: Option<core::ops::Range<usize>>,
+    at: usize,
+}
+
+impl<R: Iterator<Item = core::ops::Range<usize>>> Iterator for Pieces<R> {
+    type Item = [u8; 2];
+
+    fn next(&mut self) -> Option<[u8; 2]> {
+        let run = self.current.take().or_else(|| self.runs.next())?;
+        let gap = run.start - self.at;
+        if gap > LONGEST {
+            self.at += LONGEST;
+            self.current = Some(run);
+            return Some([LONGEST as u8, 0]);
+        }
+        self.at = run.end.min(run.start + LONGEST);
+        if self.at < run.end {
+            self.current = Some(self.at..run.end);
+        }
+        Some([gap as u8, (self.at - run.start) as u8])
+    }
+}
+
+fn pieces(mask: &Mask<'_>, row: usize) -> impl Iterator<Item = [u8; 2]> {
+    Pieces {
+        runs: mask.runs(row),
+        current: None,
+        at: 0,
+    }
+}
+
+/// The head of a band that may still grow.
+struct Head {
+    at: usize,
+    first_row: usize,
+    rows: usize,
+    per_row: usize,
+}
+
+impl Head {
+    fn continues(&self, row: usize, per_row: usize) -> bool {
+        self.per_row == per_row && self.first_row + self.rows == row
+    }
+
+    fn write(&self, out: &mut [u8]) {
+        let numbers = [self.first_row, self.rows, self.per_row];
+        let bytes = numbers.map(|number| (number as u16).to_le_bytes());
+        put(out, self.at, bytes.as_flattened());
+    }
+}
+
+/// Copies where there is room.
+fn put(out: &mut [u8], at: usize, bytes: &[u8]) {
+    if let Some(place) = out.get_mut(at..at + bytes.len()) {
+        place.copy_from_slice(bytes);
+    }
+}
+
+/// Writes the runs of a mask and returns how many bytes they take; where that is more than there
+/// are, what was written is of no use.
+pub(super) fn write_runs(mask: &Mask<'_>, out: &mut [u8]) -> usize {
+    let mut length = 0;
+    let mut band: Option<Head> = None;
+    for row in 0..mask.height() {
+        let per_row = pieces(mask, row).count();
+        if per_row == 0 {
+            continue;
+        }
+        let open = band.take().filter(|band| band.continues(row, per_row));
+        let mut head = open.unwrap_or_else(|| {
+            length += BAND_BYTES;
+            Head {
+                at: length - BAND_BYTES,
+                first_row: row,
+                rows: 0,
+                per_row,
+            }
+        });
+        for piece in pieces(mask, row) {
+            put(out, length, &piece);
+            length += piece.len();
+        }
+        head.rows += 1;
+        head.write(out);
+        band = Some(head);
+    }
+    length
+}
+
+/// Consecutive rows with equally many runs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Band<'a> {
+    pub(crate) first_row: usize,
+    /// At least 1.
+    pub(crate) per_row: usize,
+    /// Gap and pixels of each run.
+    pub(crate) pieces: &'a [[u8; 2]],
+}
+
+impl<'a> Band<'a> {
+    /// Each row's number and runs.
+    #[inline(always)]
+    pub(crate) fn rows(self) -> impl Iterator<Item = (usize, &'a [[u8; 2]])> {
+        (self.first_row..).zip(self.pieces.chunks_exact(self.per_row))
+    }
+}
+
+/// The bands of a view, from top to bottom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bands<'a> {
+    rest: &'a [u8],
+}
+
+pub(crate) fn bands(bytes: &[u8]) -> Bands<'_> {
+    Bands { rest: bytes }
+}
+
+impl<'a> Iterator for Bands<'a> {
+    type Item = Band<'a>;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Band<'a>> {
+        let (&[a, b, c, d, e, f], rest) = self.rest.split_first_chunk::<BAND_BYTES>()?;
+        let [first_row, rows, per_row] =
+            [[a, b], [c, d], [e, f]].map(|two| usize::from(u16::from_le_bytes(two)));
+        let (band, rest) = rest.split_at_checked(2 * rows * per_row)?;
+        if per_row == 0 {
+            return None;
+        }
+        self.rest = rest;
+        Some(Band {
+            first_row,
+            per_row,
+            pieces: band.as_chunks().0,
+        })
+    }
+}
+
+/// Starts and ends of a row's runs, columns.
+#[inline(always)]
+pub(crate) fn spans(pieces: &[[u8; 2]]) -> impl Iterator<Item = (usize, usize)> {
+    let mut at = 0;
+    pieces.iter().map(move |&[gap, pixels]| {
+        let start = at + usize::from(gap);
+        at = start + usize::from(pixels);
+        (start, at)
+    })
+}
+
+/// Whether bytes are the runs of a view of `size` x `size` pixels: rows that rise, runs that end
+/// within them, and nothing behind.
+pub(super) fn are_runs(bytes: &[u8], size: usize) -> bool {
+    let mut bands = bands(bytes);
+    let mut next_row = 0;
+    for band in &mut bands {
+        let rows = band.pieces.len() / band.per_row;
+        let inside = band.first_row >= next_row && band.first_row + rows <= size;
+        let ends = |(_, pieces)| spans(pieces).all(|(_, end)| end <= size);
+        if rows == 0 || !inside || !band.rows().all(ends) {
+            return false;
+        }
+        next_row = band.first_row + rows;
+    }
+    bands.rest.is_empty()
+}
+
+/// Sets the pixels of the runs in a mask.
+pub(super) fn draw_runs(bytes: &[u8], mask: &mut MaskMut<'_>) {
+    for (row, pieces) in bands(bytes).flat_map(Band::rows) {
+        for (start, end) in spans(pieces) {
+            mask.fill_span(row, start as i64, end as i64);
+        }
+    }
+}
+
+/// Number of pixels set in both of two views.
+pub(super) fn overlap(a: &[u8], b: &[u8]) -> u32 {
+    let mut sum = 0;
+    let mut ours = bands(a).flat_map(Band::rows).peekable();
+    for (row, theirs) in bands(b).flat_map(Band::rows) {
+        while ours.next_if(|&(other, _)| other < row).is_some() {}
+        if let Some((_, ours)) = ours.next_if(|&(other, _)| other == row) {
+            sum += common(ours, theirs);
+        }
+    }
+    sum
+}
+
+/// Pixels in runs of both rows. Rows have few runs: all pairs are quicker than merging, which
+/// takes a branch a run that nothing foretells.
+fn common(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
+    let pairs = spans(a).flat_map(|ours| spans(b).map(move |theirs| (ours, theirs)));
+    let common = pairs
+        .map(|((start, end), (first, last))| end.min(last).saturating_sub(start.max(first)) as u32);
+    common.sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::fake::spots;
+    use crate::mask::{Word, words_needed};
+    use proptest::prelude::*;
+
+    fn packed(words: &[Word], size: usize) -> std::vec::Vec<u8> {
+        let mask = Mask::new(words, size, size).expect("valid");
+        let mut bytes = std::vec![0; write_runs(&mask, &mut [])];
+        assert_eq!(write_runs(&mask, &mut bytes), bytes.len());
+        bytes
+    }
+
+    fn drawn_again(words: &[Word], size: usize) -> std::vec::Vec<Word> {
+        let bytes = packed(words, size);
+        assert!(are_runs(&bytes, size));
+        let mut drawn = std::vec![0; words.len()];
+        draw_runs(
+            &bytes,
+            &mut MaskMut::new(&mut drawn, size, size).expect("fits"),
+        );
+        drawn
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_packed_is_drawn_again(words in spots(96)) {
+            prop_assert_eq!(drawn_again(&words, 96), words);
+        }
+
+        #[test]
+        fn long_runs_and_long_gaps_are_packed_too(words in spots(608)) {
+            prop_assert_eq!(drawn_again(&words, 608), words);
+        }
+
+        #[test]
+        fn noise_is_packed_too(words in proptest::collection::vec(any::<Word>(), 64 * 2)) {
+            prop_assert_eq!(drawn_again(&words, 64), words);
+        }
+
+        #[test]
+        fn pixels_of_both_are_counted(a in spots(96), b in spots(96)) {
+            let naive: u32 = a.iter().zip(&b).map(|(a, b)| (a & b).count_ones()).sum();
+            prop_assert_eq!(overlap(&packed(&a, 96), &packed(&b, 96)), naive);
+        }
+
+        /// Whatever the bytes, they are read without a panic, and what passes stays in its frame.
+        #[test]
+        fn any_bytes_are_refused_or_drawn(
+            bytes in proptest::collection::vec(prop_oneof![0u8..4, any::<u8>()], 0..80)
+        ) {
+            let mut drawn = [0; words_needed(32, 32)];
+            draw_runs(&bytes, &mut MaskMut::new(&mut drawn, 32, 32).expect("fits"));
+            let pixels: usize = bands(&bytes)
+                .flat_map(Band::rows)
+                .flat_map(|(_, pieces)| spans(pieces))
+                .map(|(start, end)| end - start)
+                .sum();
+            let set: u32 = drawn.iter().map(|word| word.count_ones()).sum();
+            if are_runs(&bytes, 32) {
+                prop_assert_eq!(set as usize, pixels);
+            }
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Sketches: the set pixels of each block of 16 x 16 pixels, at most 255 of 256.
+//!
+//! The sum of the differences of two sketches is a lower bound on the unmatched pixels of what
+//! they are sketches of. Blocks of 16 were measured against others on the built-in implants: the
+//! bound is 0.96 to 0.98 of the unmatched pixels and leaves 1 to 5 views of 1271 to compare. Blocks
+//! of 8 (0.99) take three times the bytes for one view less; blocks of 32 (0.88 to 0.92) need two
+//! bytes each.
+
+use super::runs::{Band, bands, spans};
+use crate::canonical::CanonicalSpec;
+
+/// Side of a block, pixels. Canonical frames are whole blocks.
+pub(crate) const BLOCK: usize = 16;
+/// Blocks across the widest canonical frame.
+const WIDEST: usize = 1024 / BLOCK;
+/// Most blocks of a canonical frame.
+pub(super) const MOST_BLOCKS: usize = WIDEST * WIDEST;
+/// Sketches are padded with empty blocks to a multiple of this many, so that kernels need no tail.
+pub(crate) const STRIDE: usize = 32;
+
+/// Blocks of a canonical frame.
+#[must_use]
+pub(crate) const fn blocks(spec: &CanonicalSpec) -> usize {
+    (spec.size() / BLOCK) * (spec.size() / BLOCK)
+}
+
+/// A count as a sketch has it: a full block has 255 pixels, which keeps the bound a bound.
+pub(crate) fn at_most_255(count: u16) -> u8 {
+    count.min(255) as u8
+}
+
+/// Set pixels of the blocks of one row of blocks, left to right.
+pub(super) type BlockRow = [u16; WIDEST];
+
+/// The blocks of one row of blocks of a view's runs.
+pub(super) fn block_row_of_runs(runs: &[u8], row_of_blocks: usize) -> BlockRow {
+    let mut counts = [0; WIDEST];
+    let wanted = row_of_blocks * BLOCK..(row_of_blocks + 1) * BLOCK;
+    let near = bands(runs).skip_while(|band| {
+        let rows = band.pieces.len() / band.per_row;
+        band.first_row + rows <= wanted.start
+    });
+    let rows = near.flat_map(Band::rows);
+    let rows = rows.skip_while(|(row, _)| *row < wanted.start);
+    for (_, pieces) in rows.take_while(|(row, _)| *row < wanted.end) {
+        for (start, end) in spans(pieces) {
+            add_span(&mut counts, start, end);
+        }
+    }
+    counts
+}
+
+fn add_span(counts: &mut BlockRow, start: usize, end: usize) {
+    for (block, count) in counts
+        .iter_mut()
+        .enumerate()
+        .take(end.div_ceil(BLOCK))
+        .skip(start / BLOCK)
+    {
+        let from = start.max(block * BLOCK);
+        let to = end.min((block + 1) * BLOCK);
+        *count += to.saturating_sub(from) as u16;
+    }
+}
+
+/// The same of a view's bits, row by row, of a frame of `size` pixels.
+pub(super) fn block_row_of_bits(bits: &[u8], size: usize, row_of_blocks: usize) -> BlockRow {
+    let mut counts = [0; WIDEST];
+    let rows = bits.chunks_exact(size / 8);
+    for row in rows.skip(row_of_blocks * BLOCK).take(BLOCK) {
+        for (count, &two) in counts.iter_mut().zip(row.as_chunks().0) {
+            *count += u16::from_le_bytes(two).count_ones() as u16;
+        }
+    }
+    counts
+}

@@ -1,0 +1,143 @@
+//! Poses judged and refined, round after round.
+
+use super::candidates::{Answer, Find, Nearness, Start, keep};
+use super::eye::Eye;
+use super::job::{OneClick, SAME_START, Stage};
+use super::{OneClickError, OneClickMemory, Part, Scene};
+use crate::math::{apply, multiply, radians, rotation_by};
+use crate::mirror::mirror_pose;
+use crate::pose::Pose;
+
+/// Answers that are one: up to what refinement leaves.
+const SAME_ANSWER: Nearness = Nearness {
+    degrees: 2.0,
+    place: 0.01,
+};
+
+/// Once the score of an answer exceeds this, nothing else is tried.
+const CONVINCING: f64 = 0.7;
+/// In the third round the best answer is turned about the camera's x and y by so many steps of so
+/// many degrees to either side.
+const TURNS: i32 = 2;
+const TURN_DEG: f64 = 7.0;
+/// A mirror image is refined where its outline lies near edges as strongly, but for this part.
+const MIRRORED: f64 = 0.8;
+
+impl OneClick {
+    pub(super) fn is_convinced(&self) -> bool {
+        self.answers
+            .first()
+            .is_some_and(|best| best.score >= CONVINCING)
+    }
+
+    /// What to do when no start is left: look more closely, where the best answer is not good.
+    pub(super) fn next_round(&mut self) -> Stage {
+        self.round += 1;
+        if self.answers.is_empty() || self.is_convinced() {
+            return Stage::Mirror(0);
+        }
+        self.starts.clear();
+        match self.round {
+            1 => {
+                self.matched.clear();
+                self.near = self.answers.first().map(|best| best.refined.pose);
+                Stage::Look(0)
+            }
+            2 => Stage::Around(0),
+            _ => Stage::Mirror(0),
+        }
+    }
+
+    /// The best answer turned the `at`-th way; `None` after the last.
+    pub(super) fn turned(&self, at: usize, part: &Part<'_>) -> Option<Find> {
+        let best = self.answers.first()?;
+        let (_, region) = self.sharpest?;
+        let side = 2 * TURNS + 1;
+        let number = i32::try_from(at)
+            .ok()
+            .filter(|&number| number < side * side)?;
+        let steps = [number % side - TURNS, number / side - TURNS];
+        let [x, y] = steps.map(|steps| radians(TURN_DEG * f64::from(steps)));
+        let (pose, middle) = (&best.refined.pose, part.mesh.bounds().centre);
+        let rotation = multiply(&rotation_by(&[x, y, 0.0]), &pose.rotation);
+        let moved = apply(&rotation, &middle);
+        let centre = pose.transform(&middle);
+        Some(Find {
+            pose: Pose {
+                rotation,
+                translation: core::array::from_fn(|k| centre[k] - moved[k]),
+            },
+            region,
+            mismatch: 0.0,
+        })
+    }
+
+    pub(super) fn eye<'e>(&'e self, scene: &'e Scene<'e>, part: &'e Part<'e>) -> Eye<'e> {
+        Eye {
+            scene,
+            part,
+            prompt: &self.prompt,
+            expected: &self.expected,
+            slope: self.slope,
+        }
+    }
+
+    /// Draws the model at a find and puts it among the starts.
+    pub(super) fn judge(
+        &mut self,
+        find: &Find,
+        scene: &Scene<'_>,
+        part: &Part<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<(), OneClickError> {
+        self.draw(&find.region, scene, Some(part), memory)?;
+        if let Some(start) = self.eye(scene, part).judge(find, memory)? {
+            keep(&mut self.starts, start, SAME_START, part.mesh);
+        }
+        Ok(())
+    }
+
+    /// Refines a start and puts what comes of it among the answers.
+    pub(super) fn refine(
+        &mut self,
+        start: &Start,
+        scene: &Scene<'_>,
+        part: &Part<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<(), OneClickError> {
+        self.draw(&start.region, scene, Some(part), memory)?;
+        if let Some(answer) = self.eye(scene, part).refine(start, memory)? {
+            keep(&mut self.answers, answer, SAME_ANSWER, part.mesh);
+        }
+        Ok(())
+    }
+
+    /// Refines one mirror image of the best answer, its rival, where it lies near edges too. Gives
+    /// whether there may be another.
+    pub(super) fn mirror(
+        &mut self,
+        at: usize,
+        scene: &Scene<'_>,
+        part: &Part<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<bool, OneClickError> {
+        let own = |answer: &&Answer| !answer.mirrored;
+        let best = self.answers.iter().find(own).copied();
+        let (Some(best), Some(plane)) = (best, part.planes.get(at)) else {
+            return Ok(false);
+        };
+        let pose = mirror_pose(&best.refined.pose, plane);
+        let eye = self.eye(scene, part);
+        if eye.strength(&pose, memory) < MIRRORED * best.support.strength {
+            return Ok(true);
+        }
+        if let Some(answer) = eye.onto_frame(&pose, memory)? {
+            let mirrored = Answer {
+                mirrored: true,
+                ..answer
+            };
+            keep(&mut self.answers, mirrored, SAME_ANSWER, part.mesh);
+        }
+        Ok(true)
+    }
+}

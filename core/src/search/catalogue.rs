@@ -1,0 +1,350 @@
+//! Which implant is it: one silhouette looked for in many libraries at once.
+//!
+//! Patches of neighbouring views are the leaves of a tree over all libraries. Each node has the
+//! least and the most set pixels that any view below it has in each block, and the gap between
+//! those and the silhouette's is a lower bound on the unmatched pixels of all of them. Similar implants share
+//! nodes, so the search grows more slowly than the catalogue. It is exact: a node is left out only where its bound
+//! exceeds what has been found.
+
+mod build;
+
+use heapless::Vec;
+use thiserror::Error;
+
+use super::query::{Query, longest_sketch};
+use crate::canonical::CanonicalSpec;
+use crate::kernels::Kernels;
+use crate::library::Library;
+use crate::library::sketch::{STRIDE, blocks};
+use crate::matching::{Candidate, MatchError, check};
+pub use build::{CatalogueMemory, CatalogueNeeds, Leaf, catalogue_needed};
+
+/// Views of a patch along each axis of the grid.
+const PATCH: usize = 6;
+
+/// Why libraries are no catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum CatalogueError {
+    /// There is none.
+    #[error("a catalogue needs at least one library")]
+    Empty,
+    /// A library has no sketches.
+    #[error("library {0} of the catalogue is of the plain kind; build it again")]
+    Plain(usize),
+    /// Libraries differ in their canonical frames.
+    #[error(
+        "library {0} of the catalogue has another canonical frame than the first; build it again with the first one's size and area"
+    )]
+    Canonical(usize),
+    /// Lent memory has the wrong length.
+    #[error("the catalogue needs {needed} {what} but {given} were lent")]
+    Memory {
+        /// Which memory.
+        what: &'static str,
+        /// Length needed.
+        needed: usize,
+        /// Length lent.
+        given: usize,
+    },
+}
+
+/// The best view of one library of a catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Identified {
+    /// Number of the library.
+    pub library: usize,
+    /// Its best view.
+    pub best: Candidate,
+}
+
+/// Libraries with a tree over them.
+#[derive(Clone, Copy, Debug)]
+pub struct Catalogue<'c> {
+    libraries: &'c [Library<'c>],
+    tree: Tree<'c>,
+}
+
+/// A balanced tree: node 0 has all leaves, the nearer child follows its parent.
+#[derive(Clone, Copy, Debug)]
+struct Tree<'c> {
+    leaves: &'c [Leaf],
+    /// Least, then most, of each node.
+    boxes: &'c [u8],
+    /// Numbers of the blocks that differ within the catalogue.
+    places: &'c [u16],
+    /// Of the others.
+    ground: &'c [u8],
+}
+
+/// A node by its number and its leaves.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    number: usize,
+    first: usize,
+    end: usize,
+}
+
+impl Node {
+    fn is_leaf(&self) -> bool {
+        self.end - self.first <= 1
+    }
+
+    fn children(&self) -> [Self; 2] {
+        let middle = self.first + (self.end - self.first) / 2;
+        // A tree of n leaves has 2 n - 1 nodes.
+        let second = self.number + 2 * (middle - self.first);
+        [
+            Self {
+                number: self.number + 1,
+                end: middle,
+                ..*self
+            },
+            Self {
+                number: second,
+                first: middle,
+                ..*self
+            },
+        ]
+    }
+}
+
+impl<'c> Tree<'c> {
+    fn stride(&self) -> usize {
+        self.places.len().next_multiple_of(STRIDE)
+    }
+
+    fn places(&self) -> impl Iterator<Item = usize> + use<'c> {
+        self.places.iter().map(|&place| usize::from(place))
+    }
+
+    fn root(&self) -> Node {
+        Node {
+            number: 0,
+            first: 0,
+            end: self.leaves.len(),
+        }
+    }
+
+    fn bounds(&self, node: &Node) -> [&'c [u8]; 2] {
+        let stride = self.stride();
+        let start = 2 * stride * node.number;
+        let both = self.boxes.get(start..start + 2 * stride);
+        both.unwrap_or_default()
+            .split_at_checked(stride)
+            .map_or([&[], &[]], |(low, high)| [low, high])
+    }
+}
+
+/// Bytes of working memory of [`Catalogue::identify`].
+#[must_use]
+pub const fn identify_bytes_needed(spec: &CanonicalSpec) -> usize {
+    6 * longest_sketch(spec)
+}
+
+impl<'c> Catalogue<'c> {
+    /// The libraries.
+    #[must_use]
+    pub fn libraries(&self) -> &'c [Library<'c>] {
+        self.libraries
+    }
+
+    /// The canonical frame of all libraries.
+    #[must_use]
+    pub fn spec(&self) -> CanonicalSpec {
+        let first = self.libraries.first();
+        first.map_or_else(CanonicalSpec::default, |library| library.info().canonical)
+    }
+
+    /// The `K` implants whose best views have the fewest unmatched pixels, best first; of each
+    /// implant its best view, both directions of the axis. The same as searching every library: ties
+    /// keep the libraries' order, within one the straight direction first, then view order.
+    /// `bytes` is working memory, [`identify_bytes_needed`] of it.
+    ///
+    /// # Errors
+    /// [`MatchError`] for memory of a wrong length or a query of another canonical frame.
+    pub fn identify<const K: usize>(
+        &self,
+        query: &Query<'_>,
+        kernels: &Kernels,
+        bytes: &mut [u8],
+    ) -> Result<Vec<Identified, K>, MatchError> {
+        let spec = self.spec();
+        if *query.spec() != spec {
+            return Err(MatchError::Canonical);
+        }
+        check("bytes", identify_bytes_needed(&spec), bytes.len())?;
+        let (ours, leaf) = bytes.split_at_mut(4 * longest_sketch(&spec));
+        let mut hunt = Hunt {
+            catalogue: self,
+            query,
+            kernels,
+            leaf,
+            found: Found::new(),
+        };
+        let tree = &self.tree;
+        let stride = tree.stride();
+        let (straight, turned) = ours.split_at_mut(2 * stride);
+        let turned = turned.get_mut(..2 * stride).unwrap_or_default();
+        let sides = [straight, turned].map(|side| side.split_at_mut(stride));
+        let [straight, turned] = sides;
+        let bases = [
+            query.gather(
+                tree.places(),
+                tree.ground,
+                false,
+                kernels,
+                [&mut *straight.0, &mut *straight.1],
+            ),
+            query.gather(
+                tree.places(),
+                tree.ground,
+                true,
+                kernels,
+                [&mut *turned.0, &mut *turned.1],
+            ),
+        ];
+        let sides = [[&*straight.0, &*straight.1], [&*turned.0, &*turned.1]];
+        hunt.run(bases, sides);
+        Ok(hunt.found.list)
+    }
+}
+
+/// A node that may hold something better, and its bound.
+#[derive(Clone, Copy, Debug)]
+struct Open {
+    bound: u32,
+    node: Node,
+    reversed: bool,
+}
+
+/// Nodes that wait at most: two a level, both directions.
+const WAITING: usize = 160;
+
+/// One search of the tree.
+struct Hunt<'h, const K: usize> {
+    catalogue: &'h Catalogue<'h>,
+    query: &'h Query<'h>,
+    kernels: &'h Kernels,
+    leaf: &'h mut [u8],
+    found: Found<K>,
+}
+
+impl<const K: usize> Hunt<'_, K> {
+    /// `sides`: least and most set pixels of the silhouette's blocks, straight and reversed.
+    fn run(&mut self, bases: [u32; 2], sides: [[&[u8]; 2]; 2]) {
+        let tree = self.catalogue.tree;
+        let mut waiting: Vec<Open, WAITING> = Vec::new();
+        let open = |node: Node, reversed: bool, kernels: &Kernels| {
+            let side = usize::from(reversed);
+            Open {
+                bound: bases[side] + (kernels.gap)(sides[side], tree.bounds(&node)),
+                node,
+                reversed,
+            }
+        };
+        let roots = [false, true].map(|reversed| open(tree.root(), reversed, self.kernels));
+        push_nearer_last(&mut waiting, roots);
+        while let Some(next) = waiting.pop() {
+            if next.bound > self.found.limit() {
+                continue;
+            }
+            if next.node.is_leaf() {
+                self.look_at(next.node.first, next.reversed);
+                continue;
+            }
+            let children = next.node.children();
+            let children = children.map(|child| open(child, next.reversed, self.kernels));
+            push_nearer_last(&mut waiting, children);
+        }
+    }
+
+    /// Compares the views of a patch whose bounds allow it.
+    fn look_at(&mut self, leaf: usize, reversed: bool) {
+        let Some(&leaf) = self.catalogue.tree.leaves.get(leaf) else {
+            return;
+        };
+        let number = leaf.library as usize;
+        let Some(library) = self.catalogue.libraries.get(number) else {
+            return;
+        };
+        let Some(sketches) = library.sketches() else {
+            return;
+        };
+        let stride = sketches.stride();
+        let (low, high) = self.leaf.split_at_mut(self.leaf.len() / 2);
+        let (low, high) = (&mut low[..stride], &mut high[..stride]);
+        let out = [&mut *low, &mut *high];
+        let base = self
+            .query
+            .sketch_for(&sketches, reversed, self.kernels, out);
+        for view in leaf.views(&library.info().grid) {
+            let sketch = sketches.of(view);
+            let bound = base + (self.kernels.gap)([low, high], [sketch, sketch]);
+            if bound > self.found.limit() {
+                continue;
+            }
+            let unmatched = self.query.unmatched(library, view, reversed, self.kernels);
+            self.found.offer(Identified {
+                library: number,
+                best: Candidate {
+                    view,
+                    reversed,
+                    unmatched,
+                },
+            });
+        }
+    }
+}
+
+/// The nearer of two is looked at first.
+fn push_nearer_last(waiting: &mut Vec<Open, WAITING>, [a, b]: [Open; 2]) {
+    let both = if a.bound < b.bound { [b, a] } else { [a, b] };
+    // Two wait for each level at most, and there is room for eighty levels.
+    let _ = waiting.extend_from_slice(&both);
+}
+
+/// The best view of each of the `K` best libraries so far, best first.
+struct Found<const K: usize> {
+    list: Vec<Identified, K>,
+}
+
+impl<const K: usize> Found<K> {
+    fn new() -> Self {
+        Self { list: Vec::new() }
+    }
+
+    /// What has more unmatched pixels than this changes nothing.
+    fn limit(&self) -> u32 {
+        match self.list.last() {
+            Some(last) if self.list.is_full() => last.best.unmatched,
+            None if K == 0 => 0,
+            _ => u32::MAX,
+        }
+    }
+
+    fn offer(&mut self, new: Identified) {
+        let key = |one: &Identified| {
+            let best = &one.best;
+            (best.unmatched, one.library, best.reversed, best.view)
+        };
+        let own = self.list.iter().position(|one| one.library == new.library);
+        if let Some(own) = own {
+            if key(&self.list[own]) <= key(&new) {
+                return;
+            }
+            self.list.remove(own);
+        }
+        let place = self.list.partition_point(|other| key(other) < key(&new));
+        if place == K {
+            return;
+        }
+        if self.list.is_full() {
+            self.list.pop();
+        }
+        // There is room now, so the insertion cannot fail.
+        let _ = self.list.insert(place, new);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,326 @@
+//! Building the tree over a catalogue's libraries.
+
+use super::{Catalogue, CatalogueError, Node, PATCH, STRIDE, Tree, blocks};
+use crate::canonical::CanonicalSpec;
+use crate::library::{Grid, Library};
+
+/// A patch of neighbouring views of one library.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Leaf {
+    pub(super) library: u32,
+    /// The view at the corner with the smallest rotations.
+    corner: u32,
+    /// Where its middle view's blocks stand while the tree is built.
+    centre: u32,
+}
+
+impl Leaf {
+    /// The views of the patch.
+    pub(super) fn views(&self, grid: &Grid) -> impl Iterator<Item = usize> + use<> {
+        let grid = *grid;
+        let (x, y) = grid.place(self.corner as usize);
+        let columns = x..(x + PATCH).min(grid.x.count);
+        let rows = y..(y + PATCH).min(grid.y.count);
+        rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
+    }
+
+    fn middle(&self, grid: &Grid) -> usize {
+        let (x, y) = grid.place(self.corner as usize);
+        let within = |first: usize, count: usize| (first + PATCH / 2).min(count - 1);
+        grid.view(within(x, grid.x.count), within(y, grid.y.count))
+    }
+}
+
+/// The corners of a library's patches.
+fn corners(grid: &Grid) -> impl Iterator<Item = usize> + use<> {
+    let grid = *grid;
+    let rows = (0..grid.y.count).step_by(PATCH);
+    rows.flat_map(move |y| {
+        (0..grid.x.count)
+            .step_by(PATCH)
+            .map(move |x| grid.view(x, y))
+    })
+}
+
+/// Lengths of the memory of a [`Catalogue`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CatalogueNeeds {
+    /// Of [`CatalogueMemory::leaves`].
+    pub leaves: usize,
+    /// Of [`CatalogueMemory::boxes`], bytes.
+    pub boxes: usize,
+    /// Of [`CatalogueMemory::places`].
+    pub places: usize,
+    /// Of [`CatalogueMemory::scratch`], bytes.
+    pub scratch: usize,
+}
+
+/// Memory of a [`Catalogue`].
+#[derive(Debug)]
+pub struct CatalogueMemory<'c> {
+    /// Patches.
+    pub leaves: &'c mut [Leaf],
+    /// What the tree's nodes have in common.
+    pub boxes: &'c mut [u8],
+    /// Numbers of blocks.
+    pub places: &'c mut [u16],
+    /// Used only while the tree is built.
+    pub scratch: &'c mut [u8],
+}
+
+/// Lengths of the memory to lend for a catalogue of these libraries.
+#[must_use]
+pub fn catalogue_needed(libraries: &[Library<'_>]) -> CatalogueNeeds {
+    let leaves = libraries
+        .iter()
+        .map(|library| corners(&library.info().grid).count())
+        .sum();
+    let first = libraries.first().map(|library| library.info().canonical);
+    let blocks = first.map_or(0, |spec| blocks(&spec));
+    let node = 2 * blocks.next_multiple_of(STRIDE);
+    CatalogueNeeds {
+        leaves,
+        // The ground, and a box a node.
+        boxes: blocks + (2 * leaves).saturating_sub(1) * node,
+        places: blocks,
+        scratch: (leaves + 2) * blocks,
+    }
+}
+
+impl<'c> Catalogue<'c> {
+    /// Puts a tree over libraries of one canonical frame.
+    ///
+    /// # Errors
+    /// [`CatalogueError`] for libraries that do not go together and for memory of a wrong length
+    /// ([`catalogue_needed`]).
+    pub fn new(
+        libraries: &'c [Library<'c>],
+        memory: CatalogueMemory<'c>,
+    ) -> Result<Self, CatalogueError> {
+        let spec = one_frame(libraries)?;
+        let needs = catalogue_needed(libraries);
+        let lengths = [
+            ("leaves", needs.leaves, memory.leaves.len()),
+            ("bytes of boxes", needs.boxes, memory.boxes.len()),
+            ("places", needs.places, memory.places.len()),
+            ("bytes of scratch", needs.scratch, memory.scratch.len()),
+        ];
+        for (what, needed, given) in lengths {
+            if needed != given {
+                return Err(CatalogueError::Memory {
+                    what,
+                    needed,
+                    given,
+                });
+            }
+        }
+        let (extremes, centres) = memory.scratch.split_at_mut(2 * blocks(&spec));
+        let (ground, boxes) = memory.boxes.split_at_mut(blocks(&spec));
+        let moving = find_ground(libraries, extremes, ground, memory.places);
+        let places = &memory.places[..moving];
+        plant(libraries, memory.leaves);
+        let (view, _) = extremes.split_at_mut(blocks(&spec));
+        let mut builder = Builder {
+            libraries,
+            places,
+            boxes,
+            centres,
+            view,
+        };
+        builder.write_centres(memory.leaves);
+        let root = Node {
+            number: 0,
+            first: 0,
+            end: memory.leaves.len(),
+        };
+        builder.grow(&root, memory.leaves);
+        Ok(Self {
+            libraries,
+            tree: Tree {
+                leaves: memory.leaves,
+                boxes: builder.boxes,
+                places,
+                ground,
+            },
+        })
+    }
+}
+
+/// The canonical frame of all of them.
+fn one_frame(libraries: &[Library<'_>]) -> Result<CanonicalSpec, CatalogueError> {
+    let first = libraries.first().ok_or(CatalogueError::Empty)?;
+    let spec = first.info().canonical;
+    for (number, library) in libraries.iter().enumerate() {
+        if library.info().canonical != spec {
+            return Err(CatalogueError::Canonical(number));
+        }
+        if library.sketches().is_none() {
+            return Err(CatalogueError::Plain(number));
+        }
+    }
+    Ok(spec)
+}
+
+/// Finds the blocks that are alike in all views of all libraries, writes them as ground, and the numbers of the
+/// others as places; returns how many those are.
+fn find_ground(
+    libraries: &[Library<'_>],
+    extremes: &mut [u8],
+    ground: &mut [u8],
+    places: &mut [u16],
+) -> usize {
+    let (low, high) = extremes.split_at_mut(ground.len());
+    low.fill(u8::MAX);
+    high.fill(0);
+    for sketches in libraries.iter().filter_map(|library| library.sketches()) {
+        let mut own = sketches.places().enumerate().peekable();
+        for (block, &alike) in sketches.ground.iter().enumerate() {
+            let column = own.next_if(|&(_, place)| place == block);
+            let (least, most) = match column {
+                Some((column, _)) => {
+                    let views = sketches.all.chunks_exact(sketches.stride());
+                    let counts = views.filter_map(|sketch| sketch.get(column));
+                    counts.fold((u8::MAX, 0), |(least, most), &count| {
+                        (least.min(count), most.max(count))
+                    })
+                }
+                None => (alike, alike),
+            };
+            low[block] = low[block].min(least);
+            high[block] = high[block].max(most);
+        }
+    }
+    let mut moving = 0;
+    for (block, ground) in ground.iter_mut().enumerate() {
+        let same = low[block] == high[block];
+        *ground = if same { low[block] } else { 0 };
+        if !same {
+            places[moving] = block as u16;
+            moving += 1;
+        }
+    }
+    moving
+}
+
+fn plant(libraries: &[Library<'_>], leaves: &mut [Leaf]) {
+    let all = libraries.iter().enumerate().flat_map(|(number, library)| {
+        corners(&library.info().grid).map(move |corner| (number, corner))
+    });
+    for (centre, (leaf, (library, corner))) in leaves.iter_mut().zip(all).enumerate() {
+        *leaf = Leaf {
+            library: library as u32,
+            corner: corner as u32,
+            centre: centre as u32,
+        };
+    }
+}
+
+struct Builder<'b, 'c> {
+    libraries: &'b [Library<'b>],
+    places: &'b [u16],
+    boxes: &'c mut [u8],
+    /// Blocks of each patch's middle view, at the catalogue's places.
+    centres: &'b mut [u8],
+    /// Blocks of one view.
+    view: &'b mut [u8],
+}
+
+impl Builder<'_, '_> {
+    fn stride(&self) -> usize {
+        self.places.len().next_multiple_of(STRIDE)
+    }
+
+    /// All blocks of a view of a library.
+    fn read_view(&mut self, library: &Library<'_>, view: usize) {
+        let Some(sketches) = library.sketches() else {
+            return;
+        };
+        self.view.copy_from_slice(sketches.ground);
+        for (place, &count) in sketches.places().zip(sketches.of(view)) {
+            self.view[place] = count;
+        }
+    }
+
+    fn write_centres(&mut self, leaves: &[Leaf]) {
+        let length = self.places.len();
+        for (number, leaf) in leaves.iter().enumerate() {
+            let library = self.libraries[leaf.library as usize];
+            self.read_view(&library, leaf.middle(&library.info().grid));
+            let centre = self.centres.get_mut(number * length..(number + 1) * length);
+            for (to, &place) in centre.unwrap_or_default().iter_mut().zip(self.places) {
+                *to = self.view[usize::from(place)];
+            }
+        }
+    }
+
+    fn centre(&self, leaf: &Leaf) -> &[u8] {
+        let length = self.places.len();
+        let start = leaf.centre as usize * length;
+        self.centres.get(start..start + length).unwrap_or_default()
+    }
+
+    /// Parts the leaves of a node, and so on, and writes the boxes of all of them. The tree is
+    /// balanced: it is as deep as the binary logarithm of its leaves.
+    fn grow(&mut self, node: &Node, leaves: &mut [Leaf]) {
+        if node.is_leaf() {
+            if let Some(leaf) = leaves.get(node.first) {
+                self.write_leaf(node, leaf);
+            }
+            return;
+        }
+        let children = node.children();
+        let range = &mut leaves[node.first..node.end];
+        let column = self.widest(range);
+        let half = children[0].end - node.first;
+        range.select_nth_unstable_by_key(half, |leaf| {
+            let count = self.centre(leaf).get(column).copied();
+            (count, leaf.centre)
+        });
+        for child in &children {
+            self.grow(child, leaves);
+        }
+        self.unite(node, &children);
+    }
+
+    /// The column in which the patches' middles spread most.
+    fn widest(&self, leaves: &[Leaf]) -> usize {
+        let spread = |column: usize| {
+            let counts = leaves
+                .iter()
+                .filter_map(|leaf| self.centre(leaf).get(column));
+            let (least, most) = counts.fold((u8::MAX, 0), |(least, most), &count| {
+                (least.min(count), most.max(count))
+            });
+            most.saturating_sub(least)
+        };
+        (0..self.places.len())
+            .max_by_key(|&column| spread(column))
+            .unwrap_or(0)
+    }
+
+    fn write_leaf(&mut self, node: &Node, leaf: &Leaf) {
+        let stride = self.stride();
+        let start = 2 * stride * node.number;
+        self.boxes[start..start + 2 * stride].fill(0);
+        self.boxes[start..start + self.places.len()].fill(u8::MAX);
+        let library = self.libraries[leaf.library as usize];
+        for view in leaf.views(&library.info().grid) {
+            self.read_view(&library, view);
+            let (low, high) = self.boxes[start..start + 2 * stride].split_at_mut(stride);
+            for ((low, high), &place) in low.iter_mut().zip(high).zip(self.places) {
+                let count = self.view[usize::from(place)];
+                (*low, *high) = ((*low).min(count), (*high).max(count));
+            }
+        }
+    }
+
+    fn unite(&mut self, node: &Node, children: &[Node; 2]) {
+        let stride = self.stride();
+        let [to, a, b] = [node.number, children[0].number, children[1].number];
+        for column in 0..stride {
+            let at = |number: usize, half: usize| (2 * number + half) * stride + column;
+            self.boxes[at(to, 0)] = self.boxes[at(a, 0)].min(self.boxes[at(b, 0)]);
+            self.boxes[at(to, 1)] = self.boxes[at(a, 1)].max(self.boxes[at(b, 1)]);
+        }
+    }
+}

@@ -1,0 +1,422 @@
+//! A canonical silhouette made ready for searching libraries.
+
+use crate::canonical::CanonicalSpec;
+use crate::kernels::Kernels;
+use crate::library::runs::bands;
+use crate::library::sketch::{BLOCK, STRIDE, at_most_255, blocks};
+use crate::library::{Library, Sketches};
+use crate::mask::{WORD_BITS, Word};
+use crate::matching::{MatchError, check};
+
+/// Blocks of a silhouette, set pixels of each: at least, and at most where some are unknown.
+#[derive(Clone, Copy, Debug)]
+struct Blocks<'m> {
+    low: &'m [u8],
+    high: &'m [u8],
+}
+
+/// A canonical silhouette, and the same turned by 180 degrees, made ready for searching.
+///
+/// A view of runs is compared by looking up how many pixels of the silhouette are set before
+/// each run's start and end: two numbers a run, whatever its length.
+#[derive(Clone, Copy, Debug)]
+pub struct Query<'m> {
+    spec: CanonicalSpec,
+    /// Known pixels set.
+    area: u32,
+    straight: &'m [Word],
+    turned: &'m [Word],
+    unknown: Option<&'m [Word]>,
+    /// Known pixels set before each pixel of the frame, row by row, modulo 256: no run has more
+    /// than 255 pixels. One number more than there are pixels.
+    before: &'m [u8],
+    /// The same of all known pixels, where some are unknown.
+    known_before: Option<&'m [u8]>,
+    /// Of the silhouette straight and turned.
+    blocks: [Blocks<'m>; 2],
+}
+
+/// Bytes that [`Query::new`] needs to be lent. `unknown`: whether pixels may be unknown.
+#[must_use]
+pub const fn query_bytes_needed(spec: &CanonicalSpec, unknown: bool) -> usize {
+    let before = spec.size() * spec.size() + 1;
+    let tables = if unknown { 2 } else { 1 };
+    tables * before + 4 * blocks(spec)
+}
+
+impl<'m> Query<'m> {
+    /// Makes `straight` ready, a canonical silhouette from [`crate::canonical::canonicalise`] with
+    /// the libraries' own `spec`. `turned` is the same turned by 180 degrees
+    /// ([`crate::canonical::reverse`]). Pixels set in `unknown` do not count, whatever the
+    /// silhouette has there. `bytes` is working memory, [`query_bytes_needed`] of it.
+    ///
+    /// # Errors
+    /// [`MatchError::Memory`] for a wrong length.
+    pub fn new(
+        spec: &CanonicalSpec,
+        straight: &'m [Word],
+        turned: &'m [Word],
+        unknown: Option<&'m [Word]>,
+        bytes: &'m mut [u8],
+    ) -> Result<Self, MatchError> {
+        let words = spec.words_needed();
+        check("words of canonical mask", words, straight.len())?;
+        check("words of the mask turned", words, turned.len())?;
+        check(
+            "words of unknown pixels",
+            words,
+            unknown.map_or(words, <[Word]>::len),
+        )?;
+        let needed = query_bytes_needed(spec, unknown.is_some());
+        check("bytes of working memory", needed, bytes.len())?;
+        let (tables, sketches) = bytes.split_at_mut(needed - 4 * blocks(spec));
+        let (before, known_before) = tables.split_at_mut(spec.size() * spec.size() + 1);
+        let seen = |at: usize| {
+            !unknown
+                .and_then(|words| words.get(at))
+                .copied()
+                .unwrap_or(0)
+        };
+        let known = straight
+            .iter()
+            .enumerate()
+            .map(|(at, word)| word & seen(at));
+        let area = known.clone().map(Word::count_ones).sum();
+        count_before(known, before);
+        if unknown.is_some() {
+            count_before((0..words).map(seen), known_before);
+        }
+        let known_before: &[u8] = known_before;
+        Ok(Self {
+            spec: *spec,
+            area,
+            straight,
+            turned,
+            unknown,
+            before,
+            known_before: unknown.map(|_| known_before),
+            blocks: sketch(spec, straight, unknown, sketches),
+        })
+    }
+
+    /// The canonical frame.
+    #[must_use]
+    pub fn spec(&self) -> &CanonicalSpec {
+        &self.spec
+    }
+
+    /// The silhouette in one direction of its axis.
+    #[must_use]
+    pub fn canonical(&self, reversed: bool) -> &'m [Word] {
+        if reversed { self.turned } else { self.straight }
+    }
+
+    /// Known pixels that are set in the silhouette or in a view and not in both; exactly.
+    ///
+    /// The library's canonical frame must be the query's own: what one has and the other has not is
+    /// not seen otherwise.
+    #[must_use]
+    pub fn unmatched(
+        &self,
+        library: &Library<'_>,
+        view: usize,
+        reversed: bool,
+        kernels: &Kernels,
+    ) -> u32 {
+        if library.sketches().is_none() {
+            return self.unmatched_bits(library.bits(view), reversed, kernels);
+        }
+        let runs = library.runs(view);
+        let (pixels, common) = match (self.known_before, reversed) {
+            (None, false) => self.covered::<false>(self.before, runs),
+            (None, true) => self.covered::<true>(self.before, runs),
+            (Some(known), false) => {
+                let (_, common) = self.covered::<false>(self.before, runs);
+                (self.covered::<false>(known, runs).1, common)
+            }
+            (Some(known), true) => {
+                let (_, common) = self.covered::<true>(self.before, runs);
+                (self.covered::<true>(known, runs).1, common)
+            }
+        };
+        self.area + pixels - 2 * common
+    }
+
+    /// Pixels of the runs, and how many of them are counted in the table `before`.
+    fn covered<const REVERSED: bool>(&self, before: &[u8], runs: &[u8]) -> (u32, u32) {
+        let mut sum = Covered::default();
+        for band in bands(runs) {
+            let start = band.first_row * self.spec.size();
+            // Nearly all rows of nearly all views have one or two runs.
+            match band.per_row {
+                1 => sum.add::<REVERSED, 1>(before, self.spec.size(), start, band.pieces),
+                2 => sum.add::<REVERSED, 2>(before, self.spec.size(), start, band.pieces),
+                _ => {
+                    for (row, pieces) in band.rows() {
+                        let start = row * self.spec.size();
+                        sum.add_row::<REVERSED>(before, start, pieces);
+                    }
+                }
+            }
+        }
+        (sum.pixels, sum.common)
+    }
+
+    fn unmatched_bits(&self, bits: &[u8], reversed: bool, kernels: &Kernels) -> u32 {
+        let ours = self.canonical(reversed);
+        let Some(unknown) = self.unknown else {
+            return (kernels.unmatched)(ours, bits);
+        };
+        let last = unknown.len().wrapping_sub(1);
+        let theirs = bits
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .copied()
+            .map(Word::from_le_bytes);
+        let differ = ours.iter().zip(theirs).enumerate().map(|(at, (a, b))| {
+            let place = if reversed { last.wrapping_sub(at) } else { at };
+            let unknown = unknown.get(place).copied().unwrap_or(0);
+            let unknown = if reversed {
+                unknown.reverse_bits()
+            } else {
+                unknown
+            };
+            ((a ^ b) & !unknown).count_ones()
+        });
+        differ.sum()
+    }
+
+    /// The blocks that a library's sketches have; returns what the others differ by in every view. `out` gets the
+    /// counts, at least and at most, each in as many bytes as a sketch.
+    pub(super) fn sketch_for(
+        &self,
+        sketches: &Sketches<'_>,
+        reversed: bool,
+        kernels: &Kernels,
+        out: [&mut [u8]; 2],
+    ) -> u32 {
+        self.gather(sketches.places(), sketches.ground, reversed, kernels, out)
+    }
+
+    /// The same of any choice of blocks; `ground` has what the others are in every view, and 0 at `places`.
+    pub(super) fn gather(
+        &self,
+        places: impl Iterator<Item = usize>,
+        ground: &[u8],
+        reversed: bool,
+        kernels: &Kernels,
+        [low, high]: [&mut [u8]; 2],
+    ) -> u32 {
+        let blocks = &self.blocks[usize::from(reversed)];
+        let mut base = (kernels.gap)([blocks.low, blocks.high], [ground, ground]);
+        low.fill(0);
+        high.fill(0);
+        for ((low, high), place) in low.iter_mut().zip(high).zip(places) {
+            let at = |counts: &[u8]| counts.get(place).copied().unwrap_or(0);
+            (*low, *high) = (at(blocks.low), at(blocks.high));
+            // There the ground is 0, and the gap was its height.
+            base -= u32::from(*low);
+        }
+        base
+    }
+
+    /// Whether every pixel is known.
+    pub(super) fn is_whole(&self) -> bool {
+        self.unknown.is_none()
+    }
+}
+
+/// Pixels of runs, and how many of them are set.
+#[derive(Default)]
+struct Covered {
+    pixels: u32,
+    common: u32,
+}
+
+impl Covered {
+    /// Rows of `PER_ROW` runs each, `size` pixels apart.
+    #[inline(always)]
+    fn add<const REVERSED: bool, const PER_ROW: usize>(
+        &mut self,
+        before: &[u8],
+        size: usize,
+        start: usize,
+        pieces: &[[u8; 2]],
+    ) {
+        let mut start = start;
+        for row in pieces.as_chunks::<PER_ROW>().0 {
+            self.add_row::<REVERSED>(before, start, row);
+            start += size;
+        }
+    }
+
+    /// A row that starts at the pixel `start`. The other way round, pixels are counted from the end.
+    #[inline(always)]
+    fn add_row<const REVERSED: bool>(&mut self, before: &[u8], start: usize, row: &[[u8; 2]]) {
+        let last = before.len().wrapping_sub(1);
+        let count = |at: usize| {
+            let at = if REVERSED { last.wrapping_sub(at) } else { at };
+            before.get(at).copied().unwrap_or(0)
+        };
+        let mut at = start;
+        for &[gap, pixels] in row {
+            at += usize::from(gap);
+            let from = count(at);
+            at += usize::from(pixels);
+            let to = count(at);
+            let set = if REVERSED {
+                from.wrapping_sub(to)
+            } else {
+                to.wrapping_sub(from)
+            };
+            self.pixels += u32::from(pixels);
+            self.common += u32::from(set);
+        }
+    }
+}
+
+/// Writes how many bits are set before each bit, modulo 256, and once more for all.
+fn count_before(words: impl Iterator<Item = Word>, out: &mut [u8]) {
+    let Some((first, rest)) = out.split_first_mut() else {
+        return;
+    };
+    *first = 0;
+    let mut count = 0u8;
+    for (word, out) in words.zip(rest.as_chunks_mut::<WORD_BITS>().0) {
+        if word == 0 {
+            out.fill(count);
+            continue;
+        }
+        for (eight, byte) in out
+            .as_chunks_mut::<8>()
+            .0
+            .iter_mut()
+            .zip(word.to_le_bytes())
+        {
+            *eight = counts_up_to(byte, count);
+            count = eight[7];
+        }
+    }
+}
+
+/// `count` plus the bits set up to and including each bit of a byte, modulo 256, in eight lanes of
+/// one number.
+fn counts_up_to(byte: u8, count: u8) -> [u8; 8] {
+    const ONES: u64 = 0x0101_0101_0101_0101;
+    const TOPS: u64 = ONES << 7;
+    // Lane k keeps bit k; adding 0x80 minus that bit carries it to the lane's top.
+    let bits = (ONES * u64::from(byte)) & 0x8040_2010_0804_0201;
+    let ones = (bits + 0x0040_6070_787c_7e7f) >> 7 & ONES;
+    let sums = ones.wrapping_mul(ONES);
+    // Sums are at most 8, so only the tops of `count` could carry into the next lane.
+    let start = ONES * u64::from(count);
+    ((sums + (start & !TOPS)) ^ (start & TOPS)).to_le_bytes()
+}
+
+/// Set pixels of the blocks of a silhouette, straight and turned.
+fn sketch<'m>(
+    spec: &CanonicalSpec,
+    words: &[Word],
+    unknown: Option<&[Word]>,
+    out: &'m mut [u8],
+) -> [Blocks<'m>; 2] {
+    let (straight, turned) = out.split_at_mut(2 * blocks(spec));
+    let (low, high) = straight.split_at_mut(blocks(spec));
+    let row_words = spec.size() / WORD_BITS;
+    // Words of a row of blocks, and bytes: a word is two blocks wide.
+    let (step, width) = (BLOCK * row_words, 2 * row_words);
+    let rows = words.chunks_exact(step).zip(low.chunks_exact_mut(width));
+    for (row, ((words, low), high)) in rows.zip(high.chunks_exact_mut(width)).enumerate() {
+        let unknown = unknown.and_then(|unknown| unknown.get(row * step..(row + 1) * step));
+        for (column, (low, high)) in low
+            .as_chunks_mut::<2>()
+            .0
+            .iter_mut()
+            .zip(high.as_chunks_mut::<2>().0)
+            .enumerate()
+        {
+            let [known, open] = counts_of_two(words, unknown, column, row_words);
+            *low = known.map(at_most_255);
+            *high = [known[0] + open[0], known[1] + open[1]].map(at_most_255);
+        }
+    }
+    for (to, from) in turned.chunks_exact_mut(blocks(spec)).zip([&*low, &*high]) {
+        for (to, from) in to.iter_mut().zip(from.iter().rev()) {
+            *to = *from;
+        }
+    }
+    let (turned_low, turned_high) = turned.split_at(blocks(spec));
+    [
+        Blocks { low, high },
+        Blocks {
+            low: turned_low,
+            high: turned_high,
+        },
+    ]
+}
+
+/// Known pixels set, and unknown pixels, of two blocks beside each other: of the words of a row of blocks, one column.
+#[inline(always)]
+fn counts_of_two(
+    words: &[Word],
+    unknown: Option<&[Word]>,
+    column: usize,
+    row_words: usize,
+) -> [[u16; 2]; 2] {
+    let (mut known, mut open) = (0, 0);
+    let ours = words.iter().skip(column).step_by(row_words);
+    match unknown {
+        None => known = ours.map(|&word| ones_of_halves(word)).sum(),
+        Some(unknown) => {
+            let unknown = unknown.iter().skip(column).step_by(row_words);
+            for (word, unknown) in ours.zip(unknown) {
+                known += ones_of_halves(word & !unknown);
+                open += ones_of_halves(*unknown);
+            }
+        }
+    }
+    [known, open].map(|halves: Word| [halves as u16, (halves >> 16) as u16])
+}
+
+/// Bits set in the lower and in the upper half of a word, in its lower and upper half.
+fn ones_of_halves(word: Word) -> Word {
+    let twos = word - (word >> 1 & 0x5555_5555);
+    let fours = (twos & 0x3333_3333) + (twos >> 2 & 0x3333_3333);
+    let eights = (fours + (fours >> 4)) & 0x0f0f_0f0f;
+    (eights + (eights >> 8)) & 0x00ff_00ff
+}
+
+/// Bytes of a gathered sketch at most.
+pub(super) const fn longest_sketch(spec: &CanonicalSpec) -> usize {
+    blocks(spec).next_multiple_of(STRIDE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn pixels_before_are_counted(words in proptest::collection::vec(
+            prop_oneof![Just(0), Just(Word::MAX), any::<Word>()], 1..40
+        )) {
+            let mut table = std::vec![9; words.len() * WORD_BITS + 1];
+            count_before(words.iter().copied(), &mut table);
+            let mut count = 0u8;
+            for (at, &before) in table.iter().enumerate() {
+                prop_assert_eq!(before, count, "{}", at);
+                let bit = words.get(at / WORD_BITS).map_or(0, |word| word >> (at % WORD_BITS) & 1);
+                count = count.wrapping_add(bit as u8);
+            }
+        }
+
+        #[test]
+        fn halves_are_counted(word in any::<Word>()) {
+            let counts = ones_of_halves(word);
+            prop_assert_eq!(counts & 0xffff, (word & 0xffff).count_ones());
+            prop_assert_eq!(counts >> 16, (word >> 16).count_ones());
+        }
+    }
+}

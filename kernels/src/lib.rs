@@ -1,0 +1,22 @@
+//! The loops of matching, compiled for the machine at hand and chosen when the program runs.
+//!
+//! The loops themselves are those of [`fluoropose::kernels`]: safe and portable, written so that
+//! the compiler makes wide instructions of them. Here they are compiled once more for each kind of
+//! machine. All that is unsafe stands in `compiled.rs`: calling what was compiled for a machine that was found to be
+//! this one.
+
+mod compiled;
+
+use fluoropose::kernels::Kernels;
+
+pub use compiled::available;
+
+/// The fastest kernels for this machine.
+#[must_use]
+pub fn fastest() -> Kernels {
+    // The slowest come first.
+    available().last().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests;

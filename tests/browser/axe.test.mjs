@@ -1,0 +1,63 @@
+/** Nothing that the accessibility guidelines forbid: empty, with the demonstration, with each sheet and each tool, dark and light. */
+import assert from 'node:assert/strict';
+import { bringAxe, isAccessible } from './support/axe.mjs';
+import { drawn, pageTest, screenshot, step } from './support/browser.mjs';
+import { fromOpeningToPose } from './support/workflow.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const THEMES = /** @type {const} */ (['dark', 'light']);
+
+pageTest('accessibility in both themes', async (page, t) => {
+  await bringAxe(page);
+  await step(page, t, 'the empty page', () => inBothThemes(page, 'empty'));
+  await step(page, t, 'with the demonstration and a pose', async () => {
+    await fromOpeningToPose(page);
+    await inBothThemes(page, 'posed');
+  });
+  await step(page, t, 'with each tool in hand', () => eachTool(page));
+  await step(page, t, 'with each sheet open', () => eachSheet(page));
+});
+
+/** @param {Page} page @param {string} what is on view */
+async function inBothThemes(page, what) {
+  for (const theme of THEMES) {
+    await choose(page, theme);
+    await screenshot(page, `${theme} ${what}`);
+    await isAccessible(page);
+  }
+}
+
+/** By key, as a person would; it works whatever has the focus. @param {Page} page @param {'dark' | 'light'} theme */
+async function choose(page, theme) {
+  const button = page.getByRole('button', { name: 'Light page', exact: true });
+  if (((await button.getAttribute('aria-pressed')) === 'true') !== (theme === 'light')) await page.keyboard.press('Shift+L');
+  await page.locator(`html[data-theme=${theme}]`).waitFor();
+  await drawn(page);
+}
+
+/** @param {Page} page */
+async function eachTool(page) {
+  const tools = page.getByRole('navigation', { name: 'Tools' }).locator('button[aria-pressed]');
+  const count = await tools.count();
+  assert(count >= 4, `only ${count} tools`);
+  for (let index = 0; index < count; index++) {
+    await tools.nth(index).click();
+    await drawn(page);
+    await inBothThemes(page, `tool ${await tools.nth(index).getAttribute('aria-label')}`);
+  }
+}
+
+/** @param {Page} page */
+async function eachSheet(page) {
+  const openers = page.locator('button[aria-haspopup=dialog]:enabled');
+  const count = await openers.count();
+  assert(count >= 6, `only ${count} buttons open a sheet`);
+  for (let index = 0; index < count; index++) {
+    await openers.nth(index).click();
+    const name = await page.getByRole('dialog').first().getAttribute('aria-label');
+    await inBothThemes(page, `sheet ${name}`);
+    await page.keyboard.press('Escape');
+    await page.getByRole('dialog').first().waitFor({ state: 'hidden' });
+  }
+}

@@ -1,0 +1,35 @@
+/** Measures the page and writes the figures to a file: `cargo xtask bench --browser` starts it. */
+import { writeFile } from 'node:fs/promises';
+import { argv } from 'node:process';
+import { browser, openWindow, visit } from '../support/browser.mjs';
+import { dragging, wiring } from './interaction.mjs';
+import { firstLoad, warmStart } from './loading.mjs';
+import { newUser } from './new_user.mjs';
+
+/** @typedef {{ work: string, value: number, unit: string }} Row */
+
+const [, , file] = argv;
+if (!file) throw new Error('the file to write is not named: run `cargo xtask bench --browser`');
+
+/** @type {Row[]} */
+const rows = [];
+for (const measurement of [firstLoad, warmStart, newUser, dragging, wiring]) rows.push(...(await measured(measurement)));
+await writeFile(file, JSON.stringify({ rows: rows.map(rounded) }));
+await (await browser()).close();
+
+/** In a window of its own. @param {(page: import('playwright-core').Page) => Promise<Row[]>} measurement */
+async function measured(measurement) {
+  const page = await openWindow({ serviceWorkers: measurement === warmStart ? 'allow' : 'block' });
+  try {
+    await visit(page);
+    return await measurement(page);
+  } finally {
+    await page.context().close();
+  }
+}
+
+/** To what means something. @param {Row} row */
+function rounded({ work, value, unit }) {
+  const decimals = unit === 'ms' || unit === 's' ? 1 : 0;
+  return { work, value: Number(value.toFixed(decimals)), unit };
+}

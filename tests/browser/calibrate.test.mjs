@@ -1,0 +1,154 @@
+/** Calibration from a bead grid and from a ruler, and correction of distortion, by role and name. */
+import assert from 'node:assert/strict';
+import { pageTest, screenshot, step, until } from './support/browser.mjs';
+import { choose, downloaded } from './support/files.mjs';
+import * as panel from './support/panel.mjs';
+import { bent, ideal, plate, PLATE } from './support/plates.mjs';
+import { Stage } from './support/stage.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/** @param {Page} page */
+const sheetOf = (page) => page.getByRole('dialog', { name: 'Calibrate from a grid or ruler' });
+
+/** @param {Page} page */
+async function openSheet(page) {
+  await page.getByRole('button', { name: /^Calibration:/ }).click();
+  await page.getByRole('button', { name: 'Calibrate from a grid or ruler' }).click();
+  return sheetOf(page);
+}
+
+/** @param {import('playwright-core').Locator} sheet @param {Record<string, number>} values */
+async function fill(sheet, values) {
+  for (const [name, value] of Object.entries(values)) await sheet.getByRole('spinbutton', { name }).fill(String(value));
+}
+
+/** The grey value at a place, as the status line says it. @param {Page} page @param {Stage} stage @param {[number, number]} place */
+async function greyAt(page, stage, place) {
+  await stage.hover(place);
+  await stage.readout();
+  const text = await page.getByRole('contentinfo', { name: 'Status' }).innerText();
+  return Number(/ px · (\d+)/.exec(text)?.[1]);
+}
+
+/** The pixel pitch that the sheet shows. @param {import('playwright-core').Locator} sheet */
+async function pitch(sheet) {
+  const text = await sheet.getByRole('group', { name: 'Camera' }).innerText();
+  return Number(/Pixel pitch ([\d.]+)/.exec(text)?.[1]);
+}
+
+const LENGTHS = { 'Source to detector (mm)': 1200, 'Source to plate (mm)': 1000, 'Bead spacing (mm)': 10 };
+/** 10 mm at 1000 of 1200 mm are 12 mm at the detector. */
+const TRUE_PITCH = 12 / PLATE.spacing;
+/** A bead far from the middle, where the picture is bent by ten pixels. */
+const OUTER = /** @type {const} */ ([7, -7]);
+
+pageTest('a bent plate: beads, correction, camera', async (page, t) => {
+  const stage = new Stage(page);
+  const said = (/** @type {RegExp} */ words) => until(() => sheetOf(page).innerText(), (text) => words.test(text), `the sheet to say ${words}`);
+
+  await step(page, t, 'the beads are found and the distortion is told', async (t) => {
+    await choose(page, plate('plate.png'));
+    await panel.waitForFrames(page, 1);
+    const sheet = await openSheet(page);
+    await sheet.getByRole('button', { name: 'Find the beads' }).click();
+    const text = await said(/px after a correction of order \d/);
+    const [, before, after] = /lie ([\d.]+) px \(RMS\) off a straight lattice, and ([\d.]+) px after/.exec(text) ?? [];
+    t.diagnostic(`${before} px before, ${after} px after`);
+    assert(Number(before) > 1 && Number(after) < 0.05, `${before} px before, ${after} px after`);
+    await sheet.getByRole('img', { name: /Residuals of the beads/ }).waitFor();
+    await screenshot(page, 'calibrate beads');
+  });
+
+  await step(page, t, 'straight frames show beads where a straight lattice has them', async () => {
+    await stage.learn();
+    const before = await greyAt(page, stage, bent(ideal(...OUTER)));
+    assert(before < 100, `a bead is dark where it was taken: ${before}`);
+    await sheetOf(page).getByRole('button', { name: 'Straighten the frames' }).click();
+    await said(/In use on frames/);
+    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey > 100, 'the bead to leave its bent place');
+    await screenshot(page, 'calibrate straight');
+  });
+
+  await step(page, t, 'the camera of the straight plate', async (t) => {
+    const sheet = sheetOf(page);
+    await fill(sheet, LENGTHS);
+    const found = await pitch(sheet);
+    t.diagnostic(`pixel pitch ${found} mm`);
+    // The straight picture is as large as the bent one on the whole, so a little larger than the ideal one.
+    assert(Math.abs(found / TRUE_PITCH - 1) < 0.05, `${found} for about ${TRUE_PITCH}`);
+    assert.match(await sheet.getByRole('group', { name: 'Camera' }).innerText(), /A plate this level .* does not show it/);
+    await sheet.getByRole('button', { name: 'Use as calibration' }).click();
+    await page.getByRole('button', { name: 'Calibration: grid in plate.png' }).waitFor();
+  });
+
+  await step(page, t, 'the correction is saved, taken away, undone and opened again', async () => {
+    const sheet = sheetOf(page);
+    const saved = await downloaded(page, 'Save the correction (.json)');
+    assert.equal(JSON.parse(saved.buffer.toString()).kind, 'fluoropose-distortion');
+    await sheet.getByRole('button', { name: 'Take the correction away' }).click();
+    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await page.getByRole('button', { name: 'Undo: take the correction of distortion away' }).click();
+    await said(/In use on frames/);
+    await page.getByRole('button', { name: /^Undo: change the calibration/ }).click();
+    await page.getByRole('button', { name: /^Undo: correct the distortion/ }).click();
+    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await choose(page, saved);
+    await panel.waitForWords(page, /Opened the correction of distortion|shown straight/);
+    await said(/In use on frames/);
+  });
+
+  await step(page, t, 'outlines alone may be straightened: frames stay as they were taken', async () => {
+    const sheet = sheetOf(page);
+    await sheet.getByRole('button', { name: 'Straighten outlines only' }).click();
+    await said(/In use on outlines/);
+    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
+  });
+});
+
+pageTest('a frame without a grid says so', async (page, t) => {
+  await step(page, t, 'and looking for one can be called off or fails in a sentence', async () => {
+    await choose(page, plate('none.png', () => [-100, -100]));
+    await panel.waitForFrames(page, 1);
+    const sheet = await openSheet(page);
+    await sheet.getByRole('button', { name: 'Find the beads' }).click();
+    await panel.waitForWords(page, /none\.png: 0 beads in a square lattice were found and at least 20 are needed/);
+  });
+});
+
+pageTest('a ruler: two marks and their length', async (page, t) => {
+  const stage = new Stage(page);
+  const lengths = { 'Source to detector (mm)': 1200, 'Source to ruler (mm)': 1000, 'Length between the marks (mm)': 100 };
+
+  await step(page, t, 'marks by mouse', async (t) => {
+    await choose(page, plate('ruler.png', (place) => place));
+    await panel.waitForFrames(page, 1);
+    const sheet = await openSheet(page);
+    await sheet.getByRole('radio', { name: 'Ruler' }).click();
+    await stage.learn();
+    // Ten beads apart along a row: 100 mm.
+    await stage.click(ideal(-8, 0));
+    await stage.click(ideal(2, 0));
+    await fill(sheet, lengths);
+    const found = await pitch(sheet);
+    t.diagnostic(`pixel pitch ${found} mm for ${TRUE_PITCH}`);
+    assert(Math.abs(found / TRUE_PITCH - 1) < 0.01, `${found} for ${TRUE_PITCH}`);
+    await screenshot(page, 'calibrate ruler');
+  });
+
+  await step(page, t, 'marks by keyboard alone, exactly', async () => {
+    const sheet = sheetOf(page);
+    const [a, b] = [ideal(-8, 0), ideal(2, 0)];
+    await fill(sheet, { 'Mark 1 column (px)': a[0], 'Mark 1 row (px)': a[1], 'Mark 2 column (px)': b[0], 'Mark 2 row (px)': b[1] });
+    assert.equal(await pitch(sheet), Number(TRUE_PITCH.toFixed(5)));
+  });
+
+  await step(page, t, 'lengths that cannot be are refused in words', async () => {
+    const sheet = sheetOf(page);
+    await fill(sheet, { 'Source to ruler (mm)': 1300 });
+    await until(() => sheet.getByRole('alert').innerText(), (text) => /the object must lie between them/.test(text), 'the refusal');
+    await fill(sheet, { 'Source to ruler (mm)': 1000 });
+    await sheet.getByRole('button', { name: 'Use as calibration' }).click();
+    await page.getByRole('button', { name: 'Calibration: ruler in ruler.png' }).waitFor();
+  });
+});

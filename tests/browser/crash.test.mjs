@@ -1,0 +1,270 @@
+/** Kept in the browser: a tab that dies in the middle of a trace comes back with everything. */
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { readFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { chromium } from 'playwright-core';
+import { ADDRESS, ARGUMENTS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
+import { choose, temporaryFolder } from './support/files.mjs';
+import { png } from './support/frames.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { trueOutline } from './support/study.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {import('./support/study.mjs').Point} Point */
+
+/** A draft that is under way when the tab dies, and where it goes on. */
+const DRAFT = /** @type {Point[]} */ ([[400, 700], [520, 700], [520, 820]]);
+const NEXT = /** @type {Point} */ ([400, 820]);
+const ELSEWHERE = /** @type {Point} */ ([700, 300]);
+const NOTE = 'tab died here';
+
+/** What only Chromium's protocol can do to a tab. */
+const crashTest = IN_FIREFOX ? (/** @type {string} */ name) => test.skip(name) : pageTest;
+
+crashTest('a tab that crashes in the middle of a trace', async (page, t) => {
+  /** @type {Awaited<ReturnType<typeof begin>> | null} */
+  let work = null;
+  let next = page;
+  await step(page, t, 'work is begun and kept', async () => {
+    work = await begin(page);
+  });
+
+  await step(page, t, 'the tab crashes; a new one has everything', async () => {
+    const crashed = new Promise((resolve) => page.once('crash', resolve));
+    const tab = await page.context().newCDPSession(page);
+    tab.send('Page.crash').catch(() => undefined);
+    await crashed;
+    next = await page.context().newPage();
+    next.setDefaultTimeout(PATIENCE);
+    await next.goto(ADDRESS);
+    assert(work);
+    await hasEverything(next, work);
+    await screenshot(next, 'restored');
+  });
+
+  await step(page, t, 'the trace goes on where it was', async () => {
+    const stage = new Stage(next);
+    await stage.learn();
+    await stage.click(NEXT);
+    await stage.hover(ELSEWHERE);
+    await panel.waitForWords(next, /^4 points\./);
+  });
+
+  await step(page, t, 'Start anew leaves it, and undo brings it back', async () => {
+    await next.keyboard.press('Shift+Alt+n');
+    await next.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+    await next.keyboard.press('Control+z');
+    await panel.waitForFrames(next, 8);
+    await until(() => panel.cells(next), (cells) => cells.includes('Frame 3, tibia: draft'), 'the draft');
+  });
+
+  await step(page, t, 'what was left stays under Earlier work, and can be opened and deleted', () => earlierWork(next));
+});
+
+test('a browser that is killed in the middle of a trace', { timeout: 3 * PATIENCE, skip: IN_FIREFOX }, async (t) => {
+  const profile = await temporaryFolder();
+  const first = await startBrowser(profile);
+  const page = await first.page();
+  const work = await begin(page);
+  await t.test('it is killed, and started again with the same profile', async () => {
+    await first.kill();
+    const second = await startBrowser(profile);
+    const again = await second.page();
+    await hasEverything(again, work);
+    await second.kill();
+  });
+});
+
+pageTest('two tabs', async (page, t) => {
+  /** @type {Page} */
+  let other = page;
+  await step(page, t, 'a second tab begins anew while the first has its work', async () => {
+    await openSmall(page, 'first');
+    other = await page.context().newPage();
+    await other.goto(ADDRESS);
+    await other.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+    await openSmall(other, 'second');
+  });
+
+  await step(page, t, 'neither writes over the other', async () => {
+    await note(page, 'of the first tab');
+    await note(other, 'of the second tab');
+    for (const [tab, words] of /** @type {const} */ ([[page, 'of the first tab'], [other, 'of the second tab']])) {
+      await panel.waitUntilKept(tab);
+      assert.equal(await noteField(tab).inputValue(), words);
+    }
+  });
+
+  await step(page, t, 'a tab that has its work open cannot lose it to another', async () => {
+    await other.getByRole('button', { name: 'Save session', exact: true }).click();
+    await other.getByRole('button', { name: /^Open first/ }).click();
+    await panel.waitForWords(other, /open in another tab/);
+    await other.keyboard.press('Escape');
+  });
+
+  await step(page, t, 'closed and opened again each comes back', async () => {
+    const context = page.context();
+    await other.close();
+    const again = await context.newPage();
+    await again.goto(ADDRESS);
+    await panel.waitForFrames(again, 1);
+    assert.equal(await noteField(again).inputValue(), 'of the second tab');
+    assert.equal(await noteField(page).inputValue(), 'of the first tab');
+  });
+});
+
+crashTest('storage that is full', async (page, t) => {
+  const browser = await page.context().newCDPSession(page);
+  const origin = new URL(ADDRESS).origin;
+
+  await step(page, t, 'is said, and the page asks before it is closed', async () => {
+    await browser.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1 });
+    await openSmall(page, 'full', 'Not saved');
+    await panel.waitForWords(page, /no room left.*save a session file/);
+    await page.getByRole('button', { name: 'Flag' }).click();
+    const asked = page.waitForEvent('dialog');
+    const leaving = page.reload().catch(() => undefined);
+    const dialog = await asked;
+    assert.equal(dialog.type(), 'beforeunload');
+    await dialog.dismiss();
+    await leaving;
+  });
+
+  await step(page, t, 'is tried again, and the page asks no more', async () => {
+    await browser.send('Storage.overrideQuotaForOrigin', { origin });
+    await saved(page, /^Saved/);
+    let asked = false;
+    page.once('dialog', (dialog) => {
+      asked = true;
+      void dialog.accept();
+    });
+    await page.reload();
+    await panel.waitForFrames(page, 1);
+    assert.equal(asked, false, 'nothing was to be lost');
+  });
+});
+
+/** A pose, a mark and a draft, all of it kept. @param {Page} page */
+async function begin(page) {
+  const stage = new Stage(page);
+  await panel.openDemonstration(page);
+  await panel.waitForLibraries(page, 'Femur', 'Tibia');
+  await page.getByRole('button', { name: 'Frame 2, femur: empty' }).click();
+  await stage.learn();
+  await stage.trace(await trueOutline('femur', 2));
+  const pose = await panel.waitForPose(page);
+  await page.keyboard.press('y');
+  await note(page, NOTE, 'Note on frame 2, femur');
+  await page.getByRole('button', { name: 'Frame 3, tibia: empty' }).click();
+  await page.keyboard.press('p');
+  await stage.learn();
+  for (const point of DRAFT) await stage.click(point);
+  await stage.hover(ELSEWHERE);
+  await panel.waitForWords(page, /^3 points\./);
+  await panel.waitUntilKept(page);
+  return { pose, cells: await panel.cells(page) };
+}
+
+/** @param {Page} page @param {Awaited<ReturnType<typeof begin>>} work */
+async function hasEverything(page, work) {
+  await panel.waitForFrames(page, 8);
+  await panel.waitForWords(page, /is back as it was at/);
+  assert.deepEqual(await panel.cells(page), work.cells);
+  await page.getByRole('application', { name: /frame 3 of 8, tracing the tibia/ }).waitFor();
+  await panel.waitForLibraries(page, 'Femur', 'Tibia');
+  const stage = new Stage(page);
+  await stage.learn();
+  await page.keyboard.press('p');
+  await stage.hover(ELSEWHERE);
+  await panel.waitForWords(page, /^3 points\./);
+  await page.getByRole('button', { name: 'Frame 2, femur: posed, checked' }).click();
+  await panel.waitForThePose(page, work.pose);
+  assert.equal(await page.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), NOTE);
+  await page.getByRole('button', { name: 'Frame 3, tibia: draft' }).click();
+  await drawn(page);
+}
+
+/** @param {Page} page */
+async function earlierWork(page) {
+  await page.keyboard.press('Shift+Alt+n');
+  await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
+  await openSmall(page, 'other');
+  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  const earlier = page.getByRole('region', { name: 'Earlier work in this browser' });
+  await screenshot(page, 'earlier work');
+  await earlier.getByRole('button', { name: /^Open .* as it was left$/ }).first().click();
+  await panel.waitForFrames(page, 8);
+  await until(() => panel.cells(page), (cells) => cells.includes('Frame 3, tibia: draft'), 'the draft');
+  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  await earlier.getByRole('button', { name: /^Delete other/ }).click();
+  await earlier.getByRole('button', { name: /^Really delete other/ }).click();
+  await earlier.getByText('No other work is kept in this browser.').waitFor();
+  await page.keyboard.press('Escape');
+}
+
+/** One small frame. @param {Page} page @param {string} name @param {string} [state] */
+async function openSmall(page, name, state = 'Saved just now') {
+  const shift = name.length;
+  await choose(page, { ...png(8, (grey) => (grey + shift) % 256), name: `${name}.png` });
+  await panel.waitForFrames(page, 1);
+  await saved(page, new RegExp(`^${state}`));
+}
+
+/** @param {Page} page @param {string} words @param {string} [name] of the field */
+async function note(page, words, name = 'Note on frame 1, femur') {
+  await page.getByRole('textbox', { name }).fill(words);
+}
+
+/** @param {Page} page */
+function noteField(page) {
+  return page.getByRole('textbox', { name: 'Note on frame 1, femur' });
+}
+
+/** Waits for what the top bar says of saving. @param {Page} page @param {RegExp} words */
+function saved(page, words) {
+  return until(() => page.getByRole('group', { name: 'Saved state' }).innerText(), (text) => words.test(text), `the top bar to say ${words}`);
+}
+
+/** @type {(() => Promise<void>)[]} */
+const running = [];
+after(() => Promise.all(running.map((kill) => kill())));
+
+/** A browser of its own on a profile, as a person starts it, to be killed. @param {string} profile */
+async function startBrowser(profile) {
+  const program = /** @type {string} */ (process.env.FLUOROPOSE_CHROMIUM);
+  const address = [...ARGUMENTS, '--headless=new', '--remote-debugging-port=0', `--user-data-dir=${profile}`, 'about:blank'];
+  const child = spawn(program, address, { detached: true, stdio: 'ignore' });
+  const gone = new Promise((resolve) => child.once('exit', resolve));
+  // The whole group: a crash spares nobody.
+  const kill = async () => {
+    if (child.exitCode === null && child.signalCode === null && child.pid) process.kill(-child.pid, 'SIGKILL');
+    await gone;
+  };
+  running.push(kill);
+  const port = await until(() => portOf(profile, child.pid), (found) => found !== null, 'the browser to listen');
+  const connected = await chromium.connectOverCDP(`http://127.0.0.1:${port}`);
+  const page = async () => {
+    const context = connected.contexts()[0];
+    const tab = await context.newPage();
+    await tab.setViewportSize({ width: 1440, height: 900 });
+    tab.setDefaultTimeout(PATIENCE);
+    await tab.goto(ADDRESS);
+    return tab;
+  };
+  return { page, kill };
+}
+
+/** Ports that a killed browser left behind are not taken for the new one's. @type {Map<string, string>} */
+const seen = new Map();
+
+/** @param {string} profile @param {number | undefined} pid */
+async function portOf(profile, pid) {
+  const text = await readFile(join(profile, 'DevToolsActivePort'), 'utf8').catch(() => null);
+  if (!text || seen.get(profile) === text) return null;
+  seen.set(profile, text);
+  assert(pid);
+  return Number(text.split('\n')[0]);
+}

@@ -1,0 +1,93 @@
+/** What `cargo xtask package` makes: the page in one file, opened from the disk, and the npm module. */
+import assert from 'node:assert/strict';
+import { execFile } from 'node:child_process';
+import { cp, mkdir, symlink, writeFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { promisify } from 'node:util';
+import { openWindow, PATIENCE, setting, step, visit, watch } from './support/browser.mjs';
+import { temporaryFolder } from './support/files.mjs';
+import { Host } from './support/host.mjs';
+import * as panel from './support/panel.mjs';
+import { demoFile, HAND_TRACED, truePose } from './support/study.mjs';
+import { fromOpeningToPose } from './support/workflow.mjs';
+
+const run = promisify(execFile);
+const EXAMPLE = fileURLToPath(new URL('../../npm/example/', import.meta.url));
+
+test('the page in one file, from the disk', { timeout: 3 * PATIENCE }, async (t) => {
+  const address = pathToFileURL(join(setting('FLUOROPOSE_PACKAGE'), 'fluoropose.html')).href;
+  const page = await openWindow();
+  const troubles = watch(page, address);
+  await step(page, t, 'its policy allows its own script and style alone', async () => {
+    await visit(page, address);
+    const policy = (await page.locator('meta[http-equiv=Content-Security-Policy]').getAttribute('content')) ?? '';
+    assert.match(policy, /^default-src 'none'; script-src 'sha256-\S+' 'wasm-unsafe-eval'; worker-src blob:; style-src 'sha256-\S+'; /);
+    assert.doesNotMatch(policy, /unsafe-inline|'unsafe-eval'|'self'|https?:/);
+  });
+  await step(page, t, 'from opening to a pose', async () => void (await fromOpeningToPose(page)));
+  await page.context().close();
+  // A page from the disk that asked for another file there would be recorded too.
+  assert.deepEqual(troubles, [], 'the page threw, logged an error, or asked for something');
+});
+
+test('the npm module', { timeout: 3 * PATIENCE }, async (t) => {
+  const folder = await exampleFolder();
+  const truth = await truePose('femur', 1);
+
+  await t.test('its example runs in Node.js', async () => {
+    const { stdout } = await run(process.execPath, ['trace_to_pose.mjs', 'femur.stl', 'calibration.txt', 'outline.json'], { cwd: folder });
+    const { pose, deviations } = JSON.parse(stdout);
+    panel.assertNear(pose, truth, HAND_TRACED);
+    assert(Object.values(deviations).every((value) => value > 0), 'each number has its deviation');
+  });
+
+  await t.test('its example runs in a browser', async () => {
+    const host = await new Host(folder, '/').start();
+    const page = await openWindow();
+    const troubles = watch(page, host.address);
+    await page.goto(`${host.address}viewer.html`);
+    for (const [label, name] of [['Model', 'femur.stl'], ['Calibration', 'calibration.txt'], ['Outline', 'outline.json']]) {
+      await page.getByLabel(label).setInputFiles(join(folder, name));
+    }
+    await page.getByRole('button', { name: 'Find the pose' }).click();
+    const answer = page.getByRole('status').filter({ hasText: 'zRot' });
+    panel.assertNear(JSON.parse(await answer.innerText()), truth, HAND_TRACED);
+    await page.context().close();
+    assert.deepEqual(troubles, []);
+  });
+
+  await t.test('a file that is no model is told in a sentence', async () => {
+    const mistaken = ['trace_to_pose.mjs', 'calibration.txt', 'calibration.txt', 'outline.json'];
+    await assert.rejects(run(process.execPath, mistaken, { cwd: folder }), /Error: the model/);
+  });
+
+  await t.test('its types are those of its three lines', () => typesAreRight(folder));
+});
+
+/** The example with the module installed beside it, and the demonstration's files. */
+async function exampleFolder() {
+  const folder = await temporaryFolder();
+  await cp(EXAMPLE, folder, { recursive: true });
+  await mkdir(join(folder, 'node_modules'), { recursive: true });
+  await symlink(join(setting('FLUOROPOSE_PACKAGE'), 'npm'), join(folder, 'node_modules/fluoropose'), 'junction');
+  for (const name of ['femur.stl', 'calibration.txt']) await writeFile(join(folder, name), (await demoFile(name)).buffer);
+  return folder;
+}
+
+/** The compiler accepts a right use and refuses a wrong one. @param {string} folder */
+async function typesAreRight(folder) {
+  const compiler = createRequire(new URL('../../web/package.json', import.meta.url)).resolve('typescript/bin/tsc');
+  const options = ['--noEmit', '--strict', '--skipLibCheck', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom'];
+  const program = (/** @type {string} */ outline) => `
+    import { openImplant, type Pose } from 'fluoropose';
+    const implant = await openImplant({ model: new Uint8Array(), calibration: '', frame: { width: 1, height: 1 } });
+    export const pose: Pose = implant.pose(${outline}).pose;
+  `;
+  await writeFile(join(folder, 'right.mts'), program('[[1, 2], [3, 4], [5, 6]]'));
+  await run(process.execPath, [compiler, ...options, 'right.mts'], { cwd: folder });
+  await writeFile(join(folder, 'wrong.mts'), program("['1, 2']"));
+  await assert.rejects(run(process.execPath, [compiler, ...options, 'wrong.mts'], { cwd: folder }), /wrong\.mts|TS2322|TS2345/);
+}

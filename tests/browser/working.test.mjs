@@ -1,0 +1,172 @@
+/** Going through the work: what is next, what was checked, flags and notes, the list, the joint's curve. */
+import assert from 'node:assert/strict';
+import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
+import { choose, downloaded, drop } from './support/files.mjs';
+import { dropMasks, importAll } from './support/masks.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const POSED = [1, 2, 3];
+/** The least side of a target, CSS px (WCAG 2.2, 2.5.8). */
+const TARGET = 24;
+
+pageTest('working through a film', async (page, t) => {
+  const stage = new Stage(page);
+  await step(page, t, 'three frames of the demonstration are posed from masks', async () => {
+    await panel.openDemonstration(page);
+    await panel.waitForLibraries(page, 'Femur', 'Tibia');
+    await dropMasks(page, ['femur', 'tibia'], POSED);
+    await importAll(page, 6);
+    await until(() => panel.cells(page), (cells) => cells.filter((name) => name.endsWith(': posed')).length === 6, 'six poses');
+    await screenshot(page, 'working');
+  });
+
+  await step(page, t, 'every cell is large enough to hit', () => cellsAreLarge(page));
+  await step(page, t, 'N and Shift+N go to what has no pose, component by component', () => goesToUnfinished(page));
+  await step(page, t, 'Y, I and Shift+I mark, flag and note; undo takes them back', () => marks(page));
+  await step(page, t, 'a check is of what was looked at', () => checksOutdate(page, stage));
+  await step(page, t, 'the list filters, and goes where it is told', () => list(page));
+  await step(page, t, 'the joint’s curve stands under the frames and leads to them', () => curve(page));
+
+  await step(page, t, 'marks are in the session file', async () => {
+    await page.getByRole('button', { name: 'Save session', exact: true }).click();
+    const session = await downloaded(page, 'Save session file');
+    await visit(page);
+    await drop(page, session);
+    await panel.waitForFrames(page, 8);
+    const names = await panel.cells(page);
+    assert(names.includes('Frame 2, femur: posed, flagged'), names.join('; '));
+    await cell(page, 'Frame 2, femur: posed, flagged').click();
+    assert.equal(await page.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), 'rim hidden');
+  });
+});
+
+/** @param {Page} page @param {string} name */
+function cell(page, name) {
+  return page.getByRole('table', { name: 'Frames and components' }).getByRole('button', { name, exact: true });
+}
+
+/** @param {Page} page */
+async function cellsAreLarge(page) {
+  const buttons = page.getByRole('table', { name: 'Frames and components' }).getByRole('button');
+  for (const box of await buttons.evaluateAll((all) => all.map((button) => button.getBoundingClientRect().toJSON()))) {
+    assert(box.width >= TARGET && box.height >= TARGET, `a cell of ${box.width} x ${box.height}`);
+  }
+}
+
+/** Where the page is. @param {Page} page */
+async function here(page) {
+  const name = await page.getByRole('application', { name: /outline$/ }).getAttribute('aria-label');
+  const [, frame, component] = /frame (\d+) of \d+.*\. (Femur|Tibia) outline$/.exec(name ?? '') ?? [];
+  return `${frame} ${component}`;
+}
+
+/** @param {Page} page */
+async function goesToUnfinished(page) {
+  await cell(page, 'Frame 1, femur: posed').click();
+  const seen = [];
+  for (const key of ['n', 'n', 'Shift+n', 'Shift+n']) {
+    const before = await here(page);
+    await page.keyboard.press(key);
+    seen.push(await until(() => here(page), (now) => now !== before, 'to go on'));
+  }
+  assert.deepEqual(seen, ['4 Femur', '5 Femur', '4 Femur', '8 Tibia']);
+  await panel.waitForWords(page, /^Frame 8, tibia: empty\.$/);
+}
+
+/** @param {Page} page */
+async function marks(page) {
+  await cell(page, 'Frame 2, femur: posed').click();
+  await page.keyboard.press('y');
+  await cell(page, 'Frame 2, femur: posed, checked').waitFor();
+  assert.equal(await page.getByRole('button', { name: 'Checked' }).getAttribute('aria-pressed'), 'true');
+  await page.keyboard.press('i');
+  await cell(page, 'Frame 2, femur: posed, checked, flagged').waitFor();
+  await page.keyboard.press('Shift+i');
+  await page.keyboard.type('rim hidden');
+  await page.keyboard.press('Enter');
+  const note = page.getByRole('textbox', { name: 'Note on frame 2, femur' });
+  assert.equal(await note.inputValue(), 'rim hidden');
+  for (const left of ['posed, checked, flagged', 'posed, checked', 'posed']) {
+    await page.keyboard.press('Control+z');
+    await cell(page, `Frame 2, femur: ${left}`).waitFor();
+    await until(() => note.inputValue(), (text) => text === '', 'the note to be gone');
+  }
+  for (let redone = 0; redone < 3; redone++) await page.keyboard.press('Control+y');
+  await cell(page, 'Frame 2, femur: posed, checked, flagged').waitFor();
+  await until(() => note.inputValue(), (text) => text === 'rim hidden', 'the note to be back');
+}
+
+/** @param {Page} page @param {Stage} stage */
+async function checksOutdate(page, stage) {
+  await stage.learn();
+  await page.keyboard.press('v');
+  await page.keyboard.press('.');
+  await page.keyboard.press('Delete');
+  await cell(page, 'Frame 2, femur: posed, changed since it was checked, flagged').waitFor();
+  await page.keyboard.press('Control+z');
+  await cell(page, 'Frame 2, femur: posed, checked, flagged').waitFor();
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('y');
+  await cell(page, 'Frame 2, femur: posed, flagged').waitFor();
+}
+
+/** @param {Page} page */
+async function list(page) {
+  await page.keyboard.press('j');
+  const sheet = page.getByRole('dialog', { name: 'Work list' });
+  const rows = sheet.getByRole('table', { name: 'Work list' }).getByRole('row');
+  assert.equal(await rows.count(), 1 + 16);
+  await sheet.getByRole('radio', { name: 'Unfinished 10' }).click();
+  await until(() => rows.count(), (count) => count === 1 + 10, 'ten rows');
+  await sheet.getByRole('radio', { name: 'Unchecked 6' }).waitFor();
+  await sheet.getByRole('radio', { name: 'Flagged 1' }).click();
+  await until(() => rows.count(), (count) => count === 1 + 1, 'one row');
+  assert.match(await rows.nth(1).innerText(), /refined; residual \d\.\d\d px/);
+  assert.equal(await sheet.getByRole('textbox', { name: 'Note on frame 2, femur' }).inputValue(), 'rim hidden');
+  await screenshot(page, 'work list');
+  await sheet.getByRole('radio', { name: 'All 16' }).click();
+  await sheet.getByRole('checkbox', { name: 'Frame 3, tibia, checked' }).check();
+  await cell(page, 'Frame 3, tibia: posed, checked').waitFor();
+  await sheet.getByRole('button', { name: 'Go to frame 3, tibia' }).click();
+  assert.equal(await until(() => here(page), (now) => now === '3 Tibia', 'frame 3'), '3 Tibia');
+  await page.keyboard.press('Escape');
+  await sheet.waitFor({ state: 'hidden' });
+}
+
+/** @param {Page} page */
+async function curve(page) {
+  const chart = page.getByRole('img', { name: /^Flexion in 3 frames, [\u22120-9.]+° to [\u22120-9.]+°$/ });
+  await chart.waitFor();
+  const box = await chart.boundingBox();
+  assert(box);
+  await page.mouse.click(box.x + (0.5 / 8) * box.width, box.y + box.height / 2);
+  assert.equal(await until(() => here(page), (now) => now === '1 Tibia', 'frame 1'), '1 Tibia');
+  await page.getByRole('combobox', { name: 'Quantity of the curve' }).selectOption('Anterior');
+  await page.getByRole('img', { name: /^Anterior in 3 frames, .* mm to .* mm$/ }).waitFor();
+  await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
+  await page.getByText('Choose left or right beside the name of the study').waitFor();
+  await page.keyboard.press('Control+z');
+  await page.getByRole('img', { name: /^Anterior in 3 frames/ }).waitFor();
+}
+
+pageTest('a long film', async (page, t) => {
+  await step(page, t, 'its cells keep their size and the current one comes into sight', async () => {
+    const { png } = await import('./support/frames.mjs');
+    const frames = Array.from({ length: 90 }, (_, index) => ({ ...png(8, (grey) => (grey + index) % 256), name: `film${index + 1}.png` }));
+    await choose(page, ...frames);
+    await panel.waitForFrames(page, 90);
+    await cellsAreLarge(page);
+    await page.getByRole('slider', { name: 'Frame', exact: true }).fill('70');
+    const shown = cell(page, 'Frame 71, femur: empty');
+    const inSight = () =>
+      shown.evaluate((button) => {
+        const { left, right } = button.getBoundingClientRect();
+        return left >= 0 && right <= innerWidth && document.elementFromPoint((left + right) / 2, button.getBoundingClientRect().top + 5) === button;
+      });
+    await until(inSight, (seen) => seen, 'frame 71 to come into sight');
+    await screenshot(page, 'long film');
+  });
+});

@@ -1,0 +1,123 @@
+//! Refinement with numbers of the pose locked: they stay, and the others do what they can.
+
+use fluoropose::mask::{MaskMut, words_needed};
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::refine::{BorderPixel, Locks, RefineMemory, RefineOptions, Refined, View, refine};
+use fluoropose_tests::{camera, femur, mesh};
+
+const TRUTH: EulerPose = EulerPose {
+    x_mm: 6.0,
+    y_mm: -11.0,
+    z_mm: -1070.0,
+    z_rot_deg: 35.0,
+    x_rot_deg: 4.0,
+    y_rot_deg: -7.0,
+};
+
+/// A little off in every number.
+const START: EulerPose = EulerPose {
+    x_mm: 7.5,
+    y_mm: -12.5,
+    z_mm: -1062.0,
+    z_rot_deg: 36.5,
+    x_rot_deg: 2.5,
+    y_rot_deg: -5.5,
+};
+
+/// Refines `start` against the silhouette of the femur at [`TRUTH`].
+fn refined(start: EulerPose, locks: Locks) -> Refined {
+    let (camera, triangles) = (camera(), femur());
+    let mesh: Mesh<'_> = mesh(&triangles);
+    let (width, height) = (camera.width(), camera.height());
+    let mut projected = vec![Projected::default(); scratch_needed(&mesh)];
+    let mut words = vec![0; words_needed(width, height)];
+    let mut mask = MaskMut::new(&mut words, width, height).expect("valid");
+    render(
+        &mesh,
+        &camera,
+        &Pose::from(TRUTH),
+        &mut projected,
+        &mut mask,
+    )
+    .expect("drawn");
+    let mask = mask.into_mask();
+    let mut memory = RefineMemory {
+        projected: &mut projected,
+        drawn: &mut vec![0; words_needed(width, height)],
+        places: &mut vec![0; width * height],
+        border: &mut vec![BorderPixel::default(); 16_384],
+    };
+    let options = RefineOptions {
+        locks,
+        ..RefineOptions::default()
+    };
+    let view = View::only(&camera, &mask);
+    refine(&mesh, &[view], &Pose::from(start), options, &mut memory).expect("it is near")
+}
+
+#[test]
+fn numbers_that_are_locked_at_the_truth_stay_there_and_the_others_find_it() {
+    let start = EulerPose {
+        z_mm: TRUTH.z_mm,
+        y_rot_deg: TRUTH.y_rot_deg,
+        ..START
+    };
+    let locks = Locks {
+        translation: [false, false, true],
+        y_rot: true,
+        ..Locks::default()
+    };
+    let found = EulerPose::from(refined(start, locks).pose);
+    assert!((found.z_mm - TRUTH.z_mm).abs() < 1e-9);
+    assert!((found.y_rot_deg - TRUTH.y_rot_deg).abs() < 1e-9);
+    for (got, wanted) in [
+        (found.x_mm, TRUTH.x_mm),
+        (found.y_mm, TRUTH.y_mm),
+        (found.z_rot_deg, TRUTH.z_rot_deg),
+        (found.x_rot_deg, TRUTH.x_rot_deg),
+    ] {
+        assert!((got - wanted).abs() < 0.02, "{found:?}");
+    }
+}
+
+#[test]
+fn a_number_that_is_locked_off_the_truth_stays_off_and_costs_residual() {
+    let locks = Locks {
+        x_rot: true,
+        ..Locks::default()
+    };
+    let held = refined(START, locks);
+    let free = refined(START, Locks::default());
+    let found = EulerPose::from(held.pose);
+    assert!((found.x_rot_deg - START.x_rot_deg).abs() < 1e-9);
+    assert!((EulerPose::from(free.pose).x_rot_deg - TRUTH.x_rot_deg).abs() < 0.02);
+    assert!(
+        held.residual_px > 2.0 * free.residual_px,
+        "{held:?} {free:?}"
+    );
+    // The others went to where they fit best all the same.
+    assert!(
+        (found.x_mm - TRUTH.x_mm).abs() < 0.5 && (found.z_rot_deg - TRUTH.z_rot_deg).abs() < 0.5
+    );
+}
+
+#[test]
+fn with_everything_locked_nothing_moves() {
+    let locks = Locks {
+        translation: [true; 3],
+        z_rot: true,
+        x_rot: true,
+        y_rot: true,
+    };
+    let found = EulerPose::from(refined(START, locks).pose);
+    for (got, wanted) in [
+        (found.x_mm, START.x_mm),
+        (found.z_mm, START.z_mm),
+        (found.z_rot_deg, START.z_rot_deg),
+        (found.y_rot_deg, START.y_rot_deg),
+    ] {
+        assert!((got - wanted).abs() < 1e-9, "{found:?}");
+    }
+}

@@ -1,0 +1,104 @@
+//! Functional groups: where enhanced multi-frame objects keep what other objects have at their top level, once for all
+//! frames and once for each.
+
+use super::damaged;
+use super::structure::{
+    Element, ITEM, ITEM_END, SEQUENCE_END, UNDEFINED, Walker, is_small_and_wanted,
+};
+use crate::error::Problem;
+use crate::limits::MAX_FRAMES;
+
+/// The sequence of what all frames share.
+pub(super) const SHARED: u32 = 0x5200_9229;
+/// The sequence with an item for each frame.
+pub(super) const PER_FRAME: u32 = 0x5200_9230;
+
+/// The groups that are looked into: window, rescaling, spacing at the detector, X-ray geometry. They are known by tag
+/// because implicit files do not say what is a sequence.
+const GROUPS: [u32; 4] = [0x0028_9132, 0x0028_9145, 0x0028_9443, 0x0018_9476];
+
+/// The bytes of the wanted small elements of each item, one after the other, in the file's syntax.
+pub(super) fn items(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Vec<u8>>, Problem> {
+    let mut out = Vec::new();
+    each_item(walker, sequence, |walker, item| {
+        let mut wanted = Vec::new();
+        each_element(walker, item, |walker, element, _| {
+            match GROUPS.contains(&element.tag) {
+                true => each_item(walker, element, |walker, group| {
+                    each_element(walker, group, |walker, element, end| {
+                        if is_small_and_wanted(element) {
+                            wanted.extend_from_slice(
+                                walker.bytes.get(element.start..end).unwrap_or_default(),
+                            );
+                        }
+                        Ok(())
+                    })
+                }),
+                false => Ok(()),
+            }
+        })?;
+        out.push(wanted);
+        match out.len() > MAX_FRAMES {
+            true => Err(damaged(format!(
+                "its functional groups are for more than {MAX_FRAMES} frames"
+            ))),
+            false => Ok(()),
+        }
+    })?;
+    Ok(out)
+}
+
+/// Calls with each item of a sequence.
+fn each_item(
+    walker: &Walker<'_>,
+    sequence: &Element,
+    mut call: impl FnMut(&Walker<'_>, &Element) -> Result<(), Problem>,
+) -> Result<(), Problem> {
+    // An unknown element of undefined length is an implicit sequence whatever the file's syntax.
+    let unknown = sequence.representation == Some(*b"UN") && sequence.length == UNDEFINED;
+    let walker = Walker {
+        explicit: walker.explicit && !unknown,
+        ..*walker
+    };
+    let end = match sequence.length {
+        UNDEFINED => None,
+        _ => Some(sequence.range(walker.bytes)?.end),
+    };
+    let mut at = sequence.value;
+    while end.is_none_or(|end| at < end) {
+        let item = walker.element(at)?;
+        match item.tag {
+            SEQUENCE_END if end.is_none() => break,
+            ITEM => call(&walker, &item)?,
+            _ => {
+                return Err(damaged(format!(
+                    "there is no item of a functional group at byte {at}"
+                )));
+            }
+        }
+        at = walker.after_any_item(&item)?;
+    }
+    Ok(())
+}
+
+/// Calls with each element of an item and where it ends.
+fn each_element(
+    walker: &Walker<'_>,
+    item: &Element,
+    mut call: impl FnMut(&Walker<'_>, &Element, usize) -> Result<(), Problem>,
+) -> Result<(), Problem> {
+    let end = match item.length {
+        UNDEFINED => None,
+        _ => Some(item.range(walker.bytes)?.end),
+    };
+    let mut at = item.value;
+    while end.is_none_or(|end| at < end) {
+        let element = walker.element(at)?;
+        if element.tag == ITEM_END && end.is_none() {
+            break;
+        }
+        at = walker.after(&element, 1)?;
+        call(walker, &element, at)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! Masks written as PNG images.
+
+use png::{BitDepth, ColorType, Encoder};
+
+use crate::error::{DecodeError, Problem};
+use crate::frame::checked_area;
+
+/// A grey PNG of 8 bits from `width * height` pixels, row by row from the top: 255 where `inside` is not 0, else 0.
+/// That is what programs of this field read without asking.
+///
+/// # Errors
+/// [`DecodeError`] when the number of pixels is not that of the size, or the size is beyond the [limits](crate::limits).
+pub fn encode_mask(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, DecodeError> {
+    encode(inside, width, height).map_err(|problem| problem.of("mask"))
+}
+
+fn encode(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Problem> {
+    let area = checked_area(width.into(), height.into())?;
+    if inside.len() != area {
+        return Err(Problem::damaged(
+            "mask",
+            format!("it has {} pixels for {width} x {height}", inside.len()),
+        ));
+    }
+    let pixels: Vec<u8> = inside
+        .iter()
+        .map(|&p| if p == 0 { 0 } else { 255 })
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(ColorType::Grayscale);
+    encoder.set_depth(BitDepth::Eight);
+    let failed = |error: png::EncodingError| Problem::damaged("PNG", error.to_string());
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(&pixels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "it fails the test")]
+    use super::*;
+    use crate::decode_mask;
+
+    #[test]
+    fn a_written_mask_is_read_back() {
+        let inside: Vec<u8> = (0..37 * 11).map(|at| u8::from(at % 3 == 0) * 7).collect();
+        let bytes = encode_mask(&inside, 37, 11).unwrap();
+        let again = decode_mask(&bytes, "m.png").unwrap();
+        assert_eq!((again.width, again.height), (37, 11));
+        assert!(
+            again
+                .pixels
+                .iter()
+                .zip(&inside)
+                .all(|(&a, &b)| (a != 0) == (b != 0))
+        );
+    }
+
+    #[test]
+    fn too_few_pixels_are_refused() {
+        let sentence = encode_mask(&[1, 0, 1], 2, 2).unwrap_err().to_string();
+        assert!(sentence.contains("3 pixels for 2 x 2"), "{sentence}");
+    }
+}

@@ -1,0 +1,253 @@
+//! Masks and outlines, one made from the other.
+
+use fluoropose::aids::Vertex;
+use fluoropose::aids::list::List;
+use fluoropose::aids::simplify::{Simplify, simplify};
+use fluoropose::border::follow_border;
+use fluoropose::contour::{Contour, Outline, Point};
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::region::largest_region;
+use wasm_bindgen::prelude::*;
+
+use crate::error::sentence;
+
+/// Corners of a border that a mask may have.
+const BORDER_CORNERS: usize = 65_536;
+
+/// The outline of a mask's largest region, and what of the mask it leaves out.
+#[wasm_bindgen]
+pub struct MaskOutline {
+    exact: Vec<f64>,
+    points: Vec<f64>,
+    specks: u32,
+    holes: u32,
+    area: u32,
+}
+
+#[wasm_bindgen]
+impl MaskOutline {
+    /// Columns and rows by turns, along the cracks between pixels: filled again it gives the region exactly, its holes
+    /// filled.
+    #[wasm_bindgen(getter)]
+    pub fn exact(&self) -> Vec<f64> {
+        self.exact.clone()
+    }
+
+    /// The same with few points: through the middles of the cracks, which leave a staircase to neither side, simplified.
+    #[wasm_bindgen(getter)]
+    pub fn points(&self) -> Vec<f64> {
+        self.points.clone()
+    }
+
+    /// Pixels apart from the largest region, which are left out.
+    #[wasm_bindgen(getter)]
+    pub fn specks(&self) -> u32 {
+        self.specks
+    }
+
+    /// Pixels of holes, which are filled.
+    #[wasm_bindgen(getter)]
+    pub fn holes(&self) -> u32 {
+        self.holes
+    }
+
+    /// Pixels inside the outline.
+    #[wasm_bindgen(getter)]
+    pub fn area(&self) -> u32 {
+        self.area
+    }
+}
+
+/// The outline of the pixels that are `value`, `width * height` of them row by row; simplified to `tolerance` pixels.
+///
+/// # Errors
+/// A sentence for an empty mask, a shape that does not fit the pixels, or a border with too many corners.
+#[wasm_bindgen(js_name = outlineOfMask)]
+pub fn outline_of_mask(
+    pixels: &[u16],
+    value: u16,
+    width: u32,
+    height: u32,
+    tolerance: f64,
+) -> Result<MaskOutline, JsError> {
+    let (width, height) = (width as usize, height as usize);
+    if pixels.len() != width * height {
+        return Err(sentence(format!(
+            "the mask has {} pixels for {width} x {height}",
+            pixels.len()
+        )));
+    }
+    let mut memory: [Vec<Word>; 4] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
+    let [given, rest, current, largest] = &mut memory;
+    let mut mask = MaskMut::new(given, width, height).map_err(sentence)?;
+    for (at, _) in pixels.iter().enumerate().filter(|&(_, &p)| p == value) {
+        mask.set(at % width, at / width, true);
+    }
+    let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
+    let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
+    let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
+    let specks = largest_region(&mask.as_mask(), &mut rest, &mut current, &mut largest);
+    traced(&largest.as_mask(), specks, tolerance)
+}
+
+fn traced(region: &Mask<'_>, specks: u64, tolerance: f64) -> Result<MaskOutline, JsError> {
+    let mut border = Box::<Contour<BORDER_CORNERS>>::default();
+    follow_border(region, border.as_mut()).map_err(sentence)?;
+    let numbers = |points: &[Point]| points.iter().flat_map(|p| [p.column, p.row]).collect();
+    let few = simplified(&border, tolerance)?;
+    let area = area_of(&border);
+    Ok(MaskOutline {
+        exact: numbers(&border),
+        points: numbers(&few),
+        specks: specks as u32,
+        holes: (area - region.area()) as u32,
+        area: area as u32,
+    })
+}
+
+pub(crate) fn simplified(border: &[Point], tolerance: f64) -> Result<Vec<Point>, JsError> {
+    let line: Vec<Vertex> = crack_middles(border).map(Vertex::new).collect();
+    let mut marks = vec![false; line.len()];
+    let mut memory = vec![Vertex::default(); line.len()];
+    let mut few = List::new(&mut memory);
+    let settings = Simplify {
+        closed: true,
+        tolerance,
+        balanced: true,
+    };
+    simplify(&line, &settings, |_| false, &mut marks, &mut few).map_err(sentence)?;
+    Ok(few.as_slice().iter().map(|vertex| vertex.at).collect())
+}
+
+/// The middle of each side of a pixel along a border of whole corners.
+fn crack_middles(border: &[Point]) -> impl Iterator<Item = Point> + '_ {
+    let next = border.iter().cycle().skip(1);
+    border.iter().zip(next).flat_map(|(from, to)| {
+        let (right, down) = (to.column - from.column, to.row - from.row);
+        let length = right.abs() + down.abs();
+        (0..length as usize).map(move |step| {
+            let share = (step as f64 + 0.5) / length;
+            Point::new(from.column + share * right, from.row + share * down)
+        })
+    })
+}
+
+/// Pixels inside a border along cracks: its corners are whole numbers, so the shoelace formula is exact.
+fn area_of(border: &[Point]) -> u64 {
+    let next = border.iter().cycle().skip(1);
+    let twice: f64 = border
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.column * b.row - b.column * a.row)
+        .sum();
+    (twice.abs() / 2.0) as u64
+}
+
+/// The pixels inside a closed outline (columns and rows by turns), one byte each: 1 inside, 0 outside.
+///
+/// # Errors
+/// The core's sentence about the outline.
+#[wasm_bindgen(js_name = maskOfOutline)]
+pub fn mask_of_outline(outline: &[f64], width: u32, height: u32) -> Result<Vec<u8>, JsError> {
+    let (width, height) = (width as usize, height as usize);
+    let pairs = outline.as_chunks().0.iter();
+    let points: Vec<Point> = pairs
+        .map(|&[column, row]| Point::new(column, row))
+        .collect();
+    let outline = Outline::new(&points, width, height).map_err(sentence)?;
+    let mut words = vec![0; words_needed(width, height)];
+    let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
+    mask.fill_outline(&outline);
+    let mut pixels = vec![0; width * height];
+    let mask = mask.as_mask();
+    for (row, line) in pixels.chunks_exact_mut(width).enumerate() {
+        for run in mask.runs(row) {
+            line[run].fill(1);
+        }
+    }
+    Ok(pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDTH: usize = 60;
+    const HEIGHT: usize = 40;
+
+    fn draw(inside: impl Fn(usize, usize) -> bool) -> Vec<u16> {
+        (0..WIDTH * HEIGHT)
+            .map(|at| u16::from(inside(at % WIDTH, at / WIDTH)) * 9)
+            .collect()
+    }
+
+    fn outline(pixels: &[u16]) -> MaskOutline {
+        outline_of_mask(pixels, 9, WIDTH as u32, HEIGHT as u32, 0.4)
+            .ok()
+            .unwrap()
+    }
+
+    #[test]
+    fn a_mask_comes_back_from_its_outline_exactly() {
+        let disc = |c: usize, r: usize| (c as i64 - 30).pow(2) + (r as i64 - 20).pow(2) < 200;
+        let pixels = draw(disc);
+        let found = outline(&pixels);
+        assert_eq!((found.specks, found.holes), (0, 0));
+        assert_eq!(
+            found.area as usize,
+            pixels.iter().filter(|&&p| p > 0).count()
+        );
+        let again = mask_of_outline(&found.exact, WIDTH as u32, HEIGHT as u32)
+            .ok()
+            .unwrap();
+        assert!(
+            again
+                .iter()
+                .zip(&pixels)
+                .all(|(&a, &b)| (a != 0) == (b != 0))
+        );
+    }
+
+    #[test]
+    fn few_points_leave_the_border_to_both_sides_alike() {
+        let disc = |c: usize, r: usize| (c as i64 - 30).pow(2) + (r as i64 - 20).pow(2) < 300;
+        let pixels = draw(disc);
+        let found = outline(&pixels);
+        assert!(found.points.len() < found.exact.len() / 2);
+        let again = mask_of_outline(&found.points, WIDTH as u32, HEIGHT as u32)
+            .ok()
+            .unwrap();
+        let gained = again
+            .iter()
+            .zip(&pixels)
+            .filter(|&(&a, &b)| a != 0 && b == 0);
+        let lost = again
+            .iter()
+            .zip(&pixels)
+            .filter(|&(&a, &b)| a == 0 && b != 0);
+        let (gained, lost) = (gained.count() as i64, lost.count() as i64);
+        assert!(
+            gained + lost < 30,
+            "{gained} gained, {lost} lost of {}",
+            found.area
+        );
+        assert!((gained - lost).abs() < 10, "{gained} gained, {lost} lost");
+    }
+
+    #[test]
+    fn holes_are_filled_and_specks_left_out_and_both_counted() {
+        let ring = |c: usize, r: usize| (5..25).contains(&c) && (5..25).contains(&r);
+        let hole = |c: usize, r: usize| (10..13).contains(&c) && (10..14).contains(&r);
+        let speck = |c: usize, r: usize| c >= 50 && r == 3;
+        let found = outline(&draw(|c, r| ring(c, r) && !hole(c, r) || speck(c, r)));
+        assert_eq!((found.specks, found.holes, found.area), (10, 12, 400));
+        assert_eq!(found.exact.len(), 8);
+    }
+
+    #[test]
+    fn only_the_value_asked_for_counts() {
+        let mut pixels = draw(|c, r| c < 10 && r < 10);
+        pixels[0] = 3;
+        assert_eq!(outline(&pixels).area, 99);
+    }
+}

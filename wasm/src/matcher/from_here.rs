@@ -1,0 +1,239 @@
+//! Poses that a person set, refined from where they stand: against an outline, or the grey frame itself.
+
+use fluoropose::camera::Camera;
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{ImageTarget, Locks, Polarity, RefineOptions, Refined, View};
+use wasm_bindgen::prelude::*;
+
+use super::Matcher;
+use crate::calibration::camera;
+use crate::error::sentence;
+use crate::film::Film;
+use crate::found::deviation_numbers;
+use crate::lent_model::LentModel;
+use crate::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
+use crate::traced::Traced;
+
+/// What refinement made of a pose.
+#[wasm_bindgen]
+pub struct HandFit {
+    pose: PoseNumbers,
+    residual_px: f64,
+    drawn: Option<u64>,
+    deviations: Option<PoseNumbers>,
+    bright: bool,
+}
+
+#[wasm_bindgen]
+impl HandFit {
+    /// x, y, z (mm), z, x and y rotation (degrees).
+    #[wasm_bindgen(getter)]
+    pub fn pose(&self) -> Vec<f64> {
+        self.pose.to_vec()
+    }
+
+    /// Root mean square of what remains between the outlines, or between outline and edges, pixels.
+    #[wasm_bindgen(getter)]
+    pub fn residual(&self) -> f64 {
+        self.residual_px
+    }
+
+    /// Known frame pixels that differ from the outline when the model is drawn at the pose; nothing without an outline.
+    #[wasm_bindgen(getter)]
+    pub fn drawn(&self) -> Option<f64> {
+        self.drawn.map(|drawn| drawn as f64)
+    }
+
+    /// Standard deviations of the pose's numbers; nothing where numbers were locked or the pose is not determined.
+    #[wasm_bindgen(getter)]
+    pub fn deviations(&self) -> Option<Vec<f64>> {
+        self.deviations.map(|numbers| numbers.to_vec())
+    }
+
+    /// Whether the implant was taken to be brighter than what surrounds it.
+    #[wasm_bindgen(getter)]
+    pub fn bright(&self) -> bool {
+        self.bright
+    }
+}
+
+/// Pixels of a frame whose edges are not the implant's: the other component's.
+#[wasm_bindgen]
+pub struct HiddenPixels {
+    camera: Camera,
+    words: Vec<Word>,
+}
+
+/// Round the other component, pixels: its edges are as wide as the detector's blur.
+const MARGIN: usize = 4;
+
+#[wasm_bindgen]
+impl HiddenPixels {
+    /// None yet, for the camera of a calibration text and frames of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// The core's sentence about the calibration.
+    #[wasm_bindgen(constructor)]
+    pub fn new(calibration: &str, width: u32, height: u32) -> Result<HiddenPixels, JsError> {
+        let camera = camera(calibration, width, height)?;
+        Ok(Self {
+            words: vec![0; words_needed(camera.width(), camera.height())],
+            camera,
+        })
+    }
+
+    /// Hides what another component's model covers at a pose (six numbers), and some pixels round it.
+    ///
+    /// # Errors
+    /// The core's sentence about the pose or the model.
+    pub fn add(&mut self, other: &mut Matcher, pose: &[f64]) -> Result<(), JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        let (width, height) = (self.camera.width(), self.camera.height());
+        let model = model_of(&mut other.model)?;
+        let drawn = model.drawn_at(&pose, &self.camera)?;
+        let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
+        let mut hidden = MaskMut::new(&mut self.words, width, height).map_err(sentence)?;
+        widen(&drawn, &mut hidden);
+        Ok(())
+    }
+}
+
+/// Sets every pixel within [`MARGIN`] columns and rows of one that is set.
+fn widen(mask: &Mask<'_>, wide: &mut MaskMut<'_>) {
+    for row in 0..mask.height() {
+        for run in mask.runs(row) {
+            let columns = run.start.saturating_sub(MARGIN)..(run.end + MARGIN).min(mask.width());
+            let rows = row.saturating_sub(MARGIN)..(row + MARGIN + 1).min(mask.height());
+            for row in rows {
+                columns
+                    .clone()
+                    .for_each(|column| wide.set(column, row, true));
+            }
+        }
+    }
+}
+
+#[wasm_bindgen]
+impl Matcher {
+    /// Brings the model from a pose (six numbers) onto an outline. Of `locked`, six flags in the order of the numbers, those
+    /// that are not zero stay.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined from there.
+    #[wasm_bindgen(js_name = refineFrom)]
+    pub fn refine_from(
+        &mut self,
+        traced: &Traced,
+        start: &[f64],
+        locked: &[u8],
+    ) -> Result<HandFit, JsError> {
+        let (start, options) = begin(start, locked)?;
+        let model = model_of(&mut self.model)?;
+        let camera = traced.camera();
+        traced.look(|silhouette| {
+            let view = View::only(&camera, *silhouette);
+            let mut fit = fitted(model, &start, view, options)?;
+            let pose = Pose::from(from_numbers(&fit.pose)?);
+            fit.drawn = model.draw(&pose, &camera, silhouette)?;
+            Ok(fit)
+        })
+    }
+
+    /// The same onto the edges of a grey frame, seen by the camera of a calibration text. Whether the implant is darker or
+    /// brighter than what surrounds it is seen at the start.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be refined from there.
+    #[wasm_bindgen(js_name = refineOnFilm)]
+    pub fn refine_on_film(
+        &mut self,
+        film: &Film,
+        hidden: &HiddenPixels,
+        start: &[f64],
+        locked: &[u8],
+    ) -> Result<HandFit, JsError> {
+        let (start, options) = begin(start, locked)?;
+        let model = model_of(&mut self.model)?;
+        let camera = hidden.camera;
+        let unknown =
+            Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
+        film.look(|frame| {
+            let polarity = model.polarity(&start, &camera, frame)?;
+            let target = ImageTarget {
+                frame,
+                unknown: Some(&unknown),
+                polarity,
+            };
+            let fit = fitted(model, &start, View::only(&camera, target), options)?;
+            let bright = polarity == Polarity::BrightImplant;
+            Ok(HandFit { bright, ..fit })
+        })
+    }
+}
+
+fn fitted(
+    model: &mut LentModel,
+    start: &Pose,
+    view: View<'_>,
+    options: RefineOptions,
+) -> Result<HandFit, JsError> {
+    let refined: Refined = model.refine_from(start, view, options)?;
+    // How sure a pose is of which a part was given is not known.
+    let deviations = if options.locks.is_empty() {
+        model.deviations_in(&refined, view)?
+    } else {
+        None
+    };
+    Ok(HandFit {
+        pose: to_numbers(&EulerPose::from(refined.pose)),
+        residual_px: refined.residual_px,
+        drawn: None,
+        deviations: deviations.as_ref().map(deviation_numbers),
+        bright: false,
+    })
+}
+
+fn begin(start: &[f64], locked: &[u8]) -> Result<(Pose, RefineOptions), JsError> {
+    let &[x, y, z, z_rot, x_rot, y_rot] = locked else {
+        return Err(JsError::new("Locks are six flags"));
+    };
+    let locks = Locks {
+        translation: [x, y, z].map(|flag| flag != 0),
+        z_rot: z_rot != 0,
+        x_rot: x_rot != 0,
+        y_rot: y_rot != 0,
+    };
+    let options = RefineOptions {
+        locks,
+        ..RefineOptions::default()
+    };
+    Ok((from_numbers(start)?.into(), options))
+}
+
+pub(super) fn model_of(model: &mut Option<LentModel>) -> Result<&mut LentModel, JsError> {
+    model.as_mut().ok_or_else(|| {
+        JsError::new("Refining a pose needs the model, not only its library: open it too")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_widens_to_a_square_that_the_frame_cuts_off() {
+        let (width, height) = (40, 20);
+        let mut words = vec![0; words_needed(width, height)];
+        MaskMut::new(&mut words, width, height)
+            .unwrap()
+            .set(20, 1, true);
+        let mask = Mask::new(&words, width, height).unwrap();
+        let mut wide = vec![0; words_needed(width, height)];
+        let mut wide = MaskMut::new(&mut wide, width, height).unwrap();
+        widen(&mask, &mut wide);
+        // Nine columns; rows 0 to 5.
+        assert_eq!(wide.as_mask().area(), 9 * 6);
+        assert!(wide.as_mask().get(16, 5) && !wide.as_mask().get(15, 5));
+    }
+}

@@ -1,0 +1,567 @@
+//! One click or one box: a first outline and pose, in steps between which a worker can be called off.
+
+use fluoropose::border::follow_border;
+use fluoropose::camera::Camera;
+use fluoropose::choice::Candidate as Contender;
+use fluoropose::contour::{Contour, Outline, Point};
+use fluoropose::covariance::Deviations;
+use fluoropose::kernels::Kernels;
+use fluoropose::locate::Workspace;
+use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::math::{multiply, transpose};
+use fluoropose::oneclick::{
+    Answer, OneClick as Work, OneClickMemory, Part, Progress, Prompt, Scene,
+};
+use fluoropose::pose::{EulerPose, Pose, view_rotation};
+use fluoropose::refine::{ImageTarget, Polarity, RefineMemory, Refined, View};
+use fluoropose::region::largest_region;
+use wasm_bindgen::prelude::*;
+
+use super::from_here::model_of;
+use super::{Matcher, OFFERED, RIVAL_WITHIN};
+use crate::calibration::camera;
+use crate::choice::{Chosen, Surroundings};
+use crate::error::sentence;
+use crate::exchange::simplified;
+use crate::film::{Film, Pixels};
+use crate::found::{Candidate, Match, deviation_numbers};
+use crate::pose_numbers::to_numbers;
+
+/// The outline that is handed out stays so near to the silhouette, pixels.
+const TOLERANCE: f64 = 0.5;
+/// Shares of the outline on edges from which an answer is good, and fair.
+const GOOD: f64 = 0.85;
+const FAIR: f64 = 0.65;
+/// An answer whose edges are weaker than this part of the best's is no rival.
+const RIVAL_STRENGTH: f64 = 0.75;
+
+/// Numbers of a prompt: a click's column and row, or a box's left, top, right and bottom.
+fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
+    match *numbers {
+        [column, row] => Ok(Prompt::Click(Point::new(column, row))),
+        [left, top, right, bottom] => Ok(Prompt::Box(
+            Point::new(left, top),
+            Point::new(right, bottom),
+        )),
+        _ => Err(JsError::new(&format!(
+            "A click is 2 numbers and a box is 4, but {} were given",
+            numbers.len()
+        ))),
+    }
+}
+
+/// The same film once more: the page's own may be closed while the work goes on.
+fn copy(film: &Film) -> Result<Film, JsError> {
+    let (width, height) = film.size();
+    let (width, height) = (width as u32, height as u32);
+    match film.pixels() {
+        Pixels::Eight(pixels) => Film::from_eight_bit(pixels.clone(), width, height),
+        Pixels::Sixteen(pixels) => Film::from_sixteen_bit(pixels.clone(), width, height),
+    }
+}
+
+/// The work from a click or a box on a film to outlines and poses.
+#[wasm_bindgen]
+pub struct OneClick {
+    film: Film,
+    camera: Camera,
+    polarity: Polarity,
+    prompt: Prompt,
+    excluded: Option<Vec<Word>>,
+    work: Option<Work>,
+    buffers: Buffers,
+}
+
+/// What the core wants lent of its own; the rest is the matcher's.
+#[derive(Default)]
+struct Buffers {
+    grey: Vec<u16>,
+    reached: Vec<u16>,
+    distance: Vec<u16>,
+    marks: Vec<u8>,
+    links: Vec<u32>,
+    tallies: Vec<u32>,
+    words: Vec<Word>,
+}
+
+impl Buffers {
+    fn lend<'m>(
+        &'m mut self,
+        work: &Work,
+        camera: &Camera,
+        workspace: Workspace<'m>,
+        refine: RefineMemory<'m>,
+    ) -> OneClickMemory<'m> {
+        let needs = work.needs(camera);
+        for pixels in [&mut self.grey, &mut self.reached, &mut self.distance] {
+            pixels.resize(needs.pixels, 0);
+        }
+        self.marks.resize(needs.pixels, 0);
+        self.links.resize(needs.links, 0);
+        self.tallies.resize(needs.tallies, 0);
+        self.words.resize(needs.words, 0);
+        OneClickMemory {
+            grey: &mut self.grey,
+            reached: &mut self.reached,
+            distance: &mut self.distance,
+            marks: &mut self.marks,
+            links: &mut self.links,
+            tallies: &mut self.tallies,
+            words: &mut self.words,
+            workspace,
+            refine,
+        }
+    }
+}
+
+#[wasm_bindgen]
+impl OneClick {
+    /// Begins with a film, its calibration and a click (column, row) or a rough box (left, top, right, bottom).
+    ///
+    /// # Errors
+    /// A sentence about the calibration or the prompt.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        film: &Film,
+        calibration: &str,
+        prompt: &[f64],
+        bright_implant: bool,
+    ) -> Result<OneClick, JsError> {
+        let (width, height) = film.size();
+        Ok(Self {
+            film: copy(film)?,
+            camera: camera(calibration, width as u32, height as u32)?,
+            polarity: if bright_implant {
+                Polarity::BrightImplant
+            } else {
+                Polarity::DarkImplant
+            },
+            prompt: prompt_of(prompt)?,
+            excluded: None,
+            work: None,
+            buffers: Buffers::default(),
+        })
+    }
+
+    /// Leaves out the pixels inside an outline (columns and rows by turns): another component's.
+    ///
+    /// # Errors
+    /// The core's sentence about the outline.
+    pub fn avoid(&mut self, outline: &[f64]) -> Result<(), JsError> {
+        let (width, height) = (self.camera.width(), self.camera.height());
+        let pairs = outline.as_chunks().0.iter();
+        let points: Vec<Point> = pairs
+            .map(|&[column, row]| Point::new(column, row))
+            .collect();
+        let outline = Outline::new(&points, width, height).map_err(sentence)?;
+        let mut words = vec![0; words_needed(width, height)];
+        let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
+        mask.fill_outline(&outline);
+        match &mut self.excluded {
+            Some(all) => all
+                .iter_mut()
+                .zip(&words)
+                .for_each(|(all, word)| *all |= word),
+            None => self.excluded = Some(words),
+        }
+        Ok(())
+    }
+
+    /// Part of the work that is done, 0 to 1.
+    #[wasm_bindgen(getter)]
+    pub fn progress(&self) -> f64 {
+        match self.work.as_ref().map(Work::progress) {
+            None => 0.0,
+            Some(Progress::Regions(done) | Progress::Poses(done)) => done,
+            Some(Progress::Done) => 1.0,
+        }
+    }
+
+    /// What is being done.
+    #[wasm_bindgen(getter)]
+    pub fn doing(&self) -> String {
+        let words = match self.work.as_ref().map(Work::progress) {
+            None | Some(Progress::Regions(_)) => "Looking for the implant's region",
+            Some(Progress::Poses(_)) => "Bringing the model onto the edges",
+            Some(Progress::Done) => "Done",
+        };
+        words.to_owned()
+    }
+
+    /// One step with a library and its model. Gives whether there is more to do.
+    ///
+    /// # Errors
+    /// A sentence about why there is no outline.
+    pub fn step(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
+        matcher.with_part(&self.camera, |part, workspace, refine| {
+            let fresh = || Work::new(self.prompt, &self.camera, Some(part));
+            let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
+            let mut memory = self.buffers.lend(&work, &self.camera, workspace, refine);
+            let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
+            let more = self.film.look(|frame| {
+                with_mask(excluded.as_deref(), camera, |excluded| {
+                    let scene = Scene {
+                        frame,
+                        camera,
+                        polarity,
+                        excluded,
+                    };
+                    work.step(&scene, Some(part), &mut memory).map_err(sentence)
+                })
+            });
+            self.work = Some(work);
+            more
+        })
+    }
+
+    /// One step without library and model: the region and its edges alone.
+    ///
+    /// # Errors
+    /// A sentence about why there is no outline.
+    #[wasm_bindgen(js_name = stepAlone)]
+    pub fn step_alone(&mut self) -> Result<bool, JsError> {
+        self.alone(|work, scene, memory| work.step(scene, None, memory).map_err(sentence))
+    }
+
+    /// What came of it without library and model: the region with the sharpest border.
+    ///
+    /// # Errors
+    /// A sentence where there is none.
+    #[wasm_bindgen(js_name = finishAlone)]
+    pub fn finish_alone(&mut self) -> Result<OneClickAnswer, JsError> {
+        let outline = self.alone(|work, scene, memory| {
+            let region = work.draw_region(scene, memory).map_err(sentence)?;
+            outline_of(&region)
+        })?;
+        Ok(OneClickAnswer {
+            outlines: vec![outline],
+            supports: Vec::new(),
+            matched: None,
+            sentence: "The region with the sharpest border round there; open the implant's model for an outline that knows its shape.".to_owned(),
+        })
+    }
+
+    /// What came of it: the chosen pose first, then its rivals, each with the model's silhouette as its outline.
+    ///
+    /// # Errors
+    /// A sentence where the work is not done or the model cannot be drawn.
+    pub fn finish(
+        &mut self,
+        matcher: &mut Matcher,
+        around: &Surroundings,
+    ) -> Result<OneClickAnswer, JsError> {
+        let answers = self.work.as_ref().map_or(&[][..], Work::answers);
+        let strongest = answers.first().map_or(0.0, |best| best.score);
+        let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
+        let answers: Vec<Answer> = answers.iter().filter(rivals).copied().collect();
+        let contenders: Vec<Contender> = answers.iter().map(contender).collect();
+        let Some(chosen) = Chosen::among(&contenders, around) else {
+            return Err(JsError::new("The first outline is not worked out yet"));
+        };
+        let mut answer = OneClickAnswer {
+            outlines: Vec::new(),
+            supports: Vec::new(),
+            matched: None,
+            sentence: String::new(),
+        };
+        let mut candidates = Vec::new();
+        for place in offered(&answers, &chosen) {
+            let one = &answers[place];
+            answer
+                .outlines
+                .push(matcher.outline_at(&one.refined.pose, &self.camera)?);
+            answer.supports.push(one.support.share);
+            candidates.push(self.candidate(one, matcher)?);
+        }
+        answer.sentence = told(&answer.supports);
+        answer.matched = Some(Match {
+            candidates,
+            clipped: false,
+            partial: false,
+            chosen: Some(chosen),
+        });
+        Ok(answer)
+    }
+}
+
+impl OneClick {
+    fn alone<T>(
+        &mut self,
+        with: impl FnOnce(&mut Work, &Scene<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let fresh = || Work::new(self.prompt, &self.camera, None);
+        let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
+        let workspace = Workspace {
+            canonical: &mut [],
+            turned: &mut [],
+            scores: &mut [],
+            bytes: &mut [],
+            kernels: Kernels::PORTABLE,
+        };
+        let refine = RefineMemory {
+            projected: &mut [],
+            drawn: &mut [],
+            places: &mut [],
+            border: &mut [],
+        };
+        let mut memory = self.buffers.lend(&work, &self.camera, workspace, refine);
+        let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
+        let done = self.film.look(|frame| {
+            with_mask(excluded.as_deref(), camera, |excluded| {
+                let scene = Scene {
+                    frame,
+                    camera,
+                    polarity,
+                    excluded,
+                };
+                with(&mut work, &scene, &mut memory)
+            })
+        });
+        self.work = Some(work);
+        done
+    }
+
+    fn candidate(&self, answer: &Answer, matcher: &mut Matcher) -> Result<Candidate, JsError> {
+        let (camera, polarity) = (&self.camera, self.polarity);
+        let deviations = self.film.look(|frame| {
+            with_mask(self.excluded.as_deref(), camera, |unknown| {
+                let target = ImageTarget {
+                    frame,
+                    unknown,
+                    polarity,
+                };
+                matcher.deviations_on(&answer.refined, View::only(camera, target))
+            })
+        })?;
+        let pose = &answer.refined.pose;
+        let (view, at_border) = matcher.view_of(pose)?;
+        Ok(Candidate {
+            pose: to_numbers(&EulerPose::from(*pose)),
+            unmatched: None,
+            drawn: None,
+            residual_px: Some(answer.refined.residual_px),
+            deviations: deviations.as_ref().map(deviation_numbers),
+            start: Some(to_numbers(&EulerPose::from(answer.start))),
+            view,
+            at_border,
+            input: Vec::new(),
+            library: Vec::new(),
+        })
+    }
+}
+
+impl Matcher {
+    /// Calls `with` with the component and the memory to match and refine it.
+    fn with_part<T>(
+        &mut self,
+        camera: &Camera,
+        with: impl FnOnce(&Part<'_>, Workspace<'_>, RefineMemory<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let library = self.library.borrow_dependent();
+        let workspace = Workspace {
+            canonical: &mut self.canonical,
+            turned: &mut self.turned,
+            scores: &mut self.scores,
+            bytes: &mut self.bytes,
+            kernels: Kernels::PORTABLE,
+        };
+        model_of(&mut self.model)?.lend(camera, |mesh, planes, refine| {
+            let part = Part {
+                library,
+                mesh,
+                planes,
+            };
+            with(&part, workspace, refine)
+        })
+    }
+
+    /// How sure a pose is that was refined on a film.
+    fn deviations_on(
+        &mut self,
+        refined: &Refined,
+        view: View<'_>,
+    ) -> Result<Option<Deviations>, JsError> {
+        model_of(&mut self.model)?.deviations_in(refined, view)
+    }
+
+    /// The model's silhouette at a pose as an outline: columns and rows by turns.
+    fn outline_at(&mut self, pose: &Pose, camera: &Camera) -> Result<Vec<f64>, JsError> {
+        let (width, height) = (camera.width(), camera.height());
+        let model = model_of(&mut self.model)?;
+        let drawn = model.drawn_at(pose, camera)?;
+        outline_of(&Mask::new(drawn, width, height).map_err(sentence)?)
+    }
+
+    /// The library's view of a pose (rotations about x and y, degrees), and whether it lies at the border of the library
+    /// or beyond.
+    fn view_of(&mut self, pose: &Pose) -> Result<([f64; 2], bool), JsError> {
+        let info = *self.library.borrow_dependent().info();
+        let ray = pose.transform(&info.reference);
+        let rotation = multiply(&transpose(&view_rotation(&ray)), &pose.rotation);
+        let seen = EulerPose::from(Pose { rotation, ..*pose });
+        let view = [seen.x_rot_deg, seen.y_rot_deg];
+        let axes = [info.grid.x, info.grid.y];
+        let inner = view.iter().zip(axes).all(|(&at, axis)| {
+            let last = axis.at(axis.count.saturating_sub(1) as f64);
+            axis.first < at && at < last
+        });
+        Ok((view, !inner))
+    }
+}
+
+/// Corners of a border that a silhouette may have.
+const BORDER_CORNERS: usize = 16_384;
+
+/// The outline of a mask's largest region with few points: columns and rows by turns.
+fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
+    let (width, height) = (mask.width(), mask.height());
+    let mut memory: [Vec<Word>; 3] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
+    let [a, b, c] = &mut memory;
+    let [mut rest, mut current, mut largest] = [
+        MaskMut::new(a, width, height).map_err(sentence)?,
+        MaskMut::new(b, width, height).map_err(sentence)?,
+        MaskMut::new(c, width, height).map_err(sentence)?,
+    ];
+    largest_region(mask, &mut rest, &mut current, &mut largest);
+    let mut border = Box::<Contour<BORDER_CORNERS>>::default();
+    follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
+    let points = simplified(&border, TOLERANCE)?;
+    Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
+}
+
+/// Calls `with` with a mask of the camera's frame, where there is one.
+fn with_mask<T>(
+    words: Option<&[Word]>,
+    camera: &Camera,
+    with: impl FnOnce(Option<&Mask<'_>>) -> Result<T, JsError>,
+) -> Result<T, JsError> {
+    let mask = words.map(|words| Mask::new(words, camera.width(), camera.height()));
+    let mask = mask.transpose().map_err(sentence)?;
+    with(mask.as_ref())
+}
+
+fn contender(answer: &Answer) -> Contender {
+    Contender {
+        pose: answer.refined.pose,
+        residual_px: answer.refined.residual_px,
+    }
+}
+
+/// Numbers of the answers that are offered: the chosen one, the rival that is still open, and others that come near.
+fn offered(answers: &[Answer], chosen: &Chosen) -> Vec<usize> {
+    let residual = |at: usize| answers[at].refined.residual_px;
+    let least = (0..answers.len()).map(residual).fold(f64::MAX, f64::min);
+    let first = [chosen.index()].into_iter().chain(chosen.open());
+    let near = (0..answers.len()).filter(|&at| residual(at) <= RIVAL_WITHIN * least);
+    let mut places: Vec<usize> = Vec::new();
+    for place in first.chain(near) {
+        if place < answers.len() && places.len() < OFFERED && !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    places
+}
+
+/// What was done and how sure it is.
+fn told(supports: &[f64]) -> String {
+    let share = supports.first().copied().unwrap_or(0.0);
+    let percent = (100.0 * share).round();
+    let how = format!("The model's outline lies on edges along {percent} % of its length.");
+    let doubt = match share {
+        share if share >= GOOD => "",
+        share if share >= FAIR => " Check it before you go on.",
+        _ => {
+            " That is little: something may hide it, or it is another part; correct it or click elsewhere."
+        }
+    };
+    let rivals = match supports.len() {
+        0 | 1 => String::new(),
+        2 => " Another pose explains the film nearly as well.".to_owned(),
+        count => format!(
+            " {} other poses explain the film nearly as well.",
+            count - 1
+        ),
+    };
+    format!("{how}{doubt}{rivals}")
+}
+
+/// What came of a click or a box: candidates, the chosen one first. Asked beyond `count`, the methods answer nothing.
+#[wasm_bindgen]
+pub struct OneClickAnswer {
+    outlines: Vec<Vec<f64>>,
+    /// Of outlines from a model.
+    supports: Vec<f64>,
+    matched: Option<Match>,
+    sentence: String,
+}
+
+#[wasm_bindgen]
+impl OneClickAnswer {
+    /// How many candidates there are.
+    #[wasm_bindgen(getter)]
+    pub fn count(&self) -> usize {
+        self.outlines.len()
+    }
+
+    /// Whether the outlines are the model's silhouettes, each with a pose; otherwise there is one, of a region.
+    #[wasm_bindgen(getter, js_name = fromModel)]
+    pub fn from_model(&self) -> bool {
+        !self.supports.is_empty()
+    }
+
+    /// What was done and how sure it is.
+    #[wasm_bindgen(getter)]
+    pub fn sentence(&self) -> String {
+        self.sentence.clone()
+    }
+
+    /// How sure the first candidate is: "good", "fair" or "poor".
+    #[wasm_bindgen(getter)]
+    pub fn confidence(&self) -> String {
+        let word = match self.supports.first() {
+            Some(&share) if share >= GOOD => "good",
+            Some(&share) if share >= FAIR => "fair",
+            _ => "poor",
+        };
+        word.to_owned()
+    }
+
+    /// Columns and rows by turns: a simple polygon.
+    pub fn outline(&self, index: usize) -> Option<Vec<f64>> {
+        self.outlines.get(index).cloned()
+    }
+
+    /// Part of the outline that lies on an edge of the right polarity, 0 to 1; nothing for a region.
+    pub fn support(&self, index: usize) -> Option<f64> {
+        self.supports.get(index).copied()
+    }
+
+    /// The candidates' poses, in the same order; once, and nothing for a region.
+    #[wasm_bindgen(js_name = takeMatch)]
+    pub fn take_match(&mut self) -> Option<Match> {
+        self.matched.take()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_tells_how_sure_it_is_and_of_rivals() {
+        let good = "The model's outline lies on edges along 94 % of its length.";
+        assert_eq!(told(&[0.936]), good);
+        assert!(told(&[0.936, 0.9]).ends_with(" Another pose explains the film nearly as well."));
+        assert!(told(&[0.7]).ends_with(" Check it before you go on."));
+        assert!(told(&[0.4]).contains("correct it or click elsewhere"));
+    }
+
+    #[test]
+    fn a_prompt_is_a_click_or_a_box() {
+        let click = prompt_of(&[3.0, 4.0]).ok();
+        assert_eq!(click, Some(Prompt::Click(Point::new(3.0, 4.0))));
+        let boxed = prompt_of(&[1.0, 2.0, 3.0, 4.0]).ok();
+        let wanted = Prompt::Box(Point::new(1.0, 2.0), Point::new(3.0, 4.0));
+        assert_eq!(boxed, Some(wanted));
+    }
+}

@@ -1,0 +1,19 @@
+import { onOutline, type Command } from './commands';
+import { assignments, type Proposal } from './proposal';
+import type { Doc } from './types';
+
+/** Puts every outline of a proposal where it belongs, as one unit of undo. */
+export function importProposal(doc: Doc, proposal: Proposal): Command {
+  const placed = assignments(doc, proposal).flatMap(({ item, destination }) => {
+    if (destination.kind === 'nowhere') return [];
+    const outline = (proposal.exact && item.exactOutline) || item.outline;
+    const place = { frameId: destination.frame.id, component: destination.component };
+    return [{ place, outline }];
+  });
+  const label = placed.length === 1 ? 'import an outline' : `import ${placed.length} outlines`;
+  return {
+    label,
+    place: placed[0]?.place ?? null,
+    apply: (before) => placed.reduce((now, { place, outline }) => onOutline(label, place, () => outline).apply(now), before),
+  };
+}

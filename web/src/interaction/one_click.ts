@@ -1,0 +1,30 @@
+import { distance, type CanvasPoint } from '../geometry/points';
+import { frameFromCanvas } from '../geometry/viewport';
+import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+
+/** A click inside the implant, or a rough box round it. */
+export type OneClickState =
+  | { readonly name: 'idle' }
+  | { readonly name: 'pressed'; readonly from: CanvasPoint }
+  | { readonly name: 'boxing'; readonly from: CanvasPoint };
+
+const IDLE: OneClickState = { name: 'idle' };
+
+export const oneClick: Machine<OneClickState> = { start: IDLE, next };
+
+function next(state: OneClickState, input: Input, scene: Scene): Outcome<OneClickState> {
+  if (input.type === 'cancel') return outcome(IDLE, { type: 'aid', intent: { aid: 'none' } });
+  if (state.name === 'idle') {
+    const begins = input.type === 'down' && input.button === 'primary';
+    return outcome(begins ? { name: 'pressed', from: input.at } : state);
+  }
+  const at = frameFromCanvas(scene.viewport, input.at);
+  const from = frameFromCanvas(scene.viewport, state.from);
+  if (state.name === 'pressed' && distance(state.from, input.at) < DRAG_THRESHOLD) {
+    if (input.type !== 'up') return outcome(state);
+    return outcome(IDLE, { type: 'aid', intent: { aid: 'one-click', to: 'point', at: from } });
+  }
+  if (input.type === 'up') return outcome(IDLE, { type: 'aid', intent: { aid: 'one-click', to: 'box', from, at } });
+  if (input.type !== 'move') return outcome(state);
+  return outcome({ name: 'boxing', from: state.from }, { type: 'aid', intent: { aid: 'one-click', to: 'frame', from, at } });
+}

@@ -1,0 +1,50 @@
+import { distance } from '../geometry/points';
+import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
+import { edit, nextEdit, type EditState } from './edit';
+import { CLOSING_REACH, FEWEST_POINTS, hitTest, reachOf } from './hit';
+import { outcome, type Effect, type Input, type Machine, type Outcome, type Scene } from './machine';
+
+/** Live-wire: the path follows the edge to the pointer, a click fixes it. On a closed outline it edits points. */
+export type WireState =
+  | { readonly name: 'aiming' }
+  /** The button is down: the path still follows, it is fixed where the button is let go. */
+  | { readonly name: 'pressed' }
+  | { readonly name: 'editing'; readonly edit: EditState };
+
+const AIMING: WireState = { name: 'aiming' };
+
+export const wire: Machine<WireState> = { start: AIMING, next };
+
+/** Is something under way that must not be interrupted? Aiming is not. */
+export function wireBusy(state: WireState): boolean {
+  return state.name === 'pressed' || (state.name === 'editing' && state.edit.name !== 'idle');
+}
+
+function next(state: WireState, input: Input, scene: Scene): Outcome<WireState> {
+  if (input.type === 'cancel') return outcome(AIMING, { type: 'cancel-preview' }, { type: 'aid', intent: { aid: 'none' } });
+  if (scene.outline?.closed) return onClosed(state, input, scene);
+  if (input.type === 'double') return outcome(AIMING, intent('close', input, scene));
+  if (input.type === 'down') return input.button === 'primary' ? outcome({ name: 'pressed' }, intent('aim', input, scene)) : outcome(state);
+  if (input.type === 'move') return outcome(state.name === 'pressed' ? state : AIMING, intent('aim', input, scene));
+  if (state.name !== 'pressed') return outcome(AIMING);
+  return outcome(AIMING, { type: 'select', index: null }, intent(isOnFirst(input, scene) ? 'close' : 'fix', input, scene));
+}
+
+function onClosed(state: WireState, input: Input, scene: Scene): Outcome<WireState> {
+  const before = state.name === 'editing' ? state.edit : edit.start;
+  const hit = hitTest(scene.outline, scene.viewport, input.at, reachOf(input));
+  const edited = nextEdit(before, input, scene, hit);
+  return { state: { name: 'editing', edit: edited.state }, effects: edited.effects };
+}
+
+/** Does a click here close the draft? */
+export function isOnFirst({ at, touch }: Pick<Input, 'at' | 'touch'>, { outline, viewport }: Pick<Scene, 'outline' | 'viewport'>): boolean {
+  const first = outline?.points[0];
+  if (!first || outline.points.length < FEWEST_POINTS) return false;
+  return distance(canvasFromFrame(viewport, first), at) <= reachOf({ touch }) * (CLOSING_REACH + 2);
+}
+
+function intent(to: 'aim' | 'fix' | 'close', input: Input, scene: Scene): Effect {
+  const at = frameFromCanvas(scene.viewport, input.at);
+  return { type: 'aid', intent: { aid: 'wire', to, at, straight: input.shift === true } };
+}

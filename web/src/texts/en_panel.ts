@@ -1,0 +1,93 @@
+/** The rail on the left and the panel on the right: the pose, how far to trust it, how the film is shown. */
+export const panel = {
+  region: 'Pose',
+  component: 'Component',
+  switchTitle: (component: string) => `${component} (C switches)`,
+  savePoses: (component: string) => `Save ${component} poses`,
+  savePosesTitle: 'As a .jts file, a row a frame',
+  deleteOutline: 'Delete outline',
+  deleteOutlineTitle: 'Shift+Delete',
+
+  rail: {
+    region: 'Tools',
+    markSide: 'Mark a side unknown or known',
+    markSideTitle: 'Mark the side after the selected point unknown, or known again (U)',
+    fit: 'Fit the film to the window',
+    fitTitle: 'Fit the film to the window (0)',
+  },
+
+  pose: {
+    region: 'Pose numbers',
+    outdated: (needs: string) => `Found with another model, calibration or library. ${needs}`,
+    fromFile: (name: string) => `From ${name}.`,
+    refined: (residual: string, sure: boolean) =>
+      `refined, ${residual} px; ${sure ? '± is one standard deviation' : 'the outline does not determine how sure'}`,
+    library: 'library',
+    notRefined: (why: string) => `library. Not refined: ${why}`,
+    needs: (what: string) => `For a pose: ${what}.`,
+    noneFromOutline: 'No pose from this outline; the bottom line says why.',
+    finding: 'Finding it ...',
+    number: (name: string, value: string, unit: string) => `${name} ${value} ${unit}`,
+    deviation: (name: string, value: string, unit: string) => `${name} plus or minus ${value} ${unit}`,
+    deviationTitle: 'One standard deviation; the truth lies within two of them 95 times in 100',
+    copyTitle: 'Click to copy with all its decimals',
+    copied: (name: string, value: number) => `${name} copied: ${value}`,
+    notCopied: 'The browser did not let the page copy to the clipboard.',
+    convergence: 'Convergence',
+    convergenceTitle: 'How refinement came to this pose, step by step',
+  },
+
+  candidates: {
+    region: 'Score and candidates',
+    unmatched: 'Unmatched',
+    unmatchedPixels: 'Unmatched pixels',
+    refined: 'Unmatched pixels, pose refined',
+    ofLibrary: 'Unmatched pixels, pose of the library',
+    beingRefined: 'Unmatched pixels, pose of the library, being refined',
+    of: (area: string) => `px of ${area}`,
+    list: 'Candidate poses',
+    /** Best first. */
+    names: ['Best', 'Rival', 'Third', 'Fourth'],
+    loaded: 'Loaded',
+    candidate: (name: string) => `${name} candidate`,
+    rivalTitle: 'Another pose that explains the outline nearly as well (X switches)',
+    bestTitle: 'The pose that was chosen; the reason stands below (X switches)',
+    turned: (x: string, y: string) => `x ${x}, y ${y}`,
+    none: 'none',
+    pixels: (count: string) => `${count} px`,
+    drawn: (count: string) => `${count} px drawn`,
+    atBorder:
+      'The best view lies at the border of the library: the true rotation may lie beyond it. Choose another nominal view under the component above.',
+    byHand: 'Chosen by hand; X goes back to the best.',
+    compares: (reason: string) => `${reason} X compares.`,
+    alone: 'No other view comes near: the choice is clear.',
+    clear: (drawn: boolean, ratio: string) => `${rival(drawn)} misses ${ratio} times as many pixels: the choice is clear.`,
+    close: (drawn: boolean, ratio: string) => `${rival(drawn)} misses only ${ratio} times as many pixels: compare both overlays with X.`,
+    even: (drawn: boolean) => `${rival(drawn)} misses just as many pixels: compare both overlays with X.`,
+  },
+
+  unmatched: {
+    region: 'Unmatched pixels in the canonical frame',
+    picture: 'Outline and library view in canonical form, black where they differ',
+    none: 'No match to show',
+    differs: 'differs',
+    partial: (milliseconds: string) => `from a part of the outline · ${milliseconds} ms`,
+    clipped: (milliseconds: string) => `cut at the border · ${milliseconds} ms`,
+    found: (milliseconds: string) => `found in ${milliseconds} ms`,
+  },
+
+  display: {
+    region: 'Display',
+    opacity: 'Overlay opacity',
+    opacityShown: 'Overlay',
+    percent: (value: number) => `${value} %`,
+    width: 'Window width',
+    level: 'Window level',
+    reset: 'Reset window and level',
+    resetTitle: 'R',
+  },
+};
+
+function rival(drawn: boolean): string {
+  return drawn ? 'Drawn at its pose, the rival' : 'The rival';
+}

@@ -1,0 +1,62 @@
+/** What the bottom line and the log say of outlines, files and poses. */
+export const said = {
+  tooFewPoints: (fewest: number, missing: number) => `An outline needs ${fewest} points: ${missing} more, then it can be closed.`,
+  selectedPoint: (point: number, count: number) => `Point ${point} of ${count}: Delete removes it; U marks the side after it unknown.`,
+  closeFirst: 'Sides can be marked unknown once the outline is closed.',
+  whichSide: 'Point at a side of the outline, or select the point before it with , and . keys, then press U.',
+  sideUnknown: (side: number, count: number, reach: number, share: number) =>
+    `Side ${side} of ${count} is unknown: what lies within ${reach} px of it is ignored. ${share} % of the outline is unknown.`,
+  sideKnown: (side: number, count: number, share: number) => `Side ${side} of ${count} is known. ${share} % of the outline is unknown.`,
+  sessionSaved: 'Session saved, with every file it needs.',
+  sessionSavedWithoutFiles: 'Session saved; its files are named by digest, keep them.',
+  posesSaved: (component: string, frames: number, without: number) =>
+    `Poses of the ${component} saved, a row for each of ${frames} frames.${without === 0 ? '' : ` ${without} without a pose: rows of zeros.`}`,
+  tableSaved: (component: string, frames: number) =>
+    `Poses of the ${component} saved with their standard deviations, a row for each of ${frames} frames.`,
+
+  opened: (what: string) => `Opened ${what}.`,
+  of: (file: string, sentence: string) => `${file}: ${sentence}`,
+  outlinesNeedFrames: 'outlines are for frames: open the frames first, then the outlines',
+  posesNeedFrames: 'the poses are for frames: open the frames first, then the poses',
+  emptyFile: 'the file is empty; export or copy it again',
+  notRecognised:
+    'not recognised; the page opens frames (PNG, JPEG, TIFF, DICOM), models (STL, OBJ, PLY), calibrations, corrections of distortion, .jts poses, libraries, sessions and videos',
+  theCalibration: (name: string) => `the calibration ${name}`,
+  asModel: (name: string, component: string) => `${name} as the model of the ${component}`,
+  asLibrary: (name: string, component: string) => `${name} as the library of the ${component}`,
+  asPoses: (name: string, component: string) => `${name} as poses of the ${component}`,
+  asPosesInOrder: (name: string, component: string, rows: number, frames: number) =>
+    `${name} as poses of the ${component} (${rows} rows for ${frames} frames: in order, from the first)`,
+  theFrames: (count: number, name: string) => (count === 1 ? `the frame ${name}` : `${count} frames`),
+  openingFrames: (files: number) => (files === 1 ? 'Opening frames' : `Opening ${files} files of frames`),
+  frames: 'frames',
+  files: 'files',
+  study: 'Study',
+  demonstration: 'Fetching the demonstration ...',
+  notFetched: (name: string, status: number) => `the demonstration's ${name} could not be fetched (${status})`,
+
+  missing: {
+    frames: 'frames',
+    calibration: 'a calibration',
+    model: (component: string) => `a model or a library of the ${component}`,
+    building: 'its library (being built)',
+    stopped: (reason: string) => `its library (${reason})`,
+    outline: (component: string) => `an outline of the ${component}`,
+    closed: 'the outline closed',
+  },
+
+  library: {
+    job: (component: string) => `${component} library`,
+    views: 'views',
+    calledOff: 'called off',
+    saidCalledOff: (component: string) => `The library of the ${component} was called off; its panel builds it again.`,
+    failed: (component: string, why: string) => `${component} library: ${why}`,
+    noFile: 'the library file is not at hand',
+    noInputs: 'the model or the calibration is not at hand',
+    withoutModel: 'the library was opened without its model.',
+  },
+  noChoice: (why: string) => `No choice between rival poses: ${why}`,
+  notShown: (component: string, why: string) => `The ${component} cannot be shown: ${why}`,
+  workerStopped: (why: string) => `the worker stopped (${why}); what you have done is still here, try again`,
+  notLoaded: 'it could not be loaded',
+};

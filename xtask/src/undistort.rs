@@ -1,0 +1,96 @@
+//! Verb `undistort`: frames without distortion.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose_decode::{FrameFile, Pixels};
+use image::{ImageBuffer, Luma};
+
+use crate::pipeline::build::progress;
+use crate::pipeline::distortion::{Straightener, read_distortion};
+use crate::pipeline::files::{files_in, name_of, read};
+
+/// Options of `undistort`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Writes each frame as a grey PNG of its own depth, numbered in a file of several. The correction is one that the page or \
+`cargo xtask calibrate` has written.\n\nExample:\n  cargo xtask undistort --distortion plate.json --frames run --out straight"
+)]
+pub struct Args {
+    /// Correction of distortion (JSON)
+    #[arg(long)]
+    distortion: PathBuf,
+    /// Folder of frames, in the order of their names
+    #[arg(long)]
+    frames: PathBuf,
+    /// Folder to write to; it must be empty or new
+    #[arg(long)]
+    out: PathBuf,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that cannot be read or written, frames of another size, and a folder that holds something.
+pub fn run(args: Args) -> Result<()> {
+    let straightener = Straightener::new(&read_distortion(&args.distortion)?);
+    let files = files_in(&args.frames)?;
+    let cannot = || format!("cannot make {}", args.out.display());
+    std::fs::create_dir_all(&args.out).with_context(cannot)?;
+    if std::fs::read_dir(&args.out)
+        .with_context(cannot)?
+        .next()
+        .is_some()
+    {
+        bail!("{} is not empty; choose a new folder", args.out.display());
+    }
+    let bar = progress(files.len(), "files");
+    let mut written = 0;
+    for path in &files {
+        written += straighten(path, &straightener, &args.out)?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    println!("{written} straight frames in {}", args.out.display());
+    Ok(())
+}
+
+/// Writes all frames of a file; returns how many.
+fn straighten(path: &Path, straightener: &Straightener, out: &Path) -> Result<usize> {
+    let name = name_of(path);
+    let file = FrameFile::open(read(path)?, &name)?;
+    let stem = Path::new(&name)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    for index in 0..file.count() {
+        let frame = file.frame(index)?;
+        let size = (frame.width as usize, frame.height as usize);
+        let target = out.join(match file.count() {
+            1 => format!("{stem}.png"),
+            _ => format!("{stem}_{:05}.png", index + 1),
+        });
+        let (width, height) = (frame.width, frame.height);
+        let cannot = || format!("cannot write {}", target.display());
+        match &frame.pixels {
+            Pixels::U8(pixels) => {
+                let straight = straightener
+                    .straight(pixels, size)
+                    .with_context(|| name.clone())?;
+                let picture: ImageBuffer<Luma<u8>, _> =
+                    ImageBuffer::from_raw(width, height, straight).with_context(cannot)?;
+                picture.save(&target).with_context(cannot)?;
+            }
+            Pixels::U16(pixels) => {
+                let straight = straightener
+                    .straight(pixels, size)
+                    .with_context(|| name.clone())?;
+                let picture: ImageBuffer<Luma<u16>, _> =
+                    ImageBuffer::from_raw(width, height, straight).with_context(cannot)?;
+                picture.save(&target).with_context(cannot)?;
+            }
+        }
+    }
+    Ok(file.count())
+}
