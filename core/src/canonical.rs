@@ -157,11 +157,17 @@ pub fn canonicalise(
     let mut canonical = MaskMut::new(out, spec.size, spec.size)?;
     let sampler = Sampler::new(&form, mask);
     let half = spec.size as f64 / 2.0;
-    for row in 0..spec.size {
-        let up = half - (row as f64 + 0.5);
-        for (index, word) in canonical.row_mut(row).iter_mut().enumerate() {
-            let right = (index * WORD_BITS) as f64 + 0.5 - half;
-            *word = sampler.word(mask, right, up);
+    let words = spec.size / WORD_BITS;
+    for (first, index) in (0..spec.size)
+        .step_by(BLOCK)
+        .flat_map(|first| (0..words).map(move |index| (first, index)))
+    {
+        let right = (index * WORD_BITS) as f64 + 0.5 - half;
+        let uniform = sampler.uniform(mask, right, half - (first as f64 + 0.5));
+        for row in first..first + BLOCK {
+            if let Some(word) = canonical.row_mut(row).get_mut(index) {
+                *word = sampler.word(mask, &uniform, right, half - (row as f64 + 0.5));
+            }
         }
     }
     form.clipped = touches_border(&canonical.into_mask());
@@ -193,6 +199,18 @@ pub fn reverse(canonical: &[Word], out: &mut [Word]) {
 
 /// Binary places of a sampling position.
 const PLACES: u32 = 16;
+
+/// Side of the square blocks of canonical pixels of which most lie wholly inside or outside.
+const BLOCK: usize = 8;
+
+/// More than rounding moves a position, in 1/65 536 pixel.
+const MARGIN: i32 = 64;
+
+/// Bits of a word whose value is known, and those of them that are set.
+struct Uniform {
+    known: Word,
+    set: Word,
+}
 
 /// The affine map from canonical pixels to frame pixels, and its step to the right.
 struct Sampler {
@@ -226,17 +244,69 @@ impl Sampler {
         }
     }
 
-    /// One word of canonical pixels, from `right` and `up` of the canonical centre.
-    fn word(&self, mask: &Mask<'_>, right: f64, up: f64) -> Word {
-        let mut at = self.start(right, up);
-        let last = self.start(right + WORD_BITS as f64, up);
-        if beyond(at.column, last.column, &self.columns) || beyond(at.row, last.row, &self.rows) {
-            return 0;
+    /// Which bits of [`BLOCK`] words below each other, the first of which begins at `right` and
+    /// `up` of the canonical centre, are known from the frame's pixels round each block.
+    fn uniform(&self, mask: &Mask<'_>, right: f64, up: f64) -> Uniform {
+        let mut uniform = Uniform { known: 0, set: 0 };
+        let side = (BLOCK - 1) as f64;
+        for block in 0..WORD_BITS / BLOCK {
+            let right = right + (block * BLOCK) as f64;
+            let corners = [(0.0, 0.0), (side, 0.0), (0.0, -side), (side, -side)]
+                .map(|(along, across)| self.start(right + along, up + across));
+            let bits = ((1 << BLOCK) - 1) << (block * BLOCK);
+            if let Some(set) = self.one_value(mask, &corners) {
+                uniform.known |= bits;
+                uniform.set |= if set { bits } else { 0 };
+            }
         }
-        let mut word = 0;
-        for bit in 0..WORD_BITS {
+        uniform
+    }
+
+    /// The value of all frame pixels that positions between `corners` read, if it is one.
+    fn one_value(&self, mask: &Mask<'_>, corners: &[Position; 4]) -> Option<bool> {
+        let extent = |of: fn(&Position) -> i32| {
+            let values = corners.each_ref().map(of);
+            let (least, most) = values
+                .into_iter()
+                .fold((i32::MAX, i32::MIN), |(a, b), v| (a.min(v), b.max(v)));
+            (least, most)
+        };
+        let (left, right) = extent(|corner| corner.column);
+        let (top, bottom) = extent(|corner| corner.row);
+        if beyond(left - MARGIN, right + MARGIN, &self.columns)
+            || beyond(top - MARGIN, bottom + MARGIN, &self.rows)
+        {
+            return Some(false);
+        }
+        let pixel = |position: i32| usize::try_from(position >> PLACES);
+        let (left, top) = (pixel(left - MARGIN).ok()?, pixel(top - MARGIN).ok()?);
+        // A position reads the pixel after its own too.
+        let (right, bottom) = (
+            pixel(right + MARGIN).ok()? + 1,
+            pixel(bottom + MARGIN).ok()? + 1,
+        );
+        if right >= mask.width() || bottom >= mask.height() {
+            return None;
+        }
+        let value = mask.get(left, top);
+        let columns = left..right + 1;
+        let all = |row| mask.is_uniform(row, columns.clone(), value);
+        (top..=bottom).all(all).then_some(value)
+    }
+
+    /// One word of canonical pixels, from `right` and `up` of the canonical centre.
+    fn word(&self, mask: &Mask<'_>, uniform: &Uniform, right: f64, up: f64) -> Word {
+        let mut word = uniform.set;
+        let start = self.start(right, up);
+        let mut open = !uniform.known;
+        while open != 0 {
+            let bit = open.trailing_zeros();
+            open &= open - 1;
+            let at = Position {
+                column: start.column.saturating_add(self.step[0] * bit as i32),
+                row: start.row.saturating_add(self.step[1] * bit as i32),
+            };
             word |= Word::from(at.covered(mask)) << bit;
-            at.advance(self);
         }
         word
     }
@@ -269,11 +339,6 @@ struct Position {
 }
 
 impl Position {
-    fn advance(&mut self, sampler: &Sampler) {
-        self.column = self.column.saturating_add(sampler.step[0]);
-        self.row = self.row.saturating_add(sampler.step[1]);
-    }
-
     /// Whether the silhouette, interpolated between the four nearest centres, covers half.
     fn covered(&self, mask: &Mask<'_>) -> bool {
         let (column, row) = (self.column >> PLACES, self.row >> PLACES);

@@ -141,6 +141,16 @@ impl<'a> Mask<'a> {
                 .is_some_and(|word| word >> (column % WORD_BITS) & 1 == 1)
     }
 
+    /// Whether all pixels of a row in `columns` have one value.
+    pub(crate) fn is_uniform(
+        &self,
+        row: usize,
+        columns: core::ops::Range<usize>,
+        value: bool,
+    ) -> bool {
+        columns.is_empty() || next_bit(self.row(row), columns.start, !value) >= columns.end
+    }
+
     /// Number of pixels set.
     #[must_use]
     pub fn area(&self) -> u64 {

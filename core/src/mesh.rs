@@ -3,6 +3,7 @@
 use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
+use crate::edges::MeshEdge;
 use crate::math::Vector3;
 
 /// Why vertices and triangles are not a mesh.
@@ -27,6 +28,7 @@ pub enum MeshError {
 pub struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
+    edges: Option<&'a [MeshEdge]>,
 }
 
 /// SHA-256 of a mesh's vertices and triangles as they are stored.
@@ -62,6 +64,7 @@ impl<'a> Mesh<'a> {
         let mesh = Self {
             vertices,
             triangles,
+            edges: None,
         };
         if mesh.bounds().radius == 0.0 {
             return Err(MeshError::Point);
@@ -79,6 +82,20 @@ impl<'a> Mesh<'a> {
     #[must_use]
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         self.triangles
+    }
+
+    /// The same mesh with the edges that [`crate::edges::link`] found for these triangles: its
+    /// silhouettes are the same, and are drawn several times as fast.
+    #[must_use]
+    pub fn with_edges(self, edges: &'a [MeshEdge]) -> Self {
+        Self {
+            edges: Some(edges),
+            ..self
+        }
+    }
+
+    pub(crate) fn edges(&self) -> Option<&'a [MeshEdge]> {
+        self.edges
     }
 
     /// Centre of the bounding box and the radius of the sphere round it that holds the model.

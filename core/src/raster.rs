@@ -3,11 +3,13 @@
 use thiserror::Error;
 
 use crate::camera::Camera;
+use crate::contour::Point;
 use crate::mask::MaskMut;
 use crate::math::{Vector3, dot};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::scan::{FixedPoint, triangle_spans};
+use crate::winding;
 
 /// Why a mesh cannot be drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -30,17 +32,21 @@ pub enum RenderError {
     Size,
 }
 
-/// Working memory of [`render`]: one projected vertex.
+/// Working memory of [`render`]: room for one projected vertex.
 pub type Projected = FixedPoint;
 
-/// Projected vertices that [`render`] needs for `mesh`.
+/// How many [`Projected`] [`render`] needs for `mesh`: one a vertex, and more to draw it from its
+/// edges.
 #[must_use]
 pub fn scratch_needed(mesh: &Mesh<'_>) -> usize {
-    mesh.vertices().len()
+    let edges = mesh.edges().map_or(0, |_| winding::room_needed(mesh));
+    mesh.vertices().len() + edges
 }
 
 /// Adds the silhouette of `mesh` at `pose` to `out`: every pixel whose centre lies in the
-/// projection of any triangle, whatever the winding. What is beyond the frame is cut off.
+/// projection of any triangle, whatever the winding. What is beyond the frame is cut off. A mesh
+/// with edges gives the same pixels sooner. Afterwards `scratch` begins with the projected
+/// vertices.
 ///
 /// # Errors
 /// [`RenderError`]; nothing has been drawn then.
@@ -54,58 +60,90 @@ pub fn render(
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
-    let projected = project_all(mesh, camera, pose, scratch)?;
+    let (projected, room) = project_all(mesh, camera, pose, scratch)?;
+    if let Some(edges) = mesh.edges()
+        && winding::fill(mesh.triangles(), edges, projected, room, out)
+    {
+        return Ok(());
+    }
     let height = out.height();
-    for_each_span(mesh, projected, height, |_, row, from, to| {
-        out.fill_span(row, from, to);
-    });
+    for_each_span(
+        mesh,
+        projected,
+        height,
+        |_| true,
+        |_, row, from, to| {
+            out.fill_span(row, from, to);
+        },
+    );
     Ok(())
 }
 
-/// Calls `visit(triangle, row, from, to)` for each row of each triangle that covers pixel
-/// centres: columns `from..to`, not yet cut to the frame's width. `projected` holds the vertices
-/// as [`render`] left them in its working memory.
+/// Calls `visit(triangle, row, from, to)` for each row of each triangle that is `wanted` and
+/// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `projected` holds
+/// the vertices as [`render`] left them in its working memory.
 pub(crate) fn for_each_span(
     mesh: &Mesh<'_>,
     projected: &[Projected],
     height: usize,
+    wanted: impl Fn([Projected; 3]) -> bool,
     mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
 ) {
     for triangle in mesh.triangles() {
         // Indices were checked when the mesh was made.
         let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
+        if !wanted(corners) {
+            continue;
+        }
         triangle_spans(corners, height, |row, from, to| {
             visit(triangle, row, from, to)
         });
     }
 }
 
+/// Projects all vertices; gives them and the rest of the working memory.
 fn project_all<'s>(
     mesh: &Mesh<'_>,
     camera: &Camera,
     pose: &Pose,
     scratch: &'s mut [Projected],
-) -> Result<&'s [Projected], RenderError> {
+) -> Result<(&'s [Projected], &'s mut [Projected]), RenderError> {
     let (needed, given) = (scratch_needed(mesh), scratch.len());
     let scratch = scratch
         .get_mut(..needed)
         .ok_or(RenderError::Scratch { needed, given })?;
-    for (index, (vertex, image)) in mesh.vertices().iter().zip(&mut *scratch).enumerate() {
-        let model: Vector3 = vertex.map(f64::from);
-        let point: Vector3 =
-            core::array::from_fn(|k| dot(&pose.rotation[k], &model) + pose.translation[k]);
-        *image = camera
-            .project(&point)
-            .and_then(FixedPoint::from_point)
-            .ok_or(RenderError::BehindCamera(index))?;
+    let (images, room) = scratch.split_at_mut(mesh.vertices().len());
+    let mut all = true;
+    for (vertex, image) in mesh.vertices().iter().zip(&mut *images) {
+        let (point, inside) = image_of(camera, pose, vertex);
+        *image = point;
+        all &= inside;
     }
-    Ok(scratch)
+    if all {
+        return Ok((images, room));
+    }
+    let beyond = |vertex| !image_of(camera, pose, vertex).1;
+    let first = mesh.vertices().iter().position(beyond);
+    Err(RenderError::BehindCamera(first.unwrap_or_default()))
+}
+
+/// The image of a vertex, and whether it has one. Without a branch: several at once.
+fn image_of(camera: &Camera, pose: &Pose, vertex: &[f32; 3]) -> (FixedPoint, bool) {
+    let model: Vector3 = vertex.map(f64::from);
+    let [x, y, z]: Vector3 =
+        core::array::from_fn(|k| dot(&pose.rotation[k], &model) + pose.translation[k]);
+    let ([fx, fy], [cx, cy]) = (camera.focal(), camera.principal_point());
+    let nearness = -1.0 / z;
+    let (point, inside) = FixedPoint::rounded(Point {
+        column: cx + fx * x * nearness,
+        row: cy - fy * y * nearness,
+    });
+    (point, inside & (z < 0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contour::Point;
     use crate::mask::words_needed;
     use crate::pose::EulerPose;
     use proptest::prelude::*;

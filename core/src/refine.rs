@@ -168,7 +168,7 @@ pub fn refine_traced(
         converged: false,
     };
     let mut pass = Pass::default();
-    for index in problem.first_stage(start, memory)?..STAGES {
+    for index in 0..STAGES {
         pass = Pass {
             index,
             spread: state.spread_px,

@@ -12,8 +12,8 @@ const PLACES: u32 = 12;
 const ONE: i64 = 1 << PLACES;
 const HALF: i64 = ONE / 2;
 
-/// More than any fixed-point coordinate, and exact in every `f64` of its size.
-const OFFSET: f64 = 1_073_741_824.0;
+/// Beside this number an `f64` holds whole numbers alone, and those of 32 bits in its low bits.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
 
 /// Coordinates beyond this many pixels are refused: products of two must stay in 64 bits.
 pub const MAX_COORDINATE: f64 = 131_072.0;
@@ -29,15 +29,49 @@ impl FixedPoint {
     /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
     #[must_use]
     pub fn from_point(point: Point) -> Option<Self> {
-        let fix = |value: f64| {
-            let inside = (-MAX_COORDINATE..=MAX_COORDINATE).contains(&value);
-            // Rounds to nearest: the offset makes the number positive, so truncation is floor.
-            inside.then(|| ((value * ONE as f64 + 0.5 + OFFSET) as i64 - OFFSET as i64) as i32)
+        let (rounded, inside) = Self::rounded(point);
+        inside.then_some(rounded)
+    }
+
+    /// The nearest fixed point, and whether it is one: outside of [`MAX_COORDINATE`] it is not.
+    /// Without a branch, so that many can be rounded at once.
+    pub(crate) fn rounded(Point { column, row }: Point) -> (Self, bool) {
+        let inside = |value: f64| value.abs() <= MAX_COORDINATE;
+        // The sum is rounded to a whole number (of two as near, to the even one).
+        let fix = |value: f64| (value * ONE as f64 + WHOLE).to_bits() as i32;
+        let point = Self {
+            column: fix(column),
+            row: fix(row),
         };
-        Some(Self {
-            column: fix(point.column)?,
-            row: fix(point.row)?,
-        })
+        (point, inside(column) & inside(row))
+    }
+
+    /// Twice the signed area of the triangle `a`, `b`, `c`, in squares of 1/4096 pixel; positive
+    /// where it is run clockwise as seen on the screen.
+    pub(crate) fn doubled_area([a, b, c]: [Self; 3]) -> i64 {
+        let right = |p: Self| i64::from(p.column) - i64::from(a.column);
+        let down = |p: Self| i64::from(p.row) - i64::from(a.row);
+        right(b) * down(c) - down(b) * right(c)
+    }
+
+    pub(crate) fn is_above(self, other: Self) -> bool {
+        self.row < other.row
+    }
+}
+
+/// As 64 bits of working memory for other things than points.
+impl From<u64> for FixedPoint {
+    fn from(bits: u64) -> Self {
+        Self {
+            column: bits as i32,
+            row: (bits >> 32) as i32,
+        }
+    }
+}
+
+impl From<FixedPoint> for u64 {
+    fn from(point: FixedPoint) -> Self {
+        Self::from(point.row as u32) << 32 | Self::from(point.column as u32)
     }
 }
 
@@ -93,6 +127,16 @@ impl Edge {
     }
 }
 
+/// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
+/// Most triangles of a CAD model are smaller than a pixel and cover none.
+pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [core::ops::Range<i32>; 2] {
+    let range = |of: fn(FixedPoint) -> i32| {
+        let [a, b, c] = corners.map(|corner| first_centre(of(corner)));
+        a.min(b).min(c)..a.max(b).max(c)
+    };
+    [range(|corner| corner.column), range(|corner| corner.row)]
+}
+
 /// Calls `fill(row, from, to)` for each row of the triangle that has pixel centres: columns
 /// `from..to`, not yet cut to a frame's width.
 pub(crate) fn triangle_spans(
@@ -100,11 +144,7 @@ pub(crate) fn triangle_spans(
     height: usize,
     mut fill: impl FnMut(usize, i64, i64),
 ) {
-    let columns = corners.map(|p| first_centre(p.column));
-    let rows = corners.map(|p| first_centre(p.row));
-    let all_equal = |v: [i32; 3]| v[0] == v[1] && v[1] == v[2];
-    // Most triangles of a CAD model are smaller than a pixel: no centre, nothing to do.
-    if all_equal(columns) || all_equal(rows) {
+    if pixel_box(corners).iter().any(core::ops::Range::is_empty) {
         return;
     }
     let [a, b, c] = sorted_by_row(corners);

@@ -9,7 +9,7 @@ use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::Pose;
 use fluoropose::symmetry::symmetry_planes;
 use fluoropose_tests::study;
-use xtask::pipeline::files::{mesh_of, read_model, read_poses};
+use xtask::pipeline::files::{read_model, read_poses};
 use xtask::pipeline::study::{Component, Study};
 
 /// A reference pose and its mirror image.
@@ -18,7 +18,7 @@ type Sides = [Pose; 2];
 /// Reference poses of a component and their mirror images in its plane of symmetry.
 fn both_sides(component: &Component) -> Vec<Sides> {
     let model = read_model(&component.model).expect("a model");
-    let planes = symmetry_planes(&mesh_of(&model).expect("a mesh"));
+    let planes = symmetry_planes(&model.mesh().expect("a mesh"));
     let plane = planes.first().expect("a plane of symmetry");
     let path = component.reference.as_deref().expect("reference poses");
     let poses = read_poses(path).expect("poses").into_iter().map(Pose::from);

@@ -3,7 +3,7 @@
 use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose_tests::{mesh, study};
 use xtask::implant::{self, Parameters, Side, Size, Triangles};
-use xtask::pipeline::files::{mesh_of, read_model};
+use xtask::pipeline::files::read_model;
 use xtask::pipeline::study::Study;
 
 /// Asserts that the planes are one, the mediolateral: its normal within `off_deg` of z.
@@ -48,7 +48,7 @@ fn real_implants_have_their_mediolateral_plane_alone() {
     let study = Study::read(&path).expect("a study");
     for component in &study.components {
         let model = read_model(&component.model).expect("a model");
-        let planes = symmetry_planes(&mesh_of(&model).expect("a mesh"));
+        let planes = symmetry_planes(&model.mesh().expect("a mesh"));
         println!("{}: {planes:?}", component.name);
         match component.name.as_str() {
             "tibia" => assert_mediolateral(&planes, 0.1, 0.01),

@@ -9,7 +9,7 @@ use fluoropose::mask::{MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::raster::{Projected, render};
+use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{
     BorderPixel, Iterate, Polarity, RefineMemory, RefineOptions, Refined, View, outline_samples,
     refine, refine_traced, uncertainty,
@@ -22,6 +22,7 @@ use wasm_bindgen::JsError;
 
 use crate::error::sentence;
 use crate::pieces::Pieces;
+use crate::surface::Surface;
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
@@ -76,16 +77,11 @@ impl Ranked {
 
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
 pub(crate) struct LentModel {
-    shape: Shape,
+    surface: Surface,
     buffers: Buffers,
     pieces: Pieces,
     /// Found with the first refinement: it takes some tens of milliseconds.
     planes: Option<Vec<SymmetryPlane>>,
-}
-
-struct Shape {
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
 }
 
 struct Buffers {
@@ -93,12 +89,6 @@ struct Buffers {
     drawn: Vec<Word>,
     places: Vec<u16>,
     border: Vec<BorderPixel>,
-}
-
-impl Shape {
-    fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        Mesh::new(&self.vertices, &self.triangles).map_err(sentence)
-    }
 }
 
 impl Buffers {
@@ -118,21 +108,23 @@ impl Buffers {
 
 impl LentModel {
     /// Takes vertices (x, y, z by turns, mm) and triangles (three vertex indices each).
-    pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Self {
-        Self {
-            shape: Shape {
-                vertices: vertices.as_chunks().0.to_vec(),
-                triangles: triangles.as_chunks().0.to_vec(),
-            },
+    ///
+    /// # Errors
+    /// The core's sentence about the vertex or triangle at fault.
+    pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Result<Self, JsError> {
+        let surface = Surface::new(vertices, triangles)?;
+        let projected = scratch_needed(&surface.mesh()?);
+        Ok(Self {
+            surface,
             buffers: Buffers {
-                projected: vec![Projected::default(); vertices.len() / 3],
+                projected: vec![Projected::default(); projected],
                 drawn: Vec::new(),
                 places: Vec::new(),
                 border: Vec::new(),
             },
             pieces: Pieces::default(),
             planes: None,
-        }
+        })
     }
 
     /// The core's view of the model.
@@ -140,7 +132,7 @@ impl LentModel {
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
     pub(crate) fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        self.shape.mesh()
+        self.surface.mesh()
     }
 
     /// Poses from pieces of the outline, best first.
@@ -153,7 +145,7 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let found = self.pieces.locate(silhouette, camera, library, &mesh)?;
         Ok(found.into_iter().map(Ranked::by_pieces).collect())
     }
@@ -195,7 +187,7 @@ impl LentModel {
         let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(&mesh).to_vec())
@@ -230,7 +222,7 @@ impl LentModel {
         camera: &Camera,
         with: impl FnOnce(&Mesh<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
@@ -259,7 +251,7 @@ impl LentModel {
         refined: &Refined,
         view: View<'_>,
     ) -> Result<Option<Deviations>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut memory = self.buffers.lend(view.camera);
         let covariance = uncertainty(&mesh, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = mesh.bounds().centre;
@@ -276,7 +268,7 @@ impl LentModel {
         view: View<'_>,
         options: RefineOptions,
     ) -> Result<Refined, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut memory = self.buffers.lend(view.camera);
         refine(&mesh, &[view], start, options, &mut memory).map_err(sentence)
     }
@@ -291,7 +283,7 @@ impl LentModel {
         camera: &Camera,
         frame: &dyn Grey,
     ) -> Result<Polarity, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut memory = self.buffers.lend(camera);
         let mut darker_inside = 0.0;
         outline_samples(&mesh, camera, pose, &mut memory, |sample| {
@@ -319,7 +311,7 @@ impl LentModel {
             projected, drawn, ..
         } = &mut self.buffers;
         drawn.resize(words_needed(width, height), 0);
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut mask = MaskMut::new(drawn, width, height).map_err(sentence)?;
         render(&mesh, camera, pose, projected, &mut mask).map_err(sentence)?;
         Ok(drawn)
@@ -335,7 +327,7 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Iterate>, JsError> {
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let view = View::only(camera, *silhouette);
         let mut memory = self.buffers.lend(camera);
         let mut steps = Vec::new();
@@ -358,7 +350,7 @@ impl LentModel {
             projected, drawn, ..
         } = &mut self.buffers;
         drawn.resize(words_needed(width, height), 0);
-        let mesh = self.shape.mesh()?;
+        let mesh = self.surface.mesh()?;
         let mut drawn = MaskMut::new(drawn, width, height).map_err(sentence)?;
         Ok(unmatched_at(&mesh, camera, pose, silhouette, projected, &mut drawn).ok())
     }

@@ -22,6 +22,7 @@ mod model;
 mod paint;
 mod pieces;
 mod pose_numbers;
+mod surface;
 mod traced;
 mod unmatched;
 
@@ -34,15 +35,11 @@ pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, mask_of_outline, outline_of_mask};
 pub use film::{Film, FilmLook};
 pub use found::Match;
-pub use grid::{
-    BeadGrid, DistortionFit, Straightener, fit_distortion, plate_camera, ruler_scale,
-};
+pub use grid::{BeadGrid, DistortionFit, Straightener, fit_distortion, plate_camera, ruler_scale};
 pub use jts::{read_jts, write_jts};
 pub use kinematics::joint_motion;
 pub use library::{LibraryBuilder, LibraryViews};
-pub use matcher::{
-    HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose,
-};
+pub use matcher::{HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose};
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use unmatched::paint_unmatched;

@@ -3,23 +3,17 @@
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
 use fluoropose::mask::Word;
-use fluoropose::mesh::Mesh;
 use fluoropose::raster::Projected;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::calibration_of;
 use crate::error::sentence;
-
-/// Vertices and triangles.
-struct Shape {
-    vertices: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-}
+use crate::surface::Surface;
 
 self_cell::self_cell!(
     /// A builder with the mesh that it draws.
     struct Plan {
-        owner: Shape,
+        owner: Surface,
         #[covariant]
         dependent: Builder,
     }
@@ -118,13 +112,9 @@ impl LibraryBuilder {
         let distance = views.distance.or(usual).ok_or_else(|| {
             JsError::new("A camera matrix does not tell how far the object is: give the library's distance in mm")
         })?;
-        let shape = Shape {
-            vertices: vertices.as_chunks().0.to_vec(),
-            triangles: triangles.as_chunks().0.to_vec(),
-        };
-        let plan = Plan::try_new(shape, |shape| {
-            let mesh = Mesh::new(&shape.vertices, &shape.triangles).map_err(sentence)?;
-            Builder::new(mesh, camera, canonical, grid, distance).map_err(sentence)
+        let surface = Surface::new(vertices, triangles)?;
+        let plan = Plan::try_new(surface, |surface| {
+            Builder::new(surface.mesh()?, camera, canonical, grid, distance).map_err(sentence)
         })?;
         let builder = plan.borrow_dependent();
         Ok(Self {

@@ -84,7 +84,7 @@ impl Matcher {
     /// A sentence when the library was made from another model.
     #[wasm_bindgen(js_name = lendModel)]
     pub fn lend_model(&mut self, vertices: &[f32], triangles: &[u32]) -> Result<(), JsError> {
-        let model = LentModel::new(vertices, triangles);
+        let model = LentModel::new(vertices, triangles)?;
         if model.mesh()?.digest() != self.library.borrow_dependent().info().model {
             return Err(JsError::new(
                 "The library was made from another model: open the model that belongs to it, or build it again",
@@ -311,7 +311,10 @@ impl Matcher {
         let library = self.library.borrow_dependent();
         let mut view = vec![0; self.canonical.len()];
         library.draw(ranked.located.view, &mut view);
-        (input, view.iter().flat_map(|word| word.to_le_bytes()).collect())
+        (
+            input,
+            view.iter().flat_map(|word| word.to_le_bytes()).collect(),
+        )
     }
 
     /// The same with how sure the pose is.

@@ -4,9 +4,8 @@ use fluoropose::border::follow_border;
 use fluoropose::camera::Camera;
 use fluoropose::contour::{Contour, Point};
 use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, render};
+use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::region::largest_region;
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
@@ -15,6 +14,7 @@ use crate::calibration::camera;
 use crate::error::sentence;
 use crate::paint::{opaque, put};
 use crate::pose_numbers::from_numbers;
+use crate::surface::Surface;
 
 /// Corners of a silhouette's border that the page draws.
 const BORDER_CORNERS: usize = 16_384;
@@ -22,8 +22,7 @@ const BORDER_CORNERS: usize = 16_384;
 /// A mesh with the working memory to draw it.
 #[wasm_bindgen]
 pub struct Model {
-    pub(crate) vertices: Vec<[f32; 3]>,
-    pub(crate) triangles: Vec<[u32; 3]>,
+    surface: Surface,
     projected: Vec<Projected>,
     /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
     masks: [Vec<Word>; 4],
@@ -38,21 +37,19 @@ impl Model {
     /// The core's sentence about the vertex or triangle at fault.
     #[wasm_bindgen(constructor)]
     pub fn new(vertices: &[f32], triangles: &[u32]) -> Result<Model, JsError> {
-        let model = Self {
-            projected: vec![Projected::default(); vertices.len() / 3],
-            vertices: vertices.as_chunks().0.to_vec(),
-            triangles: triangles.as_chunks().0.to_vec(),
+        let surface = Surface::new(vertices, triangles)?;
+        Ok(Self {
+            projected: vec![Projected::default(); scratch_needed(&surface.mesh()?)],
+            surface,
             masks: Default::default(),
             border: Box::default(),
-        };
-        Mesh::new(&model.vertices, &model.triangles).map_err(sentence)?;
-        Ok(model)
+        })
     }
 
     /// Number of triangles.
     #[wasm_bindgen(getter, js_name = triangleCount)]
     pub fn triangle_count(&self) -> usize {
-        self.triangles.len()
+        self.surface.triangles()
     }
 
     /// Draws the silhouette at a pose (x, y, z in mm, z, x, y rotation in degrees) as `calibration` projects it; what is
@@ -125,7 +122,7 @@ impl Model {
         for mask in &mut self.masks {
             mask.resize(words, 0);
         }
-        let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
+        let mesh = self.surface.mesh()?;
         let mut mask =
             MaskMut::new(&mut self.masks[0], camera.width(), camera.height()).map_err(sentence)?;
         render(&mesh, camera, pose, &mut self.projected, &mut mask).map_err(sentence)

@@ -10,7 +10,7 @@ use fluoropose::silhouette::Silhouette;
 
 use crate::pipeline::biplane::between;
 use crate::pipeline::build::progress;
-use crate::pipeline::files::{mesh_of, read, read_calibration, read_model, write_poses};
+use crate::pipeline::files::{read, read_calibration, read_model, write_poses};
 use crate::pipeline::finder::{Finder, Method};
 use crate::pipeline::source::{Folders, Source};
 
@@ -74,7 +74,7 @@ pub fn run(args: Args) -> Result<()> {
     }
     let bytes = read(&args.library)?;
     let model = read_model(&args.model)?;
-    let mesh = mesh_of(&model)?;
+    let mesh = model.mesh()?;
     let mut finder = Finder::open(&bytes, mesh, first.camera, Method::Refined)
         .with_context(|| args.library.display().to_string())?
         .with_camera(second.camera);

@@ -10,9 +10,7 @@ use serde::Serialize;
 use crate::pipeline::bound::{Limit, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, camera_for};
 use crate::pipeline::disturb::DisturbanceOptions;
-use crate::pipeline::files::{
-    mesh_of, read_calibration, read_mask, read_model, read_poses, write_json,
-};
+use crate::pipeline::files::{read_calibration, read_mask, read_model, read_poses, write_json};
 
 /// Options of `bound`.
 #[derive(clap::Args)]
@@ -127,7 +125,7 @@ pub fn run(args: Args) -> Result<()> {
         correlation_px: args.correlation,
         ..Noise::ROUNDING
     };
-    let mut outlines = Outlines::new(mesh_of(&model)?, camera);
+    let mut outlines = Outlines::new(model.mesh()?, camera);
     let limits: Result<Vec<PoseLimits>> = poses
         .iter()
         .map(|&pose| {

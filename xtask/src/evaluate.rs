@@ -13,9 +13,7 @@ use crate::pipeline::accuracy::Errors;
 use crate::pipeline::bound::{Comparison, Noise};
 use crate::pipeline::decide::Reasons;
 use crate::pipeline::disturb::DisturbanceOptions;
-use crate::pipeline::files::{
-    known_pose, mesh_of, read_calibration, read_poses, write_json, write_poses,
-};
+use crate::pipeline::files::{known_pose, read_calibration, read_poses, write_json, write_poses};
 use crate::pipeline::finder::{EdgeOptions, Method};
 use crate::pipeline::report::{self, report, write_report};
 use crate::pipeline::study::Study;
@@ -204,7 +202,7 @@ impl Part<'_> {
         };
         let path = folder.join(format!("{}-{}.jts", self.component.name, found.source));
         write_poses(&path, &found.rows())?;
-        let middle = mesh_of(&self.model)?.bounds().centre;
+        let middle = self.model.mesh()?.bounds().centre;
         let frames = report(&found.frames, &found.decisions, &middle);
         write_report(&path.with_extension("csv"), &frames)
     }
@@ -222,7 +220,7 @@ impl Part<'_> {
         let starts = found.from_reference.as_deref();
         row.from_reference = starts.map(|starts| StartDifference::of(&poses, starts));
         let noise = Noise::of(&request.disturbance, 1);
-        let mesh = mesh_of(&self.model)?;
+        let mesh = self.model.mesh()?;
         row.limits = Some(reference.limits(mesh, found, noise, &row.rms)?);
         Ok(Some(row))
     }

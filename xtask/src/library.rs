@@ -7,7 +7,7 @@ use fluoropose::library::Library;
 use fluoropose::mask::WORD_BITS;
 
 use crate::pipeline::build::{Pair, ViewOptions, build_library};
-use crate::pipeline::files::{mesh_of, read_calibration, read_model};
+use crate::pipeline::files::{read_calibration, read_model};
 
 /// Options of `library`.
 #[derive(clap::Args)]
@@ -50,7 +50,7 @@ pub fn run(args: Args) -> Result<()> {
     };
     let camera = calibration.camera(width, height)?;
     let distance = args.views.distance_for(&calibration);
-    let built = build_library(mesh_of(&model)?, camera, &args.views, distance)?;
+    let built = build_library(model.mesh()?, camera, &args.views, distance)?;
     std::fs::write(&args.out, &built.bytes)
         .with_context(|| format!("cannot write {}", args.out.display()))?;
     let library = Library::open(&built.bytes)?;
@@ -61,7 +61,7 @@ pub fn run(args: Args) -> Result<()> {
         "{}: {} views of {} triangles at {distance} mm, {:.1} MB, in {:.2} s",
         args.out.display(),
         library.views(),
-        model.triangles.len(),
+        model.mesh()?.triangles().len(),
         built.bytes.len() as f64 / 1e6,
         built.took.as_secs_f64()
     );

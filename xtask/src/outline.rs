@@ -18,7 +18,7 @@ use crate::pipeline::accuracy::{Errors, is_wrong_side, median_absolute};
 use crate::pipeline::build::{Pair, ViewOptions, build_library};
 use crate::pipeline::clicker::{Clicked, Clicker};
 use crate::pipeline::files::{
-    MaskBuffer, known_pose, mesh_of, read_calibration, read_model, read_poses, write_json,
+    MaskBuffer, known_pose, read_calibration, read_model, read_poses, write_json,
 };
 use crate::pipeline::frames::grey;
 use crate::pipeline::source::{Folders, Source};
@@ -123,7 +123,7 @@ pub fn run(args: Args) -> Result<()> {
         ..ViewOptions::default()
     };
     let model = read_model(&component.model)?;
-    let mesh = mesh_of(&model)?;
+    let mesh = model.mesh()?;
     let distance = views.distance_for(&calibration);
     let library = build_library(mesh, source.camera, &views, distance)?;
     let mut trial = Trial {

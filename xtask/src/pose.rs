@@ -10,7 +10,7 @@ use fluoropose::pose::EulerPose;
 use crate::pipeline::decide::{Decision, FrameFound, Reasons, Role, decide, find_poses, misfit};
 use crate::pipeline::disturb::DisturbanceOptions;
 use crate::pipeline::files::{
-    known_pose, mesh_of, name_of, read, read_calibration, read_model, read_poses, write_poses,
+    known_pose, name_of, read, read_calibration, read_model, read_poses, write_poses,
 };
 use crate::pipeline::finder::{Answer, EdgeOptions, Finder, Method};
 use crate::pipeline::report::{self, Numbers, check_path, report, write_report};
@@ -84,7 +84,7 @@ pub fn run(args: Args) -> Result<()> {
     }
     let bytes = read(&args.library)?;
     let model = read_model(&args.model)?;
-    let mesh = mesh_of(&model)?;
+    let mesh = model.mesh()?;
     let calibration = read_calibration(&args.calibration)?;
     let folders = Folders {
         masks: &args.masks,

@@ -22,7 +22,7 @@ use crate::pipeline::biplane::turned_about;
 use crate::pipeline::bound::{Comparison, Noise, Outlines, PoseLimits};
 use crate::pipeline::build::{Pair, ViewOptions, build_library, camera_for, progress};
 use crate::pipeline::disturb::{DisturbanceOptions, Disturbed};
-use crate::pipeline::files::{MaskBuffer, mesh_of, read_calibration, read_model, write_json};
+use crate::pipeline::files::{MaskBuffer, read_calibration, read_model, write_json};
 use crate::pipeline::finder::{Finder, Method};
 use crate::pipeline::scene::Scene;
 
@@ -198,7 +198,7 @@ pub fn run(args: Args) -> Result<()> {
     let calibration = read_calibration(&args.calibration)?;
     let camera = camera_for(&calibration, args.frame)?;
     let distance = args.views.distance_for(&calibration);
-    let mesh = mesh_of(&model)?;
+    let mesh = model.mesh()?;
     let protocol = Protocol {
         method: args.method,
         distance,
@@ -215,7 +215,7 @@ pub fn run(args: Args) -> Result<()> {
         "{} poses, seed {}, {} triangles, library of {} views at {distance} mm, method {}",
         args.poses,
         args.seed,
-        model.triangles.len(),
+        model.mesh()?.triangles().len(),
         args.views.grid().views(),
         args.method.word(),
     );

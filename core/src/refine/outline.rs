@@ -10,6 +10,8 @@ use crate::math::{dot, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::raster::{Projected, for_each_span};
+use crate::scan::pixel_box;
+use core::ops::Range;
 
 /// A sample of the model's outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,17 +57,22 @@ pub(super) struct Outliner<'a> {
 
 impl Outliner<'_> {
     /// Fills `border` with as many border pixels as it holds and gives them. `places` has a
-    /// number for each pixel of the frame.
+    /// number for each pixel of the frame, all zero before and after.
     pub(super) fn border<'b>(
         &self,
         projected: &[Projected],
         places: &mut [u16],
         border: &'b mut [BorderPixel],
     ) -> &'b mut [BorderPixel] {
-        places.fill(0);
         let count = self.find(places, border);
-        self.measure_depth(projected, places, border);
-        border.get_mut(..count).unwrap_or_default()
+        let tiles = Tiles::of(border.get(..count).unwrap_or_default());
+        self.measure_depth(projected, &tiles, places, border);
+        let border = border.get_mut(..count).unwrap_or_default();
+        let width = self.drawn.width();
+        for pixel in &*border {
+            places[usize::from(pixel.row) * width + usize::from(pixel.column)] = 0;
+        }
+        border
     }
 
     /// Lists border pixels and writes their number, from 1, to their places.
@@ -90,9 +97,16 @@ impl Outliner<'_> {
         count
     }
 
-    fn measure_depth(&self, projected: &[Projected], places: &[u16], border: &mut [BorderPixel]) {
+    fn measure_depth(
+        &self,
+        projected: &[Projected],
+        tiles: &Tiles,
+        places: &[u16],
+        border: &mut [BorderPixel],
+    ) {
         let (width, height) = (self.drawn.width(), self.drawn.height());
-        for_each_span(self.mesh, projected, height, |triangle, row, from, to| {
+        let wanted = |corners| tiles.meet(pixel_box(corners));
+        let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
             let cut = |column: i64| column.clamp(0, width as i64) as usize;
             let (from, to) = (cut(from), cut(to));
             if from >= to {
@@ -110,7 +124,8 @@ impl Outliner<'_> {
                     pixel.far = pixel.far.max(depth);
                 }
             }
-        });
+        };
+        for_each_span(self.mesh, projected, height, wanted, visit);
     }
 
     /// Mean distance of a triangle's corners from the camera plane, mm.
@@ -122,6 +137,71 @@ impl Outliner<'_> {
             .map(|vertex| dot(&self.pose.rotation[2], &vertex.map(f64::from)))
             .sum();
         (-sum / 3.0 - self.pose.translation[2]) as f32
+    }
+}
+
+/// Tiles of one side that cover all border pixels: most triangles meet none that has any.
+struct Tiles {
+    /// Of the first tile.
+    column: i32,
+    row: i32,
+    /// Binary logarithm of the side.
+    places: u32,
+    /// For each row of tiles, which have a border pixel.
+    marked: [u128; TILES],
+}
+
+const TILES: usize = u128::BITS as usize;
+
+impl Tiles {
+    fn of(border: &[BorderPixel]) -> Self {
+        let extent = |of: fn(&BorderPixel) -> u16| {
+            let least = border.iter().map(of).min().unwrap_or(0);
+            let most = border.iter().map(of).max().unwrap_or(0);
+            (i32::from(least), usize::from(most - least))
+        };
+        let (column, width) = extent(|pixel| pixel.column);
+        let (row, height) = extent(|pixel| pixel.row);
+        let mut tiles = Self {
+            column,
+            row,
+            places: (width.max(height) / TILES)
+                .checked_ilog2()
+                .map_or(0, |log| log + 1),
+            marked: [0; TILES],
+        };
+        for pixel in border {
+            let right = (i32::from(pixel.column) - column) >> tiles.places;
+            let down = (i32::from(pixel.row) - row) >> tiles.places;
+            tiles.marked[down as usize] |= 1 << right;
+        }
+        tiles
+    }
+
+    /// Whether a tile that has border pixels has some in a box of columns and rows.
+    fn meet(&self, [columns, rows]: [Range<i32>; 2]) -> bool {
+        if columns.is_empty() || rows.is_empty() {
+            return false;
+        }
+        let tile = |pixel: i32, first: i32| {
+            let tile = (pixel - first) >> self.places;
+            tile.clamp(-1, TILES as i32)
+        };
+        let (left, right) = (
+            tile(columns.start, self.column),
+            tile(columns.end - 1, self.column),
+        );
+        let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
+        let last = TILES as i32 - 1;
+        if right < 0 || bottom < 0 || left > last || top > last {
+            return false;
+        }
+        let (left, right) = (left.max(0) as u32, right.min(last) as u32);
+        let wanted = (u128::MAX >> (TILES as u32 - 1 - (right - left))) << left;
+        let rows = self
+            .marked
+            .get(top.max(0) as usize..=bottom.min(last) as usize);
+        rows.unwrap_or_default().iter().any(|row| row & wanted != 0)
     }
 }
 

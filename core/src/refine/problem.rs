@@ -14,13 +14,6 @@ use crate::mesh::Mesh;
 use crate::pose::{EulerPose, Pose};
 use crate::raster::{RenderError, render};
 
-/// A start closer than this, as a standard deviation in pixels, needs no first stage, and no
-/// second one.
-const CLOSE_PX: [f64; 2] = [2.5, 1.0];
-
-/// Part of the outline that may be without a counterpart at a good start.
-const NOTABLE: f64 = 0.05;
-
 /// Part of a loss that is not known, because the model is drawn in whole pixels.
 const GRAIN: f64 = 0.02;
 
@@ -53,7 +46,7 @@ impl<'a> Problem<'a> {
     pub(super) fn new(
         mesh: &'a Mesh<'a>,
         views: &'a [View<'a>],
-        memory: &RefineMemory<'_>,
+        memory: &mut RefineMemory<'_>,
     ) -> Result<Self, RefineError> {
         if views.is_empty() {
             return Err(RefineError::NoView);
@@ -69,6 +62,7 @@ impl<'a> Problem<'a> {
                 return Err(MaskError::Empty.into());
             }
         }
+        memory.places.fill(0);
         Ok(Self {
             mesh,
             views,
@@ -107,27 +101,6 @@ impl<'a> Problem<'a> {
             None => step.apply(pose, &self.middle),
             Some(hold) => hold.apply(step, pose, &self.middle),
         }
-    }
-
-    /// The stage to begin with: stages made for larger distances than those at `start` are left
-    /// out, because the farther they look the flatter their valleys are, and a start that was
-    /// good would be lost in them. Grey frames go through all stages.
-    pub(super) fn first_stage(
-        &self,
-        start: &Pose,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<usize, RefineError> {
-        let silhouette = |view: &View<'_>| matches!(view.target, Target::Silhouette(_));
-        if !self.views.iter().all(silhouette) {
-            return Ok(0);
-        }
-        let equations = self.observe(start, 0.0, &Pass::default(), memory)?;
-        Ok(match equations.spread_px() {
-            _ if equations.missing_share() > NOTABLE => 0,
-            spread if spread < CLOSE_PX[1] => 2,
-            spread if spread < CLOSE_PX[0] => 1,
-            _ => 0,
-        })
     }
 
     /// Levenberg's and Marquardt's damping: a step that does not lower the loss is taken back

@@ -325,11 +325,6 @@ impl Equations {
         }
     }
 
-    /// Part of what is known of the outline that has no counterpart.
-    pub(super) fn missing_share(&self) -> f64 {
-        1.0 - self.used / self.known.max(1.0)
-    }
-
     /// Root mean square residual of what was found, pixels.
     pub(super) fn residual_px(&self) -> f64 {
         sqrt(self.squares / self.used.max(1.0))

@@ -29,11 +29,6 @@ const ALIKE: f32 = 0.5;
 /// quarter of that of rounding, as measured by `cargo xtask synthetic --method refined`: errors of
 /// noise-free outlines are 0.3 to 0.6 of what rounding as independent noise would give.
 const GRAIN: f64 = 0.25 / 12.0;
-/// The correlation is cut where it first fails to be positive, and the fit takes the longest waves
-/// out of the residuals: by so much the variance comes out too small. Measured by simulation
-/// (`cargo xtask synthetic --method refined --jitter 1 --poses 60`): without it the regions of 95 %
-/// held the truth in 83 % (femur) and 84 % (tibia) of cases, with 1.4 in 92 % and 87 %.
-const LONG_WAVES: f64 = 1.7;
 /// Least mean of `psi'`, which may be small where the loss was cut close.
 const LEAST_CURVATURE: f64 = 0.2;
 /// Independent stretches beyond the six parameters that are supposed at least.
@@ -68,7 +63,7 @@ pub fn uncertainty(
         let mut equations = Equations::new();
         let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
         let border = memory.border.get(..count).unwrap_or_default();
-        sums.add(border, stage.loss);
+        sums.add(border, stage.loss, 6.0 / views.len() as f64);
     }
     Ok(sums.covariance())
 }
@@ -88,8 +83,9 @@ struct Sums {
 }
 
 impl Sums {
-    fn add(&mut self, border: &[BorderPixel], loss: Loss) {
-        let covariance = Correlation::of(border, loss);
+    /// `fitted` parameters were taken from this view's residuals.
+    fn add(&mut self, border: &[BorderPixel], loss: Loss, fitted: f64) {
+        let covariance = Correlation::of(border, loss, fitted);
         let mut length = 0.0;
         for (index, sample) in found(border) {
             let l = f64::from(sample.weight);
@@ -120,15 +116,12 @@ impl Sums {
             .information
             .map(|row| row.map(|value| value * curvature));
         let freedom = (self.stretches - 6.0).max(LEAST_FREEDOM);
-        // Six fitted parameters took their part of the residuals away.
-        let fitted = (freedom + 6.0) / freedom;
         // 6 F(6, n) / chi^2(6) at 95 %, within 1 % for n of 10 and more (Abramowitz and Stegun,
         // table 26.9).
         let few = 1.0 + 4.4 / freedom + 9.0 / (freedom * freedom);
         let spread: Matrix6 = core::array::from_fn(|row| {
             core::array::from_fn(|column| {
-                self.spread[row][column] * LONG_WAVES * fitted * few
-                    + self.information[row][column] * GRAIN
+                self.spread[row][column] * few + self.information[row][column] * GRAIN
             })
         });
         PoseCovariance::sandwich(&bread, &spread)
@@ -167,7 +160,36 @@ struct Correlation {
 }
 
 impl Correlation {
-    fn of(border: &[BorderPixel], loss: Loss) -> Self {
+    /// Rounds in which the correlation and what the fit took of it are brought to agree.
+    const ROUNDS: usize = 8;
+    /// More than this part of the variance is not supposed to have been taken.
+    const MOST_TAKEN: f64 = 0.6;
+
+    /// `fitted` parameters took the longest waves out of the residuals, as much as they explain
+    /// of so many independent stretches: the covariance comes out too small by the same amount at
+    /// every distance. It is put back.
+    fn of(border: &[BorderPixel], loss: Loss, fitted: f64) -> Self {
+        let (raw, length) = Self::raw(border, loss);
+        let mut taken = 0.0;
+        let mut correlation = Self::cut(&raw, taken);
+        for _ in 0..Self::ROUNDS {
+            let share = (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
+            taken = raw[0] * share / (1.0 - share);
+            correlation = Self::cut(&raw, taken);
+        }
+        correlation
+    }
+
+    /// `taken` more at every distance, up to where it first fails to be positive.
+    fn cut(raw: &[f64; BINS + 1], taken: f64) -> Self {
+        let mut bins = raw.map(|value| value + taken);
+        let end = bins.iter().position(|&value| value <= 0.0);
+        bins[end.unwrap_or(BINS + 1)..].fill(0.0);
+        Self { bins }
+    }
+
+    /// The mean product of `psi` in every bin, and the length of the outline.
+    fn raw(border: &[BorderPixel], loss: Loss) -> ([f64; BINS + 1], f64) {
         let (mut sums, mut weights) = ([0.0; BINS + 1], [0.0; BINS + 1]);
         let psi = |sample: &BorderPixel| {
             let residual = f64::from(sample.residual);
@@ -186,14 +208,14 @@ impl Correlation {
                 }
             }
         }
-        let mut bins = [0.0; BINS + 1];
-        for (bin, (sum, weight)) in bins.iter_mut().zip(sums.iter().zip(&weights)) {
-            if *weight == 0.0 || *sum <= 0.0 {
-                break;
+        let mean = |bin: usize| {
+            if weights[bin] > 0.0 {
+                sums[bin] / weights[bin]
+            } else {
+                0.0
             }
-            *bin = sum / weight;
-        }
-        Self { bins }
+        };
+        (core::array::from_fn(mean), weights[0])
     }
 
     fn at(&self, distance: f64) -> f64 {

@@ -7,7 +7,6 @@ use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
 use fluoropose::choice::Counterpart;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose_decode::Model;
 use rayon::prelude::*;
 
 use super::Request;
@@ -15,7 +14,7 @@ use super::reference::{Reference, in_front};
 use crate::pipeline::accuracy::median_absolute;
 use crate::pipeline::build::{Built, Pair, ViewOptions, build_library};
 use crate::pipeline::decide::{Decision, FrameFound, Role, decide, find_poses};
-use crate::pipeline::files::{MaskBuffer, mesh_of, read_model};
+use crate::pipeline::files::{MaskBuffer, Surface, read_model};
 use crate::pipeline::finder::{Finder, Method};
 use crate::pipeline::source::{Folders, Sequence, Source};
 use crate::pipeline::study::{Component, Study};
@@ -23,7 +22,7 @@ use crate::pipeline::study::{Component, Study};
 /// A component and what was found in each of its sources.
 pub(super) struct Part<'s> {
     pub(super) component: &'s Component,
-    pub(super) model: Model,
+    pub(super) model: Surface,
     pub(super) reference: Option<Reference>,
     /// In the order of the sources' names.
     pub(super) found: Vec<Found>,
@@ -176,7 +175,7 @@ impl<'s> Part<'s> {
         views: &ViewOptions,
         distance: f64,
     ) -> Result<Built> {
-        build_library(mesh_of(&self.model)?, sequence.camera(), views, distance)
+        build_library(self.model.mesh()?, sequence.camera(), views, distance)
     }
 
     fn finder<'l>(
@@ -186,7 +185,7 @@ impl<'s> Part<'s> {
         method: Method,
         request: &Request<'_>,
     ) -> Result<Finder<'l>> {
-        let mesh = mesh_of(&self.model)?;
+        let mesh = self.model.mesh()?;
         let finder = Finder::open(&built.bytes, mesh, sequence.camera(), method)?;
         Ok(finder.with_edges(request.edges))
     }

@@ -9,7 +9,7 @@ use super::found::Found;
 use super::{Row, StartDifference};
 use crate::pipeline::accuracy::{Errors, is_wrong_side, median_absolute, rms};
 use crate::pipeline::bound::{Comparison, Noise, Outlines, PoseLimits};
-use crate::pipeline::files::{MaskBuffer, known_pose, mesh_of, read_model, read_poses};
+use crate::pipeline::files::{MaskBuffer, known_pose, read_model, read_poses};
 use crate::pipeline::study::Component;
 
 /// Reference poses of a component.
@@ -28,7 +28,7 @@ impl Reference {
         let model = read_model(&component.model)?;
         Ok(Some(Self {
             poses: read_poses(path)?.iter().map(known_pose).collect(),
-            planes: symmetry_planes(&mesh_of(&model)?).to_vec(),
+            planes: symmetry_planes(&model.mesh()?).to_vec(),
         }))
     }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
+use fluoropose::edges::{MeshEdge, edges_needed, link};
 use fluoropose::jts;
 use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
@@ -36,24 +37,41 @@ pub fn name_of(path: &Path) -> String {
         .into_owned()
 }
 
+/// A model's surface.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    model: Model,
+    /// Of a closed surface: what its silhouettes are drawn from.
+    edges: Option<Vec<MeshEdge>>,
+}
+
+impl Surface {
+    /// As the core takes it.
+    ///
+    /// # Errors
+    /// Those of [`Mesh::new`].
+    pub fn mesh(&self) -> Result<Mesh<'_>> {
+        let mesh = Mesh::new(&self.model.vertices, &self.model.triangles)?;
+        Ok(match &self.edges {
+            Some(edges) => mesh.with_edges(edges),
+            None => mesh,
+        })
+    }
+}
+
 /// Reads an STL, OBJ or PLY model. What was left out of the file is said on standard error.
 ///
 /// # Errors
 /// Names the file and what is wrong with it.
-pub fn read_model(path: &Path) -> Result<Model> {
+pub fn read_model(path: &Path) -> Result<Surface> {
     let model = decode_model(&read(path)?, &name_of(path))?;
     for note in &model.notes {
         eprintln!("{}: {note}", path.display());
     }
-    Ok(model)
-}
-
-/// The model's surface as the core takes it.
-///
-/// # Errors
-/// Those of [`Mesh::new`].
-pub fn mesh_of(model: &Model) -> Result<Mesh<'_>> {
-    Ok(Mesh::new(&model.vertices, &model.triangles)?)
+    let mesh = Mesh::new(&model.vertices, &model.triangles)?;
+    let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
+    let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);
+    Ok(Surface { model, edges })
 }
 
 /// Reads a `JT_INTCALIB` or camera-matrix calibration.
