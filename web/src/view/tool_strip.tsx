@@ -65,6 +65,7 @@ function ThresholdOptions({ state }: { state: State }) {
     <>
       <Range
         label={strip.level}
+        shown={strip.levelShort}
         value={level}
         text={automatic && !aidLevel ? '–' : String(Math.round(level))}
         min={ends.least}
@@ -72,9 +73,11 @@ function ThresholdOptions({ state }: { state: State }) {
         step={(ends.greatest - ends.least) / 500}
         onInput={(value) => aids.setLevel(value)}
       />
-      <Check label={strip.automatic} title={strip.automaticTitle} checked={automatic} onChange={(on) => store.setAids({ level: on ? null : level })} />
+      <Check label={strip.automatic} shown={strip.automaticShort} title={strip.automaticTitle} checked={automatic} onChange={(on) => store.setAids({ level: on ? null : level })} />
       <Range
         label={strip.bridge}
+        shown={strip.bridgeShort}
+        short
         title={strip.bridgeTitle}
         value={options.bridge}
         text={strip.pixels(2 * options.bridge)}
@@ -101,15 +104,16 @@ function BrushOptions({ state }: { state: State }) {
   const { radius, erase } = state.ui.aids;
   return (
     <>
-      <div class="segments" role="radiogroup" aria-label={strip.mode}>
+      <div class="strip-segments" role="radiogroup" aria-label={strip.mode}>
         {([false, true] as const).map((mode) => (
-          <button key={String(mode)} type="button" role="radio" class="segment" aria-checked={erase === mode} title="E" onClick={() => store.setAids({ erase: mode })}>
+          <button key={String(mode)} type="button" role="radio" class="strip-segment" aria-checked={erase === mode} title="E" onClick={() => store.setAids({ erase: mode })}>
             {mode ? strip.erase : strip.add}
           </button>
         ))}
       </div>
       <Range
         label={strip.radius}
+        shown={strip.radiusShort}
         value={radius}
         text={strip.pixels(radius)}
         min={RADIUS.least}
@@ -131,12 +135,12 @@ function Polarity({ state }: { state: State }) {
   const { strip } = texts.aids;
   const { bright } = state.ui.aids;
   return (
-    <div class="segments" role="radiogroup" aria-label={strip.polarity} title={strip.polarityTitle}>
-      <span class="segments-label" aria-hidden="true">
+    <div class="strip-segments" role="radiogroup" aria-label={strip.polarity} title={strip.polarityTitle}>
+      <span class="strip-segments-label" aria-hidden="true">
         {strip.polarity}
       </span>
       {([false, true] as const).map((value) => (
-        <button key={String(value)} type="button" role="radio" class="segment" aria-checked={bright === value} onClick={() => store.setAids({ bright: value })}>
+        <button key={String(value)} type="button" role="radio" class="strip-segment" aria-checked={bright === value} onClick={() => store.setAids({ bright: value })}>
           {value ? strip.bright : strip.dark}
         </button>
       ))}
@@ -185,6 +189,9 @@ function Command({ command, label, name, title, keys, icon, disabled, opens }: C
 
 interface RangeProps {
   readonly label: string;
+  /** Where the label is too long for the strip. */
+  readonly shown?: string;
+  readonly short?: boolean;
   readonly title?: string;
   readonly value: number;
   readonly text: string;
@@ -194,10 +201,10 @@ interface RangeProps {
   readonly onInput: (value: number) => void;
 }
 
-export function Range({ label, title, value, text, min, max, step, onInput }: RangeProps) {
+export function Range({ label, shown, short, title, value, text, min, max, step, onInput }: RangeProps) {
   return (
-    <label class="strip-range" title={title ?? label}>
-      <span>{label}</span>
+    <label class={short ? 'strip-range short' : 'strip-range'} title={title ?? label}>
+      <span>{shown ?? label}</span>
       <input
         type="range"
         aria-label={label}
@@ -213,11 +220,11 @@ export function Range({ label, title, value, text, min, max, step, onInput }: Ra
   );
 }
 
-function Check({ label, title, checked, onChange }: { label: string; title: string; checked: boolean; onChange: (on: boolean) => void }): ComponentChildren {
+function Check({ label, shown, title, checked, onChange }: { label: string; shown?: string; title: string; checked: boolean; onChange: (on: boolean) => void }): ComponentChildren {
   return (
     <label class="check" title={title}>
-      <input type="checkbox" checked={checked} onChange={(event) => onChange(event.currentTarget.checked)} />
-      {label}
+      <input type="checkbox" checked={checked} onChange={(event) => onChange(event.currentTarget.checked)} aria-label={label} />
+      {shown ?? label}
     </label>
   );
 }

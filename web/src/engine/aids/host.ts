@@ -12,6 +12,8 @@ const SNAP_RADIUS = 10;
 const MOST_RADIUS = 12;
 /** A path is brought to the edge that it follows, px. */
 const PATH_REACH = 2;
+/** Fewer points to hold afterwards: noise moves an edge by more than this from pixel to pixel. */
+const PATH_TOLERANCE = 0.5;
 
 /** The page as the tools see it, with one film. */
 export class Host implements WireHost, ThresholdHost {
@@ -65,6 +67,6 @@ export class Host implements WireHost, ThresholdHost {
   }
 
   refined(path: readonly FramePoint[], side: number): readonly FramePoint[] {
-    return snappedPath(this.#film, path, side, !this.#bright, PATH_REACH).points;
+    return snappedPath(this.#film, path, side, !this.#bright, PATH_REACH, PATH_TOLERANCE).points;
   }
 }

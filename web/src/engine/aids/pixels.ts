@@ -81,8 +81,8 @@ export function snapped(film: Film, outline: Outline, dark: boolean, reach: numb
 }
 
 /** An open path at the edges near it; its ends stay. `side`: +1 the implant is on the right hand, -1 on the left, 0 either. */
-export function snappedPath(film: Film, path: readonly FramePoint[], side: number, dark: boolean, reach: number): Reshape {
-  return taken(snapPath(film, flat(path), side, dark, reach, TOLERANCE), null);
+export function snappedPath(film: Film, path: readonly FramePoint[], side: number, dark: boolean, reach: number, tolerance = TOLERANCE): Reshape {
+  return taken(snapPath(film, flat(path), side, dark, reach, tolerance), null);
 }
 
 export interface Region {
