@@ -73,6 +73,15 @@ export const en = {
     updateSaid: 'A newer version of the page is ready. Nothing changes until the page is opened again, or Update is pressed.',
   },
 
+  stage: {
+    region: 'Film',
+    noFrame: 'No frame',
+    label: (name: string, frame: number, count: number, component: string) => `${name}, frame ${frame} of ${count}, tracing the ${component}`,
+    film: (label: string, component: string) => `${label}. ${component} outline`,
+    absent: (name: string) => `${name} is not here: drop the file on the page.`,
+    drop: 'Drop to open',
+  },
+
   status: {
     region: 'Status',
     log: 'Log',

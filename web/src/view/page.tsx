@@ -1,5 +1,6 @@
 import { useEffect } from 'preact/hooks';
 import { actionFor } from '../interaction/bindings';
+import { texts } from '../texts';
 import { useApp, useAppState } from './app';
 import { useDropTarget } from './drop';
 import { runHandOrSeeingKey } from './hand_keys';
@@ -24,7 +25,7 @@ export function Page() {
     if (target && !elsewhere && event.detail > 0) actions.stage?.focus();
   };
   return (
-    <div class={dropping ? 'page dropping' : 'page'} onClick={giveBack}>
+    <div class={dropping ? 'page dropping' : 'page'} data-drop={texts.stage.drop} onClick={giveBack}>
       <TopBar state={state} />
       <Rail state={state} />
       <ToolStrip state={state} />

@@ -8,6 +8,7 @@ import type { Input } from '../interaction/machine';
 import { wheelZoom } from '../interaction/navigate';
 import { Touches } from '../interaction/touch';
 import { TOOLS } from '../interaction/tools';
+import { texts } from '../texts';
 import { useApp, type App } from './app';
 import { EmptyState } from './empty_state';
 import { pointByKey, pressByKey } from './key_pointer';
@@ -28,17 +29,18 @@ export function Stage({ state }: { state: State }) {
   const frame = currentFrame(state);
   const { tool, component, overlaysHidden } = state.ui;
   const cursor = overlaysHidden ? 'grab' : (TOOLS.find(({ name }) => name === tool)?.cursor ?? 'default');
+  const words = texts.stage;
   const label = frame
-    ? `${frame.name}, frame ${state.ui.frameIndex + 1} of ${state.history.present.frames.length}, tracing the ${component}`
-    : 'No frame';
+    ? words.label(frame.name, state.ui.frameIndex + 1, state.history.present.frames.length, texts.component[component])
+    : words.noFrame;
   return (
-    <main class="stage" aria-label="Film">
+    <main class="stage" aria-label={words.region}>
       <canvas ref={film} class="film" aria-hidden="true" />
-      <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={`${label}. ${titleOf(component)} outline`} />
+      <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={words.film(label, titleOf(component))} />
       {frame && <ScaleBar state={state} />}
       {!frame && <EmptyState />}
       {frame && !app.services.studio.hasFilm(frame.id) && (
-        <p class="absent">{frame.name} is not here: drop the file on the page.</p>
+        <p class="absent">{words.absent(frame.name)}</p>
       )}
     </main>
   );
