@@ -15,6 +15,7 @@ pub mod implant;
 pub mod kinematics;
 pub mod library;
 pub mod models;
+pub mod outline;
 pub mod package;
 pub mod page;
 pub mod pipeline;

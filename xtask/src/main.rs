@@ -28,6 +28,8 @@ enum Verb {
     Identify(xtask::identify::Args),
     /// Compare poses from a study's masks with its reference poses
     Evaluate(xtask::evaluate::Args),
+    /// Measure one-click outlines on a study's grey frames against its masks
+    Outline(xtask::outline::Args),
     /// How well a pose can be known from a noisy outline (Cramer and Rao)
     Bound(xtask::bound::Args),
     /// Find camera and distortion in a picture of a bead grid
@@ -69,6 +71,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Synthetic(args) => xtask::synthetic::run(args),
         Verb::Identify(args) => xtask::identify::run(args),
         Verb::Evaluate(args) => xtask::evaluate::run(args),
+        Verb::Outline(args) => xtask::outline::run(args),
         Verb::Bound(args) => xtask::bound::run(args),
         Verb::Calibrate(args) => xtask::calibrate::run(args),
         Verb::Undistort(args) => xtask::undistort::run(args),

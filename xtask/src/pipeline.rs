@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod biplane;
 pub mod bound;
 pub mod build;
+pub mod clicker;
 pub mod decide;
 pub mod distortion;
 pub mod disturb;
