@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::implant::Triangles;
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
 use fluoropose::edges::{MeshEdge, edges_needed, link};
@@ -11,7 +12,7 @@ use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::region::largest_region;
-use fluoropose_decode::{Model, decode_mask, decode_model};
+use fluoropose_decode::{decode_mask, decode_model};
 
 /// Reads a whole file.
 ///
@@ -40,22 +41,42 @@ pub fn name_of(path: &Path) -> String {
 /// A model's surface.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    model: Model,
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
     /// Of a closed surface: what its silhouettes are drawn from.
     edges: Option<Vec<MeshEdge>>,
 }
 
 impl Surface {
+    fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
+        let mesh = Mesh::new(&vertices, &triangles)?;
+        let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
+        let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);
+        Ok(Self {
+            vertices,
+            triangles,
+            edges,
+        })
+    }
+
     /// As the core takes it.
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
     pub fn mesh(&self) -> Result<Mesh<'_>> {
-        let mesh = Mesh::new(&self.model.vertices, &self.model.triangles)?;
+        let mesh = Mesh::new(&self.vertices, &self.triangles)?;
         Ok(match &self.edges {
             Some(edges) => mesh.with_edges(edges),
             None => mesh,
         })
+    }
+}
+
+impl TryFrom<Triangles> for Surface {
+    type Error = anyhow::Error;
+
+    fn try_from(made: Triangles) -> Result<Self> {
+        Self::new(made.vertices, made.triangles)
     }
 }
 
@@ -68,10 +89,7 @@ pub fn read_model(path: &Path) -> Result<Surface> {
     for note in &model.notes {
         eprintln!("{}: {note}", path.display());
     }
-    let mesh = Mesh::new(&model.vertices, &model.triangles)?;
-    let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
-    let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);
-    Ok(Surface { model, edges })
+    Surface::new(model.vertices, model.triangles)
 }
 
 /// Reads a `JT_INTCALIB` or camera-matrix calibration.
