@@ -179,7 +179,7 @@ async function snap(page, stage, t) {
 /** @param {Page} page */
 async function shape(page) {
   const pose = await panel.waitForPose(page);
-  await aids.strip(page).getByRole('button', { name: 'Simplify or smooth the outline' }).click();
+  await aids.strip(page).getByRole('button', { name: 'Shape the outline' }).click();
   const sheet = page.getByRole('dialog', { name: 'Shape' });
   await sheet.getByRole('slider', { name: 'Simplify within' }).fill('2');
   const text = await until(() => sheet.innerText(), (words) => /\d+ points become \d+\. The shape moves by [\d.]+ px at most/.test(words), 'the error');
