@@ -55,8 +55,14 @@ proptest! {
         length in 0..200usize,
         bytes in proptest::collection::vec(any::<u8>(), 800)
     ) {
-        let mut parts = bytes.chunks(200).map(|part| &part[..length]);
-        let [a, b, c, d] = std::array::from_fn(|_| parts.next().unwrap_or_default());
+        let parts: Vec<&[u8]> = bytes.chunks(200).map(|part| &part[..length]).collect();
+        let pick = |one: usize, of: fn(u8, u8) -> u8| -> Vec<u8> {
+            let pairs = parts[one].iter().zip(parts[one + 1]);
+            pairs.map(|(&a, &b)| of(a, b)).collect()
+        };
+        let (a, b) = (pick(0, u8::min), pick(0, u8::max));
+        let (c, d) = (pick(2, u8::min), pick(2, u8::max));
+        let (a, b, c, d) = (&a[..], &b[..], &c[..], &d[..]);
         for kernels in available() {
             prop_assert_eq!(
                 (kernels.gap)([a, b], [c, d]),

@@ -127,7 +127,7 @@ crashTest('storage that is full', async (page, t) => {
     await browser.send('Storage.overrideQuotaForOrigin', { origin, quotaSize: 1 });
     await openSmall(page, 'full', 'Not saved');
     await panel.waitForWords(page, /no room left.*save a session file/);
-    await page.getByRole('button', { name: 'Flag' }).click();
+    await page.getByRole('button', { name: 'Flag', exact: true }).click();
     const asked = page.waitForEvent('dialog');
     // Unlike the tester's own reload it does not wait for a page that never comes.
     const leaving = page.evaluate(() => location.reload()).catch(() => undefined);

@@ -17,7 +17,8 @@ const SIDE = 1024;
 pageTest('outlines and masks come and go', async (page, t) => {
   /** @type {Record<string, FileToOpen>} */
   const saved = {};
-  await openFrames(page);
+  await openFrames(page, 'femur.stl');
+  await panel.waitForLibraries(page, 'Femur');
 
   await step(page, t, 'a folder of masks is recognised and shown before anything changes', async () => {
     await dropMasks(page, ['femur', 'tibia'], [1, 2, 3]);
@@ -149,12 +150,11 @@ pageTest('what does not fit is said', async (page, t) => {
   });
 });
 
-/** @param {Page} page */
-async function openFrames(page) {
-  const names = ['calibration.txt', 'femur.stl', ...Array.from({ length: FRAMES }, (_, index) => framePath(index + 1))];
+/** @param {Page} page @param {...string} more files of the demonstration */
+async function openFrames(page, ...more) {
+  const names = ['calibration.txt', ...more, ...Array.from({ length: FRAMES }, (_, index) => framePath(index + 1))];
   await choose(page, ...(await Promise.all(names.map(demoFile))));
   await panel.waitForFrames(page, FRAMES);
-  await panel.waitForLibraries(page, 'Femur');
 }
 
 /** An uncompressed grey TIFF of 8 bits with a square in it, after TIFF 6.0. @param {string} name */

@@ -26,7 +26,7 @@ pageTest('working through a film', async (page, t) => {
 
   await step(page, t, 'every cell is large enough to hit', () => cellsAreLarge(page));
   await step(page, t, 'N and Shift+N go to what has no pose, component by component', () => goesToUnfinished(page));
-  await step(page, t, 'Y, I and Shift+I mark, flag and note; undo takes them back', () => marks(page));
+  await step(page, t, 'Y, Shift+Y and Shift+J mark, flag and note; undo takes them back', () => marks(page));
   await step(page, t, 'a check is of what was looked at', () => checksOutdate(page, stage));
   await step(page, t, 'the list filters, and goes where it is told', () => list(page));
   await step(page, t, 'the joint’s curve stands under the frames and leads to them', () => curve(page));
@@ -88,10 +88,10 @@ async function marks(page) {
   await cell(page, 'Frame 2, femur: pose loaded').click();
   await page.keyboard.press('y');
   await cell(page, 'Frame 2, femur: pose loaded, checked').waitFor();
-  assert.equal(await page.getByRole('button', { name: 'Checked' }).getAttribute('aria-pressed'), 'true');
-  await page.keyboard.press('i');
+  assert.equal(await page.getByRole('button', { name: 'Checked', exact: true }).getAttribute('aria-pressed'), 'true');
+  await page.keyboard.press('Shift+y');
   await cell(page, 'Frame 2, femur: pose loaded, checked, flagged').waitFor();
-  await page.keyboard.press('Shift+i');
+  await page.keyboard.press('Shift+j');
   await page.keyboard.type('rim hidden');
   await page.keyboard.press('Enter');
   const note = page.getByRole('textbox', { name: 'Note on frame 2, femur' });
@@ -160,18 +160,18 @@ async function curve(page) {
 pageTest('a long film', async (page, t) => {
   await step(page, t, 'its cells keep their size and the current one comes into sight', async () => {
     const { png } = await import('./support/frames.mjs');
-    const frames = Array.from({ length: 90 }, (_, index) => ({ ...png(8, (grey) => (grey + index) % 256), name: `film${index + 1}.png` }));
+    const frames = Array.from({ length: 60 }, (_, index) => ({ ...png(8, (grey) => (grey + index) % 256), name: `film${index + 1}.png` }));
     await choose(page, ...frames);
-    await panel.waitForFrames(page, 90);
+    await panel.waitForFrames(page, 60);
     await cellsAreLarge(page);
-    await page.getByRole('slider', { name: 'Frame', exact: true }).fill('70');
-    const shown = cell(page, 'Frame 71, femur: empty');
+    await page.getByRole('slider', { name: 'Frame', exact: true }).fill('52');
+    const shown = cell(page, 'Frame 53, femur: empty');
     const inSight = () =>
       shown.evaluate((button) => {
         const { left, right } = button.getBoundingClientRect();
         return left >= 0 && right <= innerWidth && document.elementFromPoint((left + right) / 2, button.getBoundingClientRect().top + 5) === button;
       });
-    await until(inSight, (seen) => seen, 'frame 71 to come into sight');
+    await until(inSight, (seen) => seen, 'frame 53 to come into sight');
     await screenshot(page, 'long film');
   });
 });

@@ -2,24 +2,40 @@
 //!
 //! Every class owns its memory and lends it to the core. Whatever goes wrong is thrown as a JavaScript `Error` whose
 //! message is the core's sentence. Nothing here hands out a view of WASM memory: what leaves is copied.
+//!
+//! The page's own thread loads this without the feature `workers`: libraries are built, and poses and grids found, in workers.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
+#![cfg_attr(
+    not(feature = "workers"),
+    allow(dead_code, reason = "helpers that only workers need")
+)]
 
 mod aids;
+#[cfg(feature = "workers")]
+mod bead_grid;
 mod calibration;
+#[cfg(feature = "workers")]
 mod choice;
 mod error;
+#[cfg(feature = "workers")]
 mod exchange;
 mod film;
+#[cfg(feature = "workers")]
 mod found;
 mod grid;
 mod jts;
 mod kinematics;
+#[cfg(feature = "workers")]
 mod lent_model;
+#[cfg(feature = "workers")]
 mod library;
+mod library_check;
 mod looks;
+#[cfg(feature = "workers")]
 mod matcher;
 mod model;
 mod paint;
+#[cfg(feature = "workers")]
 mod pieces;
 mod pose_numbers;
 mod surface;
@@ -30,15 +46,23 @@ pub use aids::{
     Cooling, LiveWire, Reshaped, ThresholdAid, brush_outline, simplify_outline, smooth_outline,
     snap_outline, snap_path,
 };
+#[cfg(feature = "workers")]
+pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use calibration::{CalibrationText, jt_intcalib_text};
+#[cfg(feature = "workers")]
 pub use choice::{Chosen, Surroundings, choose_pose};
+#[cfg(feature = "workers")]
 pub use exchange::{MaskOutline, mask_of_outline, outline_of_mask};
 pub use film::{Film, FilmLook};
+#[cfg(feature = "workers")]
 pub use found::Match;
-pub use grid::{BeadGrid, DistortionFit, Straightener, fit_distortion, plate_camera, ruler_scale};
+pub use grid::{Straightener, plate_camera, ruler_scale};
 pub use jts::{read_jts, write_jts};
 pub use kinematics::joint_motion;
+#[cfg(feature = "workers")]
 pub use library::{LibraryBuilder, LibraryViews};
+pub use library_check::check_library;
+#[cfg(feature = "workers")]
 pub use matcher::{HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose};
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};

@@ -86,7 +86,9 @@ fn module(to: &Path) -> Result<PathBuf> {
     announce("compiling the npm module (npm run build-module)");
     let mut compile = node::script(&web, "build-module")?;
     command::run(compile.arg("--").arg("--outDir").arg(to))?;
-    copy_folder(&web.join("src/pkg"), &to.join("pkg"))?;
+    for part in ["core", "decode"] {
+        copy_folder(&web.join("src/pkg").join(part), &to.join("pkg").join(part))?;
+    }
     for name in ["package.json", "README.md"] {
         fs::copy(npm.join(name), to.join(name))?;
     }

@@ -1,4 +1,4 @@
-//! Builds the page: both WASM modules, their JavaScript, the demonstration data and the bundle.
+//! Builds the page: its WASM modules, their JavaScript, the demonstration data and the bundle.
 
 use std::path::{Path, PathBuf};
 
@@ -10,10 +10,34 @@ use crate::setup::rust_target::{self, Toolchain};
 use crate::setup::{announce, command, node};
 use crate::workspace::{self, Stamp};
 
-/// The page's WASM modules: package, and the folder of `web/src/pkg` for its JavaScript.
-///
-/// They are built one by one: built together, cargo would unite the features of what both depend on.
-const MODULES: [(&str, &str); 2] = [("fluoropose-wasm", "core"), ("fluoropose-decode", "decode")];
+/// One of the page's WASM modules.
+struct Module {
+    package: &'static str,
+    features: &'static [&'static str],
+    /// The folder of `web/src/pkg` for its JavaScript.
+    folder: &'static str,
+}
+
+/// They are built one by one: built together, cargo would unite the features of what they depend on.
+const MODULES: [Module; 3] = [
+    // What the page's own thread needs, and has to load first.
+    Module {
+        package: "fluoropose-wasm",
+        features: &["--no-default-features"],
+        folder: "page",
+    },
+    // All of the core, for workers.
+    Module {
+        package: "fluoropose-wasm",
+        features: &[],
+        folder: "core",
+    },
+    Module {
+        package: "fluoropose-decode",
+        features: &[],
+        folder: "decode",
+    },
+];
 
 /// Sets up what is missing, builds everything and returns the folder to serve (`web/dist`).
 pub fn build() -> Result<PathBuf> {
@@ -33,21 +57,28 @@ pub fn build() -> Result<PathBuf> {
     Ok(dist)
 }
 
-/// Builds both WASM modules and writes their JavaScript and TypeScript into `web/src/pkg`.
+/// Builds the WASM modules and writes their JavaScript and TypeScript into `web/src/pkg`.
 pub fn build_wasm(web: &Path) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
-    for (package, folder) in MODULES {
-        let module = build_module(&toolchain, package)?;
-        generate_bindings(&module, &web.join("src/pkg").join(folder))?;
+    for module in &MODULES {
+        let file = build_module(&toolchain, module)?;
+        generate_bindings(&file, &web.join("src/pkg").join(module.folder))?;
     }
     Ok(())
 }
 
-fn build_module(toolchain: &Toolchain, package: &str) -> Result<PathBuf> {
-    announce(&format!("building {package} for the page"));
+fn build_module(toolchain: &Toolchain, module: &Module) -> Result<PathBuf> {
+    let Module {
+        package,
+        features,
+        folder,
+    } = module;
+    announce(&format!("building {package} for the page ({folder})"));
     let target_dir = workspace::target_dir();
     let mut cargo = toolchain.cargo("build", &target_dir);
-    cargo.args(["--profile", "wasm", "--lib", "--package", package]);
+    cargo
+        .args(["--profile", "wasm", "--lib", "--package", package])
+        .args(*features);
     command::run(&mut cargo)?;
     let file = format!("{}.wasm", package.replace('-', "_"));
     Ok(toolchain.output_dir("wasm", &target_dir).join(file))

@@ -11,8 +11,8 @@ export async function firstLoad(page) {
   const empty = await firstLoadOf(page);
   const tracing = await pathOfTracing(page, empty);
   return [
-    { work: 'first load, the empty page, compressed (gzip)', value: total(empty), unit: 'bytes' },
-    { work: 'first load with the workers that tracing needs, compressed (gzip)', value: total(tracing), unit: 'bytes' },
+    { work: 'first load until outlines can be traced, compressed (gzip)', value: total(empty), unit: 'bytes' },
+    { work: 'the same with the workers that build libraries and find poses, compressed (gzip)', value: total(tracing), unit: 'bytes' },
   ];
 }
 

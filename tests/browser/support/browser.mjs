@@ -154,7 +154,11 @@ export async function visit(page, address = ADDRESS) {
 
 /** Clears the browser's storage of the page, which keeps its work there. @param {import('playwright-core').Page} page @param {string} address */
 async function forget(page, address) {
-  await page.goto(`${address}icon.svg`);
+  // A document of the same origin that does nothing by itself and has nothing open.
+  const nowhere = `${address}nothing`;
+  const body = '<!doctype html><link rel="icon" href="data:,"><title>nothing</title>';
+  await page.route(nowhere, (route) => route.fulfill({ contentType: 'text/html', body }));
+  await page.goto(nowhere);
   await page.evaluate(
     () =>
       new Promise((resolve, reject) => {
@@ -163,18 +167,7 @@ async function forget(page, address) {
         request.onerror = () => reject(request.error);
       }),
   );
-}
-
-const DRIVERS_STYLE = createHash('sha256').update('body {}').digest('base64');
-
-/**
- * For a picture the driver puts an empty style into the page for a moment. Firefox refuses it, as the page's policy says,
- * and tells its digest.
- *
- * @param {Error} error
- */
-function isOfTheDriver({ message }) {
-  return IN_FIREFOX && message.includes('inline style') && message.includes(DRIVERS_STYLE);
+  await page.unroute(nowhere);
 }
 
 /** @param {string} host @param {string} url */

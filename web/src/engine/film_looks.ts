@@ -1,4 +1,4 @@
-import { FilmLook as Derived, type Film } from '../pkg/core/fluoropose_wasm.js';
+import { FilmLook as Derived, type Film } from '../pkg/page/fluoropose_wasm.js';
 import type { FilmLook } from '../document/seeing';
 import type { GreyWindow } from '../document/types';
 

@@ -1,4 +1,4 @@
-import { Straightener, type Film } from '../pkg/core/fluoropose_wasm.js';
+import { Straightener, type Film } from '../pkg/page/fluoropose_wasm.js';
 import { distortionKey, fits, numbersOf, type Distortion, type MovePoints } from '../document/distortion';
 
 /** Corrections at work on the page's own thread: for points, and for films that are shown straight. */

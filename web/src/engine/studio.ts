@@ -1,9 +1,9 @@
 import init, {
   CalibrationText,
+  checkLibrary,
   Film,
   jointMotion,
   jtIntcalibText,
-  Matcher,
   Model,
   paintUnmatched,
   plateCamera,
@@ -11,8 +11,8 @@ import init, {
   rulerScale,
   unknownReach,
   writeJts,
-} from '../pkg/core/fluoropose_wasm.js';
-import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+} from '../pkg/page/fluoropose_wasm.js';
+import wasmAddress from '../pkg/page/fluoropose_wasm_bg.wasm?url';
 import type { GreyWindow, PoseNumbers } from '../document/types';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
@@ -176,7 +176,7 @@ export class Studio {
 
   /** Throws the core's sentence for a library that is damaged, before it takes the place of a sound one. */
   checkLibrary(bytes: Uint8Array): void {
-    new Matcher(bytes).free();
+    checkLibrary(bytes);
   }
 
   // --- Texts --------------------------------------------------------------------------------------------------

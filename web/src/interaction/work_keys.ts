@@ -21,8 +21,8 @@ export const WORK_KEYS: readonly WorkKey[] = [
   { shown: 'N', key: 'n', shift: false, command: 'next-unfinished' },
   { shown: 'Shift + N', key: 'n', shift: true, command: 'previous-unfinished' },
   { shown: 'Y', key: 'y', shift: false, command: 'toggle-checked' },
-  { shown: 'I', key: 'i', shift: false, command: 'toggle-flagged' },
-  { shown: 'Shift + I', key: 'i', shift: true, command: 'write-note' },
+  { shown: 'Shift + Y', key: 'y', shift: true, command: 'toggle-flagged' },
+  { shown: 'Shift + J', key: 'j', shift: true, command: 'write-note' },
   { shown: 'J', key: 'j', shift: false, command: 'work-list' },
   { shown: 'Shift + Alt + N', key: 'n', shift: true, alt: true, command: 'start-anew' },
 ];

@@ -266,7 +266,7 @@ export const en = {
     checkTitle: 'What is here has been looked at and is right (Y)',
     changedTitle: 'It was checked, and changed since: check it again (Y)',
     flag: 'Flag',
-    flagTitle: 'For another look (I)',
+    flagTitle: 'For another look (Shift+Y)',
     noteLabel: (frame: number, component: string) => `Note on frame ${frame}, ${component}`,
     notePlaceholder: 'Note',
     list: 'Work list',

@@ -9,6 +9,7 @@ import { useApp } from './app';
 import { DistortionFindings } from './distortion_findings';
 import { download, fileStem } from './files';
 import { NumberField } from './number_field';
+import { Segments } from './segments';
 import { StatedDistances } from './stated_geometry';
 
 const said = texts.calibrate;
@@ -20,6 +21,8 @@ interface Lengths {
   readonly toObject: number;
 }
 
+const KINDS = (['grid', 'ruler'] as const).map((value) => ({ value, title: said.kinds[value] }));
+
 /** Pixel pitch, principal point and distortion from a picture of a bead grid or a ruler. */
 export function CalibrateSheet({ state }: { state: State }) {
   const { calibrator } = useApp();
@@ -28,13 +31,7 @@ export function CalibrateSheet({ state }: { state: State }) {
   const choose = (kind: Measuring['kind']) => calibrator.show({ kind });
   return (
     <div class="sheet-body">
-      <div class="segments" role="radiogroup" aria-label={said.what}>
-        {(['grid', 'ruler'] as const).map((kind) => (
-          <button key={kind} type="button" class="button" role="radio" aria-checked={measuring.kind === kind} onClick={() => choose(kind)}>
-            {said.kinds[kind]}
-          </button>
-        ))}
-      </div>
+      <Segments label={said.what} options={KINDS} value={measuring.kind} onChoose={choose} />
       {measuring.kind === 'grid' ? <Grid state={state} grid={measuring.grid} /> : <Ruler marks={measuring.marks} />}
       <h3>{said.camera}</h3>
       <LengthFields state={state} kind={measuring.kind} lengths={lengths} onChange={setLengths} />

@@ -46,7 +46,7 @@ export function CellSide({ state }: { state: State }) {
           type="button"
           class="button small mark"
           aria-pressed={mark.flagged}
-          aria-keyshortcuts="i"
+          aria-keyshortcuts="Shift+Y"
           title={work.flagTitle}
           disabled={!place}
           onClick={() => place && actions.work.toggleFlagged(place)}
@@ -76,7 +76,7 @@ function NoteField({ state, note }: { state: State; note: string }) {
       ref={field}
       class="note-field"
       aria-label={label}
-      title={texts.withKey(label, 'Shift+I')}
+      title={texts.withKey(label, 'Shift+J')}
       placeholder={texts.work.notePlaceholder}
       value={note}
       disabled={!place}

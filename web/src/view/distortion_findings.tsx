@@ -35,7 +35,7 @@ export function DistortionFindings({ grid }: { grid: MeasuredGrid }) {
 /** Numbers of a bead's residual. */
 const PER_BEAD = 6;
 /** The longest line of the map, as a part of the frame's width. */
-const LONGEST = 0.05;
+const LONGEST = 0.09;
 
 /** A line for each bead: how far it lies off the straight lattice before and after. */
 function ResidualMap({ grid: { width, height }, distortion: { residuals } }: { grid: MeasuredGrid; distortion: MeasuredDistortion }) {
@@ -51,8 +51,8 @@ function ResidualMap({ grid: { width, height }, distortion: { residuals } }: { g
     <figure class="residual-map">
       <svg viewBox={`0 0 ${width} ${height}`} role="img" aria-label={said.map(times)}>
         <rect x="0" y="0" width={width} height={height} />
-        <path class="before" d={lines(0).join('')} stroke-width={width / 400} />
-        <path class="after" d={lines(2).join('')} stroke-width={width / 160} />
+        <path class="before" d={lines(0).join('')} stroke-width={width / 220} />
+        <path class="after" d={lines(2).join('')} stroke-width={width / 110} />
       </svg>
       <figcaption class="sheet-text quiet">{said.map(times)}</figcaption>
     </figure>

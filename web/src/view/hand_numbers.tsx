@@ -1,4 +1,4 @@
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import type { Steps } from '../document/seeing';
 import type { PoseNumbers } from '../document/types';
 import { texts } from '../texts';
@@ -60,19 +60,22 @@ function HandNumber({ quantity, value }: { quantity: Quantity; value: number | n
 
 interface TypedProps {
   readonly name: string;
+  /** By how much the field's own arrows change the number. */
   readonly step: number;
   readonly text: string;
-  readonly disabled: boolean;
-  readonly onType: (value: number) => void;
+  readonly disabled?: boolean;
+  /** False where the number was not taken: the field goes back to the one before. */
+  readonly onType: (value: number) => boolean;
 }
 
-/** Takes over when the person is done: with Enter, with the field's own arrows, or by leaving it. */
-function Typed({ name, step, text, disabled, onType }: TypedProps) {
+/**
+ * A number that is taken over when the person is done: with Enter, with the arrows, or by leaving the field. The field is
+ * set when the number changes and not with every drawing of the page, which would take away what is being typed.
+ */
+function Typed({ name, step, text, disabled = false, onType }: TypedProps) {
   const input = useRef<HTMLInputElement>(null);
-  // What is being typed is left alone while the number changes under it.
-  useEffect(() => {
-    const field = input.current;
-    if (field && Number(field.value) !== Number(text)) field.value = text;
+  useLayoutEffect(() => {
+    if (input.current) input.current.value = text;
   }, [text]);
   return (
     <input
@@ -83,17 +86,14 @@ function Typed({ name, step, text, disabled, onType }: TypedProps) {
       step="any"
       aria-label={name}
       disabled={disabled}
-      value={text}
       onKeyDown={(event) => {
         const sign = event.key === 'ArrowUp' ? 1 : event.key === 'ArrowDown' ? -1 : 0;
         if (sign === 0) return;
         event.preventDefault();
         onType(Number(text) + sign * step);
       }}
-      onChange={(event) => {
-        const { valueAsNumber } = event.currentTarget;
-        if (Number.isNaN(valueAsNumber)) event.currentTarget.value = text;
-        onType(valueAsNumber);
+      onChange={({ currentTarget }) => {
+        if (!onType(currentTarget.valueAsNumber)) currentTarget.value = text;
       }}
     />
   );
@@ -106,23 +106,14 @@ function StepSettings() {
   const { grain } = store.ui.hand;
   const words = texts.hand;
   const steps = store.ui.hand[grain];
-  const change = (part: Partial<Steps>) => store.setHand({ [grain]: { ...steps, ...part } });
-  const field = (key: keyof Steps, what: string, unit: '°' | 'mm') => (
+  const take = (key: keyof Steps) => (value: number) => {
+    if (value > 0) store.setHand({ [grain]: { ...steps, [key]: value } });
+    return value > 0;
+  };
+  const field = (key: keyof Steps, what: string, unit: Quantity['unit']) => (
     <label class="step-field">
       <span>{what}</span>
-      <input
-        type="number"
-        class="typed"
-        step="any"
-        min="0"
-        aria-label={words.step(words[grain], what, unitWord(unit))}
-        value={steps[key]}
-        onChange={({ currentTarget }) => {
-          const value = currentTarget.valueAsNumber;
-          if (value > 0) change({ [key]: value });
-          else currentTarget.value = String(steps[key]);
-        }}
-      />
+      <Typed name={words.step(words[grain], what, unitWord(unit))} step={steps[key] / 10} text={String(steps[key])} onType={take(key)} />
       <span class="unit">{unit}</span>
     </label>
   );

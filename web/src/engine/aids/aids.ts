@@ -3,7 +3,7 @@ import { cellOf } from '../../document/types';
 import type { FramePoint } from '../../geometry/points';
 import type { AidIntent } from '../../interaction/aid';
 import type { ToolName } from '../../interaction/tools';
-import type { Film } from '../../pkg/core/fluoropose_wasm.js';
+import type { Film } from '../../pkg/page/fluoropose_wasm.js';
 import { texts } from '../../texts';
 import type { Bridge } from '../../worker/bridge';
 import type { PoseProtocol } from '../protocol';

@@ -2,7 +2,7 @@ import type { Command, Place } from '../../document/commands';
 import { currentCell, currentPlace, type Store } from '../../document/store';
 import type { Outline } from '../../document/types';
 import type { FramePoint } from '../../geometry/points';
-import type { Film } from '../../pkg/core/fluoropose_wasm.js';
+import type { Film } from '../../pkg/page/fluoropose_wasm.js';
 import { snappedPath } from './pixels';
 import type { ThresholdHost } from './threshold';
 import type { WireHost } from './wire';

@@ -11,7 +11,7 @@ import {
   ThresholdAid,
   type Film,
   type Reshaped,
-} from '../../pkg/core/fluoropose_wasm.js';
+} from '../../pkg/page/fluoropose_wasm.js';
 
 /** What an aid made of an outline. */
 export interface Reshape {

@@ -1,7 +1,7 @@
 import { clockwise } from '../../geometry/rings';
 import type { Outline } from '../../document/types';
 import type { FramePoint } from '../../geometry/points';
-import type { Film } from '../../pkg/core/fluoropose_wasm.js';
+import type { Film } from '../../pkg/page/fluoropose_wasm.js';
 import { snapped, snappedPath, type Reshape } from './pixels';
 
 /**
