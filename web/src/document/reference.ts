@@ -13,9 +13,11 @@ export function forgetReference(): Command {
   return { label: texts.steps.forgetReference, apply: (doc) => ({ ...doc, reference: null }) };
 }
 
-/** Poses of a file become the set to compare with; what it says nothing of stays as it was. */
+/** Poses of a file become the set to compare with; what it says nothing of stays as it was, and its name too. */
 export function withReference(doc: Doc, name: string, poses: Readonly<Record<string, PoseNumbers>>): Doc {
-  return { ...doc, reference: { name, poses: { ...doc.reference?.poses, ...poses } } };
+  const names = doc.reference?.name.split(', ') ?? [];
+  const joined = names.includes(name) ? names : [...names, name];
+  return { ...doc, reference: { name: joined.join(', '), poses: { ...doc.reference?.poses, ...poses } } };
 }
 
 export function referencePose(doc: Doc, place: Place | null): PoseNumbers | null {
