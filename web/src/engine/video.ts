@@ -44,11 +44,11 @@ export async function openVideo(name: string, bytes: Uint8Array<ArrayBuffer>, si
     await heard(element, 'loadeddata', signal, said.cannot(name));
     const { videoWidth: width, videoHeight: height } = element;
     if (width === 0 || height === 0) throw new Error(said.noSize(name));
-    const isStated = Number.isFinite(element.duration);
     const end = await durationOf(element, signal);
     const rate = await rateOf(element, signal);
-    // Where no length is stated what is found is the time of the last picture: that one lasts a while, too.
-    const duration = isStated ? end : end + 1 / rate;
+    // Recorders may end a video with the beginning of its last picture: that one lasts a while, too.
+    const last = await seek(element, end, signal);
+    const duration = Math.max(end, (last ?? 0) + 1 / rate);
     await seek(element, 0, signal);
     return { name, width, height, duration, rate, element, close };
   } catch (error) {
