@@ -14,9 +14,7 @@ const FRAMES = 3;
 const FROM_MASK = { x: 0.2, y: 0.2, z: 3, zRot: 0.3, xRot: 0.4, yRot: 0.4 };
 const SIDE = 1024;
 
-pageTest('outlines and masks come and go', async (page, t) => {
-  /** @type {Record<string, FileToOpen>} */
-  const saved = {};
+pageTest('masks give poses', async (page, t) => {
   await openFrames(page, 'femur.stl');
   await panel.waitForLibraries(page, 'Femur');
 
@@ -46,10 +44,14 @@ pageTest('outlines and masks come and go', async (page, t) => {
     await page.keyboard.press('Control+y');
     await until(() => panel.cells(page), (cells) => cells.filter((name) => name.endsWith(': posed')).length === 3, 'three femoral poses');
   });
+});
+
+pageTest('outlines and masks come and go', async (page, t) => {
+  /** @type {Record<string, FileToOpen>} */
+  const saved = {};
+  await openFrames(page);
 
   await step(page, t, 'exactly imported masks leave as they came', async () => {
-    await visit(page);
-    await openFrames(page);
     await dropMasks(page, ['femur', 'tibia'], [1, 3]);
     await page.getByRole('checkbox', { name: /^Exactly along the pixels/ }).check();
     await importAll(page, 4);
