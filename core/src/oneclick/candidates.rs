@@ -25,8 +25,9 @@ pub(super) struct Region {
 pub(super) struct Find {
     pub(super) pose: Pose,
     pub(super) region: Region,
-    /// Canonical pixels that differ, parts of the canonical area.
-    pub(super) mismatch: f64,
+    /// Canonical pixels that differ, parts of the canonical area; `None` for a pose that does not
+    /// come from the region and is not to be judged by it.
+    pub(super) mismatch: Option<f64>,
 }
 
 /// A first pose and what speaks for it.
@@ -72,7 +73,7 @@ impl Ranked for Find {
         &self.pose
     }
     fn rank(&self) -> f64 {
-        -self.mismatch
+        -self.mismatch.unwrap_or(1.0)
     }
 }
 
@@ -162,7 +163,7 @@ mod tests {
         Find {
             pose: pose.into(),
             region,
-            mismatch,
+            mismatch: Some(mismatch),
         }
     }
 
@@ -185,7 +186,7 @@ mod tests {
         for item in given {
             keep(&mut list, item, NEAR, &mesh);
         }
-        let kept: std::vec::Vec<f64> = list.iter().map(|find| find.mismatch).collect();
+        let kept: std::vec::Vec<_> = list.iter().filter_map(|find| find.mismatch).collect();
         assert_eq!(kept, [0.05, 0.1, 0.2]);
     }
 }

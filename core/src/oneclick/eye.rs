@@ -64,7 +64,7 @@ impl Eye<'_> {
         let finds = found.poses.iter().map(|located| Find {
             pose: located.pose,
             region,
-            mismatch: f64::from(located.fine.unmatched) / area,
+            mismatch: Some(f64::from(located.fine.unmatched) / area),
         });
         Ok(finds.filter(|find| self.is_possible(&find.pose)).collect())
     }
@@ -96,7 +96,11 @@ impl Eye<'_> {
             region: find.region,
             overlap,
             support,
-            score: self.prompt.agreement(&drawn) * (overlap + support.strength),
+            score: self.prompt.agreement(&drawn)
+                * match find.mismatch {
+                    Some(_) => overlap + support.strength,
+                    None => 2.0 * support.strength,
+                },
         }))
     }
 
@@ -177,7 +181,7 @@ fn find_of(pose: &Pose, start: &Start) -> Find {
     Find {
         pose: *pose,
         region: start.region,
-        mismatch: 0.0,
+        mismatch: Some(0.0),
     }
 }
 

@@ -87,6 +87,8 @@ pub struct OneClick {
     pub(super) round: usize,
     /// The answer that the second round goes out from.
     pub(super) near: Option<Pose>,
+    /// The answer that was turned last.
+    pub(super) turned_from: Option<Answer>,
     /// Of this look, those still to be matched; the last is the next.
     pub(super) regions: Vec<Region, REGIONS>,
     /// Those that were looked at, of all looks.
@@ -123,6 +125,7 @@ impl OneClick {
             slope: 0.0,
             round: 0,
             near: None,
+            turned_from: None,
             regions: Vec::new(),
             matched: Vec::new(),
             finds: Vec::new(),
@@ -156,7 +159,7 @@ impl OneClick {
         let looks = self.looks() as f64;
         let done = |look: usize, share: f64| match self.round {
             0 => Progress::Regions(0.5 * (look as f64 + share) / looks),
-            _ => Progress::Poses(0.6),
+            _ => Progress::Poses(0.58),
         };
         let left = |count: usize, of: usize| count as f64 / of as f64;
         match self.stage {
@@ -164,9 +167,9 @@ impl OneClick {
             Stage::Match(look) => done(look, 0.7 - 0.6 * left(self.regions.len(), REGIONS)),
             Stage::Judge(look) => done(look, 1.0 - 0.3 * left(self.finds.len(), FINDS)),
             Stage::Refine(start) => {
-                Progress::Poses(0.5 + 0.1 * (self.round as f64 + left(start, STARTS)))
+                Progress::Poses(0.5 + 0.08 * (self.round as f64 + left(start, STARTS)))
             }
-            Stage::Around(_) => Progress::Poses(0.7),
+            Stage::Around(_) => Progress::Poses(0.5 + 0.08 * self.round as f64),
             Stage::Mirror(_) => Progress::Poses(0.9),
             Stage::Done => Progress::Done,
         }

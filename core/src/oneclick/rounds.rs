@@ -20,6 +20,11 @@ const CONVINCING: f64 = 0.7;
 /// many degrees to either side.
 const TURNS: i32 = 2;
 const TURN_DEG: f64 = 7.0;
+/// And stands at these parts of its distance: a region that lacks a faint part of the implant, or
+/// holds something else, has led to a wrong one.
+const DISTANCES: [f64; 3] = [1.0, 0.96, 1.04];
+/// Rounds at most.
+const ROUNDS: usize = 4;
 /// A mirror image is refined where its outline lies near edges as strongly, but for this part.
 const MIRRORED: f64 = 0.8;
 
@@ -43,7 +48,10 @@ impl OneClick {
                 self.near = self.answers.first().map(|best| best.refined.pose);
                 Stage::Look(0)
             }
-            2 => Stage::Around(0),
+            2..ROUNDS if self.answers.first() != self.turned_from.as_ref() => {
+                self.turned_from = self.answers.first().copied();
+                Stage::Around(0)
+            }
             _ => Stage::Mirror(0),
         }
     }
@@ -55,7 +63,9 @@ impl OneClick {
         let side = 2 * TURNS + 1;
         let number = i32::try_from(at)
             .ok()
-            .filter(|&number| number < side * side)?;
+            .filter(|&number| number < side * side * DISTANCES.len() as i32)?;
+        let distance = DISTANCES[(number / (side * side)) as usize];
+        let number = number % (side * side);
         let steps = [number % side - TURNS, number / side - TURNS];
         let [x, y] = steps.map(|steps| radians(TURN_DEG * f64::from(steps)));
         let (pose, middle) = (&best.refined.pose, part.mesh.bounds().centre);
@@ -65,10 +75,10 @@ impl OneClick {
         Some(Find {
             pose: Pose {
                 rotation,
-                translation: core::array::from_fn(|k| centre[k] - moved[k]),
+                translation: core::array::from_fn(|k| distance * centre[k] - moved[k]),
             },
             region,
-            mismatch: 0.0,
+            mismatch: None,
         })
     }
 
