@@ -5,6 +5,9 @@
 
 use crate::mask::Word;
 
+/// The kind of [`gap`].
+pub type Gap = fn([&[u8]; 2], [&[u8]; 2]) -> u32;
+
 /// The loops. All of them take slices of any length and look at the common part.
 #[derive(Clone, Copy, Debug)]
 pub struct Kernels {
@@ -15,7 +18,7 @@ pub struct Kernels {
     /// See [`distances`].
     pub distances: fn(&[u8], &[u8], u32, &mut [u32]),
     /// See [`gap`].
-    pub gap: fn([&[u8]; 2], [&[u8]; 2]) -> u32,
+    pub gap: Gap,
 }
 
 impl Kernels {
