@@ -38,10 +38,10 @@ function onClosed(state: WireState, input: Input, scene: Scene): Outcome<WireSta
 }
 
 /** Does a click here close the draft? */
-export function isOnFirst({ at, touch }: Pick<Input, 'at' | 'touch'>, { outline, viewport }: Pick<Scene, 'outline' | 'viewport'>): boolean {
+export function isOnFirst(input: Pick<Input, 'at' | 'touch'>, { outline, viewport }: Pick<Scene, 'outline' | 'viewport'>): boolean {
   const first = outline?.points[0];
   if (!first || outline.points.length < FEWEST_POINTS) return false;
-  return distance(canvasFromFrame(viewport, first), at) <= reachOf({ touch }) * (CLOSING_REACH + 2);
+  return distance(canvasFromFrame(viewport, first), input.at) <= reachOf(input) * (CLOSING_REACH + 2);
 }
 
 function intent(to: 'aim' | 'fix' | 'close', input: Input, scene: Scene): Effect {
