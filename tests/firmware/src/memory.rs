@@ -13,7 +13,8 @@ pub const MAX_POINTS: usize = 1024;
 /// Views of the library: 7 rotations about x times 9 about y.
 pub const MAX_VIEWS: usize = 63;
 
-const CANONICAL_WORDS: usize = words_needed(CanonicalSpec::USUAL.size(), CanonicalSpec::USUAL.size());
+const CANONICAL_WORDS: usize =
+    words_needed(CanonicalSpec::USUAL.size(), CanonicalSpec::USUAL.size());
 
 /// The working memory; a microcontroller holds one in a static.
 pub struct Memory {
