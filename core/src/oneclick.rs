@@ -192,6 +192,30 @@ impl OneClickNeeds {
 const MASKS: usize = 2;
 
 impl OneClickMemory<'_> {
+    /// The same memory for a smaller window.
+    fn cut(&mut self, pixels: usize) -> OneClickMemory<'_> {
+        fn head<T>(slice: &mut [T], length: usize) -> &mut [T] {
+            let length = length.min(slice.len());
+            slice.get_mut(..length).unwrap_or_default()
+        }
+        OneClickMemory {
+            grey: head(self.grey, pixels),
+            reached: head(self.reached, pixels),
+            distance: head(self.distance, pixels),
+            marks: head(self.marks, pixels),
+            links: head(self.links, grow::links_needed(pixels)),
+            tallies: &mut *self.tallies,
+            words: &mut *self.words,
+            workspace: self.workspace.lend(),
+            refine: RefineMemory {
+                projected: &mut *self.refine.projected,
+                drawn: &mut *self.refine.drawn,
+                places: &mut *self.refine.places,
+                border: &mut *self.refine.border,
+            },
+        }
+    }
+
     fn check(&self, needs: &OneClickNeeds) -> Result<(), OneClickError> {
         let lengths = [
             ("grey values", needs.pixels, self.grey.len()),

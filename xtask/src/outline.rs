@@ -255,10 +255,9 @@ impl Trial<'_> {
         }
         for answer in &clicked.answers {
             eprintln!(
-                "  answer: iou {:.3}, score {:.3}, region {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
+                "  answer: iou {:.3}, score {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
                 iou(&answer.refined.pose)?,
                 answer.score,
-                answer.overlap,
                 answer.support.share,
                 answer.refined.residual_px,
                 answer.refined.loss,

@@ -12,8 +12,6 @@ use super::support::Support;
 /// How a region was cut out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Region {
-    /// Whether growth was kept near an answer.
-    pub(super) bounded: bool,
     pub(super) look: usize,
     pub(super) level: u16,
     /// Of the disc that cut its bridges, pixels.
@@ -24,10 +22,10 @@ pub(super) struct Region {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Find {
     pub(super) pose: Pose,
-    pub(super) region: Region,
-    /// Canonical pixels that differ, parts of the canonical area; `None` for a pose that does not
-    /// come from the region and is not to be judged by it.
-    pub(super) mismatch: Option<f64>,
+    /// The region that led to it, where one did: others are judged by edges alone.
+    pub(super) region: Option<Region>,
+    /// Canonical pixels that differ, parts of the canonical area.
+    pub(super) mismatch: f64,
 }
 
 /// A first pose and what speaks for it.
@@ -35,8 +33,8 @@ pub(super) struct Find {
 pub struct Start {
     /// `camera_from_model`.
     pub pose: Pose,
-    pub(super) region: Region,
-    /// What the region and the model drawn at the pose have in common, 0 to 1.
+    pub(super) region: Option<Region>,
+    /// What the region and the model drawn at the pose have in common, 0 to 1; 1 without a region.
     pub overlap: f64,
     /// What the frame says of the outline there.
     pub support: Support,
@@ -53,8 +51,6 @@ pub struct Answer {
     pub start: Pose,
     /// What the frame says of the outline.
     pub support: Support,
-    /// What the region of the start and the silhouette have in common, 0 to 1.
-    pub overlap: f64,
     /// Whether it was refined from the mirror image of another answer.
     pub mirrored: bool,
     /// Strength of edges, less where they lie off the outline, where the prompt agrees, 0 to 1:
@@ -73,7 +69,7 @@ impl Ranked for Find {
         &self.pose
     }
     fn rank(&self) -> f64 {
-        -self.mismatch.unwrap_or(1.0)
+        -self.mismatch
     }
 }
 
@@ -149,7 +145,6 @@ mod tests {
 
     fn find(x_mm: f64, z_rot_deg: f64, mismatch: f64) -> Find {
         let region = Region {
-            bounded: false,
             look: 0,
             level: 0,
             radius: 0.0,
@@ -162,8 +157,8 @@ mod tests {
         };
         Find {
             pose: pose.into(),
-            region,
-            mismatch: Some(mismatch),
+            region: Some(region),
+            mismatch,
         }
     }
 
@@ -186,7 +181,7 @@ mod tests {
         for item in given {
             keep(&mut list, item, NEAR, &mesh);
         }
-        let kept: std::vec::Vec<_> = list.iter().filter_map(|find| find.mismatch).collect();
+        let kept: std::vec::Vec<_> = list.iter().map(|find| find.mismatch).collect();
         assert_eq!(kept, [0.05, 0.1, 0.2]);
     }
 }

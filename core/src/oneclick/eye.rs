@@ -63,8 +63,8 @@ impl Eye<'_> {
         let area = f64::from(library.info().canonical.area());
         let finds = found.poses.iter().map(|located| Find {
             pose: located.pose,
-            region,
-            mismatch: Some(f64::from(located.fine.unmatched) / area),
+            region: Some(region),
+            mismatch: f64::from(located.fine.unmatched) / area,
         });
         Ok(finds.filter(|find| self.is_possible(&find.pose)).collect())
     }
@@ -90,17 +90,13 @@ impl Eye<'_> {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
-        let overlap = overlap(&shape, &drawn);
+        let overlap = find.region.map_or(1.0, |_| overlap(&shape, &drawn));
         Ok(Some(Start {
             pose: find.pose,
             region: find.region,
             overlap,
             support,
-            score: self.prompt.agreement(&drawn)
-                * match find.mismatch {
-                    Some(_) => overlap + support.strength,
-                    None => 2.0 * support.strength,
-                },
+            score: self.prompt.agreement(&drawn) * (overlap + support.strength),
         }))
     }
 
@@ -119,7 +115,7 @@ impl Eye<'_> {
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Option<Answer>, OneClickError> {
         let mut from = *start;
-        if start.support.share < GOOD || start.overlap < GOOD {
+        if start.region.is_some() && (start.support.share < GOOD || start.overlap < GOOD) {
             let [shape, doubt] = self.masks(memory.words)?;
             let silhouette = Silhouette::new(&shape, &doubt)?;
             let view = View::only(self.scene.camera, silhouette);
@@ -157,13 +153,11 @@ impl Eye<'_> {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
-        let [shape, _] = self.masks(memory.words)?;
         let off = (refined.loss / WORST).clamp(0.0, 1.0);
         Ok(Some(Answer {
             refined,
             start: *pose,
             support,
-            overlap: overlap(&shape, &drawn),
             mirrored: false,
             score: self.prompt.agreement(&drawn) * support.strength * (1.0 - off),
         }))
@@ -181,7 +175,7 @@ fn find_of(pose: &Pose, start: &Start) -> Find {
     Find {
         pose: *pose,
         region: start.region,
-        mismatch: Some(0.0),
+        mismatch: 0.0,
     }
 }
 

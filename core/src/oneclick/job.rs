@@ -11,7 +11,6 @@ use super::window::Window;
 use super::{OneClickError, OneClickMemory, OneClickNeeds, Part, Prompt, Scene};
 use crate::camera::Camera;
 use crate::moments::Moments;
-use crate::pose::Pose;
 
 /// Finds of a look that are drawn at most.
 const FINDS: usize = 8;
@@ -53,6 +52,8 @@ pub(super) enum Stage {
     Judge(usize),
     /// Starts are refined, one by one.
     Refine(usize),
+    /// The window is narrowed to the best answer.
+    Narrow,
     /// Rotations round about the best answer are judged, one by one.
     Around(usize),
     /// The mirror images of the best are refined, one by one.
@@ -77,16 +78,18 @@ pub struct OneClick {
     pub(super) prompt: Prompt,
     pub(super) expected: Expected,
     pub(super) window: Window,
+    /// Of the first window, which is the largest.
+    pixels: usize,
     pub(super) stage: Stage,
     /// The look that is in memory.
-    pub(super) current: Option<(bool, usize)>,
+    pub(super) current: Option<usize>,
     pub(super) seeds: Vec<usize, SEEDS>,
     /// Grey values a pixel.
     pub(super) slope: f64,
     /// Rounds that are done: regions in the window, regions near the best answer, turns of it.
     pub(super) round: usize,
-    /// The answer that the second round goes out from.
-    pub(super) near: Option<Pose>,
+    /// The box that the second round looks into, round the best answer of the first.
+    pub(super) narrowed: Option<Prompt>,
     /// The answer that was turned last.
     pub(super) turned_from: Option<Answer>,
     /// Of this look, those still to be matched; the last is the next.
@@ -115,8 +118,10 @@ impl OneClick {
             || Expected::anything(camera),
             |part| Expected::of(part, camera),
         );
+        let window = prompt.window(camera, expected.extent)?;
         Ok(Self {
-            window: prompt.window(camera, expected.extent)?,
+            pixels: window.pixels(),
+            window,
             prompt,
             expected,
             stage: Stage::Look(0),
@@ -124,7 +129,7 @@ impl OneClick {
             seeds: Vec::new(),
             slope: 0.0,
             round: 0,
-            near: None,
+            narrowed: None,
             turned_from: None,
             regions: Vec::new(),
             matched: Vec::new(),
@@ -138,7 +143,7 @@ impl OneClick {
     /// Lengths of the memory to be lent.
     #[must_use]
     pub fn needs(&self, camera: &Camera) -> OneClickNeeds {
-        OneClickNeeds::of(self.window.pixels(), camera)
+        OneClickNeeds::of(self.pixels, camera)
     }
 
     /// First poses, best first, as far as they are known.
@@ -169,6 +174,7 @@ impl OneClick {
             Stage::Refine(start) => {
                 Progress::Poses(0.5 + 0.08 * (self.round as f64 + left(start, STARTS)))
             }
+            Stage::Narrow => Progress::Poses(0.58),
             Stage::Around(_) => Progress::Poses(0.5 + 0.08 * self.round as f64),
             Stage::Mirror(_) => Progress::Poses(0.9),
             Stage::Done => Progress::Done,
@@ -193,10 +199,11 @@ impl OneClick {
         part: Option<&Part<'_>>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<bool, OneClickError> {
-        memory.check(&self.needs(scene.camera))?;
+        memory.check(&OneClickNeeds::of(self.pixels, scene.camera))?;
+        let memory = &mut memory.cut(self.window.pixels());
         self.stage = match (self.stage, part) {
             (Stage::Look(look), _) => {
-                let step = self.look((self.near.is_some(), look), scene, part, memory);
+                let step = self.look(look, scene, memory);
                 self.list_regions(look, step, memory);
                 Stage::Match(look)
             }
@@ -212,9 +219,9 @@ impl OneClick {
                     self.judge(&find, scene, part, memory)?;
                     Stage::Judge(look)
                 }
-                None => self.after_look(look)?,
+                None => self.after_look(look, true)?,
             },
-            (Stage::Judge(look), None) => self.after_look(look)?,
+            (Stage::Judge(look), None) => self.after_look(look, false)?,
             (Stage::Refine(at), Some(part)) => match self.next_start(at) {
                 Some((at, start)) => {
                     self.refine(&start, scene, part, memory)?;
@@ -222,6 +229,10 @@ impl OneClick {
                 }
                 None => self.next_round(),
             },
+            (Stage::Narrow, Some(part)) => {
+                self.narrow(scene, part, memory);
+                Stage::Look(0)
+            }
             (Stage::Around(at), Some(part)) => match self.turned(at, part) {
                 Some(find) => {
                     self.judge(&find, scene, part, memory)?;
@@ -236,24 +247,29 @@ impl OneClick {
                     self.end()?
                 }
             }
-            (Stage::Refine(_) | Stage::Around(_) | Stage::Mirror(_) | Stage::Done, _) => {
-                Stage::Done
-            }
+            (
+                Stage::Refine(_)
+                | Stage::Around(_)
+                | Stage::Narrow
+                | Stage::Mirror(_)
+                | Stage::Done,
+                _,
+            ) => Stage::Done,
         };
         Ok(self.stage != Stage::Done)
     }
 
-    fn after_look(&mut self, look: usize) -> Result<Stage, OneClickError> {
+    fn after_look(&mut self, look: usize, with_part: bool) -> Result<Stage, OneClickError> {
         let [near, covered] = SEEN;
         let seen = |best: &Start| best.support.share >= near && best.overlap >= covered;
         let enough = self.starts.first().is_some_and(seen);
         if !enough && look + 1 < self.looks() {
             return Ok(Stage::Look(look + 1));
         }
-        match self.sharpest {
-            None => Err(OneClickError::NoRegion),
-            Some(_) => Ok(Stage::Refine(0)),
+        if self.sharpest.is_none() && !with_part {
+            return Err(OneClickError::NoRegion);
         }
+        Ok(Stage::Refine(0))
     }
 
     /// The next start from number `at` on that is worth refining.
@@ -270,6 +286,7 @@ impl OneClick {
             .retain(|answer| answer.score > 0.0 && answer.support.share >= LEAST_SHARE);
         match self.answers.first() {
             Some(_) => Ok(Stage::Done),
+            None if self.sharpest.is_none() => Err(OneClickError::NoRegion),
             None => Err(OneClickError::NoFit),
         }
     }

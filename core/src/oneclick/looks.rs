@@ -9,24 +9,20 @@ use super::window::{BLOCKED, LEVELS, look};
 use super::{OneClickError, OneClickMemory, Part, Scene};
 use crate::mask::{Mask, MaskMut, words_needed};
 use crate::moments::Moments;
-use crate::raster::render;
 
 /// Radii of the discs that cut bridges, in parts of the expected size.
 pub(super) const RADII: [f64; 4] = [0.0, 0.03, 0.06, 0.1];
 /// Regions are one whose areas differ by less than this part, and whose middles are less than a
 /// pixel apart.
 const SAME_AREA: f64 = 0.01;
-/// In the second round regions stay so near to the best answer's silhouette, parts of its size.
-const BOUND: f64 = 0.1;
 
 impl OneClick {
     /// Brings a look into memory: the film smoothed, and grown from its seed. Gives the grey
     /// values that a step of it stands for.
     pub(super) fn look(
         &mut self,
-        (bounded, at): (bool, usize),
+        at: usize,
         scene: &Scene<'_>,
-        part: Option<&Part<'_>>,
         memory: &mut OneClickMemory<'_>,
     ) -> f64 {
         let how = (scene.polarity, SMOOTHING[at % SMOOTHING.len()]);
@@ -34,55 +30,16 @@ impl OneClick {
         let (window, grey) = (self.window, &mut *memory.grey);
         let step = look(scene.frame, &window, how, scene.excluded, grey, histogram);
         if self.seeds.is_empty() {
-            self.seeds = self.prompt.seeds(&window, memory);
+            self.seeds = self.narrowed.unwrap_or(self.prompt).seeds(&window, memory);
         }
-        if bounded {
-            self.bound(scene, part, memory);
-        }
-        grow(
-            memory.grey,
-            &window,
-            self.seed(at),
-            memory.reached,
-            memory.links,
-        );
-        self.current = Some((bounded, at));
+        let seed = self.seed(at);
+        grow(memory.grey, &window, seed, memory.reached, memory.links);
+        self.current = Some(at);
         step
     }
 
     fn seed(&self, look: usize) -> usize {
         self.seeds.get(look / SMOOTHING.len()).copied().unwrap_or(0)
-    }
-
-    /// Keeps growth near the silhouette of the answer that the second round goes out from: what it
-    /// may have leaked into lies farther away, and fainter parts of the implant can be reached.
-    fn bound(&self, scene: &Scene<'_>, part: Option<&Part<'_>>, memory: &mut OneClickMemory<'_>) {
-        let (Some(part), Some(pose)) = (part, &self.near) else {
-            return;
-        };
-        let (width, height) = (scene.camera.width(), scene.camera.height());
-        let words = memory.refine.drawn.get_mut(..words_needed(width, height));
-        let Ok(mut drawn) = MaskMut::new(words.unwrap_or_default(), width, height) else {
-            return;
-        };
-        let projected = &mut *memory.refine.projected;
-        if render(part.mesh, scene.camera, pose, projected, &mut drawn).is_err() {
-            return;
-        }
-        let mut shaper = Shaper {
-            window: self.window,
-            reached: &*memory.reached,
-            distance: &mut *memory.distance,
-            marks: &mut *memory.marks,
-            stack: &mut *memory.links,
-        };
-        shaper.measure_from(&drawn.as_mask());
-        let reach = Shaper::length(BOUND * self.expected.size);
-        for (grey, &away) in memory.grey.iter_mut().zip(&*memory.distance) {
-            if away > reach {
-                *grey = BLOCKED;
-            }
-        }
     }
 
     /// Lists the regions of a look that are worth matching, the best last.
@@ -102,7 +59,6 @@ impl OneClick {
                 if radius == 0.0 || radius >= 1.0 {
                     // There is room for all radii of all levels.
                     let _ = self.regions.push(Region {
-                        bounded: self.near.is_some(),
                         look,
                         level,
                         radius,
@@ -117,12 +73,10 @@ impl OneClick {
         &mut self,
         region: &Region,
         scene: &Scene<'_>,
-        part: Option<&Part<'_>>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Moments, OneClickError> {
-        let wanted = (region.bounded, region.look);
-        if self.current != Some(wanted) {
-            self.look(wanted, scene, part, memory);
+        if self.current != Some(region.look) {
+            self.look(region.look, scene, memory);
         }
         let (width, height) = (scene.camera.width(), scene.camera.height());
         let (a, b) = memory.words.split_at_mut(words_needed(width, height));
@@ -148,7 +102,7 @@ impl OneClick {
         part: Option<&Part<'_>>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<(), OneClickError> {
-        let moments = self.draw(&region, scene, part, memory)?;
+        let moments = self.draw(&region, scene, memory)?;
         let [least, most] = self.expected.areas;
         if !(least..=most).contains(&(moments.area as f64)) || self.was_matched(&moments) {
             return Ok(());
@@ -187,7 +141,7 @@ impl OneClick {
         memory: &'m mut OneClickMemory<'_>,
     ) -> Result<Mask<'m>, OneClickError> {
         let (_, region) = self.sharpest.ok_or(OneClickError::NoRegion)?;
-        self.draw(&region, scene, None, memory)?;
+        self.draw(&region, scene, memory)?;
         let (width, height) = (scene.camera.width(), scene.camera.height());
         let words = memory.words.get(..words_needed(width, height));
         Ok(Mask::new(words.unwrap_or_default(), width, height)?)

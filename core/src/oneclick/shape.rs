@@ -5,7 +5,7 @@
 //! (Borgefors, *Distance transformations in digital images*, CVGIP 34, 1986).
 
 use super::window::{LEVELS, Window};
-use crate::mask::{Mask, MaskMut};
+use crate::mask::MaskMut;
 
 /// Chamfer length of a step to the side, and across a corner.
 const SIDE: u16 = 3;
@@ -82,18 +82,8 @@ impl Shaper<'_> {
     }
 
     /// A distance of so many pixels as `distance` holds it.
-    pub(super) fn length(pixels: f64) -> u16 {
+    fn length(pixels: f64) -> u16 {
         (pixels * f64::from(SIDE)) as u16
-    }
-
-    /// Writes the distance of every pixel from those of a mask of the frame.
-    pub(super) fn measure_from(&mut self, mask: &Mask<'_>) {
-        for (index, mark) in self.marks.iter_mut().enumerate() {
-            let (column, row) = self.window.place(index);
-            let inside = mask.get(self.window.left + column, self.window.top + row);
-            *mark = if inside { KEPT } else { 0 };
-        }
-        self.measure(|mark| mark & KEPT != 0);
     }
 
     /// The pixel at or below a threshold that is farthest from all others and from the window's
@@ -244,7 +234,7 @@ pub(super) fn sharpness(window: &Window, grey: &[u16], marks: &[u8]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mask::words_needed;
+    use crate::mask::{Mask, words_needed};
 
     const WIDTH: usize = 64;
     const HEIGHT: usize = 40;
