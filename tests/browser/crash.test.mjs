@@ -187,7 +187,8 @@ async function hasEverything(page, work) {
   await stage.learn();
   await page.keyboard.press('p');
   await stage.hover(ELSEWHERE);
-  assert.match(await page.getByRole('contentinfo', { name: 'Status' }).innerText(), / px · \d+/, 'the film has its grey values');
+  const status = page.getByRole('contentinfo', { name: 'Status' });
+  await until(() => status.innerText(), (words) => / px · \d+/.test(words), 'the film to have its grey values');
   await panel.waitForWords(page, /^3 points\./);
   await cell(page, 'Frame 2, femur: pose loaded, checked').click();
   await panel.waitForThePose(page, work.pose);

@@ -76,7 +76,7 @@ export function pageTest(name, body, { refusals = false } = {}) {
     try {
       await body(page, t);
     } catch (error) {
-      await screenshot(page, `failed ${name}`);
+      await screenshot(page, `failed ${name}`).catch(() => undefined);
       throw error;
     } finally {
       await page.context().close();
@@ -98,7 +98,8 @@ export async function step(page, t, name, body) {
     try {
       await body(inner);
     } catch (error) {
-      await screenshot(page, `failed ${name}`);
+      // A page that has crashed shows nothing; the error itself must not get lost over it.
+      await screenshot(page, `failed ${name}`).catch(() => undefined);
       throw error;
     }
   });
