@@ -72,7 +72,8 @@ const ATTEMPTS = [
   ['a picture of another host', 'img-src', (address) => Object.assign(new Image(), { src: `${address}pixels.png` }).decode()],
   ['a script of another host', 'script-src', (address) => document.head.append(Object.assign(document.createElement('script'), { src: `${address}script.js` }))],
   ['a script written into the page', 'script-src', () => document.head.append(Object.assign(document.createElement('script'), { textContent: 'globalThis.broken = true' }))],
-  ['text run as code', 'script-src', () => (0, eval)('1')],
+  // In a timer: what a debugger evaluates itself may run text.
+  ['text run as code', 'script-src', () => void setTimeout(() => (0, eval)('1'))],
   ['a style written into the page', 'style-src', () => document.head.append(Object.assign(document.createElement('style'), { textContent: 'body { color: red }' }))],
 ];
 

@@ -134,7 +134,7 @@ export async function openWindow(options = {}) {
 export function watch(page, address = ADDRESS) {
   /** @type {string[]} */
   const troubles = [];
-  page.on('pageerror', (error) => isOfTheDriver(error) || troubles.push(`thrown: ${error.stack ?? error.message}`));
+  page.on('pageerror', (error) => troubles.push(`thrown: ${error.stack ?? error.message}`));
   page.on('console', (message) => message.type() === 'error' && troubles.push(`logged: ${message.text()}`));
   page.on('request', (request) => isOf(address, request.url()) || troubles.push(`asked: ${request.url()}`));
   return troubles;
