@@ -32,7 +32,7 @@ export const seeing = {
     best: (x: string, y: string) => `best at x ${x}, y ${y}`,
     rivals: (count: number) => (count === 1 ? '1 rival' : `${count} rivals`),
     axes: { across: 'y rotation', down: 'x rotation' },
-    scale: (least: string, most: string) => `${least} to ${most} px unmatched, dark to bright`,
+    scale: (least: string, most: string) => `${least} to ${most} px unmatched, bright to dark`,
     working: 'Scoring ...',
     none: 'A closed outline and its library have a landscape.',
     byHand: 'The pose was set by hand: go back to the page’s pose to take a view.',

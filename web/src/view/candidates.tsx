@@ -2,6 +2,7 @@ import type { Findings } from '../engine/poser';
 import { isPicked } from '../document/hand_poses';
 import { texts } from '../texts';
 import { useApp } from './app';
+import { grouped } from './numbers';
 import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
 /** Of poses that were not found by matching and refining. */
@@ -120,9 +121,4 @@ function libraryReason(best: Candidate, rival: Candidate): string {
 
 function degrees(value: number): string {
   return `${value.toFixed(1).replace('-', '\u2212')}°`;
-}
-
-/** Thousands apart by a narrow space. */
-export function grouped(value: number): string {
-  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, '\u202f');
 }

@@ -3,8 +3,8 @@ import { currentCell, type State } from '../document/store';
 import type { LandscapeFacts } from '../engine/hand_protocol';
 import { texts } from '../texts';
 import { useApp } from './app';
-import { grouped } from './candidates';
 import { cellAt, degreesOf, paintLandscape, summary, type LandscapeCell } from './landscape_picture';
+import { grouped } from './numbers';
 
 /** The score of every view of the library for the outline on view: how sure the match is, and what else might fit. */
 export function Landscape({ state }: { state: State }) {

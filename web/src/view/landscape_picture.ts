@@ -1,5 +1,6 @@
 import type { GridAxis, LandscapeFacts, Minimum } from '../engine/hand_protocol';
 import { texts } from '../texts';
+import { grouped } from './numbers';
 
 /** A view by its places on both axes of the grid. */
 export interface LandscapeCell {
@@ -89,6 +90,6 @@ export function summary({ minima, scores }: LandscapeFacts): string {
   if (!best) return '';
   const near = others.filter(({ unmatched }) => unmatched <= 2 * best.unmatched).length;
   const rivals = near > 0 ? `, ${words.rivals(near)}` : '';
-  const range = words.scale(String(Math.min(...scores)), String(Math.max(...scores)));
+  const range = words.scale(grouped(Math.min(...scores)), grouped(Math.max(...scores)));
   return `${words.best(inDegrees(best.x), inDegrees(best.y))}${rivals}; ${range}`;
 }

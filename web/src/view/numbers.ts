@@ -20,3 +20,8 @@ export function formatNumber(value: number, decimals: number): string {
 export function formatDeviation(deviation: number, decimals: number): string {
   return Math.max(deviation, 10 ** -decimals).toFixed(decimals);
 }
+
+/** Thousands apart by a narrow space. */
+export function grouped(value: number): string {
+  return Math.round(value).toString().replace(/\B(?=(\d{3})+$)/g, '\u202f');
+}
