@@ -1,0 +1,130 @@
+//! Micro-benchmarks of the steps of the core, on the built-in femur in a frame of 1024 x 1024.
+//!
+//! `cargo bench --package fluoropose-tests`, or with the name of one behind `--`. Where time is too
+//! noisy, the firmware prints how many instructions the same steps take (`cargo xtask test --firmware`).
+
+use std::sync::LazyLock;
+
+use divan::{Bencher, black_box};
+use fluoropose::camera::Camera;
+use fluoropose::canonical::{CanonicalSpec, canonicalise};
+use fluoropose::mask::Word;
+use fluoropose::math::radians;
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::refine::{
+    OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
+};
+use fluoropose::silhouette::Silhouette;
+use xtask::implant::{self, Parameters};
+use xtask::pipeline::files::{MaskBuffer, Surface};
+use xtask::pipeline::refiner::Refiner;
+
+fn main() {
+    divan::main();
+}
+
+static SURFACE: LazyLock<Surface> = LazyLock::new(|| {
+    let model = implant::femur(&Parameters::default()).expect("the built-in femur is valid");
+    Surface::try_from(model).expect("the built-in femur has a surface")
+});
+
+fn mesh() -> Mesh<'static> {
+    SURFACE.mesh().expect("the built-in femur is a mesh")
+}
+
+fn camera(side: usize) -> Camera {
+    let pitch = 0.373 * 1024.0 / side as f64;
+    Camera::from_principal_distance(side, side, 1200.0, pitch, [0.0, 0.0]).expect("valid")
+}
+
+/// In the middle of the frame, turned out of its plane.
+fn pose() -> Pose {
+    let turned = Pose::from(EulerPose {
+        z_rot_deg: 20.0,
+        x_rot_deg: 6.3,
+        y_rot_deg: -8.7,
+        ..EulerPose::default()
+    });
+    let [x, y, z] = turned.transform(&mesh().bounds().centre);
+    Pose {
+        translation: [-x, -y, -z - 1080.0],
+        ..turned
+    }
+}
+
+/// As far off as the library leaves a pose.
+fn start() -> Pose {
+    let off = fluoropose::math::rotation_by(&[0.06, -0.06, 0.06].map(radians));
+    let pose = pose();
+    let [x, y, z] = pose.translation;
+    Pose {
+        rotation: fluoropose::math::multiply(&off, &pose.rotation),
+        translation: [x + 0.03, y - 0.03, z + 0.5],
+    }
+}
+
+fn drawn(side: usize) -> MaskBuffer {
+    let mut scratch = vec![Projected::default(); scratch_needed(&mesh())];
+    let mut drawn = MaskBuffer::new(side, side).expect("a frame");
+    drawn
+        .draw(|mask| render(&mesh(), &camera(side), &pose(), &mut scratch, mask))
+        .expect("in front of the camera");
+    drawn
+}
+
+#[divan::bench(args = [256, 1024])]
+fn silhouette(bencher: Bencher<'_, '_>, side: usize) {
+    let (mesh, camera, pose) = (mesh(), camera(side), pose());
+    let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
+    let mut drawn = MaskBuffer::new(side, side).expect("a frame");
+    bencher.bench_local(|| drawn.draw(|mask| render(&mesh, &camera, black_box(&pose), &mut scratch, mask)));
+}
+
+#[divan::bench]
+fn canonical_form(bencher: Bencher<'_, '_>) {
+    let (spec, drawn) = (CanonicalSpec::default(), drawn(1024));
+    let mut words: Vec<Word> = vec![0; spec.words_needed()];
+    bencher.bench_local(|| canonicalise(black_box(&drawn.mask()), &spec, 1.0, &mut words));
+}
+
+/// What each step of refinement draws and measures, but for the target.
+#[divan::bench]
+fn samples_of_the_outline(bencher: Bencher<'_, '_>) {
+    let (mesh, camera) = (mesh(), camera(1024));
+    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let pose = pose();
+    bencher.bench_local(|| {
+        let mut length = 0.0;
+        let add = |sample: &OutlineSample| length += sample.length;
+        outline_samples(&mesh, &camera, black_box(&pose), &mut refiner.memory(), add)?;
+        Ok::<f64, fluoropose::refine::RefineError>(length)
+    });
+}
+
+#[divan::bench]
+fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
+    let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
+    let mask = drawn.mask();
+    let views = [View::only(&camera, Silhouette::from(&mask))];
+    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let start = start();
+    let found = refine(&mesh, &views, &start, RefineOptions::default(), &mut refiner.memory());
+    println!("{found:?}");
+    bencher.bench_local(|| {
+        let options = RefineOptions::default();
+        refine(&mesh, &views, black_box(&start), options, &mut refiner.memory())
+    });
+}
+
+#[divan::bench]
+fn region_of_95_percent(bencher: Bencher<'_, '_>) {
+    let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
+    let mask = drawn.mask();
+    let views = [View::only(&camera, Silhouette::from(&mask))];
+    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let options = RefineOptions::default();
+    let refined = refine(&mesh, &views, &start(), options, &mut refiner.memory()).expect("near");
+    bencher.bench_local(|| uncertainty(&mesh, &views, black_box(&refined), &mut refiner.memory()));
+}
