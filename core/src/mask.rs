@@ -141,6 +141,23 @@ impl<'a> Mask<'a> {
                 .is_some_and(|word| word >> (column % WORD_BITS) & 1 == 1)
     }
 
+    /// A pixel, the one to its right, and the two below them, from the lowest bit; outside the mask
+    /// none is set.
+    pub(crate) fn square(&self, column: usize, row: usize) -> u32 {
+        let pair = |row: usize| {
+            let words = self.row(row);
+            let (at, shift) = (column / WORD_BITS, column % WORD_BITS);
+            let word = |at: usize| u64::from(words.get(at).copied().unwrap_or(0));
+            let next = if shift == WORD_BITS - 1 {
+                word(at + 1)
+            } else {
+                0
+            };
+            ((word(at) | next << WORD_BITS) >> shift & 3) as u32
+        };
+        pair(row) | pair(row + 1) << 2
+    }
+
     /// Whether all pixels of a row in `columns` have one value.
     pub(crate) fn is_uniform(
         &self,
@@ -403,6 +420,20 @@ mod tests {
             }
         }
         mask.into_mask()
+    }
+
+    #[test]
+    fn squares_are_four_pixels() {
+        let mut words = [0; words_needed(W, H)];
+        let mask = speckled(&mut words);
+        for (row, column) in (0..H + 2).flat_map(|row| (0..W + 40).map(move |c| (row, c))) {
+            let pixels = [(0, 0), (1, 0), (0, 1), (1, 1)];
+            let bits = pixels
+                .iter()
+                .enumerate()
+                .map(|(bit, (right, down))| u32::from(mask.get(column + right, row + down)) << bit);
+            assert_eq!(mask.square(column, row), bits.sum(), "{column}, {row}");
+        }
     }
 
     #[test]

@@ -101,6 +101,20 @@ pub(crate) fn for_each_span(
     }
 }
 
+/// The silhouette edges of `mesh` as [`render`] left them in its working memory, run along as the
+/// triangles that face the camera do, with the images of their ends; nothing where it was drawn triangle by triangle.
+pub(crate) fn contour<'s>(
+    mesh: &Mesh<'s>,
+    scratch: &'s [Projected],
+) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])>> {
+    let edges = mesh.edges()?;
+    let needed = scratch_needed(mesh);
+    let (images, room) = scratch.get(..needed)?.split_at(mesh.vertices().len());
+    let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
+    let ends = move |edge: [u32; 2]| (edge, edge.map(image));
+    Some(winding::contour(edges, room)?.map(ends))
+}
+
 /// Projects all vertices; gives them and the rest of the working memory.
 fn project_all<'s>(
     mesh: &Mesh<'_>,

@@ -54,6 +54,11 @@ impl FixedPoint {
         right(b) * down(c) - down(b) * right(c)
     }
 
+    /// Column and row, pixels.
+    pub(crate) fn place(self) -> [f32; 2] {
+        [self.column, self.row].map(|value| value as f32 / ONE as f32)
+    }
+
     pub(crate) fn is_above(self, other: Self) -> bool {
         self.row < other.row
     }

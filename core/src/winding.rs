@@ -13,15 +13,18 @@ use crate::mask::MaskMut;
 use crate::mesh::Mesh;
 use crate::scan::{Edge, FixedPoint};
 
-/// Crossings of edges and rows for which there is room at least.
-const CROSSINGS: usize = 8192;
+/// Crossings of edges and rows and silhouette edges for which there is room at least.
+const CROSSINGS: usize = 12_288;
 
 /// Triangles of which one place of working memory tells whether they face the camera.
 const TOLD: usize = 64;
 
+/// In place of the number of silhouette edges where the surface was not drawn from them.
+const NONE: u64 = u64::MAX;
+
 /// Working memory of [`fill`].
 pub(crate) fn room_needed(mesh: &Mesh<'_>) -> usize {
-    facing_needed(mesh.triangles()) + CROSSINGS.max(mesh.vertices().len())
+    1 + facing_needed(mesh.triangles()) + CROSSINGS.max(mesh.vertices().len())
 }
 
 fn facing_needed(triangles: &[[u32; 3]]) -> usize {
@@ -29,7 +32,7 @@ fn facing_needed(triangles: &[[u32; 3]]) -> usize {
 }
 
 /// Adds the silhouette of a closed surface to `out`. Gives `false`, and has drawn nothing, where
-/// the room does not hold all crossings.
+/// the room does not hold all crossings. Afterwards [`contour`] tells the edges from `room`.
 pub(crate) fn fill(
     triangles: &[[u32; 3]],
     edges: &[MeshEdge],
@@ -37,18 +40,66 @@ pub(crate) fn fill(
     room: &mut [FixedPoint],
     out: &mut MaskMut<'_>,
 ) -> bool {
-    let Some((facing, crossings)) = room.split_at_mut_checked(facing_needed(triangles)) else {
+    let Some((told, room)) = room.split_first_mut() else {
+        return false;
+    };
+    *told = NONE.into();
+    let Some((facing, room)) = room.split_at_mut_checked(facing_needed(triangles)) else {
         return false;
     };
     tell_facing(triangles, projected, facing);
-    let size = (out.width(), out.height());
-    let Some(count) = find_crossings(edges, projected, facing, size, crossings) else {
+    let Some(count) = find_contour(edges, facing, room) else {
         return false;
     };
-    let crossings = crossings.get_mut(..count).unwrap_or_default();
+    let (crossings, contour) = room.split_at_mut(room.len() - count);
+    let size = (out.width(), out.height());
+    let edges = contour.iter().filter_map(|&kept| Kept::of(kept, edges));
+    let Some(crossed) = find_crossings(edges, projected, size, crossings) else {
+        return false;
+    };
+    let crossings = crossings.get_mut(..crossed).unwrap_or_default();
     crossings.sort_unstable_by_key(|&crossing| u64::from(crossing));
     fill_between(crossings, out);
+    *told = (count as u64).into();
     true
+}
+
+/// The edges between triangles that face the camera and those that do not, from working memory as
+/// [`fill`] left it; nothing where it did not draw. Each is a pair of vertices in the direction of
+/// the triangle that faces the camera: at a vertex as many begin as end.
+pub(crate) fn contour<'r>(
+    edges: &'r [MeshEdge],
+    room: &'r [FixedPoint],
+) -> Option<impl Iterator<Item = [u32; 2]> + use<'r>> {
+    let count = u64::from(*room.first()?);
+    let first = room.len().checked_sub(usize::try_from(count).ok()?)?;
+    let kept = room.get(first..)?.iter();
+    Some(kept.filter_map(|&kept| {
+        let Kept { edge, forth } = Kept::of(kept, edges)?;
+        Some(if forth {
+            [edge.from, edge.to]
+        } else {
+            [edge.to, edge.from]
+        })
+    }))
+}
+
+/// A silhouette edge in working memory.
+struct Kept<'e> {
+    edge: &'e MeshEdge,
+    /// Whether its triangle forth is the one that faces the camera.
+    forth: bool,
+}
+
+impl<'e> Kept<'e> {
+    fn of(kept: FixedPoint, edges: &'e [MeshEdge]) -> Option<Self> {
+        let bits = u64::from(kept);
+        let edge = edges.get((bits >> 1) as usize)?;
+        Some(Self {
+            edge,
+            forth: bits & 1 == 1,
+        })
+    }
 }
 
 /// A bit for each triangle: whether it faces the camera, or a surface that is inside out faces
@@ -70,21 +121,35 @@ fn faces(facing: &[FixedPoint], triangle: u32) -> bool {
     u64::from(told.unwrap_or_default()) >> (triangle as usize % TOLD) & 1 == 1
 }
 
-/// Where silhouette edges cross the rows of the frame: their number, or nothing where there is no
+/// Keeps the silhouette edges at the end of `room`: their number, or nothing where there is no
 /// room for all.
-fn find_crossings(
+fn find_contour(
     edges: &[MeshEdge],
-    projected: &[FixedPoint],
     facing: &[FixedPoint],
-    (width, height): (usize, usize),
-    crossings: &mut [FixedPoint],
+    room: &mut [FixedPoint],
 ) -> Option<usize> {
-    let mut count = 0;
-    for edge in edges {
+    let mut free = room.len();
+    for (index, edge) in edges.iter().enumerate() {
         let forth = faces(facing, edge.forth);
         if forth == faces(facing, edge.back) {
             continue;
         }
+        free = free.checked_sub(1)?;
+        *room.get_mut(free)? = ((index as u64) << 1 | u64::from(forth)).into();
+    }
+    Some(room.len() - free)
+}
+
+/// Where silhouette edges cross the rows of the frame: their number, or nothing where there is no
+/// room for all.
+fn find_crossings<'e>(
+    edges: impl Iterator<Item = Kept<'e>>,
+    projected: &[FixedPoint],
+    (width, height): (usize, usize),
+    crossings: &mut [FixedPoint],
+) -> Option<usize> {
+    let mut count = 0;
+    for Kept { edge, forth } in edges {
         let end = |vertex: u32| projected.get(vertex as usize).copied().unwrap_or_default();
         let (from, to) = (end(edge.from), end(edge.to));
         // Facing triangles are run clockwise: what is run upwards has them to its right.

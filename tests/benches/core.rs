@@ -79,7 +79,9 @@ fn silhouette(bencher: Bencher<'_, '_>, side: usize) {
     let (mesh, camera, pose) = (mesh(), camera(side), pose());
     let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
     let mut drawn = MaskBuffer::new(side, side).expect("a frame");
-    bencher.bench_local(|| drawn.draw(|mask| render(&mesh, &camera, black_box(&pose), &mut scratch, mask)));
+    bencher.bench_local(|| {
+        drawn.draw(|mask| render(&mesh, &camera, black_box(&pose), &mut scratch, mask))
+    });
 }
 
 #[divan::bench]
@@ -110,11 +112,23 @@ fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
     let views = [View::only(&camera, Silhouette::from(&mask))];
     let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
     let start = start();
-    let found = refine(&mesh, &views, &start, RefineOptions::default(), &mut refiner.memory());
+    let found = refine(
+        &mesh,
+        &views,
+        &start,
+        RefineOptions::default(),
+        &mut refiner.memory(),
+    );
     println!("{found:?}");
     bencher.bench_local(|| {
         let options = RefineOptions::default();
-        refine(&mesh, &views, black_box(&start), options, &mut refiner.memory())
+        refine(
+            &mesh,
+            &views,
+            black_box(&start),
+            options,
+            &mut refiner.memory(),
+        )
     });
 }
 

@@ -246,6 +246,7 @@ async function session(page) {
   await page.keyboard.press('a');
   await page.keyboard.press('ArrowRight');
   await page.getByRole('button', { name: 'Done' }).click();
+  await page.getByRole('button', { name: 'Done' }).waitFor({ state: 'detached' });
   assert.notEqual((await panel.shownPose(page))?.x, before?.x);
   await drop(page, saved);
   await panel.waitForWords(page, /^Opened the session/);

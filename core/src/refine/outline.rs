@@ -1,17 +1,16 @@
 //! The model's occluding contour as drawn: border pixels, their normals, and the depth of the
 //! surface behind them.
 //!
-//! Works on what was drawn, not on edges of the mesh, so holes and mixed winding do not matter.
-//! At the occluding contour the front and the back of the surface meet; the depth taken is the
-//! middle of all that covers the border pixel.
+//! Border pixels and normals are read from what was drawn, so holes and mixed winding do not matter.
 
+use super::probe::Found;
+use super::solve::Equations;
+use super::stages::Stage;
 use crate::mask::{Mask, WORD_BITS, Word};
-use crate::math::{dot, sqrt};
+use crate::math::sqrt;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::raster::{Projected, for_each_span};
-use crate::scan::pixel_box;
-use core::ops::Range;
+use crate::raster::Projected;
 
 /// A sample of the model's outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,21 +24,92 @@ pub struct BorderPixel {
     /// Least and greatest distance of the surface from the camera plane, mm.
     near: f32,
     far: f32,
-    /// How far the target's outline is beyond the model's, pixels; NaN where it was not found.
-    pub(super) residual: f32,
+    /// Squared distance of the pixel's centre from the contour's point that gave it, square pixels.
+    aside: f32,
+    pub(super) residual: Residual,
     /// How fast the outline moves along the normal with each parameter of a step.
     pub(super) jacobian: [f32; 6],
 }
 
+/// How far a target's outline is beyond the model's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Residual {
+    /// It was not looked for: the model's own outline or the depth behind it is not known.
+    #[default]
+    None,
+    /// The target does not tell.
+    Unknown,
+    /// There is none within reach.
+    Missing,
+    /// Pixels.
+    Px(f32),
+}
+
+impl Residual {
+    /// What was found where `expected` would be none at all.
+    pub(super) fn of(found: Found, expected: f64) -> Self {
+        match found {
+            Found::Unknown => Self::Unknown,
+            Found::Nothing => Self::Missing,
+            Found::At(place) => Self::Px((place - expected) as f32),
+        }
+    }
+}
+
 impl BorderPixel {
+    /// The residual where there is one, pixels.
+    pub(super) fn residual_px(&self) -> Option<f64> {
+        match self.residual {
+            Residual::Px(residual) => Some(f64::from(residual)),
+            _ => None,
+        }
+    }
+
+    /// Adds what was found to the equations of a stage.
+    pub(super) fn add_to(&self, equations: &mut Equations, stage: &Stage) {
+        let length = f64::from(self.weight);
+        match self.residual {
+            Residual::None => {}
+            Residual::Unknown => equations.add_unknown(length),
+            Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
+                let jacobian = self.jacobian.map(f64::from);
+                equations.add(stage.loss, &jacobian, f64::from(residual), length);
+            }
+            Residual::Px(_) | Residual::Missing => {
+                equations.add_missing(stage.loss, stage.range, length);
+            }
+        }
+    }
+
     /// Continuous image coordinates of the pixel's centre.
     pub(super) fn place(&self) -> [f64; 2] {
         [f64::from(self.column) + 0.5, f64::from(self.row) + 0.5]
     }
 
-    /// Whether a triangle covers the pixel, so that the depth behind it is known.
+    /// Whether the depth behind the pixel is known.
     pub(super) fn is_on_surface(&self) -> bool {
         self.far > 0.0
+    }
+
+    pub(super) fn is_at(&self, column: usize, row: usize) -> bool {
+        (usize::from(self.column), usize::from(self.row)) == (column, row)
+    }
+
+    /// A point of the contour, which counts where none was nearer.
+    pub(super) fn lay(&mut self, depth: f32, [column, row]: [f32; 2]) {
+        let right = column - f32::from(self.column) - 0.5;
+        let down = row - f32::from(self.row) - 0.5;
+        let aside = right * right + down * down;
+        if aside < self.aside {
+            self.aside = aside;
+            (self.near, self.far) = (depth, depth);
+        }
+    }
+
+    /// A piece of the surface that covers the pixel.
+    pub(super) fn cover(&mut self, depth: f32) {
+        self.near = self.near.min(depth);
+        self.far = self.far.max(depth);
     }
 
     /// Distance of the contour from the camera plane, mm.
@@ -57,7 +127,7 @@ pub(super) struct Outliner<'a> {
 
 impl Outliner<'_> {
     /// Fills `border` with as many border pixels as it holds and gives them. `places` has a
-    /// number for each pixel of the frame, all zero before and after.
+    /// number for each pixel of the frame, any.
     pub(super) fn border<'b>(
         &self,
         projected: &[Projected],
@@ -65,17 +135,12 @@ impl Outliner<'_> {
         border: &'b mut [BorderPixel],
     ) -> &'b mut [BorderPixel] {
         let count = self.find(places, border);
-        let tiles = Tiles::of(border.get(..count).unwrap_or_default());
-        self.measure_depth(projected, &tiles, places, border);
         let border = border.get_mut(..count).unwrap_or_default();
-        let width = self.drawn.width();
-        for pixel in &*border {
-            places[usize::from(pixel.row) * width + usize::from(pixel.column)] = 0;
-        }
+        self.measure_depth(projected, places, border);
         border
     }
 
-    /// Lists border pixels and writes their number, from 1, to their places.
+    /// Lists border pixels and writes their number to their places.
     fn find(&self, places: &mut [u16], border: &mut [BorderPixel]) -> usize {
         let width = self.drawn.width();
         let room = border.len().min(usize::from(u16::MAX));
@@ -90,118 +155,11 @@ impl Outliner<'_> {
                     continue;
                 };
                 border[count] = pixel;
-                count += 1;
                 places[row * width + column] = count as u16;
+                count += 1;
             }
         }
         count
-    }
-
-    fn measure_depth(
-        &self,
-        projected: &[Projected],
-        tiles: &Tiles,
-        places: &[u16],
-        border: &mut [BorderPixel],
-    ) {
-        let (width, height) = (self.drawn.width(), self.drawn.height());
-        let wanted = |corners| tiles.meet(pixel_box(corners));
-        let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
-            let cut = |column: i64| column.clamp(0, width as i64) as usize;
-            let (from, to) = (cut(from), cut(to));
-            if from >= to {
-                return;
-            }
-            let row_places = places.get(row * width + from..row * width + to);
-            let mut depth = None;
-            for &place in row_places.unwrap_or_default() {
-                if place == 0 {
-                    continue;
-                }
-                let depth = *depth.get_or_insert_with(|| self.depth_of(triangle));
-                if let Some(pixel) = border.get_mut(usize::from(place) - 1) {
-                    pixel.near = pixel.near.min(depth);
-                    pixel.far = pixel.far.max(depth);
-                }
-            }
-        };
-        for_each_span(self.mesh, projected, height, wanted, visit);
-    }
-
-    /// Mean distance of a triangle's corners from the camera plane, mm.
-    fn depth_of(&self, triangle: &[u32; 3]) -> f32 {
-        let vertices = self.mesh.vertices();
-        let sum: f64 = triangle
-            .iter()
-            .filter_map(|&index| vertices.get(index as usize))
-            .map(|vertex| dot(&self.pose.rotation[2], &vertex.map(f64::from)))
-            .sum();
-        (-sum / 3.0 - self.pose.translation[2]) as f32
-    }
-}
-
-/// Tiles of one side that cover all border pixels: most triangles meet none that has any.
-struct Tiles {
-    /// Of the first tile.
-    column: i32,
-    row: i32,
-    /// Binary logarithm of the side.
-    places: u32,
-    /// For each row of tiles, which have a border pixel.
-    marked: [u128; TILES],
-}
-
-const TILES: usize = u128::BITS as usize;
-
-impl Tiles {
-    fn of(border: &[BorderPixel]) -> Self {
-        let extent = |of: fn(&BorderPixel) -> u16| {
-            let least = border.iter().map(of).min().unwrap_or(0);
-            let most = border.iter().map(of).max().unwrap_or(0);
-            (i32::from(least), usize::from(most - least))
-        };
-        let (column, width) = extent(|pixel| pixel.column);
-        let (row, height) = extent(|pixel| pixel.row);
-        let mut tiles = Self {
-            column,
-            row,
-            places: (width.max(height) / TILES)
-                .checked_ilog2()
-                .map_or(0, |log| log + 1),
-            marked: [0; TILES],
-        };
-        for pixel in border {
-            let right = (i32::from(pixel.column) - column) >> tiles.places;
-            let down = (i32::from(pixel.row) - row) >> tiles.places;
-            tiles.marked[down as usize] |= 1 << right;
-        }
-        tiles
-    }
-
-    /// Whether a tile that has border pixels has some in a box of columns and rows.
-    fn meet(&self, [columns, rows]: [Range<i32>; 2]) -> bool {
-        if columns.is_empty() || rows.is_empty() {
-            return false;
-        }
-        let tile = |pixel: i32, first: i32| {
-            let tile = (pixel - first) >> self.places;
-            tile.clamp(-1, TILES as i32)
-        };
-        let (left, right) = (
-            tile(columns.start, self.column),
-            tile(columns.end - 1, self.column),
-        );
-        let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
-        let last = TILES as i32 - 1;
-        if right < 0 || bottom < 0 || left > last || top > last {
-            return false;
-        }
-        let (left, right) = (left.max(0) as u32, right.min(last) as u32);
-        let wanted = (u128::MAX >> (TILES as u32 - 1 - (right - left))) << left;
-        let rows = self
-            .marked
-            .get(top.max(0) as usize..=bottom.min(last) as usize);
-        rows.unwrap_or_default().iter().any(|row| row & wanted != 0)
     }
 }
 
@@ -209,8 +167,8 @@ impl Tiles {
 fn border_columns<'m>(mask: &Mask<'m>, row: usize) -> impl Iterator<Item = usize> + use<'m> {
     let (own, above, below) = (mask.row(row), mask.row(row - 1), mask.row(row + 1));
     let word = |words: &[Word], at: usize| words.get(at).copied().unwrap_or(0);
-    (0..own.len()).flat_map(move |at| {
-        let middle = word(own, at);
+    let set = own.iter().enumerate().filter(|&(_, &middle)| middle != 0);
+    set.flat_map(move |(at, &middle)| {
         let before = at.checked_sub(1).map_or(0, |at| word(own, at));
         let left = middle << 1 | before >> (WORD_BITS - 1);
         let right = middle >> 1 | word(own, at + 1) << (WORD_BITS - 1);
@@ -224,39 +182,63 @@ fn border_columns<'m>(mask: &Mask<'m>, row: usize) -> impl Iterator<Item = usize
 }
 
 /// Half width of the window from which a normal is read, pixels.
-const WINDOW: isize = 3;
+const WINDOW: usize = 3;
+const SIDE: usize = 2 * WINDOW + 1;
+/// A tent weighs the middle most.
+const TENT: [i32; SIDE] = [1, 2, 3, 4, 3, 2, 1];
+
+/// For each row of a window as bits: the sum of the tent over its set pixels, and that of the tent
+/// times the distance to the right of the middle.
+const ROWS: [[i8; 2]; 1 << SIDE] = {
+    let mut rows = [[0; 2]; 1 << SIDE];
+    let mut bits = 0;
+    while bits < rows.len() {
+        let mut at = 0;
+        while at < SIDE {
+            if bits >> at & 1 == 1 {
+                rows[bits][0] += TENT[at] as i8;
+                rows[bits][1] += TENT[at] as i8 * (at as i8 - WINDOW as i8);
+            }
+            at += 1;
+        }
+        bits += 1;
+    }
+    rows
+};
 
 /// The outline in a border pixel: its outward normal, from the slope of the mask smoothed over
 /// 7 x 7 pixels, and its arc length, from the sides that face outside: along a border with the
 /// normal `n` there are `|n_x|` vertical and `|n_y|` horizontal sides for each pixel of length,
 /// and `n_x^2 + n_y^2 = 1`.
 fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> {
-    let set = |right: isize, down: isize| {
-        let column = column.checked_add_signed(right);
-        let row = row.checked_add_signed(down);
-        matches!((column, row), (Some(column), Some(row)) if mask.get(column, row))
-    };
+    let window: [u32; SIDE] = core::array::from_fn(|down| {
+        let row = (row + down).checked_sub(WINDOW);
+        row.map_or(0, |row| bits_round(mask.row(row), column))
+    });
     let mut slope = [0i32; 2];
-    for down in -WINDOW..=WINDOW {
-        for right in -WINDOW..=WINDOW {
-            if set(right, down) {
-                // A tent weighs the middle most.
-                let tent = ((WINDOW + 1 - right.abs()) * (WINDOW + 1 - down.abs())) as i32;
-                slope[0] -= tent * right as i32;
-                slope[1] -= tent * down as i32;
-            }
-        }
+    for ((down, &bits), tent) in window.iter().enumerate().zip(TENT) {
+        let [sum, right] = ROWS[bits as usize].map(i32::from);
+        slope[0] -= tent * right;
+        slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
     }
     let length = sqrt(f64::from(slope[0] * slope[0] + slope[1] * slope[1]));
     if length == 0.0 {
         return None;
     }
     let normal = slope.map(|component| f64::from(component) / length);
-    let sides = [(1, 0), (-1, 0), (0, 1), (0, -1)];
+    let outside = |right: usize, down: usize| {
+        let (x, y) = (right as f64 - WINDOW as f64, down as f64 - WINDOW as f64);
+        let set = window[down] >> right & 1 == 1;
+        if set {
+            0.0
+        } else {
+            (normal[0] * x + normal[1] * y).max(0.0)
+        }
+    };
+    let sides = [(4, 3), (2, 3), (3, 4), (3, 2)];
     let weight: f64 = sides
         .into_iter()
-        .filter(|&(right, down)| !set(right, down))
-        .map(|(right, down)| (normal[0] * right as f64 + normal[1] * down as f64).max(0.0))
+        .map(|(right, down)| outside(right, down))
         .sum();
     Some(BorderPixel {
         column: column as u16,
@@ -265,17 +247,75 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         weight: weight as f32,
         near: f32::INFINITY,
         far: 0.0,
-        residual: f32::NAN,
+        aside: f32::INFINITY,
+        residual: Residual::None,
         jacobian: [0.0; 6],
     })
+}
+
+/// The pixels of a row from [`WINDOW`] to the left of a column to as many to its right, from the
+/// lowest bit; none where the row has none.
+fn bits_round(row: &[Word], column: usize) -> u32 {
+    const ALL: u64 = (1 << SIDE) - 1;
+    let word = |at: usize| u64::from(row.get(at).copied().unwrap_or(0));
+    let bits = match column.checked_sub(WINDOW) {
+        Some(first) => {
+            let at = first / WORD_BITS;
+            (word(at) | word(at + 1) << WORD_BITS) >> (first % WORD_BITS)
+        }
+        None => word(0) << (WINDOW - column),
+    };
+    (bits & ALL) as u32
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mask::{MaskMut, words_needed};
+    use proptest::prelude::*;
 
     const SIDE: usize = 200;
+
+    /// Oracle: the tent over 7 x 7 pixels, one by one.
+    fn slope(mask: &Mask<'_>, column: usize, row: usize) -> [i32; 2] {
+        let mut slope = [0; 2];
+        for (down, right) in
+            (-3..=3i32).flat_map(|down| (-3..=3i32).map(move |right| (down, right)))
+        {
+            let (x, y) = (column as i32 + right, row as i32 + down);
+            if x >= 0 && y >= 0 && mask.get(x as usize, y as usize) {
+                let tent = (4 - right.abs()) * (4 - down.abs());
+                slope[0] -= tent * right;
+                slope[1] -= tent * down;
+            }
+        }
+        slope
+    }
+
+    proptest! {
+        #[test]
+        fn normals_are_those_of_the_tent_over_single_pixels(
+            mut words in proptest::collection::vec(any::<Word>(), words_needed(70, 9)),
+            column in 0usize..70, row in 0usize..9,
+        ) {
+            words.iter_mut().skip(2).step_by(3).for_each(|word| *word &= 0b11_1111);
+            let mask = Mask::new(&words, 70, 9).expect("no bit beyond the last column");
+            let [right, down] = slope(&mask, column, row).map(f64::from);
+            let length = sqrt(right * right + down * down);
+            let sample = sample_at(&mask, column, row);
+            prop_assert_eq!(sample.is_none(), length == 0.0);
+            let Some(sample) = sample else { return Ok(()) };
+            prop_assert_eq!(sample.normal, [right, down].map(|x| (x / length) as f32));
+            let neighbours = [(1, 0), (-1, 0), (0, 1), (0, -1)];
+            let weight: f64 = neighbours.iter().map(|&(x, y)| {
+                let (c, r) = (column as i32 + x, row as i32 + y);
+                let set = c >= 0 && r >= 0 && mask.get(c as usize, r as usize);
+                let along = (right * f64::from(x) + down * f64::from(y)) / length;
+                if set { 0.0 } else { along.max(0.0) }
+            }).sum();
+            prop_assert!((f64::from(sample.weight) - weight).abs() < 1e-6);
+        }
+    }
 
     #[test]
     fn a_discs_border_has_its_circumference_and_radial_normals() {

@@ -57,18 +57,19 @@ fn coverage(silhouette: &Silhouette<'_>, column: f64, row: f64) -> Option<f64> {
         return None;
     }
     let (left, above) = (column as usize, row as usize);
-    if let Some(unknown) = silhouette.unknown() {
-        let square = [(0, 0), (1, 0), (0, 1), (1, 1)];
-        if square
-            .iter()
-            .any(|(right, down)| unknown.get(left + right, above + down))
-        {
-            return None;
-        }
+    if let Some(unknown) = silhouette.unknown()
+        && unknown.square(left, above) != 0
+    {
+        return None;
+    }
+    let square = mask.square(left, above);
+    // Most squares are all inside or all outside.
+    if square == 0 || square == 0b1111 {
+        return Some(f64::from(square & 1));
     }
     let (right, down) = (column - left as f64, row - above as f64);
-    let pixel = |column: usize, row: usize| f64::from(u8::from(mask.get(column, row)));
-    let upper = pixel(left, above) * (1.0 - right) + pixel(left + 1, above) * right;
-    let lower = pixel(left, above + 1) * (1.0 - right) + pixel(left + 1, above + 1) * right;
+    let pixel = |bit: u32| f64::from(square >> bit & 1);
+    let upper = pixel(0) * (1.0 - right) + pixel(1) * right;
+    let lower = pixel(2) * (1.0 - right) + pixel(3) * right;
     Some(upper * (1.0 - down) + lower * down)
 }

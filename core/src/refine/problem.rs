@@ -2,7 +2,7 @@
 
 use super::edge;
 use super::locks::{Hold, Locks};
-use super::outline::{BorderPixel, Outliner};
+use super::outline::{BorderPixel, Outliner, Residual};
 use super::probe::{self, Found};
 use super::solve::{Equations, Step};
 use super::stages::{POLISHING, STEPS, Stage};
@@ -28,6 +28,21 @@ pub(super) struct Problem<'a> {
     pub(super) middle: Vector3,
     /// Numbers of the pose that do not change.
     hold: Option<Hold>,
+}
+
+/// Steps shorter than this lower the loss by no more than its grain, and one that fails is not worth
+/// a more cautious one below the second: [`Step::size`]. Polishing does the rest. With all steps tried to
+/// the end 150 femurs and tibias came out alike within 3 % after more than twice as many drawings.
+const SETTLED: f64 = 0.05;
+const GRAINED: f64 = 0.1;
+/// Polishing ends below this.
+const SMALL: f64 = 0.001;
+
+/// What was seen at a pose.
+pub(super) struct Seen {
+    equations: Equations,
+    /// How many samples the memory holds of it; `None` after something else was looked at.
+    samples: Option<usize>,
 }
 
 /// One stage as it applies to all views.
@@ -62,7 +77,6 @@ impl<'a> Problem<'a> {
                 return Err(MaskError::Empty.into());
             }
         }
-        memory.places.fill(0);
         Ok(Self {
             mesh,
             views,
@@ -104,42 +118,51 @@ impl<'a> Problem<'a> {
     }
 
     /// Levenberg's and Marquardt's damping: a step that does not lower the loss is taken back
-    /// and tried again more cautiously.
+    /// and tried again more cautiously, until it is so short that the grain of the loss hides the way.
+    ///
+    /// `before` is what the stage before saw at this pose.
     pub(super) fn run(
         &self,
         pass: &Pass,
         state: &mut Refined,
+        before: Option<Seen>,
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
-    ) -> Result<(), RefineError> {
-        let mut equations = self.observe(&state.pose, state.offset_px, pass, memory)?;
-        state.renders += self.views.len();
+    ) -> Result<Seen, RefineError> {
+        let mut seen = match before.and_then(|before| self.weigh_again(&before, pass, memory)) {
+            Some(seen) => seen,
+            None => self.look(state, pass, memory)?,
+        };
         let mut damping = 1e-3;
-        state.converged = false;
         for _ in 0..STEPS[pass.index] {
-            let Some((step, more)) = self.step(&equations, damping, pass, &state.pose) else {
+            let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            let pose = self.apply(&step, &state.pose);
-            let offset = state.offset_px + more;
-            let tried = self.observe(&pose, offset, pass, memory);
-            state.renders += self.views.len();
-            match tried {
-                Ok(next) if next.loss() < equations.loss() => {
-                    (state.pose, state.offset_px) = (pose, offset);
-                    equations = next;
-                    damping = (damping * 0.2).max(1e-9);
-                    trace(&equations.iterate(pass, state));
-                }
-                _ => damping *= 8.0,
-            }
-            if step.is_small() {
-                state.converged = true;
+            if step.size() < SETTLED {
                 break;
             }
+            let mut next = *state;
+            next.pose = self.apply(&step, &state.pose);
+            next.offset_px += more;
+            let tried = self.look(&mut next, pass, memory);
+            state.renders = next.renders;
+            match tried {
+                Ok(there) if there.equations.loss() < seen.equations.loss() => {
+                    (*state, seen) = (next, there);
+                    damping = (damping * 0.2).max(1e-9);
+                    trace(&seen.equations.iterate(pass, state));
+                }
+                _ => {
+                    damping *= 8.0;
+                    seen.samples = None;
+                    if step.size() < GRAINED {
+                        break;
+                    }
+                }
+            }
         }
-        equations.report(state);
-        Ok(())
+        seen.equations.report(state);
+        Ok(seen)
     }
 
     /// Undamped steps to the zero of the gradient. The loss of a pose is known no better than the
@@ -150,38 +173,78 @@ impl<'a> Problem<'a> {
         &self,
         pass: &Pass,
         state: &mut Refined,
+        seen: Seen,
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
     ) -> Result<(), RefineError> {
-        let mut next = *state;
+        let (mut next, mut seen) = (*state, seen);
         let (mut share, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
-            let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
-            next.renders += self.views.len();
-            let Some((step, more)) = self.step(&equations, 0.0, pass, &next.pose) else {
+            let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
                 break;
             };
             if step.size() > last {
                 share *= 0.6;
             }
             last = step.size();
-            next.pose = self.apply(&step.scaled(share), &next.pose);
-            next.offset_px += share * more;
-            next.converged = step.is_small();
+            let step = step.scaled(share);
+            next.converged = step.size() < SMALL;
             if next.converged {
                 break;
             }
+            next.pose = self.apply(&step, &next.pose);
+            next.offset_px += share * more;
+            seen = self.look(&mut next, pass, memory)?;
         }
-        let equations = self.observe(&next.pose, next.offset_px, pass, memory)?;
-        next.renders += self.views.len();
-        let before = state.loss;
         state.renders = next.renders;
-        if equations.loss() <= before * (1.0 + GRAIN) + GRAIN * GRAIN {
+        if seen.equations.loss() <= state.loss * (1.0 + GRAIN) + GRAIN * GRAIN {
             *state = next;
-            equations.report(state);
-            trace(&equations.iterate(pass, state));
+            seen.equations.report(state);
+            trace(&seen.equations.iterate(pass, state));
         }
         Ok(())
+    }
+
+    /// Observes a pose, and counts the drawings.
+    fn look(
+        &self,
+        state: &mut Refined,
+        pass: &Pass,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Seen, RefineError> {
+        state.renders += self.views.len();
+        let mut equations = Equations::new();
+        let mut samples = None;
+        for view in self.views {
+            let stage = Stage::of(&view.target, pass.index, pass.spread);
+            let (pose, offset) = (&state.pose, state.offset_px);
+            samples =
+                Some(self.observe_view(view, pose, offset, &stage, memory, &mut equations)?);
+        }
+        Ok(Seen { equations, samples })
+    }
+
+    /// What was seen, weighed as another stage does, without drawing again: of one camera and a
+    /// silhouette, whose outline is where it is whatever the range.
+    fn weigh_again(&self, before: &Seen, pass: &Pass, memory: &RefineMemory<'_>) -> Option<Seen> {
+        let [
+            View {
+                target: target @ Target::Silhouette(_),
+                ..
+            },
+        ] = self.views
+        else {
+            return None;
+        };
+        let stage = Stage::of(target, pass.index, pass.spread);
+        let mut equations = Equations::new();
+        for sample in memory.border.get(..before.samples?)? {
+            sample.add_to(&mut equations, &stage);
+        }
+        Some(Seen {
+            equations,
+            ..*before
+        })
     }
 
     /// Whether an offset that was estimated with the pose is determined by the data: it differs
@@ -192,28 +255,12 @@ impl<'a> Problem<'a> {
         state: &Refined,
         memory: &mut RefineMemory<'_>,
     ) -> Result<bool, RefineError> {
-        let equations = self.observe(&state.pose, state.offset_px, pass, memory)?;
-        Ok(equations.supports_offset(state.offset_px))
+        let seen = self.look(&mut { *state }, pass, memory)?;
+        Ok(seen.equations.supports_offset(state.offset_px))
     }
 
-    /// Draws the model in every view and measures how far its outline is from the target's.
-    pub(super) fn observe(
-        &self,
-        pose: &Pose,
-        offset: f64,
-        pass: &Pass,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<Equations, RefineError> {
-        let mut equations = Equations::new();
-        for view in self.views {
-            let stage = Stage::of(&view.target, pass.index, pass.spread);
-            self.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
-        }
-        Ok(equations)
-    }
-
-    /// The same in one view. Afterwards the first so many places of `memory.border` hold its
-    /// samples, those with a counterpart a residual; gives their number.
+    /// Draws the model in a view and measures how far its outline is from the target's. Afterwards
+    /// the first so many places of `memory.border` hold its samples; gives their number.
     pub(super) fn observe_view(
         &self,
         view: &View<'_>,
@@ -239,22 +286,17 @@ impl<'a> Problem<'a> {
         let centre = pose.transform(&self.middle);
         let count = border.len();
         for sample in border.iter_mut().filter(|sample| sample.is_on_surface()) {
-            let length = f64::from(sample.weight);
             let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
                 continue;
             };
-            match find(&view.target, sample, own + offset, stage.range) {
-                Found::Unknown => equations.add_unknown(length),
-                Found::Nothing => equations.add_missing(stage.loss, stage.range, length),
-                Found::At(theirs) => {
-                    let residual = theirs - own - offset;
-                    sample.residual = residual as f32;
-                    let jacobian = Step::jacobian(view.camera, &centre, sample);
-                    let jacobian = Step::in_world(jacobian, &view.placement);
-                    sample.jacobian = jacobian.map(|value| value as f32);
-                    equations.add(stage.loss, &jacobian, residual, length);
-                }
+            let found = find(&view.target, sample, own + offset, stage.range);
+            sample.residual = Residual::of(found, own + offset);
+            if let Residual::Px(_) = sample.residual {
+                let jacobian = Step::jacobian(view.camera, &centre, sample);
+                let jacobian = Step::in_world(jacobian, &view.placement);
+                sample.jacobian = jacobian.map(|value| value as f32);
             }
+            sample.add_to(equations, stage);
         }
         Ok(count)
     }

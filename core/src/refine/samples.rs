@@ -50,7 +50,6 @@ pub fn outline_samples(
         pose,
         drawn: &drawn,
     };
-    memory.places.fill(0);
     let places = memory.places.get_mut(..width * height);
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
     let centre = pose.transform(&mesh.bounds().centre);

@@ -17,10 +17,6 @@ pub(super) struct Step {
     shift: Vector3,
 }
 
-/// Steps below these end an iteration: degrees and mm.
-const SMALL_DEG: f64 = 1e-4;
-const SMALL_MM: f64 = 1e-3;
-
 impl Step {
     /// The step of a solution, and the change of the offset.
     fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Self, f64) {
@@ -89,10 +85,6 @@ impl Step {
     pub(super) fn size(&self) -> f64 {
         degrees(norm(&self.turn)) + norm(&self.shift) / 5.0
     }
-
-    pub(super) fn is_small(&self) -> bool {
-        degrees(norm(&self.turn)) < SMALL_DEG && norm(&self.shift) < SMALL_MM
-    }
 }
 
 /// Parameters of a step, and the offset of the target's edges from the model's outline.
@@ -117,20 +109,37 @@ impl Loss {
     /// Loss (square pixels) and weight of a residual: the weight is that of the least squares
     /// that the loss is to first order.
     pub(super) fn at(self, residual: f64) -> (f64, f64) {
-        match self {
-            Self::Cauchy(c) => {
-                let ratio = (residual / c) * (residual / c);
-                (0.5 * c * c * libm::log1p(ratio), 1.0 / (1.0 + ratio))
-            }
-            Self::Tukey(c) => {
-                let rest = (1.0 - (residual / c) * (residual / c)).max(0.0);
-                (c * c / 6.0 * (1.0 - rest * rest * rest), rest * rest)
-            }
-        }
+        let (c, weight) = (self.scale(), self.weight(residual));
+        let cost = match self {
+            Self::Cauchy(_) => 0.5 * c * c * libm::log1p((residual / c) * (residual / c)),
+            Self::Tukey(_) => c * c / 6.0 * (1.0 - weight * sqrt(weight)),
+        };
+        (cost, weight)
     }
 }
 
 impl Loss {
+    /// Derivative of the loss.
+    pub(super) fn pull(self, residual: f64) -> f64 {
+        residual * self.weight(residual)
+    }
+
+    fn weight(self, residual: f64) -> f64 {
+        let ratio = residual / self.scale();
+        match self {
+            Self::Cauchy(_) => 1.0 / (1.0 + ratio * ratio),
+            Self::Tukey(_) => {
+                let rest = (1.0 - ratio * ratio).max(0.0);
+                rest * rest
+            }
+        }
+    }
+
+    fn scale(self) -> f64 {
+        let (Self::Cauchy(c) | Self::Tukey(c)) = self;
+        c
+    }
+
     /// Second derivative of the loss.
     pub(super) fn curvature(self, residual: f64) -> f64 {
         match self {
@@ -158,6 +167,7 @@ fn dot(a: &[f64; UNKNOWNS], b: &[f64; UNKNOWNS]) -> f64 {
 
 /// Normal equations of robust least squares.
 pub(super) struct Equations {
+    /// The lower triangle alone.
     normal: Normal,
     right: [f64; UNKNOWNS],
     /// Length of the outline, and of what is known of it.
@@ -215,8 +225,9 @@ impl Equations {
         let jacobian = [a, b, c, x, y, z, 1.0];
         for (row, &a) in jacobian.iter().enumerate() {
             self.right[row] += w * a * residual;
-            for (column, &b) in jacobian.iter().enumerate() {
-                self.normal[row][column] += w * a * b;
+            // Solvers read the lower triangle alone.
+            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
+                *sum += w * a * b;
             }
         }
     }

@@ -15,7 +15,6 @@ use super::stages::{STAGES, Stage};
 use super::view::View;
 use super::{RefineError, RefineMemory, Refined};
 use crate::covariance::{Matrix6, PoseCovariance};
-use crate::math::sqrt;
 use crate::mesh::Mesh;
 
 /// Width of a bin of distance, pixels, and number of bins.
@@ -87,22 +86,24 @@ impl Sums {
     fn add(&mut self, border: &[BorderPixel], loss: Loss, fitted: f64) {
         let covariance = Correlation::of(border, loss, fitted);
         let mut length = 0.0;
-        for (index, sample) in found(border) {
+        for (index, sample, residual) in found(border) {
             let l = f64::from(sample.weight);
             length += l;
-            self.curvature += l * loss.curvature(f64::from(sample.residual));
+            self.curvature += l * loss.curvature(residual);
             let jacobian = sample.jacobian.map(f64::from);
-            let mut sum = jacobian.map(|value| value * l * covariance.bins[0]);
-            for (other, distance) in near(border, index) {
-                let weight = f64::from(other.weight) * covariance.at(distance);
+            // Half of the sample's own share: every pair is met once and counts both ways.
+            let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
+            for (other, _, bin) in after(border, index) {
+                let weight = f64::from(other.weight) * covariance.bins[bin];
                 for (sum, &value) in sum.iter_mut().zip(&other.jacobian) {
                     *sum += weight * f64::from(value);
                 }
             }
-            for (row, &a) in jacobian.iter().enumerate() {
-                for (column, (&b, &c)) in sum.iter().zip(&jacobian).enumerate() {
-                    self.spread[row][column] += l * a * b;
-                    self.information[row][column] += l * a * c;
+            for row in 0..6 {
+                for column in 0..6 {
+                    let both = jacobian[row] * sum[column] + sum[row] * jacobian[column];
+                    self.spread[row][column] += l * both;
+                    self.information[row][column] += l * jacobian[row] * jacobian[column];
                 }
             }
         }
@@ -128,27 +129,49 @@ impl Sums {
     }
 }
 
-/// Samples that have a residual, with their places.
-fn found(border: &[BorderPixel]) -> impl Iterator<Item = (usize, &BorderPixel)> {
+/// Samples that have a residual, with their places in the list and the residual, pixels.
+fn found(border: &[BorderPixel]) -> impl Iterator<Item = (usize, &BorderPixel, f64)> {
     let samples = border.iter().enumerate();
-    samples.filter(|(_, sample)| !sample.residual.is_nan())
+    samples.filter_map(|(index, sample)| Some((index, sample, sample.residual_px()?)))
 }
 
-/// Other samples near one and on the same side of the part, with their distance in pixels.
-fn near(border: &[BorderPixel], index: usize) -> impl Iterator<Item = (&BorderPixel, f64)> {
-    const REACH: f64 = BIN * BINS as f64;
+/// Distances from this on are not looked at, pixels.
+const REACH: i32 = (BIN * BINS as f64) as i32;
+
+/// The bin of a distance, from 1, by its square in pixels.
+const BIN_OF: [u8; (REACH * REACH) as usize] = {
+    let mut bins = [0; (REACH * REACH) as usize];
+    let (mut square, mut bin) = (0, 1);
+    while square < bins.len() {
+        let end = BIN * bin as f64;
+        if square as f64 >= end * end {
+            bin += 1;
+        }
+        bins[square] = bin;
+        square += 1;
+    }
+    bins
+};
+
+/// The samples listed after one that are near it and on the same side of the part, with their
+/// residual and the bin of their distance.
+fn after(border: &[BorderPixel], index: usize) -> impl Iterator<Item = (&BorderPixel, f64, usize)> {
     let sample = border[index];
+    let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
     // They are listed row by row.
-    let close = move |other: &&BorderPixel| other.row.abs_diff(sample.row) < REACH as u16;
-    let before = border[..index].iter().rev().take_while(close);
-    let after = border[index + 1..].iter().take_while(close);
-    before.chain(after).filter_map(move |other| {
-        let right = f64::from(other.column) - f64::from(sample.column);
-        let down = f64::from(other.row) - f64::from(sample.row);
-        let distance = sqrt(right * right + down * down);
+    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < REACH;
+    let rest = border[index + 1..].iter().take_while(close);
+    rest.filter_map(move |other| {
+        let right = offset(other.column, sample.column);
+        if right.abs() >= REACH {
+            return None;
+        }
+        let down = offset(other.row, sample.row);
+        let bin = *BIN_OF.get((right * right + down * down) as usize)?;
         let [a, b] = [sample.normal, other.normal];
         let alike = a[0] * b[0] + a[1] * b[1] >= ALIKE;
-        (distance < REACH && alike && !other.residual.is_nan()).then_some((other, distance))
+        let residual = other.residual_px().filter(|_| alike)?;
+        Some((other, residual, usize::from(bin)))
     })
 }
 
@@ -191,21 +214,14 @@ impl Correlation {
     /// The mean product of `psi` in every bin, and the length of the outline.
     fn raw(border: &[BorderPixel], loss: Loss) -> ([f64; BINS + 1], f64) {
         let (mut sums, mut weights) = ([0.0; BINS + 1], [0.0; BINS + 1]);
-        let psi = |sample: &BorderPixel| {
-            let residual = f64::from(sample.residual);
-            loss.at(residual).1 * residual
-        };
-        for (index, sample) in found(border) {
-            let (l, own) = (f64::from(sample.weight), psi(sample));
+        for (index, sample, residual) in found(border) {
+            let (l, own) = (f64::from(sample.weight), loss.pull(residual));
             sums[0] += l * own * own;
             weights[0] += l;
-            for (other, distance) in near(border, index) {
+            for (other, residual, bin) in after(border, index) {
                 let weight = l * f64::from(other.weight);
-                let bin = 1 + (distance / BIN) as usize;
-                if let (Some(sum), Some(total)) = (sums.get_mut(bin), weights.get_mut(bin)) {
-                    *sum += weight * own * psi(other);
-                    *total += weight;
-                }
+                sums[bin] += weight * own * loss.pull(residual);
+                weights[bin] += weight;
             }
         }
         let mean = |bin: usize| {
@@ -216,11 +232,6 @@ impl Correlation {
             }
         };
         (core::array::from_fn(mean), weights[0])
-    }
-
-    fn at(&self, distance: f64) -> f64 {
-        let bin = 1 + (distance / BIN) as usize;
-        self.bins.get(bin).copied().unwrap_or(0.0)
     }
 
     /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,

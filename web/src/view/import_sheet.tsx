@@ -7,6 +7,9 @@ import { useApp } from './app';
 
 const MATCHES: readonly Match[] = ['name', 'order'];
 
+/** Changes a part of the proposal as it is at that moment. */
+type Change = (of: (now: Proposal) => Partial<Proposal>) => void;
+
 /** Where outlines from files would go, before they do. */
 export function ImportSheet({ state }: { state: State }) {
   const { store } = useApp().services;
@@ -15,7 +18,11 @@ export function ImportSheet({ state }: { state: State }) {
   if (!proposal) return <p class="sheet-body sheet-text">{exchange.nothing}</p>;
   const rows = assignments(state.history.present, proposal);
   const going = rows.filter(({ destination }) => destination.kind === 'to').length;
-  const change = (part: Partial<Proposal>) => store.show({ proposal: { ...proposal, ...part } });
+  const change: Change = (of) => {
+    // Not what was drawn last: two changes may come between two drawings.
+    const now = store.ui.proposal;
+    if (now) store.show({ proposal: { ...now, ...of(now) } });
+  };
   return (
     <form
       class="sheet-body"
@@ -30,14 +37,14 @@ export function ImportSheet({ state }: { state: State }) {
           <legend>{exchange.matching}</legend>
           {MATCHES.map((match) => (
             <label key={match} class="check">
-              <input type="radio" name="match" checked={proposal.match === match} onChange={() => change({ match })} />
+              <input type="radio" name="match" checked={proposal.match === match} onChange={() => change(() => ({ match }))} />
               {exchange.match[match]}
             </label>
           ))}
         </fieldset>
         {proposal.items.some(({ exactOutline }) => exactOutline) && (
           <label class="check">
-            <input type="checkbox" checked={proposal.exact} onChange={(event) => change({ exact: event.currentTarget.checked })} />
+            <input type="checkbox" checked={proposal.exact} onChange={({ currentTarget: { checked } }) => change(() => ({ exact: checked }))} />
             {exchange.exact}
           </label>
         )}
@@ -86,11 +93,11 @@ function apply(store: Store, proposal: Proposal, going: number): void {
 }
 
 /** Which component each name in the files means. */
-function Subjects({ proposal, change }: { proposal: Proposal; change: (part: Partial<Proposal>) => void }) {
+function Subjects({ proposal, change }: { proposal: Proposal; change: Change }) {
   const { exchange } = texts;
   const set = (subject: string, value: string) => {
     const component = (value || null) as ComponentName | null;
-    change({ subjects: { ...proposal.subjects, [subject]: component } });
+    change(({ subjects }) => ({ subjects: { ...subjects, [subject]: component } }));
   };
   return (
     <div class="subjects" role="group" aria-label={exchange.subjects}>

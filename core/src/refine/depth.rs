@@ -1,0 +1,285 @@
+//! The depth of the surface behind the occluding contour.
+//!
+//! Where the model was drawn from its silhouette edges, they are the contour: a border pixel has the
+//! depth of the point nearest to it. Otherwise front and back of the surface meet there, and
+//! the depth is the middle of all that covers the border pixel, so holes and mixed winding do not
+//! matter.
+
+use core::ops::Range;
+
+use super::outline::{BorderPixel, Outliner};
+use crate::math::dot;
+use crate::raster::{Projected, contour, for_each_span};
+use crate::scan::pixel_box;
+
+impl Outliner<'_> {
+    /// Writes the depth behind each border pixel. `places` has the number of each in the list.
+    pub(super) fn measure_depth(
+        &self,
+        projected: &[Projected],
+        places: &[u16],
+        border: &mut [BorderPixel],
+    ) {
+        match contour(self.mesh, projected) {
+            Some(edges) => {
+                for (vertices, images) in edges {
+                    let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
+                    self.lay_edge(depths, images.map(Projected::place), places, border);
+                }
+            }
+            None => self.cover_with_triangles(projected, places, border),
+        }
+    }
+
+    /// Lends an edge's depth to the border pixels that are nearer to it than to those before.
+    fn lay_edge(
+        &self,
+        depths: [f32; 2],
+        [from, to]: [[f32; 2]; 2],
+        places: &[u16],
+        border: &mut [BorderPixel],
+    ) {
+        let along: [f32; 2] = core::array::from_fn(|k| to[k] - from[k]);
+        // At most one pixel apart: one is in the border pixel that the edge passes or beside it. The
+        // last is the first of another edge.
+        let steps = along[0].abs().max(along[1].abs()) as usize + 1;
+        for step in 0..steps {
+            let share = step as f32 / steps as f32;
+            let point = core::array::from_fn(|k| from[k] + share * along[k]);
+            let depth = depths[0] + share * (depths[1] - depths[0]);
+            self.lay_point(depth, point, places, border);
+        }
+    }
+
+    fn lay_point(
+        &self,
+        depth: f32,
+        [column, row]: [f32; 2],
+        places: &[u16],
+        border: &mut [BorderPixel],
+    ) {
+        let (width, height) = (self.drawn.width(), self.drawn.height());
+        if column < 1.0 || row < 1.0 || column >= (width - 1) as f32 || row >= (height - 1) as f32 {
+            return;
+        }
+        let (left, above) = (column as usize - 1, row as usize - 1);
+        for row_at in above..above + 3 {
+            let first = row_at * width + left;
+            let three = places.get(first..first + 3).unwrap_or_default();
+            for (&place, at) in three.iter().zip(left..) {
+                if let Some(pixel) = listed(border, place, at, row_at) {
+                    pixel.lay(depth, [column, row]);
+                }
+            }
+        }
+    }
+
+    fn depth_of_vertex(&self, vertex: u32) -> f32 {
+        let vertex = self.mesh.vertices().get(vertex as usize);
+        let vertex = vertex.copied().unwrap_or_default().map(f64::from);
+        (-dot(&self.pose.rotation[2], &vertex) - self.pose.translation[2]) as f32
+    }
+
+    fn cover_with_triangles(
+        &self,
+        projected: &[Projected],
+        places: &[u16],
+        border: &mut [BorderPixel],
+    ) {
+        let tiles = Tiles::of(border);
+        let (width, height) = (self.drawn.width(), self.drawn.height());
+        let wanted = |corners| tiles.meet(pixel_box(corners));
+        let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
+            let cut = |column: i64| column.clamp(0, width as i64) as usize;
+            let (from, to) = (cut(from), cut(to));
+            if from >= to {
+                return;
+            }
+            let row_places = places.get(row * width + from..row * width + to);
+            let mut depth = None;
+            for (&place, column) in row_places.unwrap_or_default().iter().zip(from..) {
+                if let Some(pixel) = listed(border, place, column, row) {
+                    pixel.cover(*depth.get_or_insert_with(|| self.depth_of(triangle)));
+                }
+            }
+        };
+        for_each_span(self.mesh, projected, height, wanted, visit);
+    }
+
+    /// Mean distance of a triangle's corners from the camera plane, mm.
+    fn depth_of(&self, triangle: &[u32; 3]) -> f32 {
+        let vertices = self.mesh.vertices();
+        let sum: f64 = triangle
+            .iter()
+            .filter_map(|&index| vertices.get(index as usize))
+            .map(|vertex| dot(&self.pose.rotation[2], &vertex.map(f64::from)))
+            .sum();
+        (-sum / 3.0 - self.pose.translation[2]) as f32
+    }
+}
+
+/// The border pixel at a column and row. Of pixels that are none, a place holds any number: what is
+/// listed under it says whether it was written (Briggs and Torczon, ACM LOPLAS 2, 1993).
+fn listed(
+    border: &mut [BorderPixel],
+    place: u16,
+    column: usize,
+    row: usize,
+) -> Option<&mut BorderPixel> {
+    let pixel = border.get_mut(usize::from(place))?;
+    (pixel.is_at(column, row)).then_some(pixel)
+}
+
+/// Tiles of one side that cover all border pixels: most triangles meet none that has any.
+struct Tiles {
+    /// Of the first tile.
+    column: i32,
+    row: i32,
+    /// Binary logarithm of the side.
+    places: u32,
+    /// For each row of tiles, which have a border pixel.
+    marked: [u128; TILES],
+}
+
+const TILES: usize = u128::BITS as usize;
+
+impl Tiles {
+    fn of(border: &[BorderPixel]) -> Self {
+        let extent = |of: fn(&BorderPixel) -> u16| {
+            let least = border.iter().map(of).min().unwrap_or(0);
+            let most = border.iter().map(of).max().unwrap_or(0);
+            (i32::from(least), usize::from(most - least))
+        };
+        let (column, width) = extent(|pixel| pixel.column);
+        let (row, height) = extent(|pixel| pixel.row);
+        let mut tiles = Self {
+            column,
+            row,
+            places: (width.max(height) / TILES)
+                .checked_ilog2()
+                .map_or(0, |log| log + 1),
+            marked: [0; TILES],
+        };
+        for pixel in border {
+            let right = (i32::from(pixel.column) - column) >> tiles.places;
+            let down = (i32::from(pixel.row) - row) >> tiles.places;
+            tiles.marked[down as usize] |= 1 << right;
+        }
+        tiles
+    }
+
+    /// Whether a tile that has border pixels has some in a box of columns and rows.
+    fn meet(&self, [columns, rows]: [Range<i32>; 2]) -> bool {
+        if columns.is_empty() || rows.is_empty() {
+            return false;
+        }
+        let tile = |pixel: i32, first: i32| {
+            let tile = (pixel - first) >> self.places;
+            tile.clamp(-1, TILES as i32)
+        };
+        let (left, right) = (
+            tile(columns.start, self.column),
+            tile(columns.end - 1, self.column),
+        );
+        let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
+        let last = TILES as i32 - 1;
+        if right < 0 || bottom < 0 || left > last || top > last {
+            return false;
+        }
+        let (left, right) = (left.max(0) as u32, right.min(last) as u32);
+        let wanted = (u128::MAX >> (TILES as u32 - 1 - (right - left))) << left;
+        let rows = self
+            .marked
+            .get(top.max(0) as usize..=bottom.min(last) as usize);
+        rows.unwrap_or_default().iter().any(|row| row & wanted != 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::edges::{MeshEdge, edges_needed, link};
+    use crate::mask::{MaskMut, words_needed};
+    use crate::mesh::Mesh;
+    use crate::pose::Pose;
+    use crate::raster::{render, scratch_needed};
+    use std::vec;
+    use std::vec::Vec;
+
+    const SIDE: usize = 256;
+    const RADIUS: f64 = 30.0;
+    const DISTANCE: f64 = 400.0;
+    /// Meridians, and circles of latitude.
+    const ROUND: u32 = 120;
+    const ACROSS: u32 = 60;
+
+    fn sphere() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for k in 0..ROUND * (ACROSS + 1) {
+            let around = f64::from(k % ROUND) / f64::from(ROUND) * core::f64::consts::TAU;
+            let down = f64::from(k / ROUND) / f64::from(ACROSS) * core::f64::consts::PI;
+            let (s, c) = libm::sincos(around);
+            let (ring, height) = libm::sincos(down);
+            vertices.push([ring * c, height, ring * s].map(|x| (RADIUS * x) as f32));
+        }
+        let at = |i: u32, j: u32| j * ROUND + i % ROUND;
+        for (i, j) in (0..ROUND).flat_map(|i| (0..ACROSS).map(move |j| (i, j))) {
+            triangles.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            triangles.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+        // The poles are one point each.
+        let one = |v: u32| match v / ROUND {
+            0 => 0,
+            j if j == ACROSS => ACROSS * ROUND,
+            _ => v,
+        };
+        let triangles = triangles.into_iter().map(|t| t.map(one)).collect();
+        (vertices, triangles)
+    }
+
+    fn depths(mesh: &Mesh<'_>) -> Vec<([u16; 2], f64)> {
+        let camera = Camera::new(SIDE, SIDE, [1500.0; 2], [127.3, 129.1]).expect("valid");
+        let pose = Pose {
+            translation: [0.0, 0.0, -DISTANCE],
+            ..Pose::IDENTITY
+        };
+        let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
+        let mut words = vec![0; words_needed(SIDE, SIDE)];
+        let mut drawn = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        render(mesh, &camera, &pose, &mut scratch, &mut drawn).expect("in front");
+        let drawn = drawn.into_mask();
+        let outliner = Outliner {
+            mesh,
+            pose: &pose,
+            drawn: &drawn,
+        };
+        // What the memory held before does not matter.
+        let mut places = vec![7; SIDE * SIDE];
+        let mut border = vec![BorderPixel::default(); 4096];
+        let border = outliner.border(&scratch, &mut places, &mut border);
+        let known = border.iter().filter(|pixel| pixel.is_on_surface());
+        let known: Vec<_> = known.map(|p| ([p.column, p.row], p.depth())).collect();
+        assert_eq!(known.len(), border.len());
+        known
+    }
+
+    #[test]
+    fn edges_and_triangles_agree_on_the_depth_of_a_spheres_contour() {
+        let (vertices, triangles) = sphere();
+        let plain = Mesh::new(&vertices, &triangles).expect("valid");
+        let mut room = vec![MeshEdge::default(); edges_needed(&plain)];
+        let edges = link(&plain, &mut room).expect("closed");
+        let (by_edges, by_triangles) = (depths(&plain.with_edges(edges)), depths(&plain));
+        // Where rays touch the sphere.
+        let truth = DISTANCE - RADIUS * RADIUS / DISTANCE;
+        assert_eq!(by_edges.len(), by_triangles.len());
+        for ((place, edge), (other, triangle)) in by_edges.iter().zip(&by_triangles) {
+            assert_eq!(place, other);
+            // Facets are 1.6 mm wide, and a pixel inside the contour the sphere is 3 mm nearer and
+            // farther.
+            assert!((edge - truth).abs() < 1.7, "{edge} for {truth}");
+            assert!((triangle - truth).abs() < 3.5, "{triangle} for {truth}");
+        }
+    }
+}
