@@ -166,7 +166,8 @@ pub fn canonicalise(
         let uniform = sampler.uniform(mask, right, half - (first as f64 + 0.5));
         for row in first..first + BLOCK {
             if let Some(word) = canonical.row_mut(row).get_mut(index) {
-                *word = sampler.word(mask, &uniform, right, half - (row as f64 + 0.5));
+                let uniform = &uniform[(row - first) / QUARTER];
+                *word = sampler.word(mask, uniform, right, half - (row as f64 + 0.5));
             }
         }
     }
@@ -202,17 +203,29 @@ const PLACES: u32 = 16;
 
 /// Side of the square blocks of canonical pixels of which most lie wholly inside or outside.
 const BLOCK: usize = 8;
+/// And of the others many a quarter.
+const QUARTER: usize = BLOCK / 2;
 
 /// More than rounding moves a position, in 1/65 536 pixel.
 const MARGIN: i32 = 64;
 
 /// Bits of a word whose value is known, and those of them that are set.
+#[derive(Clone, Copy)]
 struct Uniform {
     known: Word,
     set: Word,
 }
 
-/// The affine map from canonical pixels to frame pixels, and its step to the right.
+impl Uniform {
+    /// Bits from a column on have one value.
+    fn learn(&mut self, column: usize, count: usize, set: bool) {
+        let bits = ((1 << count) - 1) << column;
+        self.known |= bits;
+        self.set |= if set { bits } else { 0 };
+    }
+}
+
+/// The affine map from canonical pixels to frame pixels, and its steps.
 struct Sampler {
     /// Positions outside this rectangle (columns, rows; in 1/65 536 pixel) see no set pixel.
     columns: core::ops::Range<i32>,
@@ -220,7 +233,9 @@ struct Sampler {
     centre: Point,
     right: [f64; 2],
     up: [f64; 2],
+    /// To the right and to the row below.
     step: [i32; 2],
+    down: [i32; 2],
 }
 
 impl Sampler {
@@ -233,58 +248,76 @@ impl Sampler {
         let (columns, rows) = mask.bounds();
         let (sin, cos) = ranking::sin_cos(form.angle);
         let (x, y) = (1.0 / form.scale, 1.0 / (form.scale * form.aspect));
-        let right = [cos * x, -sin * y];
+        let (right, up) = ([cos * x, -sin * y], [-sin * x, -cos * y]);
         Self {
             columns: reach(columns),
             rows: reach(rows),
             centre: form.centroid,
             right,
-            up: [-sin * x, -cos * y],
+            up,
             step: right.map(to_fixed),
+            down: up.map(|along| to_fixed(-along)),
         }
     }
 
     /// Which bits of [`BLOCK`] words below each other, the first of which begins at `right` and
-    /// `up` of the canonical centre, are known from the frame's pixels round each block.
-    fn uniform(&self, mask: &Mask<'_>, right: f64, up: f64) -> Uniform {
-        let mut uniform = Uniform { known: 0, set: 0 };
-        let side = (BLOCK - 1) as f64;
-        for block in 0..WORD_BITS / BLOCK {
-            let right = right + (block * BLOCK) as f64;
-            let corners = [(0.0, 0.0), (side, 0.0), (0.0, -side), (side, -side)]
-                .map(|(along, across)| self.start(right + along, up + across));
-            let bits = ((1 << BLOCK) - 1) << (block * BLOCK);
-            if let Some(set) = self.one_value(mask, &corners) {
-                uniform.known |= bits;
-                uniform.set |= if set { bits } else { 0 };
+    /// `up` of the canonical centre, are known from the frame's pixels round each block or each
+    /// quarter of it: of the upper half of the words, and of the lower.
+    fn uniform(&self, mask: &Mask<'_>, right: f64, up: f64) -> [Uniform; 2] {
+        let mut halves = [Uniform { known: 0, set: 0 }; 2];
+        for column in (0..WORD_BITS).step_by(BLOCK) {
+            let corner = self.start(right + column as f64, up);
+            if let Some(set) = self.one_value(mask, &corner, BLOCK) {
+                halves
+                    .iter_mut()
+                    .for_each(|half| half.learn(column, BLOCK, set));
+                continue;
+            }
+            for (down, half) in halves.iter_mut().enumerate() {
+                for across in 0..2 {
+                    let corner = self.beside(&corner, across * QUARTER, down * QUARTER);
+                    if let Some(set) = self.one_value(mask, &corner, QUARTER) {
+                        half.learn(column + across * QUARTER, QUARTER, set);
+                    }
+                }
             }
         }
-        uniform
+        halves
     }
 
-    /// The value of all frame pixels that positions between `corners` read, if it is one.
-    fn one_value(&self, mask: &Mask<'_>, corners: &[Position; 4]) -> Option<bool> {
-        let extent = |of: fn(&Position) -> i32| {
-            let values = corners.each_ref().map(of);
-            let (least, most) = values
-                .into_iter()
-                .fold((i32::MAX, i32::MIN), |(a, b), v| (a.min(v), b.max(v)));
-            (least, most)
+    /// The position of a canonical pixel so many to the right and below another.
+    fn beside(&self, from: &Position, right: usize, down: usize) -> Position {
+        let moved = |from: i32, axis: usize| {
+            let (right, down) = (right as i32, down as i32);
+            from.saturating_add(self.step[axis].saturating_mul(right))
+                .saturating_add(self.down[axis].saturating_mul(down))
         };
-        let (left, right) = extent(|corner| corner.column);
-        let (top, bottom) = extent(|corner| corner.row);
-        if beyond(left - MARGIN, right + MARGIN, &self.columns)
-            || beyond(top - MARGIN, bottom + MARGIN, &self.rows)
-        {
+        Position {
+            column: moved(from.column, 0),
+            row: moved(from.row, 1),
+        }
+    }
+
+    /// The value of all frame pixels that the positions of a square of canonical pixels read, if it
+    /// is one; `corner` is its first.
+    fn one_value(&self, mask: &Mask<'_>, corner: &Position, side: usize) -> Option<bool> {
+        let extent = |first: i32, axis: usize| {
+            let sides = [self.step[axis], self.down[axis]];
+            let sides = sides.map(|step| step.saturating_mul(side as i32 - 1));
+            let [a, b] = sides.map(|side| (side.min(0), side.max(0)));
+            let least = first.saturating_add(a.0).saturating_add(b.0);
+            let most = first.saturating_add(a.1).saturating_add(b.1);
+            (least.saturating_sub(MARGIN), most.saturating_add(MARGIN))
+        };
+        let (left, right) = extent(corner.column, 0);
+        let (top, bottom) = extent(corner.row, 1);
+        if beyond(left, right, &self.columns) || beyond(top, bottom, &self.rows) {
             return Some(false);
         }
         let pixel = |position: i32| usize::try_from(position >> PLACES);
-        let (left, top) = (pixel(left - MARGIN).ok()?, pixel(top - MARGIN).ok()?);
+        let (left, top) = (pixel(left).ok()?, pixel(top).ok()?);
         // A position reads the pixel after its own too.
-        let (right, bottom) = (
-            pixel(right + MARGIN).ok()? + 1,
-            pixel(bottom + MARGIN).ok()? + 1,
-        );
+        let (right, bottom) = (pixel(right).ok()? + 1, pixel(bottom).ok()? + 1);
         if right >= mask.width() || bottom >= mask.height() {
             return None;
         }
@@ -296,9 +329,11 @@ impl Sampler {
 
     /// One word of canonical pixels, from `right` and `up` of the canonical centre.
     fn word(&self, mask: &Mask<'_>, uniform: &Uniform, right: f64, up: f64) -> Word {
-        let mut word = uniform.set;
+        let (mut word, mut open) = (uniform.set, !uniform.known);
+        if open == 0 {
+            return word;
+        }
         let start = self.start(right, up);
-        let mut open = !uniform.known;
         while open != 0 {
             let bit = open.trailing_zeros();
             open &= open - 1;
@@ -342,32 +377,29 @@ impl Position {
     /// Whether the silhouette, interpolated between the four nearest centres, covers half.
     fn covered(&self, mask: &Mask<'_>) -> bool {
         let (column, row) = (self.column >> PLACES, self.row >> PLACES);
-        let [a, b] = pair(mask, column, row);
-        let [c, d] = pair(mask, column, row + 1);
-        if a == b && a == c && a == d {
-            return a == 1;
+        let square = match (usize::try_from(column), usize::try_from(row)) {
+            (Ok(column), Ok(row)) => mask.square(column, row),
+            _ => pair(mask, column, row) | pair(mask, column, row + 1) << 2,
+        };
+        if square == 0 || square == 0b1111 {
+            return square != 0;
         }
         let weight = |position: i32| (position as u32 >> 8) & 0xff;
         let (right, down) = (weight(self.column), weight(self.row));
-        let upper = a * (256 - right) + b * right;
-        let lower = c * (256 - right) + d * right;
+        let pixel = |bit: u32| square >> bit & 1;
+        let upper = pixel(0) * (256 - right) + pixel(1) * right;
+        let lower = pixel(2) * (256 - right) + pixel(3) * right;
         upper * (256 - down) + lower * down >= 1 << 15
     }
 }
 
-/// Two neighbouring pixels of a row as numbers; outside the mask they are 0.
-fn pair(mask: &Mask<'_>, column: i32, row: i32) -> [u32; 2] {
-    let row = usize::try_from(row).map_or(&[][..], |row| mask.row(row));
-    // Beyond the last column of a row the padding bits are 0.
-    let bit = |column: i32| {
-        let word = usize::try_from(column / WORD_BITS as i32).ok();
-        let word = word.and_then(|word| row.get(word)).copied();
-        word.map_or(0, |word| word >> (column as u32 % WORD_BITS as u32) & 1)
+/// Two neighbouring pixels of a row as bits; outside the mask none is set.
+fn pair(mask: &Mask<'_>, column: i32, row: i32) -> u32 {
+    let pixel = |column: i32| match (usize::try_from(column), usize::try_from(row)) {
+        (Ok(column), Ok(row)) => u32::from(mask.get(column, row)),
+        _ => 0,
     };
-    if column < 0 {
-        return [0, if column == -1 { bit(0) } else { 0 }];
-    }
-    [bit(column), bit(column + 1)]
+    pixel(column) | pixel(column + 1) << 1
 }
 
 #[cfg(test)]

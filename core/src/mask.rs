@@ -165,7 +165,15 @@ impl<'a> Mask<'a> {
         columns: core::ops::Range<usize>,
         value: bool,
     ) -> bool {
-        columns.is_empty() || next_bit(self.row(row), columns.start, !value) >= columns.end
+        let (words, first) = (self.row(row), columns.start);
+        if columns.len() > WORD_BITS {
+            return next_bit(words, first, !value) >= columns.end;
+        }
+        let word = |at: usize| u64::from(words.get(at).copied().unwrap_or(0));
+        let (at, shift) = (first / WORD_BITS, first % WORD_BITS);
+        let bits = (word(at) | word(at + 1) << WORD_BITS) >> shift;
+        let all = (1 << columns.len()) - 1;
+        bits & all == if value { all } else { 0 }
     }
 
     /// Number of pixels set.

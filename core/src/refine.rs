@@ -99,7 +99,8 @@ pub struct Refined {
     pub loss: f64,
     /// Times the model was drawn.
     pub renders: usize,
-    /// Whether the last step was below 0.001 degrees or 0.005 mm, or both together.
+    /// Whether the last step was below 0.001 degrees or 0.005 mm, or both together; on a grey frame,
+    /// a fiftieth of that.
     pub converged: bool,
 }
 

@@ -2,10 +2,12 @@
 
 mod from_here;
 mod landscape;
+mod nearest;
 mod one_click;
 
 pub use from_here::{HandFit, HiddenPixels};
 pub use landscape::{Landscape, ViewPose};
+pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { addFrames, addPoint, closeOutline, movePoint, setCalibration, setModel, type Place } from '../src/document/commands';
 import { Store } from '../src/document/store';
 import { cellOf, type Result } from '../src/document/types';
-import { Poser, REST } from '../src/engine/poser';
+import { LIVE, Poser, REST } from '../src/engine/poser';
 import type { Match, MatchInput } from '../src/engine/protocol';
 import { framePoint } from '../src/geometry/points';
 
@@ -15,12 +15,12 @@ interface Asked {
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
 
-function matchOf(x: number, residual: number | null): Match {
+function matchOf(x: number, residual: number | null, milliseconds = LIVE + 1): Match {
   const pose = { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
   const picture = { size: 1, input: new Uint8Array(1), view: new Uint8Array(1) };
   const candidates = [{ pose, unmatched: 5, drawn: 6, residual, deviations: null, start: null, atBorder: false, picture }];
   const choice = { reason: null, decided: false };
-  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds: 1 };
+  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds };
 }
 
 /** A store with a closed outline, ready for poses, and a worker that answers when the test says so. */
@@ -88,6 +88,20 @@ describe('poser', () => {
     await vi.advanceTimersByTimeAsync(REST);
     expect(methods().at(-1)).toBe('refine');
     expect(last().input.outline[0]).toBe(15);
+  });
+
+  it('refines while the outline keeps changing where that was quick the last time, and no longer where it was not', async () => {
+    const { store, last, methods } = bench();
+    await last().answer(matchOf(1, null));
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer(matchOf(1, 0.2, LIVE));
+    store.preview(moved(11));
+    await last().answer(matchOf(2, null));
+    expect(methods()).toEqual(['match', 'refine', 'match', 'refine']);
+    await last().answer(matchOf(2, 0.2, LIVE + 1));
+    store.preview(moved(12));
+    await last().answer(matchOf(3, null));
+    expect(methods().at(-1)).toBe('match');
   });
 
   it('drops a refinement for which there is a newer outline', async () => {

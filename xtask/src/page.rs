@@ -16,6 +16,8 @@ struct Module {
     features: &'static [&'static str],
     /// The folder of `web/src/pkg` for its JavaScript.
     folder: &'static str,
+    /// Built a second time for engines that have 128-bit vectors.
+    with_simd: bool,
 }
 
 /// They are built one by one: built together, cargo would unite the features of what they depend on.
@@ -25,17 +27,20 @@ const MODULES: [Module; 3] = [
         package: "fluoropose-wasm",
         features: &["--no-default-features"],
         folder: "page",
+        with_simd: false,
     },
     // All of the core, for workers.
     Module {
         package: "fluoropose-wasm",
         features: &[],
         folder: "core",
+        with_simd: true,
     },
     Module {
         package: "fluoropose-decode",
         features: &[],
         folder: "decode",
+        with_simd: false,
     },
 ];
 
@@ -61,27 +66,61 @@ pub fn build() -> Result<PathBuf> {
 pub fn build_wasm(web: &Path) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
     for module in &MODULES {
-        let file = build_module(&toolchain, module)?;
-        generate_bindings(&file, &web.join("src/pkg").join(module.folder))?;
+        let folder = web.join("src/pkg").join(module.folder);
+        let file = build_module(&toolchain, module, &workspace::target_dir(), &[])?;
+        generate_bindings(&file, &folder)?;
+        if module.with_simd {
+            add_simd(&toolchain, module, &folder)?;
+        }
     }
     Ok(())
 }
 
-fn build_module(toolchain: &Toolchain, module: &Module) -> Result<PathBuf> {
+/// Puts the module for engines with 128-bit vectors beside the plain one. It has no JavaScript of its own: both are
+/// entered in the same way, which is checked.
+fn add_simd(toolchain: &Toolchain, module: &Module, folder: &Path) -> Result<()> {
+    const WIDE: [&str; 2] = [
+        "--config",
+        "target.wasm32-unknown-unknown.rustflags=['-Ctarget-feature=+simd128']",
+    ];
+    // A folder of its own: other flags in the same one would have all of it built anew each time.
+    let target_dir = workspace::target_dir().join("simd");
+    let file = build_module(toolchain, module, &target_dir, &WIDE)?;
+    let bindings = target_dir.join("bindings");
+    generate_bindings(&file, &bindings)?;
+    let name = module.package.replace('-', "_");
+    let glue = |folder: &Path| std::fs::read(folder.join(format!("{name}.js")));
+    ensure!(
+        glue(&bindings)? == glue(folder)?,
+        "the JavaScript of {name} with SIMD differs from that without"
+    );
+    let wide = folder.join(format!("{name}_simd_bg.wasm"));
+    std::fs::copy(bindings.join(format!("{name}_bg.wasm")), wide)?;
+    Ok(())
+}
+
+fn build_module(
+    toolchain: &Toolchain,
+    module: &Module,
+    target_dir: &Path,
+    flags: &[&str],
+) -> Result<PathBuf> {
     let Module {
         package,
         features,
         folder,
+        ..
     } = module;
-    announce(&format!("building {package} for the page ({folder})"));
-    let target_dir = workspace::target_dir();
-    let mut cargo = toolchain.cargo("build", &target_dir);
+    let kind = if flags.is_empty() { "" } else { ", with SIMD" };
+    announce(&format!("building {package} for the page ({folder}{kind})"));
+    let mut cargo = toolchain.cargo("build", target_dir);
     cargo
         .args(["--profile", "wasm", "--lib", "--package", package])
-        .args(*features);
+        .args(*features)
+        .args(flags);
     command::run(&mut cargo)?;
     let file = format!("{}.wasm", package.replace('-', "_"));
-    Ok(toolchain.output_dir("wasm", &target_dir).join(file))
+    Ok(toolchain.output_dir("wasm", target_dir).join(file))
 }
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {

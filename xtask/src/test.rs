@@ -12,7 +12,7 @@ use crate::suite::{browser, firmware, native};
 /// with CI=true they count as failed, unless getting it was tried and its source did not have it.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Formatting, lints and the Rust tests on this machine; the core built for a microcontroller
+    /// Formatting, lints and the Rust tests on this machine
     #[arg(long)]
     native: bool,
     /// The page: types, unit tests, and the whole of it in headless Chromium

@@ -37,6 +37,8 @@ const SETTLED: f64 = 0.05;
 const GRAINED: f64 = 0.1;
 /// Polishing ends below this.
 const SMALL: f64 = 0.001;
+/// Edges of a grey frame have no grain: there, this part of all three.
+const WITHOUT_GRAIN: f64 = 0.02;
 
 /// What was seen at a pose.
 pub(super) struct Seen {
@@ -138,7 +140,7 @@ impl<'a> Problem<'a> {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if step.size() < SETTLED {
+            if step.size() < SETTLED * self.grain() {
                 break;
             }
             let mut next = *state;
@@ -155,7 +157,7 @@ impl<'a> Problem<'a> {
                 _ => {
                     damping *= 8.0;
                     seen.samples = None;
-                    if step.size() < GRAINED {
+                    if step.size() < GRAINED * self.grain() {
                         break;
                     }
                 }
@@ -188,7 +190,7 @@ impl<'a> Problem<'a> {
             }
             last = step.size();
             let step = step.scaled(share);
-            next.converged = step.size() < SMALL;
+            next.converged = step.size() < SMALL * self.grain();
             if next.converged {
                 break;
             }
@@ -203,6 +205,16 @@ impl<'a> Problem<'a> {
             trace(&seen.equations.iterate(pass, state));
         }
         Ok(())
+    }
+
+    /// How coarse the loss is, against that of silhouettes.
+    fn grain(&self) -> f64 {
+        let silhouette = |view: &View<'_>| matches!(view.target, Target::Silhouette(_));
+        if self.views.iter().all(silhouette) {
+            1.0
+        } else {
+            WITHOUT_GRAIN
+        }
     }
 
     /// Observes a pose, and counts the drawings.

@@ -4,6 +4,7 @@ import { drawn } from '../support/browser.mjs';
 import * as panel from '../support/panel.mjs';
 import { Stage } from '../support/stage.mjs';
 import { trueOutline } from '../support/study.mjs';
+import { quantile } from './speed.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('../support/study.mjs').Point} Point */
@@ -89,10 +90,4 @@ function figures(what, frames) {
     { work: `from frame to frame, ${what}, p95`, value: quantile(intervals, 0.95), unit: 'ms' },
     { work: `frames recorded, ${what}`, value: frames.length, unit: 'frames' },
   ];
-}
-
-/** @param {number[]} values @param {number} part */
-function quantile(values, part) {
-  const sorted = values.toSorted((a, b) => a - b);
-  return sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))] ?? NaN;
 }

@@ -5,6 +5,7 @@ import { browser, openWindow, visit } from '../support/browser.mjs';
 import { dragging, wiring } from './interaction.mjs';
 import { firstLoad, warmStart } from './loading.mjs';
 import { newUser } from './new_user.mjs';
+import { speed } from './speed.mjs';
 
 /** @typedef {{ work: string, value: number, unit: string }} Row */
 
@@ -14,6 +15,7 @@ if (!file) throw new Error('the file to write is not named: run `cargo xtask ben
 /** @type {Row[]} */
 const rows = [];
 for (const measurement of [firstLoad, warmStart, newUser, dragging, wiring]) rows.push(...(await measured(measurement)));
+rows.push(...(await speed()));
 await writeFile(file, JSON.stringify({ rows: rows.map(rounded) }));
 await (await browser()).close();
 
@@ -30,6 +32,6 @@ async function measured(measurement) {
 
 /** To what means something. @param {Row} row */
 function rounded({ work, value, unit }) {
-  const decimals = unit === 'ms' || unit === 's' ? 1 : 0;
-  return { work, value: Number(value.toFixed(decimals)), unit };
+  const whole = unit !== 'ms' && unit !== 's';
+  return { work, value: whole ? Math.round(value) : Number(value.toPrecision(3)), unit };
 }

@@ -52,14 +52,16 @@ const NOTHING_FOUND = { details: [], canonicalArea: 0, clipped: false, partial: 
 
 const NO_MODEL = texts.said.library.withoutModel;
 
-/** How long the outline on view has to be at rest before poses are refined, ms: refining would hold up a drag. */
+/** How long the outline on view has to be at rest before poses are refined, ms: refining would hold up a drag ... */
 export const REST = 120;
+/** ... unless the last time it took no longer than this: then the refined pose follows the drag. */
+export const LIVE = 30;
 
 /**
  * Keeps every closed outline's pose up to date: whenever the document changes it looks for a cell whose result does
  * not belong to its outline and asks the pose worker, one at a time, what is on view first. While a vertex is dragged
  * only the latest outline is ever asked for; an answer for an outline that is gone is dropped. Once every outline has
- * its pose and the one on view is at rest, poses are refined, in the same order.
+ * its pose and the one on view is at rest, or refining is quick, poses are refined, in the same order.
  */
 export class Poser {
   readonly #store: Store;
@@ -68,6 +70,8 @@ export class Poser {
   #busy = false;
   #shownOutline: Outline | null = null;
   #changedAt = -Infinity;
+  /** How long the last refinement took, ms. */
+  #refining = Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -103,9 +107,15 @@ export class Poser {
     if (this.#busy || this.#adopt()) return;
     const task = this.#find('match') ?? this.#find('refine');
     if (!task) return;
-    const rest = task.method === 'refine' ? this.#changedAt + REST - performance.now() : 0;
+    const rest = this.#restBefore(task);
     if (rest > 0) this.#timer = setTimeout(() => this.#next(), rest);
     else void this.#run(task);
+  }
+
+  /** How long to wait before a task, ms. */
+  #restBefore({ method, outline }: Task): number {
+    if (method === 'match' || (outline === this.#shownOutline && this.#refining <= LIVE)) return 0;
+    return this.#changedAt + REST - performance.now();
   }
 
   /**
@@ -199,6 +209,7 @@ export class Poser {
     const { candidates, canonicalArea, clipped, partial, milliseconds } = match;
     const details = candidates.map(({ pose, picture, atBorder, start }) => ({ pose, picture, atBorder, start }));
     const tried = task.method === 'refine';
+    if (tried) this.#refining = milliseconds;
     const refusal = refused ? NO_MODEL : null;
     this.#findings.set(outline, { key, details, canonicalArea, clipped, partial, milliseconds, tried, refusal });
     this.#apply(task, result);

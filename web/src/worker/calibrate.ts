@@ -1,11 +1,11 @@
-import init, { BeadGrid, fitDistortion } from '../pkg/core/fluoropose_wasm.js';
-import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+import { BeadGrid, fitDistortion } from '../pkg/core/fluoropose_wasm.js';
 import type { MeasuredDistortion } from '../document/measuring';
 import type { CalibrateProtocol, FoundGrid } from '../engine/calibrate_protocol';
+import { loadCore } from './core_module';
 import { serve } from './serve';
 
 /** Finds bead grids, away from the page: a large picture takes a second. */
-const ready = init({ module_or_path: wasmAddress });
+const ready = loadCore();
 
 type Numbers = Float64Array<ArrayBuffer>;
 

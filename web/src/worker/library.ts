@@ -1,11 +1,11 @@
-import init, { LibraryBuilder, LibraryViews } from '../pkg/core/fluoropose_wasm.js';
-import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+import { LibraryBuilder, LibraryViews } from '../pkg/core/fluoropose_wasm.js';
 import type { LibrarySpec } from '../document/types';
 import type { LibraryProtocol } from '../engine/protocol';
+import { loadCore } from './core_module';
 import { serve, Transferred } from './serve';
 
 /** Builds one library, some views at a time, so that it can report and be stopped. */
-const ready = init({ module_or_path: wasmAddress });
+const ready = loadCore();
 
 /** About this long between two reports. */
 const SLICE_MILLISECONDS = 40;

@@ -1,13 +1,13 @@
 import { strToU8, zipSync, type Zippable } from 'fflate';
-import initCore, { maskOfOutline, outlineOfMask } from '../pkg/core/fluoropose_wasm.js';
-import coreAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+import { maskOfOutline, outlineOfMask } from '../pkg/core/fluoropose_wasm.js';
 import initDecode, { encodeMask, FrameFile } from '../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { MaskLabel, MaskPage, MasksProtocol } from '../engine/exchange/protocol';
+import { loadCore } from './core_module';
 import { serve, Transferred, type Context } from './serve';
 
 /** Masks to outlines and outlines to masks, with both modules: one decodes and encodes, the other follows and fills. */
-const ready = Promise.all([initCore({ module_or_path: coreAddress }), initDecode({ module_or_path: decodeAddress })]);
+const ready = Promise.all([loadCore(), initDecode({ module_or_path: decodeAddress })]);
 
 type Buffered = Float64Array<ArrayBuffer>;
 

@@ -1,14 +1,14 @@
-import init, { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
-import wasmAddress from '../pkg/core/fluoropose_wasm_bg.wasm?url';
+import { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../document/types';
 import { poseArray, poseFrom } from '../engine/pose_array';
 import type { Bend, ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
 import { byHand } from './by_hand';
 import { oneClick } from './one_click';
+import { loadCore } from './core_module';
 import { serve } from './serve';
 
 /** Holds both components' libraries and finds poses in them. */
-const ready = init({ module_or_path: wasmAddress });
+const ready = loadCore();
 const matchers = new Map<ComponentName, Matcher>();
 
 serve<PoseProtocol>({

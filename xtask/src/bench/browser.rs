@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use super::Figures;
 use crate::setup::{announce, command, node, programs};
 use crate::static_server::Server;
-use crate::{page, workspace};
+use crate::{package, page, workspace};
 
 /// Builds the page, serves it and has it driven.
 ///
@@ -16,6 +16,7 @@ use crate::{page, workspace};
 pub(super) fn measure() -> Result<Figures> {
     let chromium = programs::chromium()?;
     let dist = page::build()?;
+    package::make(&dist, &package::usual_folder())?;
     let folder = workspace::root().join("tests/browser");
     node::install(&folder)?;
     let server = Server::start(&dist, 0)?;
@@ -25,7 +26,8 @@ pub(super) fn measure() -> Result<Figures> {
     driver.arg("bench/main.mjs").arg(&file).current_dir(&folder);
     driver
         .env("FLUOROPOSE_URL", server.url())
-        .env("FLUOROPOSE_CHROMIUM", chromium);
+        .env("FLUOROPOSE_CHROMIUM", chromium)
+        .env("FLUOROPOSE_PACKAGE", package::usual_folder());
     command::run(&mut driver)?;
     let text =
         fs::read_to_string(&file).with_context(|| format!("cannot read {}", file.display()))?;

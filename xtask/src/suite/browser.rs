@@ -72,7 +72,8 @@ fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<String> {
     let server = Server::start(dist, 0)?;
     let mut tests = Command::new(node);
     tests
-        .args(["--test", "--test-reporter=spec"])
+        // A page waits for its workers half of the time.
+        .args(["--test", "--test-reporter=spec", "--test-concurrency=2"])
         .current_dir(&folder)
         .env("FLUOROPOSE_URL", server.url())
         .env("FLUOROPOSE_PACKAGE", package::usual_folder());

@@ -1,4 +1,4 @@
-//! Formatting, lints and the Rust tests on this machine; the core built for a microcontroller.
+//! Formatting, lints and the Rust tests on this machine.
 
 use std::process::Command;
 
@@ -8,8 +8,7 @@ use super::counts;
 use super::report::Report;
 use crate::setup::command;
 use crate::setup::components;
-use crate::setup::rust_target::{self, own_cargo};
-use crate::workspace;
+use crate::setup::rust_target::own_cargo;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
@@ -47,14 +46,6 @@ pub fn run(report: &mut Report) {
                 .args(CHECKED),
         )
     });
-    report.step("native: tests of the core with micromath", || {
-        let core = ["test", "--package", "fluoropose", "--features", "micromath"];
-        tests(own_cargo().args(core).args(CHECKED))
-    });
-    report.step("native: core built for Cortex-M4F", || build_core(&[]));
-    report.step("native: core built for Cortex-M4F with micromath", || {
-        build_core(&["--features", "micromath"])
-    });
 }
 
 fn quiet(command: &mut Command) -> Result<String> {
@@ -66,14 +57,4 @@ pub fn tests(cargo: &mut Command) -> Result<String> {
     let (success, output) = command::tee(cargo)?;
     ensure!(success, "`cargo test` failed; its output above says where");
     counts::of_cargo(&output)
-}
-
-fn build_core(features: &[&str]) -> Result<String> {
-    let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
-    let mut cargo = toolchain.cargo("build", &workspace::target_dir());
-    quiet(
-        cargo
-            .args(["--release", "--package", "fluoropose", "--lib"])
-            .args(features),
-    )
 }
