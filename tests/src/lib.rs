@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Mesh;
 use xtask::implant::{self, Parameters, Triangles};
+use xtask::pipeline::files::Surface;
 
 /// Set to 1 to rewrite golden masks and snapshots instead of comparing with them.
 pub const REGENERATE: &str = "FLUOROPOSE_REGENERATE";
@@ -60,7 +61,12 @@ pub fn tibia() -> Triangles {
     implant::tibia(&Parameters::default()).expect("the usual size is possible")
 }
 
-/// A mesh of the core over a built-in implant.
+/// A built-in implant with its edges, as it is drawn wherever poses are found.
+pub fn surface(triangles: Triangles) -> Surface {
+    Surface::try_from(triangles).expect("built-in implants are valid")
+}
+
+/// A mesh of the core over a built-in implant, without edges.
 pub fn mesh(triangles: &Triangles) -> Mesh<'_> {
     Mesh::new(&triangles.vertices, &triangles.triangles).expect("built-in implants are valid")
 }

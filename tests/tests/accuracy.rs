@@ -3,11 +3,11 @@
 
 use std::fmt::Write as _;
 
-use fluoropose_tests::{assert_snapshot, camera, femur, mesh, study, tibia};
+use fluoropose_tests::{assert_snapshot, camera, femur, study, surface, tibia};
 use xtask::evaluate::{Request, Row, evaluate};
-use xtask::implant::Triangles;
 use xtask::pipeline::build::ViewOptions;
 use xtask::pipeline::disturb::DisturbanceOptions;
+use xtask::pipeline::files::Surface;
 use xtask::pipeline::finder::Method;
 use xtask::synthetic::{Accuracy, Protocol, measure};
 
@@ -48,7 +48,7 @@ fn noises() -> [Noise; 3] {
     ]
 }
 
-fn accuracy_of(model: &Triangles, method: Method, noise: &Noise) -> Accuracy {
+fn accuracy_of(model: &Surface, method: Method, noise: &Noise) -> Accuracy {
     let protocol = Protocol {
         method,
         distance: 1084.0,
@@ -57,13 +57,14 @@ fn accuracy_of(model: &Triangles, method: Method, noise: &Noise) -> Accuracy {
         disturbance: noise.disturbance,
     };
     let views = ViewOptions::default();
-    measure(mesh(model), camera(), &views, &protocol).expect("poses are found")
+    let mesh = model.mesh().expect("a mesh");
+    measure(mesh, camera(), &views, &protocol).expect("poses are found")
 }
 
 /// A part and what is asked of it.
 struct Part {
     name: &'static str,
-    model: Triangles,
+    model: Surface,
     /// Method library, no noise, mean absolute errors: rotation in and out of plane (degrees),
     /// translation in and out of plane (mm).
     library: [f64; 4],
@@ -78,14 +79,14 @@ fn parts() -> [Part; 2] {
     [
         Part {
             name: "femur",
-            model: femur(),
+            model: surface(femur()),
             library: [0.10, 0.10, 0.06, 1.5],
             refined: [0.02, 0.01, 0.25],
             occluded: 95,
         },
         Part {
             name: "tibia",
-            model: tibia(),
+            model: surface(tibia()),
             library: [0.20, 0.25, 0.10, 3.0],
             refined: [0.04, 0.015, 0.45],
             occluded: 90,

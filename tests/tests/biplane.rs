@@ -1,6 +1,6 @@
 //! Two cameras see one implant: depth is known as well as what lies in the plane.
 
-use fluoropose_tests::{camera, mesh, tibia};
+use fluoropose_tests::{camera, surface, tibia};
 use xtask::pipeline::build::ViewOptions;
 use xtask::pipeline::disturb::DisturbanceOptions;
 use xtask::pipeline::finder::Method;
@@ -16,14 +16,15 @@ fn depth_is_as_good_as_the_plane() {
         seed: 11,
         disturbance: DisturbanceOptions::default(),
     };
-    let model = tibia();
+    let model = surface(tibia());
+    let mesh = model.mesh().expect("a mesh");
     let measure = |biplane| {
         let variant = Variant {
             biplane,
             ..Variant::default()
         };
         let views = ViewOptions::default();
-        measure_as(mesh(&model), camera(), &views, &protocol, variant).expect("poses are found")
+        measure_as(mesh, camera(), &views, &protocol, variant).expect("poses are found")
     };
     let (one, two) = (measure(None).median, measure(Some(70.0)).median);
     assert!(two.z_mm < 2.0 * two.x_mm.max(two.y_mm), "{two:?}");

@@ -14,8 +14,7 @@ use fluoropose::refine::{RefineOptions, View};
 use fluoropose::rivals::worth_refining;
 use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::Verified;
-use fluoropose_tests::{camera, femur, mesh, tibia};
-use xtask::implant::Triangles;
+use fluoropose_tests::{camera, femur, surface, tibia};
 use xtask::pipeline::build::{ViewOptions, build_library};
 use xtask::pipeline::disturb::DisturbanceOptions;
 use xtask::pipeline::files::MaskBuffer;
@@ -120,9 +119,9 @@ fn assert_found(
 
 /// Calls `check` with a part's name, mesh and library.
 fn for_parts(check: impl Fn(&str, &Mesh<'_>, &Library<'_>)) {
-    let parts: [(&str, Triangles); 2] = [("femur", femur()), ("tibia", tibia())];
+    let parts = [("femur", surface(femur())), ("tibia", surface(tibia()))];
     for (name, model) in &parts {
-        let mesh = mesh(model);
+        let mesh = model.mesh().expect("a mesh");
         let built = build_library(mesh, camera(), &ViewOptions::default(), DISTANCE);
         let bytes = built.expect("renders").bytes;
         check(name, &mesh, &Library::open(&bytes).expect("valid"));

@@ -67,7 +67,7 @@ pub fn build_wasm(web: &Path) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
     for module in &MODULES {
         let folder = web.join("src/pkg").join(module.folder);
-        let file = build_module(&toolchain, module, &workspace::target_dir(), &[])?;
+        let file = build_module(&toolchain, module, &[])?;
         generate_bindings(&file, &folder)?;
         if module.with_simd {
             add_simd(&toolchain, module, &folder)?;
@@ -83,10 +83,8 @@ fn add_simd(toolchain: &Toolchain, module: &Module, folder: &Path) -> Result<()>
         "--config",
         "target.wasm32-unknown-unknown.rustflags=['-Ctarget-feature=+simd128']",
     ];
-    // A folder of its own: other flags in the same one would have all of it built anew each time.
-    let target_dir = workspace::target_dir().join("simd");
-    let file = build_module(toolchain, module, &target_dir, &WIDE)?;
-    let bindings = target_dir.join("bindings");
+    let file = build_module(toolchain, module, &WIDE)?;
+    let bindings = workspace::target_dir().join("simd-bindings");
     generate_bindings(&file, &bindings)?;
     let name = module.package.replace('-', "_");
     let glue = |folder: &Path| std::fs::read(folder.join(format!("{name}.js")));
@@ -99,12 +97,7 @@ fn add_simd(toolchain: &Toolchain, module: &Module, folder: &Path) -> Result<()>
     Ok(())
 }
 
-fn build_module(
-    toolchain: &Toolchain,
-    module: &Module,
-    target_dir: &Path,
-    flags: &[&str],
-) -> Result<PathBuf> {
+fn build_module(toolchain: &Toolchain, module: &Module, flags: &[&str]) -> Result<PathBuf> {
     let Module {
         package,
         features,
@@ -113,14 +106,15 @@ fn build_module(
     } = module;
     let kind = if flags.is_empty() { "" } else { ", with SIMD" };
     announce(&format!("building {package} for the page ({folder}{kind})"));
-    let mut cargo = toolchain.cargo("build", target_dir);
+    let target_dir = workspace::target_dir();
+    let mut cargo = toolchain.cargo("build", &target_dir);
     cargo
         .args(["--profile", "wasm", "--lib", "--package", package])
         .args(*features)
         .args(flags);
     command::run(&mut cargo)?;
     let file = format!("{}.wasm", package.replace('-', "_"));
-    Ok(toolchain.output_dir("wasm", target_dir).join(file))
+    Ok(toolchain.output_dir("wasm", &target_dir).join(file))
 }
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {

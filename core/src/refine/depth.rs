@@ -1,9 +1,11 @@
 //! The depth of the surface behind the occluding contour.
 //!
-//! Where the model was drawn from its silhouette edges, they are the contour: a border pixel has the
-//! depth of the point nearest to it. Otherwise front and back of the surface meet there, and
-//! the depth is the middle of all that covers the border pixel, so holes and mixed winding do not
-//! matter.
+//! Where the model was drawn from its silhouette edges, they are the contour, and the depth is the
+//! middle of all edges in and beside a border pixel. The nearest alone would be truer and worse: of a
+//! plate seen edge-on now the front rim and now the back one is nearest, and refinement stops where
+//! they change places (starts 2 degrees off stayed 1.5 degrees off). Otherwise front and back of
+//! the surface meet at the contour, and the depth is the middle of all that covers the border pixel,
+//! so holes and mixed winding do not matter.
 
 use core::ops::Range;
 
@@ -31,7 +33,7 @@ impl Outliner<'_> {
         }
     }
 
-    /// Lends an edge's depth to the border pixels that are nearer to it than to those before.
+    /// Lends an edge's depth to the border pixels that it passes.
     fn lay_edge(
         &self,
         depths: [f32; 2],
@@ -68,7 +70,7 @@ impl Outliner<'_> {
             let three = places.get(first..first + 3).unwrap_or_default();
             for (&place, at) in three.iter().zip(left..) {
                 if let Some(pixel) = listed(border, place, at, row_at) {
-                    pixel.lay(depth, [column, row]);
+                    pixel.cover(depth);
                 }
             }
         }
@@ -276,9 +278,9 @@ mod tests {
         assert_eq!(by_edges.len(), by_triangles.len());
         for ((place, edge), (other, triangle)) in by_edges.iter().zip(&by_triangles) {
             assert_eq!(place, other);
-            // Facets are 1.6 mm wide, and a pixel inside the contour the sphere is 3 mm nearer and
-            // farther.
-            assert!((edge - truth).abs() < 1.7, "{edge} for {truth}");
+            // The contour goes to and fro over two rows of facets of 1.6 mm; a pixel inside it the
+            // sphere is 3 mm nearer and farther.
+            assert!((edge - truth).abs() < 3.2, "{edge} for {truth}");
             assert!((triangle - truth).abs() < 3.5, "{triangle} for {truth}");
         }
     }

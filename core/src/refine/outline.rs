@@ -24,8 +24,6 @@ pub struct BorderPixel {
     /// Least and greatest distance of the surface from the camera plane, mm.
     near: f32,
     far: f32,
-    /// Squared distance of the pixel's centre from the contour's point that gave it, square pixels.
-    aside: f32,
     pub(super) residual: Residual,
     /// How fast the outline moves along the normal with each parameter of a step.
     pub(super) jacobian: [f32; 6],
@@ -95,18 +93,7 @@ impl BorderPixel {
         (usize::from(self.column), usize::from(self.row)) == (column, row)
     }
 
-    /// A point of the contour, which counts where none was nearer.
-    pub(super) fn lay(&mut self, depth: f32, [column, row]: [f32; 2]) {
-        let right = column - f32::from(self.column) - 0.5;
-        let down = row - f32::from(self.row) - 0.5;
-        let aside = right * right + down * down;
-        if aside < self.aside {
-            self.aside = aside;
-            (self.near, self.far) = (depth, depth);
-        }
-    }
-
-    /// A piece of the surface that covers the pixel.
+    /// A piece of the surface or of the contour that covers the pixel.
     pub(super) fn cover(&mut self, depth: f32) {
         self.near = self.near.min(depth);
         self.far = self.far.max(depth);
@@ -247,7 +234,6 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         weight: weight as f32,
         near: f32::INFINITY,
         far: 0.0,
-        aside: f32::INFINITY,
         residual: Residual::None,
         jacobian: [0.0; 6],
     })
