@@ -136,8 +136,8 @@ impl Edge {
 /// Most triangles of a CAD model are smaller than a pixel and cover none.
 pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [core::ops::Range<i32>; 2] {
     let range = |of: fn(FixedPoint) -> i32| {
-        let [a, b, c] = corners.map(|corner| first_centre(of(corner)));
-        a.min(b).min(c)..a.max(b).max(c)
+        let [a, b, c] = corners.map(of);
+        first_centre(a.min(b).min(c))..first_centre(a.max(b).max(c))
     };
     [range(|corner| corner.column), range(|corner| corner.row)]
 }

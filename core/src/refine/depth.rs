@@ -9,7 +9,7 @@
 
 use core::ops::Range;
 
-use super::outline::{BorderPixel, Outliner};
+use super::outline::{BorderPixel, Depth, Outliner};
 use crate::math::dot;
 use crate::raster::{Projected, contour, for_each_span};
 use crate::scan::pixel_box;
@@ -22,7 +22,11 @@ impl Outliner<'_> {
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        match contour(self.mesh, projected) {
+        let edges = match self.depth {
+            Depth::Edges => contour(self.mesh, projected),
+            Depth::Surface => None,
+        };
+        match edges {
             Some(edges) => {
                 for (vertices, images) in edges {
                     let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
@@ -255,6 +259,7 @@ mod tests {
             mesh,
             pose: &pose,
             drawn: &drawn,
+            depth: Depth::Edges,
         };
         // What the memory held before does not matter.
         let mut places = vec![7; SIDE * SIDE];

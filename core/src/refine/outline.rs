@@ -6,6 +6,7 @@
 use super::probe::Found;
 use super::solve::Equations;
 use super::stages::Stage;
+use super::view::Target;
 use crate::mask::{Mask, WORD_BITS, Word};
 use crate::math::sqrt;
 use crate::mesh::Mesh;
@@ -105,11 +106,33 @@ impl BorderPixel {
     }
 }
 
+/// Where the depth of the contour is taken from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Depth {
+    /// The silhouette edges, where the model is drawn from them: found twice as soon.
+    Edges,
+    /// All triangles.
+    Surface,
+}
+
+impl Depth {
+    /// Against a silhouette both end alike within their uncertainty, and from further away with edges.
+    /// Against a grey frame refinement ends less dependent on its start with the surface: 0.07 instead
+    /// of 0.10 degrees on a real tibia.
+    pub(super) fn of(target: &Target<'_>) -> Self {
+        match target {
+            Target::Silhouette(_) => Self::Edges,
+            Target::Image(_) => Self::Surface,
+        }
+    }
+}
+
 /// A model as drawn at a pose.
 pub(super) struct Outliner<'a> {
     pub(super) mesh: &'a Mesh<'a>,
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
+    pub(super) depth: Depth,
 }
 
 impl Outliner<'_> {

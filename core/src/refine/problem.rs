@@ -2,7 +2,7 @@
 
 use super::edge;
 use super::locks::{Hold, Locks};
-use super::outline::{BorderPixel, Outliner, Residual};
+use super::outline::{BorderPixel, Depth, Outliner, Residual};
 use super::probe::{self, Found};
 use super::solve::{Equations, Step};
 use super::stages::{POLISHING, STEPS, Stage};
@@ -292,6 +292,7 @@ impl<'a> Problem<'a> {
             mesh: self.mesh,
             pose: &pose,
             drawn: &drawn,
+            depth: Depth::of(&view.target),
         };
         let places = memory.places.get_mut(..width * height);
         let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);

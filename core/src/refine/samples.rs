@@ -1,6 +1,6 @@
 //! The occluding contour as samples: what bounds and tests need of it.
 
-use super::outline::Outliner;
+use super::outline::{Depth, Outliner};
 use super::probe::{self, Found};
 use super::problem::OWN_RANGE;
 use super::solve::Step;
@@ -49,6 +49,7 @@ pub fn outline_samples(
         mesh,
         pose,
         drawn: &drawn,
+        depth: Depth::Edges,
     };
     let places = memory.places.get_mut(..width * height);
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
