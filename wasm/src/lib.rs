@@ -63,7 +63,10 @@ pub use kinematics::joint_motion;
 pub use library::{LibraryBuilder, LibraryViews};
 pub use library_check::check_library;
 #[cfg(feature = "workers")]
-pub use matcher::{HandFit, HiddenPixels, Landscape, Matcher, OneClick, OneClickAnswer, ViewPose};
+pub use matcher::{
+    Canonical, HandFit, HiddenPixels, Landscape, Matcher, NearestView, OneClick, OneClickAnswer,
+    ViewPose,
+};
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use unmatched::paint_unmatched;

@@ -69,7 +69,8 @@ impl Model {
         self.render(&camera, &pose)
     }
 
-    /// Paints the silhouette in one opaque colour (`0xRRGGBB`), one canvas pixel a pixel. The canvas is not cleared.
+    /// Paints the silhouette in one opaque colour (`0xRRGGBB`), one canvas pixel a pixel. The canvas is not cleared. Gives
+    /// the smallest box round what was painted: column, row, width and height; empty where there is nothing.
     ///
     /// # Errors
     /// What the canvas throws.
@@ -79,14 +80,16 @@ impl Model {
         width: u32,
         height: u32,
         rgb: u32,
-    ) -> Result<(), JsValue> {
+    ) -> Result<Vec<u32>, JsValue> {
         let Ok(mask) = Mask::new(&self.masks[0], width as usize, height as usize) else {
-            return Ok(());
+            return Ok(Vec::new());
         };
         let Some((column, row, box_width, rgba)) = cut_out(&mask, opaque(rgb)) else {
-            return Ok(());
+            return Ok(Vec::new());
         };
-        put(context, &rgba, box_width, column, row)
+        put(context, &rgba, box_width, column, row)?;
+        let sides = [column, row, box_width, rgba.len() / box_width];
+        Ok(sides.map(|side| side as u32).to_vec())
     }
 
     /// The border of the silhouette's largest region, columns and rows by turns, along the cracks between pixels; empty

@@ -43,6 +43,20 @@ interface HeldModel {
   readonly model: Model;
 }
 
+/** Part of a canvas, its pixels. */
+export interface Box extends Size {
+  readonly left: number;
+  readonly top: number;
+}
+
+/** A silhouette on a canvas of the frame's size. */
+interface PaintedSilhouette {
+  /** Columns and rows of its corners by turns. */
+  readonly border: Float64Array;
+  /** What was painted on. */
+  readonly box: Box;
+}
+
 /**
  * The core on the page's own thread: holds pixels and models in WASM memory and paints them. Matching is the pose
  * worker's work.
@@ -145,18 +159,18 @@ export class Studio {
     camera: CameraInput,
     pose: PoseNumbers,
     rgb: number,
-  ): Float64Array | null {
+  ): PaintedSilhouette | null {
     const model = this.#models.get(sha256)?.model;
     if (!model) return null;
     const { text, width, height, bend } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));
     context.clearRect(0, 0, width, height);
-    model.paint(context, width, height, rgb);
+    const [left = 0, top = 0, across = 0, down = 0] = model.paint(context, width, height, rgb);
     const border = model.border(width, height);
-    if (!bend) return border;
+    if (!bend) return { border, box: { left, top, width: across, height: down } };
     const bender = this.#benderOf(bend);
     bender.picture(context, width, height);
-    return border && bender.border(border);
+    return { border: border && bender.border(border), box: { left: 0, top: 0, width, height } };
   }
 
   #benderOf({ key, numbers }: Bend): Bender {

@@ -1,6 +1,6 @@
 import type { ComponentName } from '../document/types';
 import { distance, type CanvasPoint } from '../geometry/points';
-import type { Size, Viewport } from '../geometry/viewport';
+import type { Viewport } from '../geometry/viewport';
 import type { Hit } from '../interaction/hit';
 import { COMPONENT_COLOURS } from './colours';
 import type { OverlayLayer } from './layers';
@@ -11,19 +11,20 @@ type Context = CanvasRenderingContext2D;
 const HALO = 'rgb(0 0 0 / 0.55)';
 const TAU = 2 * Math.PI;
 
-export function drawSilhouette(context: Context, view: Viewport, overlay: OverlayLayer, frame: Size, opacity: number): void {
-  if (!overlay.border || opacity === 0) return;
+export function drawSilhouette(context: Context, view: Viewport, { border, box, canvas, component }: OverlayLayer, opacity: number): void {
+  if (!border || !box || opacity === 0) return;
   context.save();
   context.translate(view.left, view.top);
   context.scale(view.scale, view.scale);
   context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
   context.globalAlpha = opacity;
-  context.drawImage(overlay.canvas, 0, 0, frame.width, frame.height);
+  // The box alone: without a graphics card an empty pixel costs as much as a full one.
+  const { left, top, width, height } = box;
+  if (width > 0) context.drawImage(canvas, left, top, width, height, left, top, width, height);
   context.globalAlpha = Math.min(1, opacity * 2);
-  context.lineJoin = 'round';
   context.lineWidth = 1.25 / view.scale;
-  context.strokeStyle = COMPONENT_COLOURS[overlay.component].light;
-  context.stroke(overlay.border);
+  context.strokeStyle = COMPONENT_COLOURS[component].light;
+  context.stroke(border);
   context.restore();
 }
 

@@ -1,7 +1,7 @@
 import type { FilmLook } from '../document/seeing';
 import type { Candidate, ComponentName, GreyWindow } from '../document/types';
 import type { CameraInput } from '../engine/protocol';
-import type { Studio } from '../engine/studio';
+import type { Box, Studio } from '../engine/studio';
 import { COMPONENT_COLOURS } from './colours';
 
 /** A canvas of the frame's own size, painted by WASM and kept until what it shows changes. */
@@ -44,6 +44,8 @@ export class FilmLayer extends Layer {
 export class OverlayLayer extends Layer {
   /** In frame coordinates; null while there is nothing to show. */
   border: Path2D | null = null;
+  /** The part of the canvas that the silhouette is in. */
+  box: Box | null = null;
   #candidate: Candidate | null = null;
   #camera = '';
   #model = '';
@@ -68,8 +70,9 @@ export class OverlayLayer extends Layer {
     this.resize(camera.width, camera.height);
     try {
       const { rgb } = COMPONENT_COLOURS[this.component];
-      const corners = studio.paintSilhouette(this.context, model, camera, candidate.pose, rgb);
-      this.border = corners && polygon(corners);
+      const painted = studio.paintSilhouette(this.context, model, camera, candidate.pose, rgb);
+      this.border = painted && polygon(painted.border);
+      this.box = painted && painted.box;
       return null;
     } catch (error) {
       return error instanceof Error ? error.message : String(error);

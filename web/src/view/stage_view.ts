@@ -207,7 +207,7 @@ export class StageView {
     if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
       this.#updateOverlay(overlay, doc, frame);
-      if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, frame, overlayOpacity);
+      if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, overlayOpacity);
     }
     this.#reference.draw(context, state, this.#studio, frame, view);
     drawGhosts(context, state, view);
@@ -218,10 +218,10 @@ export class StageView {
   }
 
   /** As an outline, filled, or shaded where that can be drawn. */
-  #drawModel(context: CanvasRenderingContext2D, state: State, view: Viewport, overlay: OverlayLayer, frame: FrameEntry, opacity: number): void {
+  #drawModel(context: CanvasRenderingContext2D, state: State, view: Viewport, overlay: OverlayLayer, opacity: number): void {
     if (!overlay.border || opacity === 0) return;
     const { overlay: look } = state.ui.seeing;
-    if (look === 'fill') return drawSilhouette(context, view, overlay, frame, opacity);
+    if (look === 'fill') return drawSilhouette(context, view, overlay, opacity);
     strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].light);
   }
 
