@@ -92,9 +92,10 @@ async function marks(page) {
   await page.keyboard.press('Shift+y');
   await cell(page, 'Frame 2, femur: pose loaded, checked, flagged').waitFor();
   await page.keyboard.press('Shift+j');
+  const note = page.getByRole('textbox', { name: 'Note on frame 2, femur' });
+  await until(() => note.evaluate((field) => field === document.activeElement), (focused) => focused, 'the note to be in hand');
   await page.keyboard.type('rim hidden');
   await page.keyboard.press('Enter');
-  const note = page.getByRole('textbox', { name: 'Note on frame 2, femur' });
   assert.equal(await note.inputValue(), 'rim hidden');
   for (const left of ['pose loaded, checked, flagged', 'pose loaded, checked', 'pose loaded']) {
     await page.keyboard.press('Control+z');
@@ -123,7 +124,7 @@ async function list(page) {
   await page.keyboard.press('j');
   const sheet = page.getByRole('dialog', { name: 'Work list' });
   const rows = sheet.getByRole('table', { name: 'Work list' }).getByRole('row');
-  assert.equal(await rows.count(), 1 + 16);
+  await until(() => rows.count(), (count) => count === 1 + 16, 'a row for each component of each frame');
   await sheet.getByRole('radio', { name: 'Unfinished 10' }).click();
   await until(() => rows.count(), (count) => count === 1 + 10, 'ten rows');
   await sheet.getByRole('radio', { name: 'Unchecked 6' }).waitFor();
