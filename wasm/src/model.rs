@@ -27,6 +27,8 @@ pub struct Model {
     /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
     masks: [Vec<Word>; 4],
     border: Box<Contour<BORDER_CORNERS>>,
+    /// The border encloses all that is drawn and nothing else.
+    whole: bool,
 }
 
 #[wasm_bindgen]
@@ -43,6 +45,7 @@ impl Model {
             surface,
             masks: Default::default(),
             border: Box::default(),
+            whole: false,
         })
     }
 
@@ -99,6 +102,7 @@ impl Model {
     /// The core's sentence for a border with more corners than the page draws.
     pub fn border(&mut self, width: u32, height: u32) -> Result<Vec<f64>, JsError> {
         let (width, height) = (width as usize, height as usize);
+        self.whole = false;
         let [drawn, rest, current, largest] = &mut self.masks;
         let Ok(drawn) = Mask::new(drawn, width, height) else {
             return Ok(Vec::new());
@@ -106,20 +110,34 @@ impl Model {
         if drawn.area() == 0 {
             return Ok(Vec::new());
         }
+        follow_border(&drawn, self.border.as_mut()).map_err(sentence)?;
+        self.whole = bounds_all(&self.border, &drawn);
+        if self.whole {
+            return Ok(self.border_numbers());
+        }
         let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
         let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
         let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
         largest_region(&drawn, &mut rest, &mut current, &mut largest);
         follow_border(&largest.as_mask(), self.border.as_mut()).map_err(sentence)?;
-        Ok(self
-            .border
-            .iter()
-            .flat_map(|&Point { column, row }| [column, row])
-            .collect())
+        Ok(self.border_numbers())
+    }
+
+    /// Does the last border enclose all that is drawn and nothing else? Then to fill it is to paint the silhouette.
+    #[wasm_bindgen(getter, js_name = borderIsWhole)]
+    pub fn border_is_whole(&self) -> bool {
+        self.whole
     }
 }
 
 impl Model {
+    fn border_numbers(&self) -> Vec<f64> {
+        let points = self.border.iter();
+        points
+            .flat_map(|&Point { column, row }| [column, row])
+            .collect()
+    }
+
     fn render(&mut self, camera: &Camera, pose: &Pose) -> Result<(), JsError> {
         let words = words_needed(camera.width(), camera.height());
         for mask in &mut self.masks {
@@ -153,9 +171,54 @@ fn cut_out(mask: &Mask<'_>, colour: u32) -> Option<(usize, usize, usize, Vec<u32
     Some((left, top, width, rgba))
 }
 
+/// Is the border of one region all that bounds the mask? Every run of pixels has a crack at its left end and one at its
+/// right; holes and other regions have some that the border does not go along.
+fn bounds_all(border: &[Point], mask: &Mask<'_>) -> bool {
+    let next = border.iter().cycle().skip(1);
+    let upright: f64 = border
+        .iter()
+        .zip(next)
+        .map(|(a, b)| (a.row - b.row).abs())
+        .sum();
+    let runs: usize = (0..mask.height()).map(|row| mask.runs(row).count()).sum();
+    upright == 2.0 * runs as f64
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A square plate of two triangles at 200 mm from the focus, with others of the same size beside or behind it.
+    fn plates(offsets: &[[f32; 3]]) -> Model {
+        let corners = [[-10.0, -10.0], [10.0, -10.0], [10.0, 10.0], [-10.0, 10.0]];
+        let vertices = offsets
+            .iter()
+            .flat_map(|[x, y, z]| corners.map(|[right, up]| [right + x, up + y, *z]).concat());
+        let triangles = (0..offsets.len() as u32)
+            .flat_map(|plate| [0, 1, 2, 0, 2, 3].map(|corner| 4 * plate + corner));
+        Model::new(
+            &vertices.collect::<Vec<_>>(),
+            &triangles.collect::<Vec<_>>(),
+        )
+        .unwrap()
+    }
+
+    const CALIBRATION: &str = "JT_INTCALIB\n1000\n0\n0\n1\n";
+
+    #[test]
+    fn one_plate_is_whole_and_two_beside_each_other_are_not() {
+        let pose = [0.0, 0.0, -200.0, 0.0, 0.0, 0.0];
+        for (offsets, whole) in [
+            (&[[0.0; 3]][..], true),
+            (&[[0.0; 3], [2.0, 0.0, -5.0]], true),
+            (&[[-15.0, 0.0, 0.0], [15.0, 0.0, 0.0]], false),
+        ] {
+            let mut model = plates(offsets);
+            model.project(CALIBRATION, 256, 256, &pose).unwrap();
+            assert!(!model.border(256, 256).unwrap().is_empty());
+            assert_eq!(model.border_is_whole(), whole, "{offsets:?}");
+        }
+    }
 
     #[test]
     fn a_cut_out_is_the_smallest_box_round_the_mask() {

@@ -49,12 +49,11 @@ export interface Box extends Size {
   readonly top: number;
 }
 
-/** A silhouette on a canvas of the frame's size. */
 interface PaintedSilhouette {
   /** Columns and rows of its corners by turns. */
   readonly border: Float64Array;
-  /** What was painted on. */
-  readonly box: Box;
+  /** What was painted on a canvas of the frame's size; null where to fill the border is the same. */
+  readonly box: Box | null;
 }
 
 /**
@@ -150,11 +149,11 @@ export class Studio {
   }
 
   /**
-   * Paints the silhouette of a model at a pose and returns its border in frame coordinates, columns and rows by
-   * turns. Null without the model.
+   * Finds the silhouette of a model at a pose: its border in frame coordinates, columns and rows by turns. What has holes
+   * or more than one part is painted on the canvas too. Null without the model.
    */
   paintSilhouette(
-    context: CanvasRenderingContext2D,
+    context: () => CanvasRenderingContext2D,
     sha256: string,
     camera: CameraInput,
     pose: PoseNumbers,
@@ -164,13 +163,16 @@ export class Studio {
     if (!model) return null;
     const { text, width, height, bend } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));
-    context.clearRect(0, 0, width, height);
-    const [left = 0, top = 0, across = 0, down = 0] = model.paint(context, width, height, rgb);
-    const border = model.border(width, height);
-    if (!bend) return { border, box: { left, top, width: across, height: down } };
-    const bender = this.#benderOf(bend);
-    bender.picture(context, width, height);
-    return { border: border && bender.border(border), box: { left: 0, top: 0, width, height } };
+    const straight = model.border(width, height);
+    const bender = bend && this.#benderOf(bend);
+    const border = bender ? bender.border(straight) : straight;
+    if (model.borderIsWhole) return { border, box: null };
+    const canvas = context();
+    canvas.clearRect(0, 0, width, height);
+    const [left = 0, top = 0, across = 0, down = 0] = model.paint(canvas, width, height, rgb);
+    if (!bender) return { border, box: { left, top, width: across, height: down } };
+    bender.picture(canvas, width, height);
+    return { border, box: { left: 0, top: 0, width, height } };
   }
 
   #benderOf({ key, numbers }: Bend): Bender {

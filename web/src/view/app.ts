@@ -1,5 +1,5 @@
 import { createContext } from 'preact';
-import { useContext, useEffect, useState } from 'preact/hooks';
+import { useCallback, useContext } from 'preact/hooks';
 import type { State } from '../document/store';
 import type { Aids } from '../engine/aids/aids';
 import type { Calibrator } from '../engine/calibrator';
@@ -12,6 +12,7 @@ import type { Landscapes } from '../engine/landscape';
 import type { Videos } from '../engine/videos';
 import type { Actions } from './actions';
 import type { HandActions } from './hand_actions';
+import { useAtReadingPace } from './pace';
 import type { SeeingActions } from './seeing_actions';
 
 /** What every view may use. Views read the state and call actions; they hold nothing that matters. */
@@ -38,24 +39,10 @@ export function useApp(): App {
   return app;
 }
 
-/** The state, at most once a screen frame: a drag changes it more often. */
+/** The state, for words and numbers. */
 export function useAppState(): State {
   const { store } = useApp().services;
-  const [state, setState] = useState(store.state);
-  useEffect(() => {
-    let scheduled = 0;
-    const update = () => {
-      scheduled ||= requestAnimationFrame(() => {
-        scheduled = 0;
-        setState(store.state);
-      });
-    };
-    update();
-    const unsubscribe = store.subscribe(update);
-    return () => {
-      unsubscribe();
-      cancelAnimationFrame(scheduled);
-    };
-  }, [store]);
-  return state;
+  const subscribe = useCallback((listener: () => void) => store.subscribe(listener), [store]);
+  const read = useCallback(() => store.state, [store]);
+  return useAtReadingPace(subscribe, read);
 }

@@ -1,4 +1,5 @@
 import type { ComponentName } from '../document/types';
+import type { Box } from '../engine/studio';
 import { distance, type CanvasPoint } from '../geometry/points';
 import type { Viewport } from '../geometry/viewport';
 import type { Hit } from '../interaction/hit';
@@ -12,20 +13,27 @@ const HALO = 'rgb(0 0 0 / 0.55)';
 const TAU = 2 * Math.PI;
 
 export function drawSilhouette(context: Context, view: Viewport, { border, box, canvas, component }: OverlayLayer, opacity: number): void {
-  if (!border || !box || opacity === 0) return;
+  if (!border || opacity === 0) return;
+  const { css, light } = COMPONENT_COLOURS[component];
   context.save();
   context.translate(view.left, view.top);
   context.scale(view.scale, view.scale);
-  context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
   context.globalAlpha = opacity;
-  // The box alone: without a graphics card an empty pixel costs as much as a full one.
-  const { left, top, width, height } = box;
-  if (width > 0) context.drawImage(canvas, left, top, width, height, left, top, width, height);
+  context.fillStyle = css;
+  if (box) drawPart(context, canvas, box, view);
+  else context.fill(border);
   context.globalAlpha = Math.min(1, opacity * 2);
-  context.lineWidth = 1.25 / view.scale;
-  context.strokeStyle = COMPONENT_COLOURS[component].light;
+  // A line of one pixel is drawn three times as fast as a wider one along so many corners.
+  context.lineWidth = 1 / view.scale;
+  context.strokeStyle = light;
   context.stroke(border);
   context.restore();
+}
+
+/** The box alone: without a graphics card an empty pixel costs as much as a full one. */
+function drawPart(context: Context, canvas: HTMLCanvasElement, { left, top, width, height }: Box, view: Viewport): void {
+  context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
+  if (width > 0) context.drawImage(canvas, left, top, width, height, left, top, width, height);
 }
 
 interface OutlineStyle {
@@ -92,29 +100,49 @@ function paths(points: readonly CanvasPoint[], { closed, unknownSides }: Outline
   return { known, unknown };
 }
 
-function handleStyle(index: number, { hit, selected, closed }: OutlineStyle) {
+function handleStyle(index: number, { hit, selected, closed }: OutlineStyle): HandleStyle {
   const hovered = hit.kind === 'vertex' && hit.index === index;
   // The first point of a draft is where it closes.
   const first = index === 0 && !closed;
   return { radius: hovered || first ? 5.5 : 4, filled: index === selected, hovered };
 }
 
-function drawHandle(
-  context: Context,
-  colour: string,
-  { x, y }: CanvasPoint,
-  style: { radius: number; filled: boolean; hovered: boolean },
-): void {
-  context.beginPath();
-  context.arc(x, y, style.radius, 0, TAU);
-  context.fillStyle = style.filled ? colour : 'rgb(20 22 24 / 0.85)';
+interface HandleStyle {
+  readonly radius: number;
+  readonly filled: boolean;
+  readonly hovered: boolean;
+}
+
+/** The widest handle with its halo fits, CSS px. */
+const HANDLE_SIDE = 16;
+/** Drawn once and copied from then on: an outline has dozens, and circles are dear without a graphics card. */
+const handles = new Map<string, HTMLCanvasElement>();
+
+function drawHandle(context: Context, colour: string, { x, y }: CanvasPoint, style: HandleStyle): void {
+  const ratio = window.devicePixelRatio || 1;
+  const key = [colour, style.radius, style.filled, style.hovered, ratio].join();
+  const handle = handles.get(key) ?? paintHandle(colour, style, ratio);
+  handles.set(key, handle);
+  const onPixels = (at: number) => Math.round((at - HANDLE_SIDE / 2) * ratio) / ratio;
+  context.drawImage(handle, onPixels(x), onPixels(y), HANDLE_SIDE, HANDLE_SIDE);
+}
+
+function paintHandle(colour: string, { radius, filled, hovered }: HandleStyle, ratio: number): HTMLCanvasElement {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = Math.ceil(HANDLE_SIDE * ratio);
+  const context = canvas.getContext('2d');
+  if (!context) return canvas;
+  context.scale(ratio, ratio);
+  context.arc(HANDLE_SIDE / 2, HANDLE_SIDE / 2, radius, 0, TAU);
+  context.fillStyle = filled ? colour : 'rgb(20 22 24 / 0.85)';
   context.fill();
   context.lineWidth = 3;
   context.strokeStyle = HALO;
   context.stroke();
   context.lineWidth = 1.5;
-  context.strokeStyle = style.hovered || style.filled ? '#ffffff' : colour;
+  context.strokeStyle = hovered || filled ? '#ffffff' : colour;
   context.stroke();
+  return canvas;
 }
 
 /** A faint handle where a click on the edge would insert a point. */

@@ -12,15 +12,15 @@ import type { StageView } from './stage_view';
 export function pointByKey(
   app: App,
   view: StageView,
-  canvas: HTMLCanvasElement,
   controller: Controller,
   by: { readonly columns: number; readonly rows: number },
 ): void {
   const viewport = view.viewport(app.services.store.state);
-  const from = view.pointer ?? canvasPoint(canvas.clientWidth / 2, canvas.clientHeight / 2);
+  const { width, height } = view.size;
+  const from = view.pointer ?? canvasPoint(width / 2, height / 2);
   const { column, row } = frameFromCanvas(viewport, from);
   const to = canvasFromFrame(viewport, framePoint(column + by.columns, row + by.rows));
-  const kept = canvasPoint(within(to.x, canvas.clientWidth), within(to.y, canvas.clientHeight));
+  const kept = canvasPoint(within(to.x, width), within(to.y, height));
   send(app, view, controller, 'move', kept);
   view.setPointer(kept);
 }

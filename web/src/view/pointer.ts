@@ -1,7 +1,7 @@
-import { useEffect, useState } from 'preact/hooks';
 import type { FramePoint } from '../geometry/points';
 import type { Motion } from '../interaction/adjust';
 import type { Hit } from '../interaction/hit';
+import { useAtReadingPace } from './pace';
 
 /** Where the pointer is over the film. Apart from the store: it changes with every move and nothing is kept of it. */
 export interface PointerPlace {
@@ -33,21 +33,10 @@ class PointerStore {
 
 export const pointerStore = new PointerStore();
 
-/** The place, at most once a screen frame. */
+/** The place, for words and numbers. */
 export function usePointer(): PointerPlace | null {
-  const [place, setPlace] = useState(pointerStore.place);
-  useEffect(() => {
-    let scheduled = 0;
-    const unsubscribe = pointerStore.subscribe(() => {
-      scheduled ||= requestAnimationFrame(() => {
-        scheduled = 0;
-        setPlace(pointerStore.place);
-      });
-    });
-    return () => {
-      unsubscribe();
-      cancelAnimationFrame(scheduled);
-    };
-  }, []);
-  return place;
+  return useAtReadingPace(subscribe, read);
 }
+
+const subscribe = (listener: () => void) => pointerStore.subscribe(listener);
+const read = () => pointerStore.place;

@@ -21,9 +21,10 @@ import { StageView } from './stage_view';
 export function Stage({ state }: { state: State }) {
   const app = useApp();
   const film = useRef<HTMLCanvasElement>(null);
-  const vectors = useRef<HTMLCanvasElement>(null);
+  const ink = useRef<HTMLCanvasElement>(null);
+  const glass = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    if (film.current && vectors.current) return attach(app, film.current, vectors.current);
+    if (film.current && ink.current && glass.current) return attach(app, film.current, ink.current, glass.current);
     return undefined;
   }, [app]);
   const frame = currentFrame(state);
@@ -36,7 +37,8 @@ export function Stage({ state }: { state: State }) {
   return (
     <main class="stage" aria-label={words.region}>
       <canvas ref={film} class="film" aria-hidden="true" />
-      <canvas ref={vectors} class="vectors" style={{ cursor }} tabIndex={0} role="application" aria-label={words.film(label, titleOf(component))} />
+      <canvas ref={ink} class="ink" aria-hidden="true" />
+      <div ref={glass} class="glass" style={{ cursor }} tabIndex={0} role="application" aria-label={words.film(label, titleOf(component))} />
       {frame && <ScaleBar state={state} />}
       {!frame && <EmptyState />}
       {frame && !app.services.studio.hasFilm(frame.id) && (
@@ -46,9 +48,10 @@ export function Stage({ state }: { state: State }) {
   );
 }
 
-function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): () => void {
+/** `glass` lies over the film and what is drawn on it, and feels the pointer. */
+function attach(app: App, film: HTMLCanvasElement, ink: HTMLCanvasElement, glass: HTMLElement): () => void {
   const { store, studio } = app.services;
-  const view = new StageView(store, studio, film, canvas);
+  const view = new StageView(store, studio, film, ink);
   view.calibrator = app.calibrator;
   view.aids = app.aids;
   const controller = new Controller();
@@ -56,12 +59,12 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
     size: () => view.size,
     viewport: () => view.viewport(store.state),
     busy: () => controller.busy,
-    focus: () => canvas.focus({ preventScroll: true }),
+    focus: () => glass.focus({ preventScroll: true }),
     cancel: () => cancelGesture(app, view, controller),
-    point: (columns, rows) => pointByKey(app, view, canvas, controller, { columns, rows }),
+    point: (columns, rows) => pointByKey(app, view, controller, { columns, rows }),
     press: () => pressByKey(app, view, controller),
   };
-  const stopPointer = attachPointer(app, view, canvas, controller);
+  const stopPointer = attachPointer(app, view, glass, controller);
   const unsubscribe = store.subscribe(() => view.schedule());
   const observer = new ResizeObserver(([entry]) => {
     if (!entry) return;
@@ -72,7 +75,7 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
     // The scale bar follows.
     store.show({});
   });
-  observer.observe(canvas);
+  observer.observe(glass);
   return () => {
     observer.disconnect();
     unsubscribe();
@@ -85,7 +88,7 @@ function attach(app: App, film: HTMLCanvasElement, canvas: HTMLCanvasElement): (
 function attachPointer(
   app: App,
   view: StageView,
-  canvas: HTMLCanvasElement,
+  glass: HTMLElement,
   controller: Controller,
 ): () => void {
   const { store } = app.services;
@@ -102,8 +105,8 @@ function attachPointer(
 
   const listeners: { [K in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[K]) => void } = {
     pointerdown: (event) => {
-      canvas.focus({ preventScroll: true });
-      canvas.setPointerCapture(event.pointerId);
+      glass.focus({ preventScroll: true });
+      glass.setPointerCapture(event.pointerId);
       event.preventDefault();
       store.quiet();
       if (store.ui.popover && store.ui.popover !== 'shape' && store.ui.popover !== 'calibrate') store.show({ popover: null });
@@ -147,9 +150,9 @@ function attachPointer(
     },
   };
   const entries = Object.entries(listeners) as [string, EventListener][];
-  for (const [type, listener] of entries) canvas.addEventListener(type, listener, { passive: false });
+  for (const [type, listener] of entries) glass.addEventListener(type, listener, { passive: false });
   return () => {
-    for (const [type, listener] of entries) canvas.removeEventListener(type, listener);
+    for (const [type, listener] of entries) glass.removeEventListener(type, listener);
   };
 }
 

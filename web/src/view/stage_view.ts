@@ -10,9 +10,10 @@ import {
   type Outline,
 } from '../document/types';
 import type { Aids } from '../engine/aids/aids';
+import { NO_PREVIEW, pointsOfPreview, type Preview } from '../engine/aids/preview';
 import type { Calibrator } from '../engine/calibrator';
 import { cameraOf } from '../engine/keys';
-import type { Studio } from '../engine/studio';
+import type { Box, Studio } from '../engine/studio';
 import type { CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
 import { handleAt, type HandScene } from '../interaction/adjust';
@@ -22,6 +23,7 @@ import { drawMeasuring } from './calibrate_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { COMPONENT_COLOURS } from './colours';
 import { handSceneOf } from './hand_scene';
+import { boxRound, Ink } from './ink';
 import { FilmLayer, OverlayLayer } from './layers';
 import { pointerStore } from './pointer';
 import { Shading } from './shading';
@@ -40,7 +42,9 @@ export class StageView {
   readonly #store: Store;
   readonly #studio: Studio;
   readonly #film: HTMLCanvasElement;
-  readonly #vectors: HTMLCanvasElement;
+  readonly #ink: Ink;
+  /** Tells what lies under a place; nothing is drawn on it. */
+  readonly #probe = document.createElement('canvas').getContext('2d');
   readonly #filmLayer = new FilmLayer();
   readonly #reference = new ReferenceLayers();
   readonly #shading: Shading;
@@ -56,12 +60,12 @@ export class StageView {
   aids: Pick<Aids, 'tick' | 'preview' | 'scale'> | null = null;
   calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
 
-  constructor(store: Store, studio: Studio, film: HTMLCanvasElement, vectors: HTMLCanvasElement) {
+  constructor(store: Store, studio: Studio, film: HTMLCanvasElement, ink: HTMLCanvasElement) {
     this.#store = store;
     this.#studio = studio;
     this.#shading = new Shading(store, studio);
     this.#film = film;
-    this.#vectors = vectors;
+    this.#ink = new Ink(ink);
   }
 
   get pointer(): CanvasPoint | null {
@@ -75,10 +79,8 @@ export class StageView {
   resize(size: Size): void {
     this.#size = size;
     const ratio = window.devicePixelRatio || 1;
-    for (const canvas of [this.#film, this.#vectors]) {
-      canvas.width = Math.max(1, Math.round(size.width * ratio));
-      canvas.height = Math.max(1, Math.round(size.height * ratio));
-    }
+    this.#film.width = Math.max(1, Math.round(size.width * ratio));
+    this.#film.height = Math.max(1, Math.round(size.height * ratio));
     this.#drawnFilm = '';
     this.draw();
   }
@@ -119,12 +121,13 @@ export class StageView {
     const hand = this.hand(state);
     const motion = hand && this.#pointer && (handleAt(hand, view, this.#pointer) ?? 'move');
     pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit, motion });
-    if (frame) this.#drawFilm(state, frame, view);
-    else clear(this.#film, () => (this.#drawnFilm = ''));
-    const context = prepare(this.#vectors);
+    this.#drawFilm(state, frame, view);
+    const preview = this.aids?.preview(state.ui.tool) ?? NO_PREVIEW;
+    for (const overlay of this.#overlays) if (frame) this.#updateOverlay(overlay, state.history.present, frame);
+    const context = this.#ink.begin(this.#inkBox(state, view, preview));
     this.#mainView = view;
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
-    if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view);
+    if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view, preview);
     if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
     if (frame) this.#drawMeasuring(context, state, frame, view);
     if (frame) this.#drawLens(context, state, frame, view);
@@ -133,10 +136,26 @@ export class StageView {
   /** Which component's model lies under a place, the selected one first. */
   modelAt(at: CanvasPoint): ComponentName | null {
     const { state } = this.#store;
-    const context = this.#vectors.getContext('2d');
     const { column, row } = frameFromCanvas(this.viewport(state), at);
-    const hit = this.#overlays.filter(({ border }) => border && context?.isPointInPath(border, column, row));
+    const hit = this.#overlays.filter(({ border }) => border && this.#probe?.isPointInPath(border, column, row));
     return (hit.find(({ component }) => component === state.ui.component) ?? hit[0])?.component ?? null;
+  }
+
+  /** Where something may be drawn: all of the stage, but for what is drawn most of the time. */
+  #inkBox(state: State, view: Viewport, preview: Preview): Box {
+    const { ui, history } = state;
+    const { seeing, tool } = ui;
+    const calibrating = ui.popover === 'calibrate';
+    const anywhere = seeing.magnifier || seeing.ghosts || seeing.comparing || seeing.overlay === 'shaded' || calibrating;
+    if (anywhere || tool === 'pose' || tool === 'transform' || tool === 'brush') return { left: 0, top: 0, ...this.#size };
+    const points = this.#overlays.flatMap(({ extent }) => extent);
+    const frame = currentFrame(state);
+    for (const component of COMPONENT_NAMES) points.push(...(cellOf(history.present, frame?.id, component).outline?.points ?? []));
+    points.push(...pointsOfPreview(preview));
+    const drawn = points.map((point) => canvasFromFrame(view, point));
+    // A draft's last side ends at the pointer.
+    if (tool === 'trace' && this.#pointer) drawn.push(this.#pointer);
+    return boxRound(drawn, this.#size);
   }
 
   /** Everything once more, larger, beside the pointer. */
@@ -169,10 +188,10 @@ export class StageView {
     if (this.aids.tick(this.#store.ui.tool)) this.schedule();
   }
 
-  #drawAids(context: CanvasRenderingContext2D, state: State, view: Viewport): void {
+  #drawAids(context: CanvasRenderingContext2D, state: State, view: Viewport, preview: Preview): void {
     const { tool, component, aids } = state.ui;
     const { outline } = currentCell(state);
-    if (this.aids) drawPreview(context, view, component, this.aids.preview(tool));
+    drawPreview(context, view, component, preview);
     if (tool === 'transform' && outline) drawTransformBox(context, view, component, outline, this.#pointer);
     if (tool === 'stretch' && outline?.closed) drawHold(context, view, component, outline, this.#pointer);
     if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, aids.radius * view.scale, aids.erase);
@@ -185,17 +204,27 @@ export class StageView {
     return (drafting ? hitDraft : hitTest)(outline, view, this.#pointer);
   }
 
-  #drawFilm(state: State, frame: FrameEntry, view: Viewport): void {
-    const window = this.window(state);
-    const key = `${frame.id} ${this.#studio.filmsKey} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+  /** Handed on as a picture: a canvas that can be drawn on is copied in every screen frame, changed or not. */
+  #drawFilm(state: State, frame: FrameEntry | null, view: Viewport): void {
+    const key = frame ? this.#filmKey(state, frame, view) : 'none';
     if (key === this.#drawnFilm) return;
     this.#drawnFilm = key;
-    this.#filmLayer.update(this.#studio, frame, window, state.ui.seeing.film);
-    const context = prepare(this.#film);
-    // Pixels are shown as pixels as soon as they are large enough to be told apart.
-    context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
-    context.imageSmoothingQuality = 'high';
-    if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, view);
+    const drawn = new OffscreenCanvas(this.#film.width, this.#film.height);
+    const context = drawn.getContext('2d');
+    if (context && frame && this.#studio.hasFilm(frame.id)) {
+      context.scale(devicePixelRatio, devicePixelRatio);
+      this.#filmLayer.update(this.#studio, frame, this.window(state), state.ui.seeing.film);
+      // Pixels are shown as pixels as soon as they are large enough to be told apart.
+      context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
+      context.imageSmoothingQuality = 'high';
+      drawFrameSized(context, this.#filmLayer.canvas, frame, view);
+    }
+    this.#film.getContext('bitmaprenderer')?.transferFromImageBitmap(drawn.transferToImageBitmap());
+  }
+
+  #filmKey(state: State, frame: FrameEntry, view: Viewport): string {
+    const window = this.window(state);
+    return `${frame.id} ${this.#studio.filmsKey} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
   }
 
   #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport, hit: Hit): void {
@@ -206,7 +235,6 @@ export class StageView {
     const shaded = view === this.#mainView ? this.#shading.picture(state, frame, view, this.#size) : null;
     if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
-      this.#updateOverlay(overlay, doc, frame);
       if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, overlayOpacity);
     }
     this.#reference.draw(context, state, this.#studio, frame, view);
@@ -260,21 +288,6 @@ function handlesShown({ ui }: State): boolean {
   return ui.tool === 'edit' || ui.tool === 'trace' || ui.tool === 'wire';
 }
 
-/** Cleared, and scaled so that one unit is one CSS pixel. */
-function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
-  const context = canvas.getContext('2d');
-  if (!context) throw new Error('this browser has no 2-D canvas');
-  const ratio = window.devicePixelRatio || 1;
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  context.clearRect(0, 0, canvas.width, canvas.height);
-  return context;
-}
-
-function clear(canvas: HTMLCanvasElement, then: () => void): void {
-  prepare(canvas);
-  then();
-}
-
-export function drawFrameSized(context: CanvasRenderingContext2D, image: CanvasImageSource, frame: Size, view: Viewport): void {
+export function drawFrameSized(context: CanvasDrawImage, image: CanvasImageSource, frame: Size, view: Viewport): void {
   context.drawImage(image, view.left, view.top, frame.width * view.scale, frame.height * view.scale);
 }

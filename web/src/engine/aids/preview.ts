@@ -12,3 +12,18 @@ export type Preview =
   | { readonly kind: 'box'; readonly from: FramePoint; readonly to: FramePoint };
 
 export const NO_PREVIEW: Preview = { kind: 'nothing' };
+
+/** The points between which a preview is drawn. */
+export function pointsOfPreview(preview: Preview): readonly FramePoint[] {
+  switch (preview.kind) {
+    case 'nothing':
+      return [];
+    case 'spot':
+      return [preview.at];
+    case 'box':
+      return [preview.from, preview.to];
+    case 'path':
+    case 'ring':
+      return preview.points;
+  }
+}
