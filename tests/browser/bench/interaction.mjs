@@ -31,6 +31,8 @@ export async function dragging(page) {
 /** The path from the last seed to the mouse, which goes twice round the implant's edge. @param {Page} page */
 export async function wiring(page) {
   const { stage, outline } = await prepared(page);
+  // Both cores work at libraries before.
+  await panel.waitForLibraries(page, 'Femur', 'Tibia');
   await page.keyboard.press('l');
   const way = aids.alongRing(outline, 4);
   await stage.click(way[0]);

@@ -2,10 +2,15 @@ import type { ComponentName, Doc } from '../document/types';
 import { COMPONENT_NAMES, titleOf } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, libraryKey } from './keys';
-import type { LibraryFacts, PoseProtocol } from './protocol';
+import type { LibraryFacts, LibraryProtocol, PoseProtocol } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from './workers';
 import { texts } from '../texts';
+
+/** One core is left for the page: with two, libraries are built one after the other, and the first is there sooner. */
+function deskOf(component: ComponentName): string {
+  return navigator.hardwareConcurrency > COMPONENT_NAMES.length ? component : 'all';
+}
 
 /**
  * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
@@ -15,6 +20,7 @@ export class Librarian {
   readonly #services: Services;
   readonly #poser: Bridge<PoseProtocol>;
   readonly #running = new Map<ComponentName, AbortController>();
+  readonly #builders = new Map<string, { readonly bridge: Bridge<LibraryProtocol>; readonly users: number }>();
 
   constructor(services: Services, poser: Bridge<PoseProtocol>) {
     this.#services = services;
@@ -84,7 +90,7 @@ export class Librarian {
     const mesh = model && studio.meshOf(model.sha256);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera) throw new Error(texts.said.library.noInputs);
-    const worker = libraryWorker();
+    const worker = this.#hire(component);
     const cancel = () => abort.abort();
     try {
       return await asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (report) => {
@@ -95,8 +101,24 @@ export class Librarian {
         return this.#poser.call('open', { component, bytes, mesh }, { signal: abort.signal, transfer: [bytes.buffer] });
       });
     } finally {
-      worker.dispose();
+      this.#release(component);
     }
+  }
+
+  #hire(component: ComponentName): Bridge<LibraryProtocol> {
+    const desk = deskOf(component);
+    const { bridge, users } = this.#builders.get(desk) ?? { bridge: libraryWorker(), users: 0 };
+    this.#builders.set(desk, { bridge, users: users + 1 });
+    return bridge;
+  }
+
+  #release(component: ComponentName): void {
+    const desk = deskOf(component);
+    const builder = this.#builders.get(desk);
+    if (!builder) return;
+    if (builder.users > 1) return void this.#builders.set(desk, { ...builder, users: builder.users - 1 });
+    this.#builders.delete(desk);
+    builder.bridge.dispose();
   }
 
   #stopped(component: ComponentName, key: string, error: unknown): void {

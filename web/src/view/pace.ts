@@ -7,7 +7,7 @@ const waiting = new Set<() => void>();
 let renewedAt = -Infinity;
 let scheduled = false;
 
-/** All that waits is renewed in one screen frame: the page is laid out once. */
+/** All that waits is renewed at once: the page is laid out once. */
 function renew(): void {
   scheduled = false;
   renewedAt = performance.now();
@@ -21,7 +21,8 @@ function schedule(): void {
   scheduled = true;
   const rest = renewedAt + PERIOD - performance.now();
   if (rest <= 0) requestAnimationFrame(renew);
-  else setTimeout(() => requestAnimationFrame(renew), rest);
+  // In a stream of changes between two screen frames, where there is time left.
+  else setTimeout(renew, rest);
 }
 
 /** What `read` gives, renewed soon after `subscribe` tells of a change. Both have to stay the same functions. */

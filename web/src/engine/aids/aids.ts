@@ -17,7 +17,7 @@ import { Threshold } from './threshold';
 import { Wire } from './wire';
 
 /** Work of this length leaves time for drawing in a screen frame, ms. */
-const BUDGET = 6;
+const BUDGET = 4;
 /** A path has to stay the same for so long while the hand moves, ms. */
 const COOLS_AFTER = 700;
 type Held<T> = { readonly film: Film; readonly bright: boolean; readonly aid: T } | null;
