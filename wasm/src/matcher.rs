@@ -1,5 +1,6 @@
 //! Outlines matched against an open library.
 
+mod follow;
 mod from_here;
 mod landscape;
 mod nearest;
@@ -14,7 +15,7 @@ use fluoropose::canonical::reverse;
 use fluoropose::choice::Candidate as Contender;
 use fluoropose::kernels::Kernels;
 use fluoropose::library::Library;
-use fluoropose::locate::{Workspace, locate, workspace_needed};
+use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
 use fluoropose::mask::Word;
 use fluoropose::partial::known_share;
 use fluoropose::pose::{EulerPose, Pose};
@@ -256,6 +257,25 @@ impl Matcher {
         traced: &Traced,
         silhouette: &Silhouette<'_>,
     ) -> Result<Sight, JsError> {
+        let (near, clipped) = self.near_views::<MINIMA>(traced, silhouette)?;
+        let ranked = match &mut self.model {
+            Some(model) => model.rank(near, &traced.camera(), silhouette)?,
+            None => near.into_iter().map(Ranked::undrawn).collect(),
+        };
+        Ok(Sight {
+            ranked,
+            clipped,
+            partial: false,
+        })
+    }
+
+    /// At most `K` views between the library's that come near the best one, best first, and whether the canonical silhouette
+    /// reaches its frame's border.
+    fn near_views<const K: usize>(
+        &mut self,
+        traced: &Traced,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<(Vec<Located>, bool), JsError> {
         let camera = traced.camera();
         let library = self.library.borrow_dependent();
         let work = Workspace {
@@ -265,19 +285,9 @@ impl Matcher {
             bytes: &mut self.bytes,
             kernels: Kernels::PORTABLE,
         };
-        let found =
-            locate::<MINIMA>(silhouette.mask(), &camera, library, work).map_err(sentence)?;
+        let found = locate::<K>(silhouette.mask(), &camera, library, work).map_err(sentence)?;
         let near = within(&found.poses, |located| f64::from(located.fine.unmatched));
-        let clipped = found.form.clipped;
-        let ranked = match &mut self.model {
-            Some(model) => model.rank(near, &camera, silhouette)?,
-            None => near.into_iter().map(Ranked::undrawn).collect(),
-        };
-        Ok(Sight {
-            ranked,
-            clipped,
-            partial: false,
-        })
+        Ok((near, found.form.clipped))
     }
 
     fn candidate(&self, ranked: &Ranked) -> Candidate {

@@ -2,25 +2,25 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { addFrames, addPoint, closeOutline, movePoint, setCalibration, setModel, type Place } from '../src/document/commands';
 import { Store } from '../src/document/store';
 import { cellOf, type Result } from '../src/document/types';
-import { LIVE, Poser, REST } from '../src/engine/poser';
-import type { Match, MatchInput } from '../src/engine/protocol';
+import { Poser, REST } from '../src/engine/poser';
+import type { Match, MatchInput, Refined } from '../src/engine/protocol';
 import { framePoint } from '../src/geometry/points';
 
 interface Asked {
   readonly method: string;
-  readonly input: MatchInput;
+  readonly input: MatchInput & { readonly before?: readonly Refined[] };
   readonly answer: (match: Match) => Promise<void>;
   readonly fail: (sentence: string) => Promise<void>;
 }
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
 
-function matchOf(x: number, residual: number | null, milliseconds = LIVE + 1): Match {
+function matchOf(x: number, residual: number | null): Match {
   const pose = { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
   const picture = { size: 1, input: new Uint8Array(1), view: new Uint8Array(1) };
   const candidates = [{ pose, unmatched: 5, drawn: 6, residual, deviations: null, start: null, atBorder: false, picture }];
   const choice = { reason: null, decided: false };
-  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds };
+  return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds: 1 };
 }
 
 /** A store with a closed outline, ready for poses, and a worker that answers when the test says so. */
@@ -90,18 +90,35 @@ describe('poser', () => {
     expect(last().input.outline[0]).toBe(15);
   });
 
-  it('refines while the outline keeps changing where that was quick the last time, and no longer where it was not', async () => {
-    const { store, last, methods } = bench();
+  it('lets a refined pose follow while a point is dragged, and refines anew when it is at rest', async () => {
+    const { store, poser, shown, last, methods } = bench();
+    await last().answer(matchOf(1, null));
+    expect(last().input.before).toEqual([]);
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer(matchOf(2, 0.2));
+    for (const step of [1, 2]) {
+      store.preview(moved(10 + step));
+      expect(last().input.before).toMatchObject([{ pose: { x: 1 + step }, residual: 0.2 }]);
+      await last().answer(matchOf(2 + step, 0.2));
+      expect(shown()).toEqual({ x: 2 + step, residual: 0.2 });
+    }
+    expect(methods()).toEqual(['match', 'refine', 'match', 'match']);
+    await vi.advanceTimersByTimeAsync(REST);
+    expect(methods().at(-1)).toBe('refine');
+    await last().answer(matchOf(9, 0.1));
+    expect(shown()).toEqual({ x: 9, residual: 0.1 });
+    expect(poser.findings(cellOf(store.doc, 'f', 'femur').outline)?.tried).toBe(true);
+    await vi.advanceTimersByTimeAsync(10 * REST);
+    expect(methods()).toHaveLength(5);
+  });
+
+  it('lets nothing follow when the calibration changes', async () => {
+    const { store, last } = bench();
     await last().answer(matchOf(1, null));
     await vi.advanceTimersByTimeAsync(REST);
-    await last().answer(matchOf(1, 0.2, LIVE));
-    store.preview(moved(11));
-    await last().answer(matchOf(2, null));
-    expect(methods()).toEqual(['match', 'refine', 'match', 'refine']);
-    await last().answer(matchOf(2, 0.2, LIVE + 1));
-    store.preview(moved(12));
-    await last().answer(matchOf(3, null));
-    expect(methods().at(-1)).toBe('match');
+    await last().answer(matchOf(2, 0.2));
+    store.perform(setCalibration({ name: 'd', text: 'd' }));
+    expect(last().input.before).toEqual([]);
   });
 
   it('drops a refinement for which there is a newer outline', async () => {

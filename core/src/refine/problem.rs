@@ -28,6 +28,8 @@ pub(super) struct Problem<'a> {
     pub(super) middle: Vector3,
     /// Numbers of the pose that do not change.
     hold: Option<Hold>,
+    /// [`super::RefineOptions::swift`].
+    pub(super) swift: bool,
 }
 
 /// Steps shorter than this lower the loss by no more than its grain, and one that fails is not worth
@@ -37,6 +39,8 @@ const SETTLED: f64 = 0.05;
 const GRAINED: f64 = 0.1;
 /// Polishing ends below this.
 const SMALL: f64 = 0.001;
+/// And so many times sooner where the pose is wanted at once.
+const SWIFT: f64 = 20.0;
 /// Edges of a grey frame have no grain: there, this part of all three.
 const WITHOUT_GRAIN: f64 = 0.02;
 
@@ -84,6 +88,7 @@ impl<'a> Problem<'a> {
             views,
             middle: mesh.bounds().centre,
             hold: None,
+            swift: false,
         })
     }
 
@@ -190,7 +195,7 @@ impl<'a> Problem<'a> {
             }
             last = step.size();
             let step = step.scaled(share);
-            next.converged = step.size() < SMALL * self.grain();
+            next.converged = step.size() < self.small();
             if next.converged {
                 break;
             }
@@ -205,6 +210,12 @@ impl<'a> Problem<'a> {
             trace(&seen.equations.iterate(pass, state));
         }
         Ok(())
+    }
+
+    /// The size of a step that polishing ends at.
+    fn small(&self) -> f64 {
+        let sooner = if self.swift { SWIFT } else { 1.0 };
+        SMALL * sooner * self.grain()
     }
 
     /// How coarse the loss is, against that of silhouettes.

@@ -60,7 +60,7 @@ function rowsOf(kind, { library, best, refined, live }) {
     { work: `exact best of 1271 views in a worker, median, ${kind}`, value: quantile(best, 0.5), unit: 'ms' },
     { work: `library of 1271 views in one worker, ${kind}`, value: library / 1000, unit: 's' },
     { work: `outline to refined poses with mirror candidates, median, ${kind}`, value: quantile(refined, 0.5), unit: 'ms' },
-    { work: `live pose while a point moves, found and refined, p95, ${kind}`, value: quantile(live, 0.95), unit: 'ms' },
+    { work: `live pose while a point moves, followed and refined, p95, ${kind}`, value: quantile(live, 0.95), unit: 'ms' },
   ];
 }
 

@@ -35,7 +35,7 @@ async function work({ wasm, outlines }) {
     library,
     best: whole.map((outline) => searched(matcher, outline)),
     refined: rounds.map(refine),
-    live: moving(outlines[0]).map((points) => timed(() => matcher.refineOutline(traced(points), around).free())),
+    live: followed(matcher, whole[0], moving(outlines[0]).map((points) => () => traced(points))),
   };
 }
 
@@ -49,6 +49,19 @@ function searched(matcher, outline) {
   return timed(() => {
     for (let search = 0; search < SEARCHES; search++) matcher.nearestView(canonical).free();
   }) / SEARCHES;
+}
+
+/** A refined pose goes along with an outline, as in the page. */
+function followed(matcher, outline, steps) {
+  const start = matcher.refineOutline(outline, new Surroundings());
+  let [pose, residual] = [start.pose(0), start.residual(0)];
+  return steps.map((next) =>
+    timed(() => {
+      const found = matcher.follow(next(), pose, Float64Array.of(residual));
+      if (!found) throw new Error('the pose was lost');
+      [pose, residual] = [found.pose(0), found.residual(0)];
+    }),
+  );
 }
 
 /** An outline with one point that goes round. @param {[number, number][]} outline */

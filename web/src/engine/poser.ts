@@ -15,7 +15,7 @@ import {
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, poseKey } from './keys';
 import { PROGRAM } from './program';
-import type { Match, MatchedCandidate, MatchInput, PoseProtocol } from './protocol';
+import type { Match, MatchedCandidate, MatchInput, PoseProtocol, Refined } from './protocol';
 import { sentenceOf } from './services';
 import { surroundingsOf } from './surroundings';
 import { texts } from '../texts';
@@ -52,16 +52,15 @@ const NOTHING_FOUND = { details: [], canonicalArea: 0, clipped: false, partial: 
 
 const NO_MODEL = texts.said.library.withoutModel;
 
-/** How long the outline on view has to be at rest before poses are refined, ms: refining would hold up a drag ... */
+/** How long the outline on view has to be at rest before poses are refined and rivals looked for, ms. */
 export const REST = 120;
-/** ... unless the last time it took no longer than this: then the refined pose follows the drag. */
-export const LIVE = 30;
 
 /**
  * Keeps every closed outline's pose up to date: whenever the document changes it looks for a cell whose result does
  * not belong to its outline and asks the pose worker, one at a time, what is on view first. While a vertex is dragged
- * only the latest outline is ever asked for; an answer for an outline that is gone is dropped. Once every outline has
- * its pose and the one on view is at rest, or refining is quick, poses are refined, in the same order.
+ * only the latest outline is ever asked for, and poses that were refined before go along with it; an answer for an
+ * outline that is gone is dropped. Once every outline has its pose and the one on view is at rest, poses are refined, in
+ * the same order.
  */
 export class Poser {
   readonly #store: Store;
@@ -70,8 +69,6 @@ export class Poser {
   #busy = false;
   #shownOutline: Outline | null = null;
   #changedAt = -Infinity;
-  /** How long the last refinement took, ms. */
-  #refining = Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -113,9 +110,8 @@ export class Poser {
   }
 
   /** How long to wait before a task, ms. */
-  #restBefore({ method, outline }: Task): number {
-    if (method === 'match' || (outline === this.#shownOutline && this.#refining <= LIVE)) return 0;
-    return this.#changedAt + REST - performance.now();
+  #restBefore({ method }: Task): number {
+    return method === 'match' ? 0 : this.#changedAt + REST - performance.now();
   }
 
   /**
@@ -180,7 +176,7 @@ export class Poser {
     const tried = findings?.key === key && findings.tried;
     // What was tried for an outline is lost where undo brings back its result from before.
     if (tried && (isRefined(result) || findings.refusal !== null)) return false;
-    return shown || !isRefined(result);
+    return shown || !isRefined(result) || findings?.tried === false;
   }
 
   async #run(task: Task): Promise<void> {
@@ -192,7 +188,8 @@ export class Poser {
       const { component } = place;
       const input = { component, ...flatten(outline), camera };
       const around = surroundingsOf(this.#store.doc, frame.id, component);
-      const match = await (method === 'match' ? this.#worker.call('match', input) : this.#worker.call('refine', { ...input, around }));
+      const before = this.#followable(task);
+      const match = await (method === 'match' ? this.#worker.call('match', { ...input, before }) : this.#worker.call('refine', { ...input, around }));
       this.#take(task, match);
     } catch (error) {
       if (!(error instanceof Aborted)) this.#refuse(task, sentenceOf(error));
@@ -202,6 +199,16 @@ export class Poser {
     }
   }
 
+  /** Refined poses of what the outline was before it was changed: its points have moved, no more. The chosen one comes first. */
+  #followable({ place, outline, key }: Task): Refined[] {
+    const { result, resultOf } = cellOf(this.#store.doc, place.frameId, place.component);
+    if (result?.kind !== 'posed' || result.from !== 'outline' || result.origin !== key) return [];
+    if (resultOf?.points.length !== outline.points.length) return [];
+    const chosen = result.candidates[result.chosen];
+    const order = [...result.candidates].sort((a, b) => Number(b === chosen) - Number(a === chosen));
+    return order.flatMap(({ pose, residual }) => (residual === null ? [] : [{ pose, residual }]));
+  }
+
   #take(task: Task, match: Match): void {
     const { outline, key } = task;
     const result = posed(match, key);
@@ -209,10 +216,10 @@ export class Poser {
     const { candidates, canonicalArea, clipped, partial, milliseconds } = match;
     const details = candidates.map(({ pose, picture, atBorder, start }) => ({ pose, picture, atBorder, start }));
     const tried = task.method === 'refine';
-    if (tried) this.#refining = milliseconds;
+    const followed = this.findings(outline)?.tried === false;
     const refusal = refused ? NO_MODEL : null;
     this.#findings.set(outline, { key, details, canonicalArea, clipped, partial, milliseconds, tried, refusal });
-    this.#apply(task, result);
+    this.#apply(task, result, followed);
   }
 
   #refuse(task: Task, sentence: string): void {
@@ -228,12 +235,12 @@ export class Poser {
     this.#store.show({});
   }
 
-  /** Takes the result in if it is still wanted: the same outline, the same inputs. */
-  #apply({ method, place, frame, outline, key }: Task, result: Result): void {
+  /** Takes the result in if it is still wanted: the same outline, the same inputs. What was `followed` is found anew at rest. */
+  #apply({ method, place, frame, outline, key }: Task, result: Result, followed = false): void {
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.outline !== outline || poseKey(doc, place.component, frame) !== key) return doc;
-      const better = method === 'refine' && isRefined(result) && !isLoaded(cell) && !isRefined(cell.result);
+      const better = method === 'refine' && isRefined(result) && !isLoaded(cell) && (followed || !isRefined(cell.result));
       if (!isStale(cell, key) && !better) return doc;
       return withCell(doc, place, { outline, result: sameChoice(cell.result, result), resultOf: outline });
     });

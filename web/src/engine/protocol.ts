@@ -132,6 +132,12 @@ export interface MatchInput {
   readonly camera: CameraInput;
 }
 
+/** A refined pose and what it leaves, px. */
+export interface Refined {
+  readonly pose: PoseNumbers;
+  readonly residual: number;
+}
+
 /** Poses that a choice may rest on. */
 export interface Surroundings {
   /** The other component in the same frame. */
@@ -165,14 +171,15 @@ export interface PoseProtocol extends HandProtocol, OneClickProtocol {
     output: LibraryFacts;
     progress: never;
   };
-  match: { input: MatchInput; output: Match; progress: never };
+  /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */
+  match: { input: MatchInput & { readonly before: readonly Refined[] }; output: Match; progress: never };
   /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
   refine: { input: MatchInput & { readonly around: Surroundings }; output: Match; progress: never };
   /** Chooses anew among refined poses when more is known round them; null where there are none. */
   choose: {
     input: {
       component: ComponentName;
-      candidates: readonly { readonly pose: PoseNumbers; readonly residual: number }[];
+      candidates: readonly Refined[];
       around: Surroundings;
     };
     output: Choice | null;

@@ -22,6 +22,7 @@ export const panel = {
     fromFile: (name: string) => `From ${name}.`,
     refined: (residual: string, sure: boolean) =>
       `refined, ${residual} px; ${sure ? '± is one standard deviation' : 'the outline does not determine how sure'}`,
+    follows: (residual: string) => `following the outline, ${residual} px; refined when it is at rest`,
     library: 'library',
     notRefined: (why: string) => `library. Not refined: ${why}`,
     needs: (what: string) => `For a pose: ${what}.`,
@@ -44,6 +45,7 @@ export const panel = {
     refined: 'Unmatched pixels, pose refined',
     ofLibrary: 'Unmatched pixels, pose of the library',
     beingRefined: 'Unmatched pixels, pose of the library, being refined',
+    follows: 'Unmatched pixels, pose following the outline, being refined',
     of: (area: string) => `px of ${area}`,
     list: 'Candidate poses',
     /** Best first. */

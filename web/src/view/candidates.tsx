@@ -55,7 +55,7 @@ export function Candidates({ cell }: { cell: Cell }) {
 function scoreName(result: Posed | null, findings: Findings | null): string {
   const words = texts.panel.candidates;
   if (result?.from !== 'outline') return words.unmatchedPixels;
-  if (isRefined(result)) return words.refined;
+  if (isRefined(result)) return findings?.tried === false ? words.follows : words.refined;
   return findings?.refusal ? words.ofLibrary : words.beingRefined;
 }
 

@@ -4,6 +4,7 @@ import { currentPlace } from '../document/store';
 import { chosenCandidate, isByHand, type Cell } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from './numbers';
 import { inWords } from '../engine/missing';
+import type { Findings } from '../engine/poser';
 import { wrapped } from '../geometry/pose_motion';
 import { texts } from '../texts';
 import { useApp } from './app';
@@ -20,10 +21,10 @@ interface PoseNumbersCardProps {
 export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
   const { pose = null, deviations = null } = chosenCandidate(cell) ?? {};
   const { poser } = useApp();
-  const refusal = poser.findings(cell.outline)?.refusal ?? null;
+  const findings = poser.findings(cell.outline);
   const source = outdated
     ? texts.panel.pose.outdated(needs(cell, missing))
-    : sourceOf(cell, refusal);
+    : sourceOf(cell, findings);
   const { store } = useApp().services;
   const adjusting = store.ui.tool === 'pose';
   const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
@@ -83,13 +84,15 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
 }
 
 /** Where the pose that is shown comes from. */
-function sourceOf(cell: Cell, refusal: string | null): string {
+function sourceOf(cell: Cell, findings: Findings | null): string {
   if (cell.result?.kind !== 'posed') return '';
   if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
   if (cell.result.from === 'hand') return texts.hand.source;
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
-  if (residual !== null) return texts.panel.pose.refined(residual.toFixed(2), deviations !== null);
-  return refusal === null ? texts.panel.pose.library : texts.panel.pose.notRefined(refusal);
+  const words = texts.panel.pose;
+  if (residual !== null && findings?.tried === false) return words.follows(residual.toFixed(2));
+  if (residual !== null) return words.refined(residual.toFixed(2), deviations !== null);
+  return findings?.refusal ? words.notRefined(findings.refusal) : words.library;
 }
 
 function needs(cell: Cell, missing: readonly string[]): string {

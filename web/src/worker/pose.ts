@@ -1,7 +1,7 @@
 import { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../document/types';
 import { poseArray, poseFrom } from '../engine/pose_array';
-import type { Bend, ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Surroundings } from '../engine/protocol';
+import type { Bend, ConvergenceStep, Match, MatchedCandidate, MatchInput, Picture, PoseProtocol, Refined, Surroundings } from '../engine/protocol';
 import { byHand } from './by_hand';
 import { oneClick } from './one_click';
 import { loadCore } from './core_module';
@@ -22,7 +22,8 @@ serve<PoseProtocol>({
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },
-  match: (input) => withTraced(input, (matcher, traced) => found(matcher, () => matcher.matchOutline(traced))),
+  match: ({ before, ...input }) =>
+    withTraced(input, (matcher, traced) => found(matcher, () => followed(matcher, traced, before) ?? matcher.matchOutline(traced))),
   refine: ({ around, ...input }) =>
     withTraced(input, (matcher, traced) =>
       withSurroundings(input.component, around, (raw) => found(matcher, () => matcher.refineOutline(traced, raw))),
@@ -31,8 +32,7 @@ serve<PoseProtocol>({
     withTraced(input, (matcher, traced) => stepsOf(matcher.convergence(traced, Float64Array.from(poseArray(start))))),
   choose: async ({ component, candidates, around }) => {
     await ready;
-    const poses = Float64Array.from(candidates.flatMap(({ pose }) => poseArray(pose)));
-    const residuals = Float64Array.from(candidates, ({ residual }) => residual);
+    const { poses, residuals } = numbersOf(candidates);
     const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
     if (!chosen) return null;
     const { index, decided, sentence: reason } = chosen;
@@ -82,6 +82,19 @@ function withSurroundings<T>(component: ComponentName, around: Surroundings, wor
   } finally {
     raw.free();
   }
+}
+
+function numbersOf(refined: readonly Refined[]): { poses: Float64Array; residuals: Float64Array } {
+  return {
+    poses: Float64Array.from(refined.flatMap(({ pose }) => poseArray(pose))),
+    residuals: Float64Array.from(refined, ({ residual }) => residual),
+  };
+}
+
+function followed(matcher: Matcher, traced: Traced, before: readonly Refined[]): RawMatch | undefined {
+  if (before.length === 0) return undefined;
+  const { poses, residuals } = numbersOf(before);
+  return matcher.follow(traced, poses, residuals);
 }
 
 function found(matcher: Matcher, find: () => RawMatch): Match {

@@ -1,8 +1,8 @@
-//! Refinement with numbers of the pose locked: they stay, and the others do what they can.
+//! Refinement with its options: numbers that are locked stay, and the others do what they can; swiftness costs little.
 
 use fluoropose::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{BorderPixel, Locks, RefineMemory, RefineOptions, Refined, View, refine};
 use fluoropose_tests::{camera, femur, mesh};
@@ -28,6 +28,14 @@ const START: EulerPose = EulerPose {
 
 /// Refines `start` against the silhouette of the femur at [`TRUTH`].
 fn refined(start: EulerPose, locks: Locks) -> Refined {
+    let options = RefineOptions {
+        locks,
+        ..RefineOptions::default()
+    };
+    refined_with(start, options)
+}
+
+fn refined_with(start: EulerPose, options: RefineOptions) -> Refined {
     let (camera, triangles) = (camera(), femur());
     let mesh: Mesh<'_> = mesh(&triangles);
     let (width, height) = (camera.width(), camera.height());
@@ -48,10 +56,6 @@ fn refined(start: EulerPose, locks: Locks) -> Refined {
         drawn: &mut vec![0; words_needed(width, height)],
         places: &mut vec![0; width * height],
         border: &mut vec![BorderPixel::default(); 16_384],
-    };
-    let options = RefineOptions {
-        locks,
-        ..RefineOptions::default()
     };
     let view = View::only(&camera, &mask);
     refine(&mesh, &[view], &Pose::from(start), options, &mut memory).expect("it is near")
@@ -120,4 +124,20 @@ fn with_everything_locked_nothing_moves() {
     ] {
         assert!((got - wanted).abs() < 1e-9, "{found:?}");
     }
+}
+
+#[test]
+fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
+    let swift = RefineOptions {
+        swift: true,
+        ..RefineOptions::default()
+    };
+    let thorough = refined(START, Locks::default());
+    let hurried = refined_with(START, swift);
+    let away = geodesic_deg(&hurried.pose.rotation, &thorough.pose.rotation);
+    assert!(away < 0.1, "{away} degrees");
+    assert!(
+        hurried.renders < thorough.renders,
+        "{hurried:?} {thorough:?}"
+    );
 }
