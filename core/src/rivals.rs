@@ -27,6 +27,10 @@ const SYMMETRIC_SHARE: f64 = 0.15;
 /// See [`is_split`]: least residual, pixels, and how many times the spread of the residuals it is.
 const SPLIT_PX: f64 = 0.1;
 const SPLIT_RATIO: f64 = 3.0;
+/// The same of an outline without noise: residuals that are spread less than this leave no more
+/// than the second at the right pose, pixels.
+const EXACT_PX: f64 = 0.046;
+const INEXACT_PX: f64 = 0.03;
 
 /// Step of the search round a pose that may be a small minimum, degrees.
 const CLOSE_DEG: f64 = 1.0;
@@ -164,7 +168,9 @@ impl Search<'_, '_> {
 
 /// Whether most of an outline fits exactly and a part does not at all, which noise does not do.
 fn is_split(refined: &Refined) -> bool {
-    refined.residual_px > SPLIT_PX && refined.residual_px > SPLIT_RATIO * refined.spread_px
+    let (residual, spread) = (refined.residual_px, refined.spread_px);
+    let split = residual > SPLIT_PX && residual > SPLIT_RATIO * spread;
+    split || (spread < EXACT_PX && residual > INEXACT_PX)
 }
 
 /// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,
