@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { addFrames, addPoint, closeOutline, movePoint, setCalibration, setModel, type Place } from '../src/document/commands';
 import { Store } from '../src/document/store';
 import { cellOf, type Result } from '../src/document/types';
-import { Poser, REST } from '../src/engine/poser';
+import { PACE, Poser, REST } from '../src/engine/poser';
 import type { Match, MatchInput, Refined } from '../src/engine/protocol';
 import { framePoint } from '../src/geometry/points';
 
@@ -98,6 +98,7 @@ describe('poser', () => {
     await last().answer(matchOf(2, 0.2));
     for (const step of [1, 2]) {
       store.preview(moved(10 + step));
+      await vi.advanceTimersByTimeAsync(PACE);
       expect(last().input.before).toMatchObject([{ pose: { x: 1 + step }, residual: 0.2 }]);
       await last().answer(matchOf(2 + step, 0.2));
       expect(shown()).toEqual({ x: 2 + step, residual: 0.2 });

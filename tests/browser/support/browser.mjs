@@ -222,12 +222,12 @@ export async function until(ask, wanted, what) {
 }
 
 /**
- * Until the page has drawn what it knows: its views update at most once a screen frame, one after another.
+ * Until the page has shown what it knows: words and numbers are renewed at most every 100 ms.
  *
  * @param {import('playwright-core').Page} page
  */
 export async function drawn(page) {
   await page.evaluate(async () => {
-    for (let frame = 0; frame < 4; frame++) await new Promise((resolve) => requestAnimationFrame(resolve));
+    for (let frame = 0; frame < 8; frame++) await new Promise((resolve) => requestAnimationFrame(resolve));
   });
 }

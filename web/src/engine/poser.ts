@@ -54,6 +54,8 @@ const NO_MODEL = texts.said.library.withoutModel;
 
 /** How long the outline on view has to be at rest before poses are refined and rivals looked for, ms. */
 export const REST = 120;
+/** While it changes, its pose is asked for at most so often, ms: what is seen in every screen frame needs the cores too. */
+export const PACE = 33;
 
 /**
  * Keeps every closed outline's pose up to date: whenever the document changes it looks for a cell whose result does
@@ -69,6 +71,8 @@ export class Poser {
   #busy = false;
   #shownOutline: Outline | null = null;
   #changedAt = -Infinity;
+  /** When the pose of an outline was last asked for. */
+  #askedAt = -Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -110,8 +114,10 @@ export class Poser {
   }
 
   /** How long to wait before a task, ms. */
-  #restBefore({ method }: Task): number {
-    return method === 'match' ? 0 : this.#changedAt + REST - performance.now();
+  #restBefore({ method, outline }: Task): number {
+    const now = performance.now();
+    if (method === 'refine') return this.#changedAt + REST - now;
+    return outline === this.#shownOutline ? this.#askedAt + PACE - now : 0;
   }
 
   /**
@@ -181,6 +187,7 @@ export class Poser {
 
   async #run(task: Task): Promise<void> {
     this.#busy = true;
+    if (task.method === 'match') this.#askedAt = performance.now();
     const { method, place, frame, outline } = task;
     try {
       const camera = cameraOf(this.#store.doc, frame);

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'preact/hooks';
 
 /** Words and numbers are renewed at most so often, ms: the film follows the hand in every screen frame, but nobody reads faster. */
-const PERIOD = 60;
+const PERIOD = 100;
 
 const waiting = new Set<() => void>();
 let renewedAt = -Infinity;
