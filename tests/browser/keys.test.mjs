@@ -113,6 +113,7 @@ async function rightWindows(page, stage) {
   const shown = () => panel.windowAndLevel(page);
   const before = await shown();
   await stage.drag([300, 500], [400, 500], 'right');
+  await drawn(page);
   const [width, level] = await until(shown, ([width]) => width > before[0], 'a wider window');
   assert.equal(level, before[1], 'sideways changes the width alone');
   await stage.drag([300, 500], [300, 600], 'right');
