@@ -17,8 +17,14 @@ const PACKAGES: &str = "browser: packages of the page";
 const CHROMIUM: &str = "browser: the page in Chromium";
 const FIREFOX: &str = "browser: the page in Firefox";
 
-/// What is driven in Firefox too: the way from opening to a pose, and the keys. All the rest is the page's own code.
-const IN_FIREFOX: [&str; 1] = ["firefox.test.mjs"];
+/// What is driven in Firefox too: the ways from opening to a pose, every tool, and the keys. Of the rest its driver has no
+/// words for downloads and dropped files.
+const IN_FIREFOX: [&str; 4] = [
+    "aids.test.mjs",
+    "firefox.test.mjs",
+    "keys.test.mjs",
+    "tracing.test.mjs",
+];
 
 /// Runs the suite.
 pub fn run(report: &mut Report) {
