@@ -17,7 +17,7 @@ pageTest(`from opening to a pose in ${IN_FIREFOX ? 'Firefox' : 'Chromium'}`, asy
     ({ pose: refined } = await fromOpeningToPose(page));
     const { x } = await panel.deviations(page);
     assert(x > 0, 'a refined pose has its deviations');
-    if (IN_FIREFOX) await screenshot(page, 'firefox');
+    await screenshot(page, 'posed');
   });
 
   await step(page, t, 'undo by key takes the outline back, redo brings it and its pose again', async () => {

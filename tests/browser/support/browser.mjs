@@ -198,7 +198,8 @@ export const AS_IT_IS = /** @type {const} */ ({ caret: 'initial' });
  */
 export async function screenshot(page, name, part) {
   await mkdir(SCREENSHOTS, { recursive: true });
-  const file = `${name.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
+  const whole = IN_FIREFOX ? `firefox ${name}` : name;
+  const file = `${whole.toLowerCase().replace(/[^a-z0-9]+/g, '-').slice(0, 80)}.png`;
   await (part ?? page).screenshot({ ...AS_IT_IS, path: SCREENSHOTS + file });
 }
 

@@ -141,7 +141,7 @@ export class StageView {
     return (hit.find(({ component }) => component === state.ui.component) ?? hit[0])?.component ?? null;
   }
 
-  /** Where something may be drawn: all of the stage, but for what is drawn most of the time. */
+  /** The part of the stage that is drawn on: round the outlines, models and previews; all of it where a tool or a look draws elsewhere too. */
   #inkBox(state: State, view: Viewport, preview: Preview): Box {
     const { ui, history } = state;
     const { seeing, tool } = ui;
