@@ -1,6 +1,6 @@
 /** Calibration from a bead grid and from a ruler, and correction of distortion, by role and name. */
 import assert from 'node:assert/strict';
-import { pageTest, screenshot, step, until } from './support/browser.mjs';
+import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { bent, ideal, plate, PLATE } from './support/plates.mjs';
@@ -33,6 +33,7 @@ async function greyAt(page, stage, place) {
 
 /** The pixel pitch that the sheet shows. @param {import('playwright-core').Locator} sheet */
 async function pitch(sheet) {
+  await drawn(sheet.page());
   const text = await sheet.getByRole('group', { name: 'Camera' }).innerText();
   return Number(/Pixel pitch ([\d.]+)/.exec(text)?.[1]);
 }

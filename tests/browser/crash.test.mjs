@@ -159,6 +159,7 @@ async function begin(page) {
   await panel.waitForFrames(page, FRAMES);
   await choose(page, await demoFile('femur.jts'));
   await cell(page, 'Frame 2, femur: pose loaded').click();
+  await drawn(page);
   const pose = await panel.shownPose(page);
   await page.keyboard.press('y');
   await note(page, NOTE, 'Note on frame 2, femur');

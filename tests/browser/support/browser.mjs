@@ -223,7 +223,7 @@ export async function until(ask, wanted, what) {
 }
 
 /**
- * Until the page has shown what it knows: words and numbers are renewed at most every 100 ms.
+ * Until the page has shown what it knows: while something moves, words and numbers are renewed every 100 ms.
  *
  * @param {import('playwright-core').Page} page
  */

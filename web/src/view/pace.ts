@@ -1,15 +1,23 @@
 import { useEffect, useState } from 'preact/hooks';
 
-/** Words and numbers are renewed at most so often, ms: the film follows the hand in every screen frame, but nobody reads faster. */
+/**
+ * While something moves, words and numbers are renewed at most so often, ms: the film follows the hand in every screen
+ * frame, but nobody reads faster.
+ */
 const PERIOD = 100;
+
+/** A person who presses or types something wants to see at once what came of it. */
+const DEEDS = ['keydown', 'pointerdown', 'pointerup', 'click', 'input', 'change', 'drop'] as const;
 
 const waiting = new Set<() => void>();
 let renewedAt = -Infinity;
-let scheduled = false;
+let frame = 0;
+let timer: ReturnType<typeof setTimeout> | undefined;
 
 /** All that waits is renewed at once: the page is laid out once. */
 function renew(): void {
-  scheduled = false;
+  frame = 0;
+  timer = undefined;
   renewedAt = performance.now();
   const renewals = [...waiting];
   waiting.clear();
@@ -17,13 +25,21 @@ function renew(): void {
 }
 
 function schedule(): void {
-  if (scheduled) return;
-  scheduled = true;
+  if (frame !== 0 || timer !== undefined) return;
   const rest = renewedAt + PERIOD - performance.now();
-  if (rest <= 0) requestAnimationFrame(renew);
+  if (rest <= 0) frame = requestAnimationFrame(renew);
   // In a stream of changes between two screen frames, where there is time left.
-  else setTimeout(renew, rest);
+  else timer = setTimeout(renew, rest);
 }
+
+function hurry(): void {
+  renewedAt = -Infinity;
+  clearTimeout(timer);
+  timer = undefined;
+  if (waiting.size > 0) schedule();
+}
+
+for (const deed of DEEDS) addEventListener(deed, hurry, { capture: true, passive: true });
 
 /** What `read` gives, renewed soon after `subscribe` tells of a change. Both have to stay the same functions. */
 export function useAtReadingPace<T>(subscribe: (listener: () => void) => () => void, read: () => T): T {
