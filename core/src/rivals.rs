@@ -27,8 +27,9 @@ const SYMMETRIC_SHARE: f64 = 0.15;
 /// See [`is_split`]: least residual, pixels, and how many times the spread of the residuals it is.
 const SPLIT_PX: f64 = 0.1;
 const SPLIT_RATIO: f64 = 3.0;
-/// The same of an outline without noise: residuals that are spread less than this leave no more
-/// than the second at the right pose, pixels.
+/// The same of an outline without noise: residuals that are spread less than the first leave no
+/// more than the second at the right pose, pixels. By trial on the exact masks of two femoral and two
+/// tibial components.
 const EXACT_PX: f64 = 0.046;
 const INEXACT_PX: f64 = 0.03;
 
@@ -166,7 +167,8 @@ impl Search<'_, '_> {
     }
 }
 
-/// Whether most of an outline fits exactly and a part does not at all, which noise does not do.
+/// Whether most of an outline fits exactly and a part does not at all, which noise does not do, or
+/// an outline without noise leaves more than rounding does.
 fn is_split(refined: &Refined) -> bool {
     let (residual, spread) = (refined.residual_px, refined.spread_px);
     let split = residual > SPLIT_PX && residual > SPLIT_RATIO * spread;

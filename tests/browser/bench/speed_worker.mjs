@@ -57,9 +57,12 @@ function followed(matcher, outline, steps) {
   let [pose, residual] = [start.pose(0), start.residual(0)];
   return steps.map((next) =>
     timed(() => {
-      const found = matcher.follow(next(), pose, Float64Array.of(residual));
+      const traced = next();
+      const found = matcher.follow(traced, pose, Float64Array.of(residual));
       if (!found) throw new Error('the pose was lost');
       [pose, residual] = [found.pose(0), found.residual(0)];
+      found.free();
+      traced.free();
     }),
   );
 }

@@ -17,7 +17,7 @@ use crate::traced::Traced;
 const WORSE: f64 = 2.0;
 const WORSE_PX: f64 = 1.0;
 
-/// A view of the library that is farther than this from a pose, degrees, is not the one that the pose shows.
+/// A view of the library that is turned against a pose by more than this, degrees, does not show the same.
 const FAR_DEG: f64 = 5.0;
 
 /// Views that explain the outline are looked for as many as a near-symmetric component has.
@@ -29,7 +29,7 @@ impl Matcher {
     /// Other poses are not looked for, and how sure these are is not told. `residuals` are what they left before, pixels.
     ///
     /// Nothing without the model, where a part of the outline is unknown, and where the first pose fits much worse than
-    /// before or the library has a better view elsewhere: then `match_outline` has to look everywhere.
+    /// before or lies away from the library's best views of the outline: then `match_outline` has to look everywhere.
     ///
     /// # Errors
     /// The core's sentence about the silhouette.
