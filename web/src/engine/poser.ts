@@ -182,7 +182,7 @@ export class Poser {
     const tried = findings?.key === key && findings.tried;
     // What was tried for an outline is lost where undo brings back its result from before.
     if (tried && (isRefined(result) || findings.refusal !== null)) return false;
-    return shown || !isRefined(result) || findings?.tried === false;
+    return shown || !isRefined(result) || isFollowing(result, findings);
   }
 
   async #run(task: Task): Promise<void> {
@@ -264,6 +264,11 @@ function isStale({ outline, result, resultOf }: Cell, key: string): boolean {
   if (isByHand(result)) return false;
   if (!result || resultOf !== outline) return true;
   return !isLoaded({ result }) && result.origin !== key;
+}
+
+/** Did a refined pose only go along with its outline, to be found anew when that rests? */
+export function isFollowing(result: Result | null, findings: Findings | null): boolean {
+  return isRefined(result) && findings?.tried === false;
 }
 
 /** Given by a person or a file, not found here. */

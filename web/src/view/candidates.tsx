@@ -1,4 +1,4 @@
-import type { Findings } from '../engine/poser';
+import { isFollowing, type Findings } from '../engine/poser';
 import { isPicked } from '../document/hand_poses';
 import { texts } from '../texts';
 import { useApp } from './app';
@@ -55,7 +55,8 @@ export function Candidates({ cell }: { cell: Cell }) {
 function scoreName(result: Posed | null, findings: Findings | null): string {
   const words = texts.panel.candidates;
   if (result?.from !== 'outline') return words.unmatchedPixels;
-  if (isRefined(result)) return findings?.tried === false ? words.follows : words.refined;
+  if (isFollowing(result, findings)) return words.follows;
+  if (isRefined(result)) return words.refined;
   return findings?.refusal ? words.ofLibrary : words.beingRefined;
 }
 

@@ -4,7 +4,7 @@ import { currentPlace } from '../document/store';
 import { chosenCandidate, isByHand, type Cell } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from './numbers';
 import { inWords } from '../engine/missing';
-import type { Findings } from '../engine/poser';
+import { isFollowing, type Findings } from '../engine/poser';
 import { wrapped } from '../geometry/pose_motion';
 import { texts } from '../texts';
 import { useApp } from './app';
@@ -90,7 +90,7 @@ function sourceOf(cell: Cell, findings: Findings | null): string {
   if (cell.result.from === 'hand') return texts.hand.source;
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
   const words = texts.panel.pose;
-  if (residual !== null && findings?.tried === false) return words.follows(residual.toFixed(2));
+  if (residual !== null && isFollowing(cell.result, findings)) return words.follows(residual.toFixed(2));
   if (residual !== null) return words.refined(residual.toFixed(2), deviations !== null);
   return findings?.refusal ? words.notRefined(findings.refusal) : words.library;
 }
