@@ -1,5 +1,9 @@
 //! One click or one box: a first outline and pose, in steps between which a worker can be called off.
 
+mod answer;
+
+pub use answer::OneClickAnswer;
+
 use fluoropose::border::follow_border;
 use fluoropose::camera::Camera;
 use fluoropose::choice::Candidate as Contender;
@@ -26,12 +30,10 @@ use crate::exchange::simplified;
 use crate::film::{Film, Pixels};
 use crate::found::{Candidate, Match, deviation_numbers};
 use crate::pose_numbers::to_numbers;
+use answer::told;
 
 /// The outline that is handed out stays so near to the silhouette, pixels.
 const TOLERANCE: f64 = 0.5;
-/// Shares of the outline on edges from which an answer is good, and fair.
-const GOOD: f64 = 0.85;
-const FAIR: f64 = 0.65;
 /// An answer whose edges are weaker than this part of the best's is no rival.
 const RIVAL_STRENGTH: f64 = 0.75;
 
@@ -462,99 +464,9 @@ fn offered(answers: &[Answer], chosen: &Chosen) -> Vec<usize> {
     places
 }
 
-/// What was done and how sure it is.
-fn told(supports: &[f64]) -> String {
-    let share = supports.first().copied().unwrap_or(0.0);
-    let percent = (100.0 * share).round();
-    let how = format!("The model's outline lies on edges along {percent} % of its length.");
-    let doubt = match share {
-        share if share >= GOOD => "",
-        share if share >= FAIR => " Check it before you go on.",
-        _ => {
-            " That is little: something may hide it, or it is another part; correct it or click elsewhere."
-        }
-    };
-    let rivals = match supports.len() {
-        0 | 1 => String::new(),
-        2 => " Another pose explains the film nearly as well.".to_owned(),
-        count => format!(
-            " {} other poses explain the film nearly as well.",
-            count - 1
-        ),
-    };
-    format!("{how}{doubt}{rivals}")
-}
-
-/// What came of a click or a box: candidates, the chosen one first. Asked beyond `count`, the methods answer nothing.
-#[wasm_bindgen]
-pub struct OneClickAnswer {
-    outlines: Vec<Vec<f64>>,
-    /// Of outlines from a model.
-    supports: Vec<f64>,
-    matched: Option<Match>,
-    sentence: String,
-}
-
-#[wasm_bindgen]
-impl OneClickAnswer {
-    /// How many candidates there are.
-    #[wasm_bindgen(getter)]
-    pub fn count(&self) -> usize {
-        self.outlines.len()
-    }
-
-    /// Whether the outlines are the model's silhouettes, each with a pose; otherwise there is one, of a region.
-    #[wasm_bindgen(getter, js_name = fromModel)]
-    pub fn from_model(&self) -> bool {
-        !self.supports.is_empty()
-    }
-
-    /// What was done and how sure it is.
-    #[wasm_bindgen(getter)]
-    pub fn sentence(&self) -> String {
-        self.sentence.clone()
-    }
-
-    /// How sure the first candidate is: "good", "fair" or "poor".
-    #[wasm_bindgen(getter)]
-    pub fn confidence(&self) -> String {
-        let word = match self.supports.first() {
-            Some(&share) if share >= GOOD => "good",
-            Some(&share) if share >= FAIR => "fair",
-            _ => "poor",
-        };
-        word.to_owned()
-    }
-
-    /// Columns and rows by turns: a simple polygon.
-    pub fn outline(&self, index: usize) -> Option<Vec<f64>> {
-        self.outlines.get(index).cloned()
-    }
-
-    /// Part of the outline that lies on an edge of the right polarity, 0 to 1; nothing for a region.
-    pub fn support(&self, index: usize) -> Option<f64> {
-        self.supports.get(index).copied()
-    }
-
-    /// The candidates' poses, in the same order; once, and nothing for a region.
-    #[wasm_bindgen(js_name = takeMatch)]
-    pub fn take_match(&mut self) -> Option<Match> {
-        self.matched.take()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_sentence_tells_how_sure_it_is_and_of_rivals() {
-        let good = "The model's outline lies on edges along 94 % of its length.";
-        assert_eq!(told(&[0.936]), good);
-        assert!(told(&[0.936, 0.9]).ends_with(" Another pose explains the film nearly as well."));
-        assert!(told(&[0.7]).ends_with(" Check it before you go on."));
-        assert!(told(&[0.4]).contains("correct it or click elsewhere"));
-    }
 
     #[test]
     fn a_prompt_is_a_click_or_a_box() {

@@ -1,0 +1,104 @@
+//! What came of a click or a box, and how sure it is.
+
+use wasm_bindgen::prelude::*;
+
+use crate::found::Match;
+
+/// Shares of the outline on edges from which an answer is good, and fair.
+const GOOD: f64 = 0.85;
+const FAIR: f64 = 0.65;
+
+/// What came of a click or a box: candidates, the chosen one first. Asked beyond `count`, the methods answer nothing.
+#[wasm_bindgen]
+pub struct OneClickAnswer {
+    pub(super) outlines: Vec<Vec<f64>>,
+    /// Of outlines from a model.
+    pub(super) supports: Vec<f64>,
+    pub(super) matched: Option<Match>,
+    pub(super) sentence: String,
+}
+
+#[wasm_bindgen]
+impl OneClickAnswer {
+    /// How many candidates there are.
+    #[wasm_bindgen(getter)]
+    pub fn count(&self) -> usize {
+        self.outlines.len()
+    }
+
+    /// Whether the outlines are the model's silhouettes, each with a pose; otherwise there is one, of a region.
+    #[wasm_bindgen(getter, js_name = fromModel)]
+    pub fn from_model(&self) -> bool {
+        !self.supports.is_empty()
+    }
+
+    /// What was done and how sure it is.
+    #[wasm_bindgen(getter)]
+    pub fn sentence(&self) -> String {
+        self.sentence.clone()
+    }
+
+    /// How sure the first candidate is: "good", "fair" or "poor".
+    #[wasm_bindgen(getter)]
+    pub fn confidence(&self) -> String {
+        let word = match self.supports.first() {
+            Some(&share) if share >= GOOD => "good",
+            Some(&share) if share >= FAIR => "fair",
+            _ => "poor",
+        };
+        word.to_owned()
+    }
+
+    /// Columns and rows by turns: a simple polygon.
+    pub fn outline(&self, index: usize) -> Option<Vec<f64>> {
+        self.outlines.get(index).cloned()
+    }
+
+    /// Part of the outline that lies on an edge of the right polarity, 0 to 1; nothing for a region.
+    pub fn support(&self, index: usize) -> Option<f64> {
+        self.supports.get(index).copied()
+    }
+
+    /// The candidates' poses, in the same order; once, and nothing for a region.
+    #[wasm_bindgen(js_name = takeMatch)]
+    pub fn take_match(&mut self) -> Option<Match> {
+        self.matched.take()
+    }
+}
+
+/// What was done and how sure it is.
+pub(super) fn told(supports: &[f64]) -> String {
+    let share = supports.first().copied().unwrap_or(0.0);
+    let percent = (100.0 * share).round();
+    let how = format!("The model's outline lies on edges along {percent} % of its length.");
+    let doubt = match share {
+        share if share >= GOOD => "",
+        share if share >= FAIR => " Check it before you go on.",
+        _ => {
+            " That is little: something may hide it, or it is another part; correct it or click elsewhere."
+        }
+    };
+    let rivals = match supports.len() {
+        0 | 1 => String::new(),
+        2 => " Another pose explains the film nearly as well.".to_owned(),
+        count => format!(
+            " {} other poses explain the film nearly as well.",
+            count - 1
+        ),
+    };
+    format!("{how}{doubt}{rivals}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_tells_how_sure_it_is_and_of_rivals() {
+        let good = "The model's outline lies on edges along 94 % of its length.";
+        assert_eq!(told(&[0.936]), good);
+        assert!(told(&[0.936, 0.9]).ends_with(" Another pose explains the film nearly as well."));
+        assert!(told(&[0.7]).ends_with(" Check it before you go on."));
+        assert!(told(&[0.4]).contains("correct it or click elsewhere"));
+    }
+}
