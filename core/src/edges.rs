@@ -1,62 +1,115 @@
 //! Which triangles share an edge: what a closed surface's silhouette can be drawn from.
 
+mod boxes;
+mod eye;
+#[cfg(test)]
+pub(crate) mod fake;
+
+pub use boxes::{EdgeBox, EdgeGroup};
+pub(crate) use eye::Eye;
+
 use crate::mesh::Mesh;
+use boxes::IN_BOX;
 
 /// An edge along which two triangles run in opposite directions. Made by [`link`] alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshEdge {
     pub(crate) from: u32,
     pub(crate) to: u32,
-    /// The triangle that runs `from` -> `to`.
+    /// Third vertex of the triangle that runs `from` -> `to`.
     pub(crate) forth: u32,
-    /// The triangle that runs `to` -> `from`.
+    /// Third vertex of the triangle that runs `to` -> `from`.
     pub(crate) back: u32,
+    /// Where it comes among the edges.
+    order: u32,
 }
 
-/// In place of a triangle while edges are being paired.
+/// The edges of a closed surface, those together whose triangles turn from the camera together.
+#[derive(Clone, Copy, Debug)]
+pub struct Edges<'e> {
+    boxes: &'e [EdgeBox],
+    groups: &'e [EdgeGroup],
+}
+
+impl<'e> Edges<'e> {
+    /// Boxes and groups that [`link`] gave, kept in other memory; `None` where their numbers differ.
+    #[must_use]
+    pub fn new(boxes: &'e [EdgeBox], groups: &'e [EdgeGroup]) -> Option<Self> {
+        (boxes.len() == groups.len()).then_some(Self { boxes, groups })
+    }
+
+    /// What to keep of them.
+    #[must_use]
+    pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup]) {
+        (self.boxes, self.groups)
+    }
+
+    /// Groups and their boxes.
+    pub(crate) fn groups(&self) -> impl Iterator<Item = (&'e EdgeBox, &'e EdgeGroup)> {
+        self.boxes.iter().zip(self.groups)
+    }
+}
+
+/// In place of a vertex while edges are being paired.
 const NONE: u32 = u32::MAX;
 
-/// Room that [`link`] needs for `mesh`.
+/// Room for edges that [`link`] needs for `mesh`.
 #[must_use]
 pub fn edges_needed(mesh: &Mesh<'_>) -> usize {
     3 * mesh.triangles().len()
 }
 
-/// Pairs the sides of the triangles of `mesh` in lent memory ([`edges_needed`]) and gives the
-/// edges, to be lent to [`Mesh::with_edges`]. Where more than two triangles meet at an edge they
-/// are paired in any way.
+/// Boxes and groups that [`link`] needs for `mesh` at most.
+#[must_use]
+pub fn groups_needed(mesh: &Mesh<'_>) -> usize {
+    edges_needed(mesh).div_ceil(2).div_ceil(IN_BOX)
+}
+
+/// Pairs the sides of the triangles of `mesh` in working memory ([`edges_needed`]) and writes the
+/// edges to lent memory ([`groups_needed`]), to be lent to [`Mesh::with_edges`]. Where more than
+/// two triangles meet at an edge they are paired in any way.
 ///
 /// `None` where the surface is not closed or not consistently oriented (an edge is run along
 /// more often in one direction than in the other), and where the memory is too short: such a
 /// mesh is drawn triangle by triangle.
-pub fn link<'e>(mesh: &Mesh<'_>, room: &'e mut [MeshEdge]) -> Option<&'e [MeshEdge]> {
+pub fn link<'e>(
+    mesh: &Mesh<'_>,
+    room: &mut [MeshEdge],
+    boxes: &'e mut [EdgeBox],
+    groups: &'e mut [EdgeGroup],
+) -> Option<Edges<'e>> {
     let mut count = 0;
-    for (index, &[a, b, c]) in (0..NONE).zip(mesh.triangles()) {
-        for (from, to) in [(a, b), (b, c), (c, a)] {
+    for &[a, b, c] in mesh.triangles() {
+        for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
             if from != to {
-                *room.get_mut(count)? = half(from, to, index);
+                *room.get_mut(count)? = half(from, to, third);
                 count += 1;
             }
         }
     }
     let halves = room.get_mut(..count)?;
-    halves.sort_unstable_by_key(|edge| (edge.from, edge.to, edge.forth));
+    halves.sort_unstable_by_key(|edge| (edge.from, edge.to, edge.forth, edge.back));
     let paired = pair(halves)?;
-    room.get(..paired)
+    let edges = room.get_mut(..paired)?;
+    let count = paired.div_ceil(IN_BOX);
+    let (boxes, groups) = (boxes.get_mut(..count)?, groups.get_mut(..count)?);
+    boxes::gather(mesh, edges, boxes, groups);
+    Edges::new(boxes, groups)
 }
 
 /// One side of a triangle, from the lower to the higher vertex.
-fn half(from: u32, to: u32, triangle: u32) -> MeshEdge {
+fn half(from: u32, to: u32, third: u32) -> MeshEdge {
     let (forth, back) = if from < to {
-        (triangle, NONE)
+        (third, NONE)
     } else {
-        (NONE, triangle)
+        (NONE, third)
     };
     MeshEdge {
         from: from.min(to),
         to: from.max(to),
         forth,
         back,
+        order: 0,
     }
 }
 
@@ -95,18 +148,27 @@ mod tests {
     fn linked(triangles: &[[u32; 3]]) -> Option<std::vec::Vec<MeshEdge>> {
         let mesh = Mesh::new(&CORNERS, triangles).expect("valid");
         let mut room = std::vec![MeshEdge::default(); edges_needed(&mesh)];
-        link(&mesh, &mut room).map(<[MeshEdge]>::to_vec)
+        let mut boxes = std::vec![EdgeBox::default(); groups_needed(&mesh)];
+        let mut groups = std::vec![EdgeGroup::default(); groups_needed(&mesh)];
+        let edges = link(&mesh, &mut room, &mut boxes, &mut groups)?;
+        Some(
+            edges
+                .groups()
+                .flat_map(|(_, group)| group.edges())
+                .collect(),
+        )
     }
 
-    /// Oracle: every triangle beside an edge runs along it in the direction that is said.
+    /// Oracle: both triangles beside an edge are there and run along it as is said.
     fn assert_sides(edges: &[MeshEdge], triangles: &[[u32; 3]]) {
-        let runs = |triangle: u32, from: u32, to: u32| {
-            let [a, b, c] = triangles[triangle as usize];
-            [(a, b), (b, c), (c, a)].contains(&(from, to))
+        let is_there = |from: u32, to: u32, third: u32| {
+            let turned = |&[a, b, c]: &[u32; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+            let mut all = triangles.iter().flat_map(turned);
+            all.any(|triangle| triangle == [from, to, third])
         };
         for edge in edges {
-            assert!(runs(edge.forth, edge.from, edge.to));
-            assert!(runs(edge.back, edge.to, edge.from));
+            assert!(is_there(edge.from, edge.to, edge.forth));
+            assert!(is_there(edge.to, edge.from, edge.back));
         }
     }
 
@@ -139,6 +201,11 @@ mod tests {
     #[test]
     fn too_little_room_is_no_panic() {
         let mesh = Mesh::new(&CORNERS, &CLOSED).expect("valid");
-        assert_eq!(link(&mesh, &mut [MeshEdge::default(); 11]), None);
+        let (mut boxes, mut groups) = ([EdgeBox::default()], [EdgeGroup::default()]);
+        let mut room = [MeshEdge::default(); 12];
+        assert!(link(&mesh, &mut room[..11], &mut boxes, &mut groups).is_none());
+        assert!(link(&mesh, &mut room, &mut [], &mut groups).is_none());
+        assert!(link(&mesh, &mut room, &mut boxes, &mut []).is_none());
+        assert!(link(&mesh, &mut room, &mut boxes, &mut groups).is_some());
     }
 }

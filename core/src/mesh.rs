@@ -3,7 +3,7 @@
 use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
-use crate::edges::MeshEdge;
+use crate::edges::Edges;
 use crate::math::Vector3;
 
 /// Why vertices and triangles are not a mesh.
@@ -28,7 +28,8 @@ pub enum MeshError {
 pub struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
-    edges: Option<&'a [MeshEdge]>,
+    edges: Option<Edges<'a>>,
+    bounds: Bounds,
 }
 
 /// SHA-256 of a mesh's vertices and triangles as they are stored.
@@ -41,6 +42,28 @@ pub struct Bounds {
     pub centre: Vector3,
     /// Distance from it to the farthest vertex.
     pub radius: f64,
+}
+
+impl Bounds {
+    fn of(vertices: &[[f32; 3]]) -> Self {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for vertex in vertices {
+            for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(vertex) {
+                *low = low.min(f64::from(x));
+                *high = high.max(f64::from(x));
+            }
+        }
+        let centre = core::array::from_fn(|k| (low[k] + high[k]) / 2.0);
+        let squared = vertices.iter().fold(0.0f64, |most, vertex| {
+            let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
+            most.max(crate::math::dot(&d, &d))
+        });
+        Self {
+            centre,
+            radius: crate::math::sqrt(squared),
+        }
+    }
 }
 
 impl<'a> Mesh<'a> {
@@ -61,15 +84,16 @@ impl<'a> Mesh<'a> {
         if let Some(index) = triangles.iter().position(|t| !known(t)) {
             return Err(MeshError::Index(index));
         }
-        let mesh = Self {
+        let bounds = Bounds::of(vertices);
+        if bounds.radius == 0.0 {
+            return Err(MeshError::Point);
+        }
+        Ok(Self {
             vertices,
             triangles,
             edges: None,
-        };
-        if mesh.bounds().radius == 0.0 {
-            return Err(MeshError::Point);
-        }
-        Ok(mesh)
+            bounds,
+        })
     }
 
     /// Vertices, mm.
@@ -87,37 +111,21 @@ impl<'a> Mesh<'a> {
     /// The same mesh with the edges that [`crate::edges::link`] found for these triangles: its
     /// silhouettes are the same, and are drawn several times as fast.
     #[must_use]
-    pub fn with_edges(self, edges: &'a [MeshEdge]) -> Self {
+    pub fn with_edges(self, edges: Edges<'a>) -> Self {
         Self {
             edges: Some(edges),
             ..self
         }
     }
 
-    pub(crate) fn edges(&self) -> Option<&'a [MeshEdge]> {
+    pub(crate) fn edges(&self) -> Option<Edges<'a>> {
         self.edges
     }
 
     /// Centre of the bounding box and the radius of the sphere round it that holds the model.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let mut low = [f64::INFINITY; 3];
-        let mut high = [f64::NEG_INFINITY; 3];
-        for vertex in self.vertices {
-            for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(vertex) {
-                *low = low.min(f64::from(x));
-                *high = high.max(f64::from(x));
-            }
-        }
-        let centre = core::array::from_fn(|k| (low[k] + high[k]) / 2.0);
-        let squared = self.vertices.iter().fold(0.0f64, |most, vertex| {
-            let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
-            most.max(crate::math::dot(&d, &d))
-        });
-        Bounds {
-            centre,
-            radius: crate::math::sqrt(squared),
-        }
+        self.bounds
     }
 
     /// Digest of the geometry, which a library records to know its model again.

@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::camera::Camera;
 use crate::contour::Point;
+use crate::edges::Eye;
 use crate::mask::MaskMut;
 use crate::math::{Vector3, dot};
 use crate::mesh::Mesh;
@@ -39,14 +40,13 @@ pub type Projected = FixedPoint;
 /// edges.
 #[must_use]
 pub fn scratch_needed(mesh: &Mesh<'_>) -> usize {
-    let edges = mesh.edges().map_or(0, |_| winding::room_needed(mesh));
+    let edges = mesh.edges().map_or(0, |_| winding::room_needed());
     mesh.vertices().len() + edges
 }
 
 /// Adds the silhouette of `mesh` at `pose` to `out`: every pixel whose centre lies in the
 /// projection of any triangle, whatever the winding. What is beyond the frame is cut off. A mesh
-/// with edges gives the same pixels sooner. Afterwards `scratch` begins with the projected
-/// vertices.
+/// with edges gives the same pixels sooner.
 ///
 /// # Errors
 /// [`RenderError`]; nothing has been drawn then.
@@ -60,12 +60,22 @@ pub fn render(
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
-    let (projected, room) = project_all(mesh, camera, pose, scratch)?;
-    if let Some(edges) = mesh.edges()
-        && winding::fill(mesh.triangles(), edges, projected, room, out)
-    {
-        return Ok(());
+    let (needed, given) = (scratch_needed(mesh), scratch.len());
+    let scratch = scratch
+        .get_mut(..needed)
+        .ok_or(RenderError::Scratch { needed, given })?;
+    if let Some(edges) = mesh.edges() {
+        let eye = Eye::new(mesh, camera, pose);
+        if !eye.sees_all() {
+            project(mesh, camera, pose, scratch)?;
+        }
+        let (slots, room) = scratch.split_at_mut(mesh.vertices().len());
+        let mut images = Images::new(mesh, camera, pose, slots);
+        if winding::fill(&eye, &edges, &mut images, room, out) {
+            return Ok(());
+        }
     }
+    let projected = project(mesh, camera, pose, scratch)?;
     let height = out.height();
     for_each_span(
         mesh,
@@ -81,7 +91,7 @@ pub fn render(
 
 /// Calls `visit(triangle, row, from, to)` for each row of each triangle that is `wanted` and
 /// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `projected` holds
-/// the vertices as [`render`] left them in its working memory.
+/// the vertices as [`project`] gives them.
 pub(crate) fn for_each_span(
     mesh: &Mesh<'_>,
     projected: &[Projected],
@@ -104,29 +114,69 @@ pub(crate) fn for_each_span(
 /// The silhouette edges of `mesh` as [`render`] left them in its working memory, run along as the
 /// triangles that face the camera do, with the images of their ends; nothing where it was drawn triangle by triangle.
 pub(crate) fn contour<'s>(
-    mesh: &Mesh<'s>,
+    mesh: &Mesh<'_>,
     scratch: &'s [Projected],
-) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])>> {
-    let edges = mesh.edges()?;
-    let needed = scratch_needed(mesh);
-    let (images, room) = scratch.get(..needed)?.split_at(mesh.vertices().len());
+) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])> + use<'s>> {
+    mesh.edges()?;
+    let scratch = scratch.get(..scratch_needed(mesh))?;
+    let (images, room) = scratch.split_at(mesh.vertices().len());
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
-    let ends = move |edge: [u32; 2]| (edge, edge.map(image));
-    Some(winding::contour(edges, room)?.map(ends))
+    Some(winding::contour(room)?.map(move |ends| (ends, ends.map(image))))
 }
 
-/// Projects all vertices; gives them and the rest of the working memory.
-fn project_all<'s>(
+/// The images of those vertices that are asked for, each made once.
+pub(crate) struct Images<'i> {
+    camera: &'i Camera,
+    pose: &'i Pose,
+    vertices: &'i [[f32; 3]],
+    slots: &'i mut [Projected],
+}
+
+impl<'i> Images<'i> {
+    /// In lent memory, a slot a vertex. All vertices must have images.
+    pub(crate) fn new(
+        mesh: &Mesh<'i>,
+        camera: &'i Camera,
+        pose: &'i Pose,
+        slots: &'i mut [Projected],
+    ) -> Self {
+        slots.fill(FixedPoint::NONE);
+        Self {
+            camera,
+            pose,
+            vertices: mesh.vertices(),
+            slots,
+        }
+    }
+
+    pub(crate) fn of(&mut self, vertex: u32) -> Projected {
+        // Indices were checked when the mesh was made.
+        let vertex = vertex as usize;
+        let (Some(slot), Some(place)) = (self.slots.get_mut(vertex), self.vertices.get(vertex))
+        else {
+            return FixedPoint::NONE;
+        };
+        if *slot == FixedPoint::NONE {
+            *slot = image_of(self.camera, self.pose, place).0;
+        }
+        *slot
+    }
+}
+
+/// Projects all vertices into lent memory and gives them.
+///
+/// # Errors
+/// [`RenderError::Scratch`] and [`RenderError::BehindCamera`].
+pub(crate) fn project<'s>(
     mesh: &Mesh<'_>,
     camera: &Camera,
     pose: &Pose,
     scratch: &'s mut [Projected],
-) -> Result<(&'s [Projected], &'s mut [Projected]), RenderError> {
-    let (needed, given) = (scratch_needed(mesh), scratch.len());
-    let scratch = scratch
+) -> Result<&'s [Projected], RenderError> {
+    let (needed, given) = (mesh.vertices().len(), scratch.len());
+    let images = scratch
         .get_mut(..needed)
         .ok_or(RenderError::Scratch { needed, given })?;
-    let (images, room) = scratch.split_at_mut(mesh.vertices().len());
     let mut all = true;
     for (vertex, image) in mesh.vertices().iter().zip(&mut *images) {
         let (point, inside) = image_of(camera, pose, vertex);
@@ -134,7 +184,7 @@ fn project_all<'s>(
         all &= inside;
     }
     if all {
-        return Ok((images, room));
+        return Ok(images);
     }
     let beyond = |vertex| !image_of(camera, pose, vertex).1;
     let first = mesh.vertices().iter().position(beyond);
@@ -142,6 +192,7 @@ fn project_all<'s>(
 }
 
 /// The image of a vertex, and whether it has one. Without a branch: several at once.
+#[inline(always)]
 fn image_of(camera: &Camera, pose: &Pose, vertex: &[f32; 3]) -> (FixedPoint, bool) {
     let model: Vector3 = vertex.map(f64::from);
     let [x, y, z]: Vector3 =

@@ -12,6 +12,9 @@ const PLACES: u32 = 12;
 const ONE: i64 = 1 << PLACES;
 const HALF: i64 = ONE / 2;
 
+/// How far rounding moves a coordinate at most, pixels.
+pub(crate) const ROUNDING: f64 = 0.5 / ONE as f64;
+
 /// Beside this number an `f64` holds whole numbers alone, and those of 32 bits in its low bits.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
@@ -26,6 +29,12 @@ pub struct FixedPoint {
 }
 
 impl FixedPoint {
+    /// In place of a point: no coordinate is that far out.
+    pub(crate) const NONE: Self = Self {
+        column: i32::MIN,
+        row: i32::MIN,
+    };
+
     /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
     #[must_use]
     pub fn from_point(point: Point) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! A model's surface as the page's modules own it.
 
-use fluoropose::edges::{MeshEdge, edges_needed, link};
+use fluoropose::edges::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
 use fluoropose::mesh::Mesh;
 use wasm_bindgen::JsError;
 
@@ -10,7 +10,7 @@ use crate::error::sentence;
 pub(crate) struct Surface {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
-    edges: Option<Vec<MeshEdge>>,
+    edges: Option<(Vec<EdgeBox>, Vec<EdgeGroup>)>,
 }
 
 impl Surface {
@@ -20,7 +20,10 @@ impl Surface {
         let triangles = triangles.as_chunks().0.to_vec();
         let mesh = Mesh::new(&vertices, &triangles).map_err(sentence)?;
         let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
-        let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);
+        let mut boxes = vec![EdgeBox::default(); groups_needed(&mesh)];
+        let mut groups = vec![EdgeGroup::default(); groups_needed(&mesh)];
+        let edges = link(&mesh, &mut room, &mut boxes, &mut groups).map(|edges| edges.parts());
+        let edges = edges.map(|(boxes, groups)| (boxes.to_vec(), groups.to_vec()));
         Ok(Self {
             vertices,
             triangles,
@@ -36,9 +39,8 @@ impl Surface {
     /// The core's view of it.
     pub(crate) fn mesh(&self) -> Result<Mesh<'_>, JsError> {
         let mesh = Mesh::new(&self.vertices, &self.triangles).map_err(sentence)?;
-        Ok(match &self.edges {
-            Some(edges) => mesh.with_edges(edges),
-            None => mesh,
-        })
+        let edges = self.edges.as_ref();
+        let edges = edges.and_then(|(boxes, groups)| Edges::new(boxes, groups));
+        Ok(edges.map_or(mesh, |edges| mesh.with_edges(edges)))
     }
 }

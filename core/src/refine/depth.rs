@@ -11,30 +11,25 @@ use core::ops::Range;
 
 use super::outline::{BorderPixel, Depth, Outliner};
 use crate::math::dot;
-use crate::raster::{Projected, contour, for_each_span};
+use crate::raster::{Projected, contour, for_each_span, project};
 use crate::scan::pixel_box;
 
 impl Outliner<'_> {
     /// Writes the depth behind each border pixel. `places` has the number of each in the list.
     pub(super) fn measure_depth(
         &self,
-        projected: &[Projected],
+        scratch: &mut [Projected],
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        let edges = match self.depth {
-            Depth::Edges => contour(self.mesh, projected),
-            Depth::Surface => None,
-        };
-        match edges {
-            Some(edges) => {
-                for (vertices, images) in edges {
-                    let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
-                    self.lay_edge(depths, images.map(Projected::place), places, border);
-                }
+        if let (Depth::Edges, Some(edges)) = (self.depth, contour(self.mesh, scratch)) {
+            for (vertices, images) in edges {
+                let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
+                self.lay_edge(depths, images.map(Projected::place), places, border);
             }
-            None => self.cover_with_triangles(projected, places, border),
+            return;
         }
+        self.cover_with_triangles(scratch, places, border);
     }
 
     /// Lends an edge's depth to the border pixels that it passes.
@@ -88,10 +83,14 @@ impl Outliner<'_> {
 
     fn cover_with_triangles(
         &self,
-        projected: &[Projected],
+        scratch: &mut [Projected],
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
+        let Ok(projected) = project(self.mesh, self.camera, self.pose, scratch) else {
+            // What was drawn has images: it is not reached.
+            return;
+        };
         let tiles = Tiles::of(border);
         let (width, height) = (self.drawn.width(), self.drawn.height());
         let wanted = |corners| tiles.meet(pixel_box(corners));
@@ -205,7 +204,7 @@ impl Tiles {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use crate::edges::{MeshEdge, edges_needed, link};
+    use crate::edges::fake::Linked;
     use crate::mask::{MaskMut, words_needed};
     use crate::mesh::Mesh;
     use crate::pose::Pose;
@@ -257,6 +256,7 @@ mod tests {
         let drawn = drawn.into_mask();
         let outliner = Outliner {
             mesh,
+            camera: &camera,
             pose: &pose,
             drawn: &drawn,
             depth: Depth::Edges,
@@ -264,7 +264,7 @@ mod tests {
         // What the memory held before does not matter.
         let mut places = vec![7; SIDE * SIDE];
         let mut border = vec![BorderPixel::default(); 4096];
-        let border = outliner.border(&scratch, &mut places, &mut border);
+        let border = outliner.border(&mut scratch, &mut places, &mut border);
         let known = border.iter().filter(|pixel| pixel.is_on_surface());
         let known: Vec<_> = known.map(|p| ([p.column, p.row], p.depth())).collect();
         assert_eq!(known.len(), border.len());
@@ -275,9 +275,8 @@ mod tests {
     fn edges_and_triangles_agree_on_the_depth_of_a_spheres_contour() {
         let (vertices, triangles) = sphere();
         let plain = Mesh::new(&vertices, &triangles).expect("valid");
-        let mut room = vec![MeshEdge::default(); edges_needed(&plain)];
-        let edges = link(&plain, &mut room).expect("closed");
-        let (by_edges, by_triangles) = (depths(&plain.with_edges(edges)), depths(&plain));
+        let linked = Linked::new(&plain);
+        let (by_edges, by_triangles) = (depths(&plain.with_edges(linked.edges())), depths(&plain));
         // Where rays touch the sphere.
         let truth = DISTANCE - RADIUS * RADIUS / DISTANCE;
         assert_eq!(by_edges.len(), by_triangles.len());

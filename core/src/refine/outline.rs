@@ -7,6 +7,7 @@ use super::probe::Found;
 use super::solve::Equations;
 use super::stages::Stage;
 use super::view::Target;
+use crate::camera::Camera;
 use crate::mask::{Mask, WORD_BITS, Word};
 use crate::math::sqrt;
 use crate::mesh::Mesh;
@@ -130,23 +131,24 @@ impl Depth {
 /// A model as drawn at a pose.
 pub(super) struct Outliner<'a> {
     pub(super) mesh: &'a Mesh<'a>,
+    pub(super) camera: &'a Camera,
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
     pub(super) depth: Depth,
 }
 
 impl Outliner<'_> {
-    /// Fills `border` with as many border pixels as it holds and gives them. `places` has a
-    /// number for each pixel of the frame, any.
+    /// Fills `border` with as many border pixels as it holds and gives them. `scratch` is as drawing
+    /// left it, `places` has a number for each pixel of the frame, any.
     pub(super) fn border<'b>(
         &self,
-        projected: &[Projected],
+        scratch: &mut [Projected],
         places: &mut [u16],
         border: &'b mut [BorderPixel],
     ) -> &'b mut [BorderPixel] {
         let count = self.find(places, border);
         let border = border.get_mut(..count).unwrap_or_default();
-        self.measure_depth(projected, places, border);
+        self.measure_depth(scratch, places, border);
         border
     }
 

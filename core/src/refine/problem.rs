@@ -301,6 +301,7 @@ impl<'a> Problem<'a> {
         let drawn = drawn.into_mask();
         let outliner = Outliner {
             mesh: self.mesh,
+            camera: view.camera,
             pose: &pose,
             drawn: &drawn,
             depth: Depth::of(&view.target),

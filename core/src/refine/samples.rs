@@ -47,6 +47,7 @@ pub fn outline_samples(
     let drawn = drawn.into_mask();
     let outliner = Outliner {
         mesh,
+        camera,
         pose,
         drawn: &drawn,
         depth: Depth::Edges,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::implant::Triangles;
 use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
-use fluoropose::edges::{MeshEdge, edges_needed, link};
+use fluoropose::edges::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
 use fluoropose::jts;
 use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::mesh::Mesh;
@@ -44,14 +44,17 @@ pub struct Surface {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     /// Of a closed surface: what its silhouettes are drawn from.
-    edges: Option<Vec<MeshEdge>>,
+    edges: Option<(Vec<EdgeBox>, Vec<EdgeGroup>)>,
 }
 
 impl Surface {
     fn new(vertices: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self> {
         let mesh = Mesh::new(&vertices, &triangles)?;
         let mut room = vec![MeshEdge::default(); edges_needed(&mesh)];
-        let edges = link(&mesh, &mut room).map(<[MeshEdge]>::to_vec);
+        let mut boxes = vec![EdgeBox::default(); groups_needed(&mesh)];
+        let mut groups = vec![EdgeGroup::default(); groups_needed(&mesh)];
+        let edges = link(&mesh, &mut room, &mut boxes, &mut groups).map(|edges| edges.parts());
+        let edges = edges.map(|(boxes, groups)| (boxes.to_vec(), groups.to_vec()));
         Ok(Self {
             vertices,
             triangles,
@@ -65,10 +68,9 @@ impl Surface {
     /// Those of [`Mesh::new`].
     pub fn mesh(&self) -> Result<Mesh<'_>> {
         let mesh = Mesh::new(&self.vertices, &self.triangles)?;
-        Ok(match &self.edges {
-            Some(edges) => mesh.with_edges(edges),
-            None => mesh,
-        })
+        let edges = self.edges.as_ref();
+        let edges = edges.and_then(|(boxes, groups)| Edges::new(boxes, groups));
+        Ok(edges.map_or(mesh, |edges| mesh.with_edges(edges)))
     }
 }
 

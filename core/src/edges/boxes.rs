@@ -1,0 +1,172 @@
+//! Which edges may be on the contour that a camera sees, without looking at each.
+//!
+//! A triangle whose plane is `n . x = c` faces a camera at `o` where `n . o - c` has one sign, and
+//! that is linear in `(n, c)`, the triangle's point in dual space (Hertzmann and Zorin, *Illustrating
+//! Smooth Surfaces*, SIGGRAPH 2000). Edges whose triangles are near each other there are kept
+//! together: where a box round their points lies on one side, none of them is on the contour.
+
+use super::MeshEdge;
+use crate::math::{Vector3, cross, dot, norm, scale, sqrt};
+use crate::mesh::Mesh;
+
+/// Edges in a box.
+pub(super) const IN_BOX: usize = 16;
+
+/// Normals of the triangles beside an edge that differ by more are far apart, as the cosine.
+const SHARP: f64 = 0.9;
+/// A triangle of which a height is less than this is looked at whole, mm.
+const SLIVER_MM: f64 = 0.01;
+
+/// A box round the duals of the triangles beside some edges. Made by [`super::link`] alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EdgeBox {
+    /// Of unit normals, and of distances of planes from the model's origin, mm.
+    pub(super) low: [f32; 4],
+    pub(super) high: [f32; 4],
+    /// Greatest reciprocal of a triangle's least height, 1/mm, and of its doubled area, 1/mm^2.
+    pub(super) thin: f32,
+    pub(super) small: f32,
+}
+
+/// The edges in a box. Made by [`super::link`] alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EdgeGroup {
+    /// Of the triangle forth of each edge, then of that back: the four numbers of its dual.
+    pub(super) duals: [[[f32; IN_BOX]; 4]; 2],
+    /// The last of a surface may be fewer; the others have triangles without area.
+    edges: [MeshEdge; IN_BOX],
+}
+
+impl EdgeGroup {
+    pub(crate) fn edge(&self, number: usize) -> Option<&MeshEdge> {
+        self.edges.get(number)
+    }
+
+    /// Those that there are.
+    #[cfg(test)]
+    pub(super) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<> {
+        let there = |edge: &MeshEdge| edge.from != edge.to;
+        self.edges.into_iter().filter(there)
+    }
+}
+
+/// What a triangle adds to a box.
+struct Dual {
+    /// Of a triangle without area, zeros.
+    point: [f64; 4],
+    thin: f64,
+    small: f64,
+}
+
+impl Dual {
+    fn of(mesh: &Mesh<'_>, triangle: [u32; 3]) -> Self {
+        let [a, b, c] = triangle.map(|vertex| place(mesh.vertices(), vertex));
+        let sides = [minus(&b, &a), minus(&c, &b), minus(&a, &c)];
+        let longest = sides.iter().map(norm).fold(0.0, f64::max);
+        let normal = cross(&sides[0], &sides[1]);
+        let doubled = norm(&normal);
+        let [x, y, z] = if doubled > 0.0 {
+            scale(&normal, 1.0 / doubled)
+        } else {
+            [0.0; 3]
+        };
+        Self {
+            point: [x, y, z, dot(&[x, y, z], &a)],
+            thin: longest / doubled,
+            small: 1.0 / doubled,
+        }
+    }
+
+    fn beside(mesh: &Mesh<'_>, edge: &MeshEdge) -> [Self; 2] {
+        let &MeshEdge { from, to, .. } = edge;
+        [[from, to, edge.forth], [to, from, edge.back]].map(|triangle| Self::of(mesh, triangle))
+    }
+}
+
+pub(super) fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
+    // Indices were checked when the mesh was made.
+    let vertex = vertices.get(vertex as usize).copied().unwrap_or_default();
+    vertex.map(f64::from)
+}
+
+pub(super) fn minus(a: &Vector3, b: &Vector3) -> Vector3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Brings edges together that are near each other in dual space, and writes their groups.
+pub(super) fn gather(
+    mesh: &Mesh<'_>,
+    edges: &mut [MeshEdge],
+    boxes: &mut [EdgeBox],
+    groups: &mut [EdgeGroup],
+) {
+    let reach = sqrt(3.0) * mesh.bounds().radius + norm(&mesh.bounds().centre);
+    for edge in &mut *edges {
+        edge.order = order(&Dual::beside(mesh, edge), reach);
+    }
+    edges.sort_unstable_by_key(|edge| (edge.order, edge.from, edge.to, edge.forth));
+    let places = boxes.iter_mut().zip(groups);
+    for ((bounds, group), edges) in places.zip(edges.chunks(IN_BOX)) {
+        (*bounds, *group) = (EdgeBox::EMPTY, EdgeGroup::default());
+        for (at, edge) in edges.iter().enumerate() {
+            group.edges[at] = *edge;
+            for (dual, lanes) in Dual::beside(mesh, edge).iter().zip(&mut group.duals) {
+                bounds.hold(dual);
+                for (lane, &x) in lanes.iter_mut().zip(&dual.point) {
+                    lane[at] = x as f32;
+                }
+            }
+        }
+    }
+}
+
+/// By likeness of normals, then of planes; edges whose box would be large whatever is beside them
+/// come last. `reach` is no less than the distance of any plane from the origin.
+fn order([a, b]: &[Dual; 2], reach: f64) -> u32 {
+    let sum: [f64; 4] = core::array::from_fn(|k| a.point[k] + b.point[k]);
+    let alike: f64 = (0..3).map(|k| a.point[k] * b.point[k]).sum();
+    let awkward = alike < SHARP || a.thin.max(b.thin) > 1.0 / SLIVER_MM;
+    let [right, up] = unfolded([sum[0], sum[1], sum[2]]);
+    let level = |value: f64, bits: u32| (value.clamp(0.0, 1.0) * f64::from((1 << bits) - 1)) as u32;
+    let direction = spread(level(right, 10)) | spread(level(up, 10)) << 1;
+    let along = level(0.5 + sum[3] / (4.0 * reach), 11);
+    u32::from(awkward) << 31 | direction << 11 | along
+}
+
+/// A direction as a point of the unit square (the octahedral map of Meyer et al., *On
+/// Floating-Point Normal Vectors*, EGSR 2010).
+fn unfolded([x, y, z]: Vector3) -> [f64; 2] {
+    let length = (x.abs() + y.abs() + z.abs()).max(f64::MIN_POSITIVE);
+    let (x, y) = (x / length, y / length);
+    let signed = |value: f64, sign: f64| if sign < 0.0 { -value } else { value };
+    let (x, y) = if z < 0.0 {
+        (signed(1.0 - y.abs(), x), signed(1.0 - x.abs(), y))
+    } else {
+        (x, y)
+    };
+    [x, y].map(|value| (value + 1.0) / 2.0)
+}
+
+/// Ten bits with a gap after each (Morton's order).
+fn spread(bits: u32) -> u32 {
+    (0..10).fold(0, |sum, k| sum | (bits >> k & 1) << (2 * k))
+}
+
+impl EdgeBox {
+    const EMPTY: Self = Self {
+        low: [f32::INFINITY; 4],
+        high: [f32::NEG_INFINITY; 4],
+        thin: 0.0,
+        small: 0.0,
+    };
+
+    /// Grows to hold a triangle.
+    fn hold(&mut self, dual: &Dual) {
+        for ((low, high), &x) in self.low.iter_mut().zip(&mut self.high).zip(&dual.point) {
+            *low = low.min(x as f32);
+            *high = high.max(x as f32);
+        }
+        self.thin = self.thin.max(dual.thin as f32);
+        self.small = self.small.max(dual.small as f32);
+    }
+}

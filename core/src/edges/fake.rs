@@ -1,0 +1,80 @@
+//! Closed surfaces for tests.
+
+use super::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
+use crate::mesh::Mesh;
+use std::vec;
+use std::vec::Vec;
+
+/// The edges of a mesh, owned.
+pub(crate) struct Linked {
+    boxes: Vec<EdgeBox>,
+    groups: Vec<EdgeGroup>,
+}
+
+impl Linked {
+    pub(crate) fn new(mesh: &Mesh<'_>) -> Self {
+        let mut room = vec![MeshEdge::default(); edges_needed(mesh)];
+        let mut boxes = vec![EdgeBox::default(); groups_needed(mesh)];
+        let mut groups = vec![EdgeGroup::default(); groups_needed(mesh)];
+        let edges = link(mesh, &mut room, &mut boxes, &mut groups).expect("closed");
+        let (boxes, groups) = edges.parts();
+        Self {
+            boxes: boxes.to_vec(),
+            groups: groups.to_vec(),
+        }
+    }
+
+    pub(crate) fn edges(&self) -> Edges<'_> {
+        Edges::new(&self.boxes, &self.groups).expect("as many")
+    }
+}
+
+const ROUND: u32 = 12;
+const TUBE: u32 = 7;
+
+/// A torus, a closed surface that hides parts of itself, with dents; then a smaller one
+/// within its hole, inside out.
+pub(crate) fn torus(dents: &[f32]) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for (size, turned) in [(30.0f32, false), (11.0, true)] {
+        let first = vertices.len() as u32;
+        for k in 0..ROUND * TUBE {
+            let around = (k / TUBE) as f32 / ROUND as f32 * core::f32::consts::TAU;
+            let tube = (k % TUBE) as f32 / TUBE as f32 * core::f32::consts::TAU;
+            let dent = 1.0 + 0.3 * dents[k as usize % dents.len()];
+            let ((s, c), (ts, tc)) = (libm::sincosf(around), libm::sincosf(tube));
+            let arm = size * (1.0 + 0.4 * dent * tc);
+            vertices.push([arm * c, arm * s, 0.4 * size * dent * ts]);
+        }
+        let at = |i: u32, j: u32| first + i % ROUND * TUBE + j % TUBE;
+        for (i, j) in (0..ROUND).flat_map(|i| (0..TUBE).map(move |j| (i, j))) {
+            for [a, b, c] in [
+                [at(i, j), at(i + 1, j), at(i + 1, j + 1)],
+                [at(i, j), at(i + 1, j + 1), at(i, j + 1)],
+            ] {
+                triangles.push(if turned { [a, c, b] } else { [a, b, c] });
+            }
+        }
+    }
+    (vertices, triangles)
+}
+
+/// A plate of which many triangles lie in one plane, with slivers between them.
+pub(crate) fn plate() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+    let columns = [-20.0f32, -19.999_99, -5.0, 3.0, 3.000_4, 20.0];
+    let count = columns.len() as u32;
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for (y, z) in [(-9.0f32, -1.0f32), (9.0, -1.0), (9.0, 1.0), (-9.0, 1.0)] {
+        vertices.extend(columns.map(|x| [x, y, z]));
+    }
+    for (side, k) in (0..4).flat_map(|side| (0..count - 1).map(move |k| (side, k))) {
+        let [a, b] = [side, (side + 1) % 4].map(|side| side * count + k);
+        triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+    }
+    for (at, turned) in [(0, false), (count - 1, true)] {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|side| side * count + at);
+        let caps = [[a, c, b], [a, d, c]];
+        triangles.extend(caps.map(|[a, b, c]| if turned { [a, c, b] } else { [a, b, c] }));
+    }
+    (vertices, triangles)
+}
