@@ -206,7 +206,7 @@ const BLOCK: usize = 8;
 /// And of the others many a quarter.
 const QUARTER: usize = BLOCK / 2;
 
-/// More than rounding moves a position, in 1/65 536 pixel.
+/// More than rounding moves a position with the steps to it, up to 39 in each direction, in 1/65 536 pixel.
 const MARGIN: i32 = 64;
 
 /// Bits of a word whose value is known, and those of them that are set.
@@ -265,8 +265,9 @@ impl Sampler {
     /// quarter of it: of the upper half of the words, and of the lower.
     fn uniform(&self, mask: &Mask<'_>, right: f64, up: f64) -> [Uniform; 2] {
         let mut halves = [Uniform { known: 0, set: 0 }; 2];
+        let first = self.start(right, up);
         for column in (0..WORD_BITS).step_by(BLOCK) {
-            let corner = self.start(right + column as f64, up);
+            let corner = self.beside(&first, column, 0);
             if let Some(set) = self.one_value(mask, &corner, BLOCK) {
                 halves
                     .iter_mut()
@@ -321,10 +322,7 @@ impl Sampler {
         if right >= mask.width() || bottom >= mask.height() {
             return None;
         }
-        let value = mask.get(left, top);
-        let columns = left..right + 1;
-        let all = |row| mask.is_uniform(row, columns.clone(), value);
-        (top..=bottom).all(all).then_some(value)
+        mask.value_of(left..right + 1, top..bottom + 1)
     }
 
     /// One word of canonical pixels, from `right` and `up` of the canonical centre.
@@ -364,7 +362,9 @@ fn beyond(a: i32, b: i32, range: &core::ops::Range<i32>) -> bool {
 
 /// Rounds to 1/65 536; saturates beyond +-32 768, where no frame has pixels.
 fn to_fixed(value: f64) -> i32 {
-    crate::math::round(value * f64::from(1u32 << PLACES)) as i32
+    let value = value * f64::from(1u32 << PLACES);
+    // Cut off towards zero.
+    (value + 0.5f64.copysign(value)) as i32
 }
 
 /// A frame position relative to pixel centres, in 1/65 536 pixel.

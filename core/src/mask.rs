@@ -144,36 +144,43 @@ impl<'a> Mask<'a> {
     /// A pixel, the one to its right, and the two below them, from the lowest bit; outside the mask
     /// none is set.
     pub(crate) fn square(&self, column: usize, row: usize) -> u32 {
+        let stride = row_words(self.width);
+        let (at, shift) = (column / WORD_BITS, column % WORD_BITS);
+        if at >= stride {
+            return 0;
+        }
+        let word = |place: usize| u64::from(self.words.get(place).copied().unwrap_or(0));
         let pair = |row: usize| {
-            let words = self.row(row);
-            let (at, shift) = (column / WORD_BITS, column % WORD_BITS);
-            let word = |at: usize| u64::from(words.get(at).copied().unwrap_or(0));
-            let next = if shift == WORD_BITS - 1 {
-                word(at + 1)
+            let place = row * stride + at;
+            let next = if shift == WORD_BITS - 1 && at + 1 < stride {
+                word(place + 1)
             } else {
                 0
             };
-            ((word(at) | next << WORD_BITS) >> shift & 3) as u32
+            ((word(place) | next << WORD_BITS) >> shift & 3) as u32
         };
         pair(row) | pair(row + 1) << 2
     }
 
-    /// Whether all pixels of a row in `columns` have one value.
-    pub(crate) fn is_uniform(
+    /// The value of all pixels of some columns and rows within the mask, if it is one.
+    pub(crate) fn value_of(
         &self,
-        row: usize,
         columns: core::ops::Range<usize>,
-        value: bool,
-    ) -> bool {
-        let (words, first) = (self.row(row), columns.start);
-        if columns.len() > WORD_BITS {
-            return next_bit(words, first, !value) >= columns.end;
+        rows: core::ops::Range<usize>,
+    ) -> Option<bool> {
+        let (stride, last) = (row_words(self.width), columns.end.checked_sub(1)?);
+        let (mut set, mut unset) = (0, 0);
+        for at in columns.start / WORD_BITS..=last / WORD_BITS {
+            let first = at * WORD_BITS;
+            let left = Word::MAX << columns.start.saturating_sub(first);
+            let right = Word::MAX >> (first + WORD_BITS - 1).saturating_sub(last);
+            let column = self.words.get(rows.start * stride + at..)?.iter();
+            for word in column.step_by(stride).take(rows.len()) {
+                set |= word & left & right;
+                unset |= !word & left & right;
+            }
         }
-        let word = |at: usize| u64::from(words.get(at).copied().unwrap_or(0));
-        let (at, shift) = (first / WORD_BITS, first % WORD_BITS);
-        let bits = (word(at) | word(at + 1) << WORD_BITS) >> shift;
-        let all = (1 << columns.len()) - 1;
-        bits & all == if value { all } else { 0 }
+        (set == 0 || unset == 0).then_some(set != 0)
     }
 
     /// Number of pixels set.
@@ -442,6 +449,26 @@ mod tests {
                 .map(|(bit, (right, down))| u32::from(mask.get(column + right, row + down)) << bit);
             assert_eq!(mask.square(column, row), bits.sum(), "{column}, {row}");
         }
+    }
+
+    #[test]
+    fn a_box_has_a_value_where_all_its_pixels_have() {
+        let mut words = [0; words_needed(W, H)];
+        let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
+        for row in 0..H {
+            mask.fill_span(row, 20 + row as i64, 66);
+        }
+        let mask = mask.into_mask();
+        for (from, to) in (0..W).flat_map(|from| (from + 1..=W).map(move |to| (from, to))) {
+            for (top, bottom) in (0..H).flat_map(|top| (top + 1..=H).map(move |b| (top, b))) {
+                let mut values = (top..bottom)
+                    .flat_map(|row| (from..to).map(move |column| mask.get(column, row)));
+                let first = values.next();
+                let naive = first.filter(|&value| values.all(|other| other == value));
+                assert_eq!(mask.value_of(from..to, top..bottom), naive);
+            }
+        }
+        assert_eq!(mask.value_of(0..0, 0..1), None);
     }
 
     #[test]
