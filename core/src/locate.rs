@@ -97,8 +97,8 @@ pub struct Located {
 pub struct Found<const K: usize> {
     /// What was taken away from the silhouette to reach canonical form.
     pub form: CanonicalForm,
-    /// At most `K` poses, one for each local minimum of the score surface, fewest unmatched
-    /// pixels first. More than one with similar scores means that the silhouette is ambiguous.
+    /// At most `K` poses, one for each local minimum of the score surface that is not hopeless
+    /// ([`Search::rivals`]), fewest unmatched pixels first. More than one with similar scores means that the silhouette is ambiguous.
     pub poses: Vec<Located, K>,
 }
 
@@ -122,8 +122,8 @@ pub fn locate<const K: usize>(
         sketches,
     };
     let mut search = Search::new(library, &query, &work.kernels, memory)?;
-    let minima: Vec<_, K> = search.minima();
-    let poses = minima
+    let rivals: Vec<_, K> = search.rivals();
+    let poses = rivals
         .iter()
         .map(|candidate| {
             let fine = interpolate(&mut search, candidate);

@@ -25,6 +25,9 @@ use query::longest_sketch;
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
 
+/// See [`Search::rivals`]. A true pose is less than one step from the nearest view.
+const RIVAL_STEPS: u32 = 4;
+
 /// Directions of the principal axis that are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Directions {
@@ -193,7 +196,7 @@ impl<'s, 'm> Search<'s, 'm> {
             Directions::Straight => self.library.views(),
             Directions::Both => scores_needed(self.library.views()),
         };
-        let mut best = Shortlist::new();
+        let mut best = Shortlist::up_to(u32::MAX);
         // The least bound first: what it turns out to be rules most of the others out.
         let bounds = self.bounds.iter().take(places).enumerate();
         let least = bounds.min_by_key(|(_, bound)| **bound & !EXACT);
@@ -217,12 +220,34 @@ impl<'s, 'm> Search<'s, 'm> {
     /// The best `K` local minima of the score surfaces, both directions: views that none of their
     /// eight neighbours beats. These are the rival poses; the views beside a minimum are not.
     pub fn minima<const K: usize>(&mut self) -> Vec<Candidate, K> {
+        self.minima_up_to(u32::MAX)
+    }
+
+    /// Of these minima those that leave no more unmatched pixels than the best and four steps of the grid at it: what
+    /// is farther off explains nothing, whatever view lies beside it.
+    pub fn rivals<const K: usize>(&mut self) -> Vec<Candidate, K> {
+        let best = self.best::<1>(Directions::Both);
+        let Some(best) = best.first() else {
+            return Vec::new();
+        };
+        let library = self.library;
+        let step = neighbours(&library.info().grid, best.view)
+            .map(|near| {
+                let pixels = library.pixels(best.view) + library.pixels(near);
+                pixels - 2 * library.overlap(best.view, near)
+            })
+            .max();
+        let beyond = step.map_or(u32::MAX, |step| RIVAL_STEPS.saturating_mul(step));
+        self.minima_up_to(best.unmatched.saturating_add(beyond))
+    }
+
+    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<Candidate, K> {
         let places = scores_needed(self.library.views());
-        let mut minima = Shortlist::new();
+        let mut minima = Shortlist::up_to(most);
         // Going downhill from the bounds' own minima finds most of them: a limit for the rest.
         for place in 0..places {
             let (view, reversed) = self.apart(place);
-            if self.is_minimum_of_bounds(view, reversed) {
+            if self.at_least(view, reversed) <= most && self.is_minimum_of_bounds(view, reversed) {
                 let candidate = self.descend(view, reversed);
                 minima.offer(candidate);
             }
@@ -297,22 +322,25 @@ impl<'s, 'm> Search<'s, 'm> {
 /// The best `K` candidates so far, best first.
 struct Shortlist<const K: usize> {
     candidates: Vec<Candidate, K>,
+    /// Unmatched pixels that are too many in any case are more than this.
+    most: u32,
 }
 
 impl<const K: usize> Shortlist<K> {
-    fn new() -> Self {
+    fn up_to(most: u32) -> Self {
         Self {
             candidates: Vec::new(),
+            most,
         }
     }
 
     /// What has more unmatched pixels than this is none of the best.
     fn limit(&self) -> u32 {
         match self.candidates.last() {
-            Some(last) if self.candidates.is_full() => last.unmatched,
+            Some(last) if self.candidates.is_full() => last.unmatched.min(self.most),
             // A list without room has no best.
             None if K == 0 => 0,
-            _ => u32::MAX,
+            _ => self.most,
         }
     }
 
@@ -320,6 +348,9 @@ impl<const K: usize> Shortlist<K> {
     fn offer(&mut self, candidate: Candidate) {
         let key = |one: &Candidate| (one.unmatched, one.reversed, one.view);
         let new = key(&candidate);
+        if candidate.unmatched > self.most {
+            return;
+        }
         let place = self.candidates.partition_point(|other| key(other) < new);
         if place == K || self.candidates.get(place) == Some(&candidate) {
             return;

@@ -53,6 +53,10 @@ pub fn known_share(silhouette: &Silhouette<'_>) -> KnownShare {
     let mut count = KnownShare::default();
     for row in 0..mask.height() {
         let here = Row::new(silhouette, row);
+        let above = row.checked_sub(1).map(|above| Row::new(silhouette, above));
+        if here.is_clear() && above.as_ref().is_none_or(Row::is_clear) {
+            continue;
+        }
         for at in 0..mask.row(row).len() {
             let (set, known) = (here.set(at), here.known(at));
             count.add(set ^ here.set_right(at), known & here.known_right(at));
@@ -62,7 +66,6 @@ pub fn known_share(silhouette: &Silhouette<'_>) -> KnownShare {
         let left = here.set(0) & 1;
         count.add(left, 0);
         count.cut += u64::from(left) + u64::from(mask.get(mask.width() - 1, row));
-        let above = row.checked_sub(1).map(|above| Row::new(silhouette, above));
         let below = row + 1 == mask.height();
         count.across(&here, above.as_ref(), mask.row(row).len());
         if below {
@@ -106,6 +109,10 @@ impl<'a> Row<'a> {
             unknown: unknown.unwrap_or_default(),
             width: silhouette.mask().width(),
         }
+    }
+
+    fn is_clear(&self) -> bool {
+        self.set.iter().all(|&word| word == 0)
     }
 
     fn set(&self, at: usize) -> Word {

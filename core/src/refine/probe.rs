@@ -1,6 +1,7 @@
 //! Where a silhouette's outline crosses a normal.
 
 use super::outline::BorderPixel;
+use crate::mask::Mask;
 use crate::silhouette::Silhouette;
 
 /// Distance between readings along a normal, pixels.
@@ -29,7 +30,7 @@ pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range:
         let row = f64::from(sample.row) + t * normal[1];
         coverage(silhouette, column, row)
     };
-    let Some(mut value) = at(0.0) else {
+    let Some(mut value) = at_centre(silhouette, sample) else {
         return Found::Unknown;
     };
     let direction = if value >= 0.5 { 1.0 } else { -1.0 };
@@ -46,6 +47,16 @@ pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range:
         value = next;
     }
     Found::Nothing
+}
+
+/// [`coverage`] at the middle of a sample's pixel: that of the pixel alone.
+fn at_centre(silhouette: &Silhouette<'_>, sample: &BorderPixel) -> Option<f64> {
+    let (column, row) = (usize::from(sample.column), usize::from(sample.row));
+    let mask = silhouette.mask();
+    let unknown = |unknown: &Mask<'_>| unknown.square(column, row) != 0;
+    let beyond = column + 1 >= mask.width() || row + 1 >= mask.height();
+    let known = !beyond && !silhouette.unknown().is_some_and(unknown);
+    known.then(|| f64::from(u8::from(mask.get(column, row))))
 }
 
 /// The mask between the centres of four pixels; coordinates are relative to the centre of the

@@ -85,6 +85,7 @@ impl Sums {
     /// `fitted` parameters were taken from this view's residuals.
     fn add(&mut self, border: &[BorderPixel], loss: Loss, fitted: f64) {
         let covariance = Correlation::of(border, loss, fitted);
+        let reach = covariance.reach();
         let mut length = 0.0;
         for (index, sample, residual) in found(border) {
             let l = f64::from(sample.weight);
@@ -93,7 +94,7 @@ impl Sums {
             let jacobian = sample.jacobian.map(f64::from);
             // Half of the sample's own share: every pair is met once and counts both ways.
             let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
-            for (other, _, bin) in after(border, index) {
+            for (other, _, bin) in after(border, index, reach) {
                 let weight = f64::from(other.weight) * covariance.bins[bin];
                 for (sum, &value) in sum.iter_mut().zip(&other.jacobian) {
                     *sum += weight * f64::from(value);
@@ -153,17 +154,21 @@ const BIN_OF: [u8; (REACH * REACH) as usize] = {
     bins
 };
 
-/// The samples listed after one that are near it and on the same side of the part, with their
+/// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
 /// residual and the bin of their distance.
-fn after(border: &[BorderPixel], index: usize) -> impl Iterator<Item = (&BorderPixel, f64, usize)> {
+fn after(
+    border: &[BorderPixel],
+    index: usize,
+    reach: i32,
+) -> impl Iterator<Item = (&BorderPixel, f64, usize)> {
     let sample = border[index];
     let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
     // They are listed row by row.
-    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < REACH;
+    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
     let rest = border[index + 1..].iter().take_while(close);
     rest.filter_map(move |other| {
         let right = offset(other.column, sample.column);
-        if right.abs() >= REACH {
+        if right.abs() >= reach {
             return None;
         }
         let down = offset(other.row, sample.row);
@@ -218,7 +223,7 @@ impl Correlation {
             let (l, own) = (f64::from(sample.weight), loss.pull(residual));
             sums[0] += l * own * own;
             weights[0] += l;
-            for (other, residual, bin) in after(border, index) {
+            for (other, residual, bin) in after(border, index, REACH) {
                 let weight = l * f64::from(other.weight);
                 sums[bin] += weight * own * loss.pull(residual);
                 weights[bin] += weight;
@@ -232,6 +237,12 @@ impl Correlation {
             }
         };
         (core::array::from_fn(mean), weights[0])
+    }
+
+    /// Distance from which on samples err apart, pixels.
+    fn reach(&self) -> i32 {
+        let first = self.bins.iter().position(|&value| value == 0.0);
+        BIN as i32 * first.map_or(BINS, |bin| bin.saturating_sub(1)) as i32
     }
 
     /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
