@@ -41,9 +41,9 @@ impl Outliner<'_> {
         border: &mut [BorderPixel],
     ) {
         let along: [f32; 2] = core::array::from_fn(|k| to[k] - from[k]);
-        // At most one pixel apart: one is in the border pixel that the edge passes or beside it. The
-        // last is the first of another edge.
-        let steps = along[0].abs().max(along[1].abs()) as usize + 1;
+        // Less than two pixels apart: where the edge passes a border pixel, one of them is in it or
+        // beside it. The last is the first of another edge.
+        let steps = (along[0].abs().max(along[1].abs()) / 2.0) as usize + 1;
         for step in 0..steps {
             let share = step as f32 / steps as f32;
             let point = core::array::from_fn(|k| from[k] + share * along[k]);
