@@ -27,13 +27,14 @@ pub const WIDE_DEG: f64 = 8.0;
 /// Steps to each side.
 const REACH: i32 = 2;
 
-/// Times a drawing is moved onto the silhouette.
+/// Times a drawing is moved onto the silhouette: twice where steps are wider than this, degrees.
 const MOVES: usize = 2;
+const WIDE_STEP_DEG: f64 = 2.0;
 
 /// `start` and the poses round it that cover a whole silhouette best, best first and `start` last:
 /// of two steps of `step_deg` degrees to each side about the camera's x and y. With [`WIDE_DEG`]
 /// for a start that may be 15 degrees, 10 mm aside and a tenth of the distance off. Draws the
-/// model 75 times.
+/// model 75 times, for small steps 50.
 ///
 /// Area and centroid must be those of the whole part: for a silhouette with unknown pixels `start` alone
 /// is given ([`crate::partial`] finds poses of such).
@@ -53,6 +54,7 @@ pub fn nearby(
             silhouette,
             wanted: silhouette.mask().moments(),
             middle: mesh.bounds().centre,
+            moves: if step_deg > WIDE_STEP_DEG { MOVES } else { 1 },
             memory,
         };
         for x in -REACH..=REACH {
@@ -84,6 +86,7 @@ struct Search<'s, 'm> {
     silhouette: &'s Silhouette<'s>,
     wanted: Moments,
     middle: Vector3,
+    moves: usize,
     memory: &'s mut RefineMemory<'m>,
 }
 
@@ -91,7 +94,7 @@ impl Search<'_, '_> {
     /// `start` turned, then moved onto the silhouette; how many pixels differ then.
     fn moved(&mut self, turn: Vector3, start: &Pose) -> Option<(u64, Pose)> {
         let mut pose = self.about_middle(start, &turn, [0.0; 3]);
-        for _ in 0..MOVES {
+        for _ in 0..self.moves {
             pose = self.onto_silhouette(&pose)?;
         }
         let (width, height) = (self.camera.width(), self.camera.height());

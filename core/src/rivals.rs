@@ -7,7 +7,9 @@ use crate::mesh::Mesh;
 use crate::mirror::mirror_pose;
 use crate::nearby::nearby;
 use crate::pose::{Pose, geodesic_deg};
-use crate::refine::{RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine};
+use crate::refine::{
+    Effort, RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine,
+};
 use crate::symmetry::SymmetryPlane;
 use crate::verify::{Verified, unmatched_at};
 
@@ -35,6 +37,11 @@ const INEXACT_PX: f64 = 0.03;
 
 /// Step of the search round a pose that may be a small minimum, degrees.
 const CLOSE_DEG: f64 = 1.0;
+
+/// What a glance finds is the best pose again where it is nearer to it than this, degrees, and is no rival
+/// where its loss is more than so many times the best one's.
+const BACK_DEG: f64 = 0.1;
+const ALIKE: f64 = 1.25;
 
 /// Of poses nearer to each other than this, degrees, the best is kept.
 const SAME_DEG: f64 = 0.5;
@@ -160,10 +167,25 @@ impl Search<'_, '_> {
         }
         let (mesh, camera, pose) = (self.mesh, view.camera, &best.refined.pose);
         let starts = nearby(mesh, camera, silhouette, pose, CLOSE_DEG, self.memory);
-        for start in &starts {
-            // Some of them may lead nowhere.
-            let _ = self.refine(start, best.start, best.mirrored);
+        let turned =
+            |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
+        for start in starts.iter().filter(turned) {
+            if let Some(found) = self.glance(start, &best.refined) {
+                // From there it leads somewhere.
+                let _ = self.refine(&found, best.start, best.mirrored);
+            }
         }
+    }
+
+    /// Where a start leads, unless that is back to the best pose or to a worse one. Most do.
+    fn glance(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
+        let options = RefineOptions {
+            effort: Effort::Glance,
+            ..self.options
+        };
+        let found = refine(self.mesh, self.views, start, options, self.memory).ok()?;
+        let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
+        (apart > BACK_DEG && found.loss < ALIKE * best.loss).then_some(found.pose)
     }
 }
 

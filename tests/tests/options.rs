@@ -4,7 +4,9 @@ use fluoropose::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::raster::{Projected, render, scratch_needed};
-use fluoropose::refine::{BorderPixel, Locks, RefineMemory, RefineOptions, Refined, View, refine};
+use fluoropose::refine::{
+    BorderPixel, Effort, Locks, RefineMemory, RefineOptions, Refined, View, refine,
+};
 use fluoropose_tests::{camera, femur, mesh};
 
 const TRUTH: EulerPose = EulerPose {
@@ -129,7 +131,7 @@ fn with_everything_locked_nothing_moves() {
 #[test]
 fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
     let swift = RefineOptions {
-        swift: true,
+        effort: Effort::Swift,
         ..RefineOptions::default()
     };
     let thorough = refined(START, Locks::default());

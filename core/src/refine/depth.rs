@@ -260,6 +260,7 @@ mod tests {
             pose: &pose,
             drawn: &drawn,
             depth: Depth::Edges,
+            every: 1,
         };
         // What the memory held before does not matter.
         let mut places = vec![7; SIDE * SIDE];

@@ -135,6 +135,8 @@ pub(super) struct Outliner<'a> {
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
     pub(super) depth: Depth,
+    /// One of so many border pixels is a sample.
+    pub(super) every: usize,
 }
 
 impl Outliner<'_> {
@@ -161,6 +163,10 @@ impl Outliner<'_> {
         for row in 1..self.drawn.height().saturating_sub(1) {
             for column in border_columns(self.drawn, row) {
                 if column == 0 || column + 1 >= width || count == room {
+                    continue;
+                }
+                // All along an edge, whatever its direction.
+                if !(column + 3 * row).is_multiple_of(self.every) {
                     continue;
                 }
                 let Some(pixel) = sample_at(self.drawn, column, row) else {

@@ -5,9 +5,9 @@ use super::locks::{Hold, Locks};
 use super::outline::{BorderPixel, Depth, Outliner, Residual};
 use super::probe::{self, Found};
 use super::solve::{Equations, Step};
-use super::stages::{POLISHING, STEPS, Stage};
+use super::stages::{POLISHING, Stage};
 use super::view::{Target, View};
-use super::{Iterate, RefineError, RefineMemory, Refined, check_memory};
+use super::{Effort, Iterate, RefineError, RefineMemory, Refined, check_memory};
 use crate::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
 use crate::mesh::Mesh;
@@ -28,8 +28,7 @@ pub(super) struct Problem<'a> {
     pub(super) middle: Vector3,
     /// Numbers of the pose that do not change.
     hold: Option<Hold>,
-    /// [`super::RefineOptions::swift`].
-    pub(super) swift: bool,
+    pub(super) effort: Effort,
 }
 
 /// Steps shorter than this lower the loss by no more than its grain, and one that fails is not worth
@@ -88,7 +87,7 @@ impl<'a> Problem<'a> {
             views,
             middle: mesh.bounds().centre,
             hold: None,
-            swift: false,
+            effort: Effort::Full,
         })
     }
 
@@ -141,7 +140,7 @@ impl<'a> Problem<'a> {
             None => self.look(state, pass, memory)?,
         };
         let mut damping = 1e-3;
-        for _ in 0..STEPS[pass.index] {
+        for _ in 0..self.effort.steps(pass.index) {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
@@ -214,7 +213,10 @@ impl<'a> Problem<'a> {
 
     /// The size of a step that polishing ends at.
     fn small(&self) -> f64 {
-        let sooner = if self.swift { SWIFT } else { 1.0 };
+        let sooner = match self.effort {
+            Effort::Full => 1.0,
+            Effort::Swift | Effort::Glance => SWIFT,
+        };
         SMALL * sooner * self.grain()
     }
 
@@ -305,6 +307,7 @@ impl<'a> Problem<'a> {
             pose: &pose,
             drawn: &drawn,
             depth: Depth::of(&view.target),
+            every: self.effort.every(),
         };
         let places = memory.places.get_mut(..width * height);
         let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);

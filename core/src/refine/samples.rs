@@ -51,6 +51,7 @@ pub fn outline_samples(
         pose,
         drawn: &drawn,
         depth: Depth::Edges,
+        every: 1,
     };
     let places = memory.places.get_mut(..width * height);
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);

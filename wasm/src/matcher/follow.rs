@@ -2,7 +2,7 @@
 
 use fluoropose::locate::Located;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::refine::{RefineOptions, View};
+use fluoropose::refine::{Effort, RefineOptions, View};
 use fluoropose::silhouette::Silhouette;
 use wasm_bindgen::prelude::*;
 
@@ -79,7 +79,7 @@ impl Matcher {
         let start = Pose::from(from_numbers(start).ok()?);
         let view = View::only(&camera, *silhouette);
         let options = RefineOptions {
-            swift: true,
+            effort: Effort::Swift,
             ..RefineOptions::default()
         };
         let refined = model.refine_from(&start, view, options).ok()?;
