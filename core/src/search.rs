@@ -109,16 +109,8 @@ impl<'s, 'm> Search<'s, 'm> {
             let base = self
                 .query
                 .sketch_for(&sketches, reversed, &self.kernels, out);
-            if stride == 0 {
-                bounds.fill(base);
-            } else if self.query.is_whole() {
-                (self.kernels.distances)(low, sketches.all, base, bounds);
-            } else {
-                for (view, bound) in bounds.iter_mut().enumerate() {
-                    let sketch = sketches.of(view);
-                    *bound = base + (self.kernels.gap)([low, high], [sketch, sketch]);
-                }
-            }
+            self.query
+                .bound([low, high], sketches.all, base, &self.kernels, bounds);
         }
     }
 

@@ -10,6 +10,8 @@
 //! - the sketch of each view: a byte for each of those blocks, then zeros to a multiple of 32;
 //! - the runs of each view (`runs.rs`).
 
+use core::ops::Range;
+
 use super::open::{Library, LibraryError, Views};
 use super::runs::{are_runs, write_runs};
 use super::sketch::{
@@ -48,7 +50,7 @@ pub(crate) const fn stride(blocks: usize) -> usize {
 
 impl<'a> Sketches<'a> {
     /// Numbers of the blocks that a sketch has, rising.
-    pub(crate) fn places(&self) -> impl ExactSizeIterator<Item = usize> + use<'a> {
+    pub(crate) fn places(&self) -> impl ExactSizeIterator<Item = usize> + Clone + use<'a> {
         let two = self.places.as_chunks::<2>().0.iter();
         two.map(|&two| usize::from(u16::from_le_bytes(two)))
     }
@@ -60,10 +62,13 @@ impl<'a> Sketches<'a> {
 
     /// The sketch of a view; empty beyond the last.
     pub(crate) fn of(&self, view: usize) -> &'a [u8] {
-        let start = view.saturating_mul(self.stride());
-        self.all
-            .get(start..start.saturating_add(self.stride()))
-            .unwrap_or_default()
+        self.of_row(&(view..view.saturating_add(1)))
+    }
+
+    /// The sketches of views that follow one another; nothing where some are beyond the last.
+    pub(crate) fn of_row(&self, views: &Range<usize>) -> &'a [u8] {
+        let [start, end] = [views.start, views.end].map(|view| view.saturating_mul(self.stride()));
+        self.all.get(start..end).unwrap_or_default()
     }
 
     /// Whether they are those of a view with these runs.

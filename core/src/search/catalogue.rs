@@ -113,7 +113,7 @@ impl<'c> Tree<'c> {
         self.places.len().next_multiple_of(STRIDE)
     }
 
-    fn places(&self) -> impl Iterator<Item = usize> + use<'c> {
+    fn places(&self) -> impl Iterator<Item = usize> + Clone + use<'c> {
         self.places.iter().map(|&place| usize::from(place))
     }
 
@@ -277,21 +277,26 @@ impl<const K: usize> Hunt<'_, K> {
         let base = self
             .query
             .sketch_for(&sketches, reversed, self.kernels, out);
-        for view in leaf.views(&library.info().grid) {
-            let sketch = sketches.of(view);
-            let bound = base + (self.kernels.gap)([low, high], [sketch, sketch]);
-            if bound > self.found.limit() {
-                continue;
+        for row in leaf.rows(&library.info().grid) {
+            let mut bounds = [0; PATCH];
+            let bounds = &mut bounds[..row.len()];
+            let views = sketches.of_row(&row);
+            self.query
+                .bound([low, high], views, base, self.kernels, bounds);
+            for (view, &bound) in row.zip(&*bounds) {
+                if bound > self.found.limit() {
+                    continue;
+                }
+                let unmatched = self.query.unmatched(library, view, reversed, self.kernels);
+                self.found.offer(Identified {
+                    library: number,
+                    best: Candidate {
+                        view,
+                        reversed,
+                        unmatched,
+                    },
+                });
             }
-            let unmatched = self.query.unmatched(library, view, reversed, self.kernels);
-            self.found.offer(Identified {
-                library: number,
-                best: Candidate {
-                    view,
-                    reversed,
-                    unmatched,
-                },
-            });
         }
     }
 }

@@ -202,7 +202,7 @@ impl<'m> Query<'m> {
     /// The same of any choice of blocks; `ground` has what the others are in every view, and 0 at `places`.
     pub(super) fn gather(
         &self,
-        places: impl Iterator<Item = usize>,
+        places: impl Iterator<Item = usize> + Clone,
         ground: &[u8],
         reversed: bool,
         kernels: &Kernels,
@@ -211,14 +211,42 @@ impl<'m> Query<'m> {
         let blocks = &self.blocks[usize::from(reversed)];
         let mut base = (kernels.gap)([blocks.low, blocks.high], [ground, ground]);
         low.fill(0);
-        high.fill(0);
-        for ((low, high), place) in low.iter_mut().zip(high).zip(places) {
-            let at = |counts: &[u8]| counts.get(place).copied().unwrap_or(0);
-            (*low, *high) = (at(blocks.low), at(blocks.high));
+        for (low, place) in low.iter_mut().zip(places.clone()) {
+            *low = blocks.low.get(place).copied().unwrap_or(0);
             // There the ground is 0, and the gap was its height.
             base -= u32::from(*low);
         }
+        if self.is_whole() {
+            // It is what is counted at least.
+            high.copy_from_slice(low);
+            return base;
+        }
+        high.fill(0);
+        for (high, place) in high.iter_mut().zip(places) {
+            *high = blocks.high.get(place).copied().unwrap_or(0);
+        }
         base
+    }
+
+    /// Bounds of views whose sketches follow one another: `base` and how far they are from what
+    /// [`Self::sketch_for`] gathered.
+    pub(super) fn bound(
+        &self,
+        [low, high]: [&[u8]; 2],
+        sketches: &[u8],
+        base: u32,
+        kernels: &Kernels,
+        bounds: &mut [u32],
+    ) {
+        if low.is_empty() {
+            bounds.fill(base);
+        } else if self.is_whole() {
+            (kernels.distances)(low, sketches, base, bounds);
+        } else {
+            for (bound, sketch) in bounds.iter_mut().zip(sketches.chunks_exact(low.len())) {
+                *bound = base + (kernels.gap)([low, high], [sketch, sketch]);
+            }
+        }
     }
 
     /// Whether every pixel is known.

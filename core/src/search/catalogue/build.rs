@@ -1,5 +1,7 @@
 //! Building the tree over a catalogue's libraries.
 
+use core::ops::Range;
+
 use super::{Catalogue, CatalogueError, Node, PATCH, STRIDE, Tree, blocks};
 use crate::canonical::CanonicalSpec;
 use crate::library::{Grid, Library};
@@ -15,13 +17,13 @@ pub struct Leaf {
 }
 
 impl Leaf {
-    /// The views of the patch.
-    pub(super) fn views(&self, grid: &Grid) -> impl Iterator<Item = usize> + use<> {
+    /// The views of the patch, row by row: at most [`PATCH`] that follow one another.
+    pub(super) fn rows(&self, grid: &Grid) -> impl Iterator<Item = Range<usize>> + use<> {
         let grid = *grid;
         let (x, y) = grid.place(self.corner as usize);
-        let columns = x..(x + PATCH).min(grid.x.count);
+        let count = PATCH.min(grid.x.count - x);
         let rows = y..(y + PATCH).min(grid.y.count);
-        rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
+        rows.map(move |y| grid.view(x, y)..grid.view(x, y) + count)
     }
 
     fn middle(&self, grid: &Grid) -> usize {
@@ -304,7 +306,7 @@ impl Builder<'_, '_> {
         self.boxes[start..start + 2 * stride].fill(0);
         self.boxes[start..start + self.places.len()].fill(u8::MAX);
         let library = self.libraries[leaf.library as usize];
-        for view in leaf.views(&library.info().grid) {
+        for view in leaf.rows(&library.info().grid).flatten() {
             self.read_view(&library, view);
             let (low, high) = self.boxes[start..start + 2 * stride].split_at_mut(stride);
             for ((low, high), &place) in low.iter_mut().zip(high).zip(self.places) {
