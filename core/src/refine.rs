@@ -180,7 +180,7 @@ pub fn refine(
     refine_traced(mesh, views, start, options, memory, &mut |_| ())
 }
 
-/// The same, telling every pose that is accepted on the way.
+/// The same, telling the start and every pose that is accepted on the way.
 ///
 /// # Errors
 /// [`RefineError`].

@@ -143,3 +143,22 @@ fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
         "{hurried:?} {thorough:?}"
     );
 }
+
+#[test]
+fn a_glance_tells_where_a_start_leads_and_draws_least() {
+    let with = |effort| {
+        let options = RefineOptions {
+            effort,
+            ..RefineOptions::default()
+        };
+        refined_with(START, options)
+    };
+    let (thorough, hurried, seen) = (
+        with(Effort::Full),
+        with(Effort::Swift),
+        with(Effort::Glance),
+    );
+    let away = geodesic_deg(&seen.pose.rotation, &thorough.pose.rotation);
+    assert!(away < 0.3, "{away} degrees");
+    assert!(seen.renders < hurried.renders, "{seen:?} {hurried:?}");
+}

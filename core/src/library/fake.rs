@@ -84,7 +84,32 @@ pub(crate) fn spots(size: usize) -> impl Strategy<Value = Vec<Word>> {
 mod tests {
     use super::*;
     use crate::library::VERSION;
+    use crate::library::compact::Sketches;
+    use crate::library::sketch::BLOCK;
+    use crate::mask::Mask;
     use crate::matching::{score, scores_needed};
+
+    /// Set pixels of each block of a view, by its sketch and by its pixels.
+    fn said(sketches: &Sketches<'_>, view: usize) -> Vec<u8> {
+        let mut counts = sketches.ground.to_vec();
+        for (place, &count) in sketches.places().zip(sketches.of(view)) {
+            counts[place] = count;
+        }
+        counts
+    }
+
+    fn counted(library: &Library<'_>, view: usize) -> Vec<u8> {
+        let size = library.info().canonical.size();
+        let mut words = std::vec![0; size * size / 32];
+        library.draw(view, &mut words);
+        let mask = Mask::new(&words, size, size).expect("a view");
+        let mut counts = std::vec![0u8; (size / BLOCK) * (size / BLOCK)];
+        for (row, column) in (0..size).flat_map(|row| (0..size).map(move |column| (row, column))) {
+            let count = &mut counts[row / BLOCK * (size / BLOCK) + column / BLOCK];
+            *count = count.saturating_add(u8::from(mask.get(column, row)));
+        }
+        counts
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
@@ -138,12 +163,12 @@ mod tests {
             header[176..180].copy_from_slice(&checksum([&*body]).to_le_bytes());
             let crc = checksum([&header[..252]]).to_le_bytes();
             header[252..].copy_from_slice(&crc);
-            // Of records any possible number is right.
-            if at >= HEADER_BYTES + 4 * 40 && let Ok(opened) = Library::open(&bytes) {
-                let plain = Library::open(&plain).expect("valid");
+            // Runs may have changed with nothing to tell: a full block counts as one with a pixel
+            // less. What is told of them still holds.
+            if let Ok(opened) = Library::open(&bytes) {
+                let sketches = opened.sketches().expect("compact");
                 for view in 0..4 {
-                    prop_assert_eq!(opened.pixels(view), plain.pixels(view));
-                    prop_assert_eq!(opened.overlap(view, view), plain.overlap(view, view));
+                    prop_assert_eq!(said(&sketches, view), counted(&opened, view));
                 }
             }
         }

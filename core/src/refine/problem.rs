@@ -137,7 +137,11 @@ impl<'a> Problem<'a> {
     ) -> Result<Seen, RefineError> {
         let mut seen = match before.and_then(|before| self.weigh_again(&before, pass, memory)) {
             Some(seen) => seen,
-            None => self.look(state, pass, memory)?,
+            None => {
+                let seen = self.look(state, pass, memory)?;
+                trace(&seen.equations.iterate(pass, state));
+                seen
+            }
         };
         let mut damping = 1e-3;
         for _ in 0..self.effort.steps(pass.index) {

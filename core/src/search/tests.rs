@@ -60,6 +60,21 @@ impl Oracle {
     }
 }
 
+/// Unmatched pixels of the best view, and four times what its farthest neighbour differs by, pixel by pixel.
+fn farthest_rival(library: &Library<'_>, best: &Candidate) -> u32 {
+    let drawn = |view: usize| {
+        let mut words = std::vec![0; spec().words_needed()];
+        library.draw(view, &mut words);
+        words
+    };
+    let own = drawn(best.view);
+    let steps = neighbours(&library.info().grid, best.view).map(|near| {
+        let pairs = drawn(near).into_iter().zip(&own);
+        pairs.map(|(a, b)| (a ^ b).count_ones()).sum::<u32>()
+    });
+    best.unmatched + 4 * steps.max().expect("more than one view")
+}
+
 fn check_search(bytes: &[u8], silhouette: &[Word]) {
     let library = Library::open(bytes).expect("valid");
     let (mut oracle, turned) = Oracle::new(&library, silhouette);
@@ -100,6 +115,11 @@ fn check_search(bytes: &[u8], silhouette: &[Word]) {
     fresh(&mut |search| assert_eq!(search.minima::<1>(), surfaces.minima::<1>()));
     fresh(&mut |search| assert_eq!(search.minima::<4>(), surfaces.minima::<4>()));
     fresh(&mut |search| assert_eq!(search.minima::<64>(), surfaces.minima::<64>()));
+    let most = farthest_rival(&library, &surfaces.best::<1>()[0]);
+    let near = surfaces.minima::<64>().into_iter();
+    let near: Vec<_, 64> = near.filter(|one| one.unmatched <= most).collect();
+    fresh(&mut |search| assert_eq!(search.rivals::<64>(), near));
+    fresh(&mut |search| assert_eq!(search.rivals::<2>()[..], near[..near.len().min(2)]));
     // One answer does not spoil the next.
     fresh(&mut |search| {
         search.best::<2>(Directions::Straight);
