@@ -12,6 +12,7 @@
 
 mod depth;
 mod edge;
+mod effort;
 mod locks;
 mod outline;
 mod probe;
@@ -22,6 +23,7 @@ mod stages;
 mod uncertainty;
 mod view;
 
+pub use effort::Effort;
 pub use locks::Locks;
 pub use outline::BorderPixel;
 pub use samples::{OutlineSample, outline_samples};
@@ -36,7 +38,7 @@ use crate::mesh::Mesh;
 use crate::pose::Pose;
 use crate::raster::{Projected, RenderError};
 use problem::{Pass, Problem};
-use stages::{GLANCES, STAGES, STEPS};
+use stages::STAGES;
 
 /// Why a pose cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -116,38 +118,6 @@ pub struct RefineOptions {
     pub effort: Effort,
 }
 
-/// How exactly a pose is refined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Effort {
-    /// As exactly as the outlines allow.
-    #[default]
-    Full,
-    /// Polishing ends where a step is below 0.02 degrees or 0.1 mm, twenty times sooner than
-    /// otherwise: for a pose that follows a hand and is refined again when it rests.
-    Swift,
-    /// To about 0.1 degrees and 0.5 mm, without polishing and from a fifth of the border pixels:
-    /// tells which minimum a start leads to. The loss is that of these pixels.
-    Glance,
-}
-
-impl Effort {
-    /// One of so many border pixels is looked at.
-    fn every(self) -> usize {
-        match self {
-            Self::Full | Self::Swift => 1,
-            Self::Glance => 5,
-        }
-    }
-
-    /// Steps tried in a stage at most.
-    fn steps(self, stage: usize) -> usize {
-        match self {
-            Self::Full | Self::Swift => STEPS[stage],
-            Self::Glance => GLANCES[stage],
-        }
-    }
-}
-
 /// A pose on the way, for who wants to see how refinement converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iterate {
@@ -213,9 +183,6 @@ pub fn refine_traced(
             free: false,
         };
         seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
-    }
-    if options.effort == Effort::Glance {
-        return Ok(state);
     }
     problem.polish(&pass, &mut state, seen, memory, trace)?;
     if options.edge_offset {

@@ -181,6 +181,7 @@ impl Search<'_, '_> {
     fn glance(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
         let options = RefineOptions {
             effort: Effort::Glance,
+            edge_offset: false,
             ..self.options
         };
         let found = refine(self.mesh, self.views, start, options, self.memory).ok()?;

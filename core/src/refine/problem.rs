@@ -36,11 +36,7 @@ pub(super) struct Problem<'a> {
 /// the end 150 femurs and tibias came out alike within 3 % after more than twice as many drawings.
 const SETTLED: f64 = 0.05;
 const GRAINED: f64 = 0.1;
-/// Polishing ends below this.
-const SMALL: f64 = 0.001;
-/// And so many times sooner where the pose is wanted at once.
-const SWIFT: f64 = 20.0;
-/// Edges of a grey frame have no grain: there, this part of all three.
+/// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
 const WITHOUT_GRAIN: f64 = 0.02;
 
 /// What was seen at a pose.
@@ -144,7 +140,7 @@ impl<'a> Problem<'a> {
             }
         };
         let mut damping = 1e-3;
-        for _ in 0..self.effort.steps(pass.index) {
+        for _ in 0..self.effort.steps()[pass.index] {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
@@ -187,6 +183,10 @@ impl<'a> Problem<'a> {
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
     ) -> Result<(), RefineError> {
+        let Some(small) = self.effort.polished() else {
+            return Ok(());
+        };
+        let small = small * self.grain();
         let (mut next, mut seen) = (*state, seen);
         let (mut share, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
@@ -198,7 +198,7 @@ impl<'a> Problem<'a> {
             }
             last = step.size();
             let step = step.scaled(share);
-            next.converged = step.size() < self.small();
+            next.converged = step.size() < small;
             if next.converged {
                 break;
             }
@@ -213,15 +213,6 @@ impl<'a> Problem<'a> {
             trace(&seen.equations.iterate(pass, state));
         }
         Ok(())
-    }
-
-    /// The size of a step that polishing ends at.
-    fn small(&self) -> f64 {
-        let sooner = match self.effort {
-            Effort::Full => 1.0,
-            Effort::Swift | Effort::Glance => SWIFT,
-        };
-        SMALL * sooner * self.grain()
     }
 
     /// How coarse the loss is, against that of silhouettes.

@@ -14,12 +14,6 @@ pub(super) struct Stage {
     pub(super) loss: Loss,
 }
 
-/// Steps tried in each stage at most.
-pub(super) const STEPS: [usize; STAGES] = [10, 8, 14, 10];
-
-/// The same for a glance: it does not come from far.
-pub(super) const GLANCES: [usize; STAGES] = [4, 0, 0, 2];
-
 /// Undamped steps after the last stage at most.
 pub(super) const POLISHING: usize = 32;
 
