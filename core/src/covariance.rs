@@ -3,7 +3,7 @@
 
 use crate::math::{
     Vector3, add, apply, cross, degrees, inverse_spd, multiply, multiply_square, rotation_vector,
-    scale, sin_cos, solve_spd, sqrt, transpose, transpose_square,
+    scale, sin_cos, solve_spd, sqrt, subtract, transpose, transpose_square,
 };
 use crate::pose::{EulerPose, Pose};
 
@@ -108,7 +108,7 @@ impl PoseCovariance {
     ) -> Option<bool> {
         let turn = rotation_vector(&multiply(&other.rotation, &transpose(&pose.rotation)));
         let from = pose.transform(middle);
-        let shift = add(&other.transform(middle), &scale(&from, -1.0));
+        let shift = subtract(&other.transform(middle), &from);
         let step = joined(&turn, &shift);
         let solved = solve_spd(self.matrix, step)?;
         let squared: f64 = step.iter().zip(&solved).map(|(a, b)| a * b).sum();
@@ -191,7 +191,7 @@ mod tests {
             &pose.rotation,
         );
         let centre = add(&pose.transform(middle), &shift);
-        let translation = add(&centre, &scale(&apply(&rotation, middle), -1.0));
+        let translation = subtract(&centre, &apply(&rotation, middle));
         Pose {
             rotation,
             translation,

@@ -135,6 +135,12 @@ pub fn add(a: &Vector3, b: &Vector3) -> Vector3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// Difference of two vectors.
+#[must_use]
+pub fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
 /// Vector times number.
 #[must_use]
 pub fn scale(v: &Vector3, factor: f64) -> Vector3 {

@@ -5,7 +5,7 @@
 //! itself. Both together are a rotation: `R' = (I - 2 d d^T) R (I - 2 n n^T)`, `d` the unit ray
 //! to the middle and `n` the normal of the part's plane.
 
-use crate::math::{IDENTITY, Matrix3, Vector3, add, apply, multiply, norm, scale};
+use crate::math::{IDENTITY, Matrix3, Vector3, add, apply, multiply, norm, scale, subtract};
 use crate::pose::Pose;
 use crate::symmetry::SymmetryPlane;
 
@@ -25,7 +25,7 @@ pub fn mirror_pose(pose: &Pose, plane: &SymmetryPlane) -> Pose {
     let rotation = multiply(&multiply(&behind, &pose.rotation), &within);
     Pose {
         rotation,
-        translation: add(&centre, &scale(&apply(&rotation, &plane.point), -1.0)),
+        translation: subtract(&centre, &apply(&rotation, &plane.point)),
     }
 }
 
@@ -67,7 +67,7 @@ mod tests {
             let mirrored = mirror_pose(&pose, &plane);
             prop_assert!(mirrored.is_rigid(1e-12));
             let (a, b) = (pose.transform(&plane.point), mirrored.transform(&plane.point));
-            prop_assert!(norm(&add(&a, &scale(&b, -1.0))) < 1e-9);
+            prop_assert!(norm(&subtract(&a, &b)) < 1e-9);
             let back = mirror_pose(&mirrored, &plane);
             prop_assert!(geodesic_deg(&back.rotation, &pose.rotation) < 1e-6);
         }
@@ -87,13 +87,13 @@ mod tests {
             let plane = plane([3.0, -8.0, 5.0], rotation_zxy(turn, 10.0, 30.0)[2]);
             let middle = pose.transform(&plane.point);
             let ray = scale(&middle, 1.0 / norm(&middle));
-            let from_middle = |p: &Vector3| add(p, &scale(&middle, -1.0));
+            let from_middle = |p: &Vector3| subtract(p, &middle);
             let seen = from_middle(&pose.transform(&point));
             let image = mirror_pose(&pose, &plane).transform(&plane.reflect(&point));
             let image = from_middle(&image);
             prop_assert!((dot(&seen, &ray) + dot(&image, &ray)).abs() < 1e-9);
             let across = |p: &Vector3| add(p, &scale(&ray, -dot(p, &ray)));
-            let difference = add(&across(&seen), &scale(&across(&image), -1.0));
+            let difference = subtract(&across(&seen), &across(&image));
             prop_assert!(norm(&difference) < 1e-9);
         }
     }

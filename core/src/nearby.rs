@@ -9,7 +9,7 @@ use heapless::Vec;
 use crate::camera::Camera;
 use crate::mask::{MaskMut, words_needed};
 use crate::math::{
-    Vector3, add, apply, atan2, multiply, norm, radians, rotation_by, scale, sqrt, wrap,
+    Vector3, add, apply, atan2, multiply, norm, radians, rotation_by, scale, sqrt, subtract, wrap,
 };
 use crate::mesh::Mesh;
 use crate::moments::Moments;
@@ -151,7 +151,7 @@ impl Search<'_, '_> {
         let centre = add(&pose.transform(&self.middle), &shift);
         Pose {
             rotation,
-            translation: add(&centre, &scale(&apply(&rotation, &self.middle), -1.0)),
+            translation: subtract(&centre, &apply(&rotation, &self.middle)),
         }
     }
 }

@@ -67,6 +67,7 @@ pub fn render(
     if let Some(edges) = mesh.edges() {
         let eye = Eye::new(mesh, camera, pose);
         if !eye.sees_all() {
+            // Errors where a vertex has no image.
             project(mesh, camera, pose, scratch)?;
         }
         let (slots, room) = scratch.split_at_mut(mesh.vertices().len());

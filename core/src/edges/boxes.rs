@@ -6,7 +6,7 @@
 //! together: where a box round their points lies on one side, none of them is on the contour.
 
 use super::MeshEdge;
-use crate::math::{Vector3, cross, dot, norm, scale, sqrt};
+use crate::math::{Vector3, cross, dot, norm, scale, sqrt, subtract};
 use crate::mesh::Mesh;
 
 /// Edges in a box.
@@ -61,7 +61,7 @@ struct Dual {
 impl Dual {
     fn of(mesh: &Mesh<'_>, triangle: [u32; 3]) -> Self {
         let [a, b, c] = triangle.map(|vertex| place(mesh.vertices(), vertex));
-        let sides = [minus(&b, &a), minus(&c, &b), minus(&a, &c)];
+        let sides = [subtract(&b, &a), subtract(&c, &b), subtract(&a, &c)];
         let longest = sides.iter().map(norm).fold(0.0, f64::max);
         let normal = cross(&sides[0], &sides[1]);
         let doubled = norm(&normal);
@@ -87,10 +87,6 @@ pub(super) fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
     // Indices were checked when the mesh was made.
     let vertex = vertices.get(vertex as usize).copied().unwrap_or_default();
     vertex.map(f64::from)
-}
-
-pub(super) fn minus(a: &Vector3, b: &Vector3) -> Vector3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// Brings edges together that are near each other in dual space, and writes their groups.

@@ -8,9 +8,9 @@
 //! nearer to edge-on than that is rounded and measured.
 
 use super::MeshEdge;
-use super::boxes::{EdgeBox, EdgeGroup, IN_BOX, minus, place};
+use super::boxes::{EdgeBox, EdgeGroup, IN_BOX, place};
 use crate::camera::Camera;
-use crate::math::{Vector3, cross, dot, norm, sqrt};
+use crate::math::{Vector3, cross, dot, norm, sqrt, subtract};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::raster::Images;
@@ -161,10 +161,10 @@ impl<'a> Eye<'a> {
     fn faces(&self, edge: &MeshEdge, images: &mut Images<'_>) -> [bool; 2] {
         let &MeshEdge { from, to, .. } = edge;
         let start = place(self.vertices, from);
-        let along = minus(&place(self.vertices, to), &start);
-        let sight = minus(&start, &self.place);
+        let along = subtract(&place(self.vertices, to), &start);
+        let sight = subtract(&start, &self.place);
         [(edge.forth, 1.0), (edge.back, -1.0)].map(|(third, sign)| {
-            let side = minus(&place(self.vertices, third), &start);
+            let side = subtract(&place(self.vertices, third), &start);
             let doubled = sign * dot(&cross(&along, &side), &sight);
             if doubled.abs() > self.edge_on(&along, &side) {
                 return doubled > 0.0;

@@ -6,7 +6,7 @@ use super::{Iterate, Refined};
 use crate::camera::Camera;
 use crate::math::{
     Vector3, add, apply, cross, degrees, inverse_spd, multiply, norm, rotation_by, scale,
-    solve_spd, sqrt, transpose,
+    solve_spd, sqrt, subtract, transpose,
 };
 use crate::pose::Pose;
 
@@ -53,7 +53,7 @@ impl Step {
         let x = (f64::from(sample.column) + 0.5 - cx) / fx;
         let y = -(f64::from(sample.row) + 0.5 - cy) / fy;
         let point = [x * depth, y * depth, -depth];
-        let arm = add(&point, &scale(centre, -1.0));
+        let arm = subtract(&point, centre);
         let [right, down] = sample.normal.map(f64::from);
         let (a, b) = (right * fx / depth, -down * fy / depth);
         // Image motion along the normal per mm of motion of the point.
@@ -67,7 +67,7 @@ impl Step {
     pub(super) fn apply(&self, pose: &Pose, middle: &Vector3) -> Pose {
         let centre = add(&pose.transform(middle), &self.shift);
         let rotation = multiply(&rotation_by(&self.turn), &pose.rotation);
-        let translation = add(&centre, &scale(&apply(&rotation, middle), -1.0));
+        let translation = subtract(&centre, &apply(&rotation, middle));
         Pose {
             rotation,
             translation,

@@ -1,7 +1,7 @@
 //! Nearest points of a surface to a few hundred points at once, without an index of the surface.
 
 use super::sample::{BLOCK, GROUP, SAMPLES, Samples};
-use crate::math::{Vector3, add, cross, dot, norm, scale, sqrt};
+use crate::math::{Vector3, add, cross, dot, norm, scale, sqrt, subtract};
 use crate::mesh::Mesh;
 
 /// Points nearer to a triangle than this lie on it, mm: the direction to it is its normal.
@@ -202,7 +202,7 @@ fn nearest_sample(samples: &Samples, point: &Vector3) -> usize {
     let mut least = f64::INFINITY;
     let mut nearest = 0;
     for (number, sample) in samples.points.iter().enumerate() {
-        let offset = add(point, &scale(sample, -1.0));
+        let offset = subtract(point, sample);
         let squared = dot(&offset, &offset);
         if squared < least {
             least = squared;
@@ -215,7 +215,7 @@ fn nearest_sample(samples: &Samples, point: &Vector3) -> usize {
 /// Replaces the foot where the triangle is nearer, and says whether it is.
 fn approach(point: &Vector3, triangle: &[Vector3; 3], foot: &mut Foot) -> bool {
     let (nearest, inside) = closest(point, triangle);
-    let offset = add(point, &scale(&nearest, -1.0));
+    let offset = subtract(point, &nearest);
     let squared = dot(&offset, &offset);
     // A NaN, of a triangle too thin for its arithmetic, is never nearer.
     let nearer = squared < foot.squared;
@@ -237,7 +237,7 @@ fn approach(point: &Vector3, triangle: &[Vector3; 3], foot: &mut Foot) -> bool {
 
 /// Unit normal, or zero for a triangle without area.
 pub(super) fn normal(&[a, b, c]: &[Vector3; 3]) -> Vector3 {
-    let product = cross(&add(&b, &scale(&a, -1.0)), &add(&c, &scale(&a, -1.0)));
+    let product = cross(&subtract(&b, &a), &subtract(&c, &a));
     let length = norm(&product);
     if length > 0.0 {
         scale(&product, 1.0 / length)
@@ -251,7 +251,7 @@ pub(super) fn normal(&[a, b, c]: &[Vector3; 3]) -> Vector3 {
 /// By the Voronoi regions of corners and edges: Ericson, *Real-Time Collision Detection*,
 /// section 5.1.5.
 fn closest(p: &Vector3, &[a, b, c]: &[Vector3; 3]) -> (Vector3, bool) {
-    let minus = |x: &Vector3, y: &Vector3| add(x, &scale(y, -1.0));
+    let minus = |x: &Vector3, y: &Vector3| subtract(x, y);
     let (ab, ac) = (minus(&b, &a), minus(&c, &a));
     let ap = minus(p, &a);
     let (d1, d2) = (dot(&ab, &ap), dot(&ac, &ap));
@@ -308,10 +308,10 @@ mod tests {
             let other: Vector3 = core::array::from_fn(|k| {
                 (0..3).map(|corner| weights[corner] * triangle[corner][k]).sum()
             });
-            let away = |q: &Vector3| norm(&add(&p, &scale(q, -1.0)));
+            let away = |q: &Vector3| norm(&subtract(&p, q));
             prop_assert!(away(&nearest) <= away(&other) + 1e-9);
             // It is a point of the triangle: in its plane and not beyond its corners.
-            let off = add(&nearest, &scale(&triangle[0], -1.0));
+            let off = subtract(&nearest, &triangle[0]);
             prop_assert!(dot(&off, &normal(&triangle)).abs() < 1e-6);
         }
     }

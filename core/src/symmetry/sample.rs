@@ -2,7 +2,7 @@
 
 use super::nearest::{corners, normal};
 use crate::eigen::eigen_symmetric;
-use crate::math::{Matrix3, Vector3, add, cross, norm, scale, sqrt};
+use crate::math::{Matrix3, Vector3, add, cross, norm, scale, sqrt, subtract};
 use crate::mesh::Mesh;
 
 /// Points of a sample; a power of two. Of 2048 points instead of 256 the deviations measured
@@ -159,6 +159,6 @@ fn at(&[a, b, c]: &[Vector3; 3], s: f64, t: f64) -> Vector3 {
 }
 
 fn area(&[a, b, c]: &[Vector3; 3]) -> f64 {
-    let (ab, ac) = (add(&b, &scale(&a, -1.0)), add(&c, &scale(&a, -1.0)));
+    let (ab, ac) = (subtract(&b, &a), subtract(&c, &a));
     norm(&cross(&ab, &ac)) / 2.0
 }
