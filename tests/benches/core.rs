@@ -41,10 +41,19 @@ fn camera(side: usize) -> Camera {
 
 /// In the middle of the frame, turned out of its plane.
 fn pose() -> Pose {
+    turned(-11.7)
+}
+
+/// The same with a flat side of the femur edge-on, of which every triangle must be looked at.
+fn pose_edge_on() -> Pose {
+    turned(-8.7)
+}
+
+fn turned(y_rot_deg: f64) -> Pose {
     let turned = Pose::from(EulerPose {
         z_rot_deg: 20.0,
         x_rot_deg: 6.3,
-        y_rot_deg: -8.7,
+        y_rot_deg,
         ..EulerPose::default()
     });
     let [x, y, z] = turned.transform(&mesh().bounds().centre);
@@ -76,7 +85,16 @@ fn drawn(side: usize) -> MaskBuffer {
 
 #[divan::bench(args = [256, 1024])]
 fn silhouette(bencher: Bencher<'_, '_>, side: usize) {
-    let (mesh, camera, pose) = (mesh(), camera(side), pose());
+    draw_again(bencher, side, pose());
+}
+
+#[divan::bench(args = [256, 1024])]
+fn silhouette_of_a_side_edge_on(bencher: Bencher<'_, '_>, side: usize) {
+    draw_again(bencher, side, pose_edge_on());
+}
+
+fn draw_again(bencher: Bencher<'_, '_>, side: usize, pose: Pose) {
+    let (mesh, camera) = (mesh(), camera(side));
     let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
     let mut drawn = MaskBuffer::new(side, side).expect("a frame");
     bencher.bench_local(|| {
