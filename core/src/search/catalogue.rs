@@ -9,6 +9,7 @@
 mod build;
 
 use heapless::Vec;
+use heapless::binary_heap::{BinaryHeap, Min};
 use thiserror::Error;
 
 use super::query::{Query, longest_sketch};
@@ -20,7 +21,7 @@ use crate::matching::{Candidate, MatchError, check};
 pub use build::{CatalogueMemory, CatalogueNeeds, Leaf, catalogue_needed};
 
 /// Views of a patch along each axis of the grid.
-const PATCH: usize = 6;
+const PATCH: usize = 3;
 
 /// Why libraries are no catalogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -77,7 +78,7 @@ struct Tree<'c> {
 }
 
 /// A node by its number and its leaves.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Node {
     number: usize,
     first: usize,
@@ -158,7 +159,7 @@ impl<'c> Catalogue<'c> {
     /// The `K` implants whose best views have the fewest unmatched pixels, best first; of each
     /// implant its best view, both directions of the axis. The same as searching every library: ties
     /// keep the libraries' order, within one the straight direction first, then view order.
-    /// `bytes` is working memory, [`identify_bytes_needed`] of it.
+    /// `bytes` is working memory, [`identify_bytes_needed`] of it; some 10 KB of stack are used besides.
     ///
     /// # Errors
     /// [`MatchError`] for memory of a wrong length or a query of another canonical frame.
@@ -173,52 +174,63 @@ impl<'c> Catalogue<'c> {
             return Err(MatchError::Canonical);
         }
         check("bytes", identify_bytes_needed(&spec), bytes.len())?;
-        let (ours, leaf) = bytes.split_at_mut(4 * longest_sketch(&spec));
+        Ok(self.hunt::<K, WAITING>(query, kernels, bytes))
+    }
+
+    fn hunt<const K: usize, const ROOM: usize>(
+        &self,
+        query: &Query<'_>,
+        kernels: &Kernels,
+        bytes: &mut [u8],
+    ) -> Vec<Identified, K> {
+        let (ours, leaf) = bytes.split_at_mut(4 * longest_sketch(&self.spec()));
+        let tree = &self.tree;
+        let (straight, turned) = ours.split_at_mut(ours.len() / 2);
+        let sides = [(false, straight), (true, turned)].map(|(reversed, bytes)| {
+            let (low, high) = bytes.split_at_mut(bytes.len() / 2);
+            let (low, high) = (&mut low[..tree.stride()], &mut high[..tree.stride()]);
+            let out = [&mut *low, &mut *high];
+            let base = query.gather(tree.places(), tree.ground, reversed, kernels, out);
+            Side {
+                base,
+                blocks: [low, high],
+            }
+        });
         let mut hunt = Hunt {
             catalogue: self,
             query,
             kernels,
             leaf,
+            sides,
             found: Found::new(),
         };
-        let tree = &self.tree;
-        let stride = tree.stride();
-        let (straight, turned) = ours.split_at_mut(2 * stride);
-        let turned = turned.get_mut(..2 * stride).unwrap_or_default();
-        let sides = [straight, turned].map(|side| side.split_at_mut(stride));
-        let [straight, turned] = sides;
-        let bases = [
-            query.gather(
-                tree.places(),
-                tree.ground,
-                false,
-                kernels,
-                [&mut *straight.0, &mut *straight.1],
-            ),
-            query.gather(
-                tree.places(),
-                tree.ground,
-                true,
-                kernels,
-                [&mut *turned.0, &mut *turned.1],
-            ),
-        ];
-        let sides = [[&*straight.0, &*straight.1], [&*turned.0, &*turned.1]];
-        hunt.run(bases, sides);
-        Ok(hunt.found.list)
+        hunt.run::<ROOM>();
+        hunt.found.list
     }
 }
 
 /// A node that may hold something better, and its bound.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Open {
     bound: u32,
-    node: Node,
     reversed: bool,
+    node: Node,
 }
 
-/// Nodes that wait at most: two a level, both directions.
-const WAITING: usize = 160;
+/// The silhouette's blocks at the tree's places.
+#[derive(Clone, Copy, Debug)]
+struct Side<'h> {
+    /// What the other blocks differ by.
+    base: u32,
+    /// Least and most set pixels.
+    blocks: [&'h [u8]; 2],
+}
+
+/// Nodes that wait for their turn at most; where more would, one is looked through to its leaves.
+const WAITING: usize = 256;
+
+/// Levels of a tree at most: its leaves are counted in 32 bits.
+const LEVELS: usize = 33;
 
 /// One search of the tree.
 struct Hunt<'h, const K: usize> {
@@ -226,36 +238,64 @@ struct Hunt<'h, const K: usize> {
     query: &'h Query<'h>,
     kernels: &'h Kernels,
     leaf: &'h mut [u8],
+    /// Straight, and reversed.
+    sides: [Side<'h>; 2],
     found: Found<K>,
 }
 
 impl<const K: usize> Hunt<'_, K> {
-    /// `sides`: least and most set pixels of the silhouette's blocks, straight and reversed.
-    fn run(&mut self, bases: [u32; 2], sides: [[&[u8]; 2]; 2]) {
-        let tree = self.catalogue.tree;
-        let mut waiting: Vec<Open, WAITING> = Vec::new();
-        let open = |node: Node, reversed: bool, kernels: &Kernels| {
-            let side = usize::from(reversed);
-            Open {
-                bound: bases[side] + (kernels.gap)(sides[side], tree.bounds(&node)),
-                node,
-                reversed,
+    /// The nearest node first: none is opened whose bound exceeds the last answer.
+    fn run<const ROOM: usize>(&mut self) {
+        let mut waiting: BinaryHeap<Open, Min, ROOM> = BinaryHeap::new();
+        for reversed in [false, true] {
+            let root = self.open(self.catalogue.tree.root(), reversed);
+            if waiting.push(root).is_err() {
+                self.look_through(root);
             }
-        };
-        let roots = [false, true].map(|reversed| open(tree.root(), reversed, self.kernels));
-        push_nearer_last(&mut waiting, roots);
+        }
         while let Some(next) = waiting.pop() {
             if next.bound > self.found.limit() {
-                continue;
+                return;
             }
-            if next.node.is_leaf() {
-                self.look_at(next.node.first, next.reversed);
-                continue;
+            for child in self.children(next) {
+                if child.bound <= self.found.limit() && waiting.push(child).is_err() {
+                    self.look_through(child);
+                }
             }
-            let children = next.node.children();
-            let children = children.map(|child| open(child, next.reversed, self.kernels));
-            push_nearer_last(&mut waiting, children);
         }
+    }
+
+    /// Depth first, which needs two places a level.
+    fn look_through(&mut self, open: Open) {
+        let mut waiting: Vec<Open, { 2 * LEVELS }> = Vec::new();
+        let _ = waiting.push(open);
+        while let Some(next) = waiting.pop() {
+            if next.bound <= self.found.limit() {
+                let _ = waiting.extend_from_slice(&self.children(next));
+            }
+        }
+    }
+
+    fn open(&self, node: Node, reversed: bool) -> Open {
+        let side = &self.sides[usize::from(reversed)];
+        Open {
+            bound: side.base + (self.kernels.gap)(side.blocks, self.catalogue.tree.bounds(&node)),
+            node,
+            reversed,
+        }
+    }
+
+    /// The children of a node, the nearer last; none of a leaf, which is looked at instead.
+    fn children(&mut self, open: Open) -> Vec<Open, 2> {
+        let mut children = Vec::new();
+        if open.node.is_leaf() {
+            self.look_at(open.node.first, open.reversed);
+            return children;
+        }
+        let both = open.node.children();
+        let [a, b] = both.map(|child| self.open(child, open.reversed));
+        let _ = children.extend_from_slice(&if a.bound < b.bound { [b, a] } else { [a, b] });
+        children
     }
 
     /// Compares the views of a patch whose bounds allow it.
@@ -299,13 +339,6 @@ impl<const K: usize> Hunt<'_, K> {
             }
         }
     }
-}
-
-/// The nearer of two is looked at first.
-fn push_nearer_last(waiting: &mut Vec<Open, WAITING>, [a, b]: [Open; 2]) {
-    let both = if a.bound < b.bound { [b, a] } else { [a, b] };
-    // Two wait for each level at most, and there is room for eighty levels.
-    let _ = waiting.extend_from_slice(&both);
 }
 
 /// The best view of each of the `K` best libraries so far, best first.

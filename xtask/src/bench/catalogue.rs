@@ -45,12 +45,16 @@ pub(super) fn measure(count: usize, camera: Camera) -> Result<Row> {
     let (mut all, mut one, mut same) = (Vec::new(), Vec::new(), true);
     for wanted in (0..count).step_by(step) {
         let silhouette = silhouette(&surfaces[wanted], &camera, wanted, &spec)?;
-        let (times, found) = hunt.times(&libraries, &silhouette)?;
+        let (times, found) = hunt.identify(&libraries, &silhouette, ROUNDS)?;
         all.extend(times);
-        one.extend(hunt.times(&libraries[wanted..=wanted], &silhouette)?.0);
+        one.extend(
+            hunt.identify(&libraries[wanted..=wanted], &silhouette, ROUNDS)?
+                .0,
+        );
         // The exact answer of every library alone.
         let alone = (0..count).map(|number| {
-            let (_, unmatched) = hunt.identify(&libraries[number..=number], &silhouette)?.1;
+            let library = &libraries[number..=number];
+            let (_, (_, unmatched)) = hunt.identify(library, &silhouette, 1)?;
             Ok((unmatched, number))
         });
         let best = alone.collect::<Result<Vec<_>>>()?.into_iter().min();
@@ -125,32 +129,14 @@ impl Hunt {
         }
     }
 
-    /// Milliseconds of some rounds, and the implant found with its unmatched pixels.
-    fn times(
-        &mut self,
-        libraries: &[Library<'_>],
-        silhouette: &[Word],
-    ) -> Result<(Vec<f64>, (usize, u32))> {
-        let mut times = Vec::new();
-        let mut found = None;
-        for _ in 0..ROUNDS {
-            let (ms, this) = self.identify(libraries, silhouette)?;
-            ensure!(
-                found.is_none_or(|before| before == this),
-                "two searches differ"
-            );
-            found = Some(this);
-            times.push(ms);
-        }
-        Ok((times, found.context("nothing was looked for")?))
-    }
-
-    /// Making the silhouette ready is part of the work, making the catalogue's tree is not.
+    /// Milliseconds of each round, and the implant found with its unmatched pixels. Making the silhouette ready is part
+    /// of the work, making the catalogue's tree is not.
     fn identify(
         &mut self,
         libraries: &[Library<'_>],
         silhouette: &[Word],
-    ) -> Result<(f64, (usize, u32))> {
+        rounds: usize,
+    ) -> Result<(Vec<f64>, (usize, u32))> {
         let needs = catalogue_needed(libraries);
         let (mut leaves, mut boxes) = (vec![Leaf::default(); needs.leaves], vec![0; needs.boxes]);
         let (mut places, mut scratch) = (vec![0; needs.places], vec![0; needs.scratch]);
@@ -162,12 +148,24 @@ impl Hunt {
         };
         let catalogue = Catalogue::new(libraries, memory)?;
         let kernels = fluoropose_kernels::fastest();
-        let (ms, found) = timed(|| -> Result<_> {
-            reverse(silhouette, &mut self.turned);
-            let query = Query::new(&self.spec, silhouette, &self.turned, None, &mut self.query)?;
-            Ok(catalogue.identify::<1>(&query, &kernels, &mut self.bytes)?)
-        });
-        let best = *found?.first().context("the catalogue has no view")?;
-        Ok((ms, (best.library, best.best.unmatched)))
+        let mut times = Vec::new();
+        let mut answer = None;
+        for _ in 0..rounds {
+            let (ms, found) = timed(|| -> Result<_> {
+                reverse(silhouette, &mut self.turned);
+                let query =
+                    Query::new(&self.spec, silhouette, &self.turned, None, &mut self.query)?;
+                Ok(catalogue.identify::<1>(&query, &kernels, &mut self.bytes)?)
+            });
+            let best = *found?.first().context("the catalogue has no view")?;
+            let this = (best.library, best.best.unmatched);
+            ensure!(
+                answer.is_none_or(|before| before == this),
+                "two searches differ"
+            );
+            answer = Some(this);
+            times.push(ms);
+        }
+        Ok((times, answer.context("nothing was looked for")?))
     }
 }

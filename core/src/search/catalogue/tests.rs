@@ -104,6 +104,13 @@ proptest! {
         prop_assert_eq!(&three[..], &wanted[..wanted.len().min(3)]);
         let all = catalogue.identify::<16>(&query, &kernels, &mut bytes).expect("lengths");
         prop_assert_eq!(&all[..], &wanted[..]);
+        // With hardly a place for nodes that wait, most are looked through depth first.
+        for crowded in [
+            catalogue.hunt::<3, 1>(&query, &kernels, &mut bytes),
+            catalogue.hunt::<3, 3>(&query, &kernels, &mut bytes),
+        ] {
+            prop_assert_eq!(&crowded[..], &wanted[..wanted.len().min(3)]);
+        }
     }
 }
 
