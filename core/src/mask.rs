@@ -219,20 +219,27 @@ impl<'a> Mask<'a> {
     /// ranges for an empty mask.
     #[must_use]
     pub fn bounds(&self) -> (core::ops::Range<usize>, core::ops::Range<usize>) {
-        let (mut left, mut right, mut rows) = (usize::MAX, 0, 0..0);
-        for row in 0..self.height {
+        let (mut left, mut right, rows) = (usize::MAX, 0, self.rows());
+        for row in rows.clone() {
             let words = self.row(row);
-            let first = next_bit(words, 0, true);
-            if first == words.len() * WORD_BITS {
-                continue;
-            }
             let last = words.iter().rposition(|&word| word != 0).map_or(0, |at| {
                 (at + 1) * WORD_BITS - words[at].leading_zeros() as usize
             });
-            (left, right) = (left.min(first), right.max(last));
-            rows = if rows.end == 0 { row } else { rows.start }..row + 1;
+            (left, right) = (left.min(next_bit(words, 0, true)), right.max(last));
         }
         (left.min(right)..right, rows)
+    }
+
+    /// The rows from the first to the last that has a pixel.
+    pub(crate) fn rows(&self) -> core::ops::Range<usize> {
+        // All words of a row at once: wide instructions.
+        let any = |row: &[Word]| row.iter().fold(0, |sum, word| sum | word) != 0;
+        let mut rows = self.words.chunks_exact(row_words(self.width));
+        let first = rows.clone().position(any);
+        let last = rows.rposition(any);
+        first
+            .zip(last)
+            .map_or(0..0, |(first, last)| first..last + 1)
     }
 }
 

@@ -56,7 +56,7 @@ impl Mask<'_> {
     #[must_use]
     pub fn moments(&self) -> Moments {
         let mut sum = Moments::default();
-        for row in 0..self.height() {
+        for row in self.rows() {
             let y = row as u64;
             for run in self.runs(row) {
                 let (n, columns, squares) = run_sums(run.start as u64, run.end as u64);

@@ -14,7 +14,7 @@ use crate::math::{
 use crate::mesh::Mesh;
 use crate::moments::Moments;
 use crate::pose::Pose;
-use crate::raster::render;
+use crate::raster::{Projected, render};
 use crate::refine::RefineMemory;
 use crate::silhouette::Silhouette;
 use crate::verify::unmatched_at;
@@ -47,7 +47,10 @@ pub fn nearby(
     memory: &mut RefineMemory<'_>,
 ) -> Vec<Pose, NEARBY> {
     let mut found: Vec<(u64, Pose), NEARBY> = Vec::new();
-    if silhouette.unknown().is_none() {
+    let (width, height) = (camera.width(), camera.height());
+    let words = memory.drawn.get_mut(..words_needed(width, height));
+    let drawn = MaskMut::new(words.unwrap_or_default(), width, height);
+    if let (Ok(drawn), None) = (drawn, silhouette.unknown()) {
         let mut search = Search {
             mesh,
             camera,
@@ -55,7 +58,8 @@ pub fn nearby(
             wanted: silhouette.mask().moments(),
             middle: mesh.bounds().centre,
             moves: if step_deg > WIDE_STEP_DEG { MOVES } else { 1 },
-            memory,
+            scratch: memory.projected,
+            drawn,
         };
         for x in -REACH..=REACH {
             for y in -REACH..=REACH {
@@ -80,30 +84,27 @@ pub fn nearby(
     poses
 }
 
-struct Search<'s, 'm> {
+struct Search<'s> {
     mesh: &'s Mesh<'s>,
     camera: &'s Camera,
     silhouette: &'s Silhouette<'s>,
     wanted: Moments,
     middle: Vector3,
     moves: usize,
-    memory: &'s mut RefineMemory<'m>,
+    scratch: &'s mut [Projected],
+    drawn: MaskMut<'s>,
 }
 
-impl Search<'_, '_> {
+impl Search<'_> {
     /// `start` turned, then moved onto the silhouette; how many pixels differ then.
     fn moved(&mut self, turn: Vector3, start: &Pose) -> Option<(u64, Pose)> {
         let mut pose = self.about_middle(start, &turn, [0.0; 3]);
         for _ in 0..self.moves {
             pose = self.onto_silhouette(&pose)?;
         }
-        let (width, height) = (self.camera.width(), self.camera.height());
-        let words = self.memory.drawn.get_mut(..words_needed(width, height))?;
-        let mut drawn = MaskMut::new(words, width, height).ok()?;
-        let scratch = &mut *self.memory.projected;
         let (mesh, camera) = (self.mesh, self.camera);
-        let unmatched =
-            unmatched_at(mesh, camera, &pose, self.silhouette, scratch, &mut drawn).ok()?;
+        let (scratch, drawn) = (&mut *self.scratch, &mut self.drawn);
+        let unmatched = unmatched_at(mesh, camera, &pose, self.silhouette, scratch, drawn).ok()?;
         Some((unmatched, pose))
     }
 
@@ -131,18 +132,9 @@ impl Search<'_, '_> {
     }
 
     fn moments_at(&mut self, pose: &Pose) -> Option<Moments> {
-        let (width, height) = (self.camera.width(), self.camera.height());
-        let words = self.memory.drawn.get_mut(..words_needed(width, height))?;
-        let mut drawn = MaskMut::new(words, width, height).ok()?;
-        render(
-            self.mesh,
-            self.camera,
-            pose,
-            self.memory.projected,
-            &mut drawn,
-        )
-        .ok()?;
-        Some(drawn.as_mask().moments())
+        self.drawn.clear();
+        render(self.mesh, self.camera, pose, self.scratch, &mut self.drawn).ok()?;
+        Some(self.drawn.as_mask().moments())
     }
 
     /// A pose turned about the model's middle, which is then shifted; both in camera axes.

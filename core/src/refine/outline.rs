@@ -160,7 +160,8 @@ impl Outliner<'_> {
         let room = border.len().min(usize::from(u16::MAX));
         let mut count = 0;
         // The frame's own border is no border of the model: what is cut off is not known.
-        for row in 1..self.drawn.height().saturating_sub(1) {
+        let rows = self.drawn.rows();
+        for row in rows.start.max(1)..rows.end.min(self.drawn.height().saturating_sub(1)) {
             for column in border_columns(self.drawn, row) {
                 if column == 0 || column + 1 >= width || count == room {
                     continue;
