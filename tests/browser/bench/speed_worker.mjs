@@ -14,8 +14,8 @@ onmessage = ({ data }) => {
   work(data).then(postMessage, (error) => postMessage({ failed: String(error) }));
 };
 
-/** @param {{ wasm: string, outlines: [number, number][][] }} task */
-async function work({ wasm, outlines }) {
+/** @param {{ wasm: string, masks: [number, number][][], polygons: [number, number][][] }} task */
+async function work({ wasm, masks, polygons }) {
   await init({ module_or_path: `/npm/pkg/core/${wasm}` });
   const [model, calibration] = await Promise.all([fetched('femur.stl', 'arrayBuffer'), fetched('calibration.txt', 'text')]);
   const mesh = await decodeModel(new Uint8Array(model));
@@ -28,14 +28,15 @@ async function work({ wasm, outlines }) {
   const traced = (points) => new Traced(Float64Array.from(points.flat()), new Uint32Array(), calibration, FRAME.width, FRAME.height);
   const around = new Surroundings();
   const refine = (outline) => timed(() => matcher.refineOutline(outline, around).free());
-  const whole = outlines.map(traced);
-  const rounds = Array.from({ length: ROUNDS }).flatMap(() => whole);
+  const whole = masks.map(traced);
+  const refined = (outlines) => Array.from({ length: ROUNDS }).flatMap(() => outlines.map(refine));
   refine(whole[0]);
   return {
     library,
     best: whole.map((outline) => searched(matcher, outline)),
-    refined: rounds.map(refine),
-    live: followed(matcher, whole[0], moving(outlines[0]).map((points) => () => traced(points))),
+    masks: refined(whole),
+    polygons: refined(polygons.map(traced)),
+    live: followed(matcher, traced(polygons[0]), moving(polygons[0]).map((points) => () => traced(points))),
   };
 }
 
