@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::contour::Point;
 use crate::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
 use crate::math::{atan2, sqrt};
-use sampler::{BLOCK, QUARTER, Sampler};
+use sampler::{BLOCK, Sampler};
 
 /// Size and area of the canonical frame; a library and its queries must share them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,11 +166,10 @@ pub fn canonicalise(
         .flat_map(|first| (0..words).map(move |index| (first, index)))
     {
         let right = (index * WORD_BITS) as f64 + 0.5 - half;
-        let uniform = sampler.uniform(mask, right, half - (first as f64 + 0.5));
-        for row in first..first + BLOCK {
-            if let Some(word) = canonical.row_mut(row).get_mut(index) {
-                let uniform = &uniform[(row - first) / QUARTER];
-                *word = sampler.word(mask, uniform, right, half - (row as f64 + 0.5));
+        let words = sampler.words(mask, right, half - (first as f64 + 0.5));
+        for (row, word) in (first..).zip(words) {
+            if let Some(place) = canonical.row_mut(row).get_mut(index) {
+                *place = word;
             }
         }
     }

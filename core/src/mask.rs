@@ -163,6 +163,13 @@ impl<'a> Mask<'a> {
         pair(row) | pair(row + 1) << 2
     }
 
+    /// The pixels of a row from a column on, as many as a word has, from the lowest bit. Those beyond the row are any.
+    pub(crate) fn bits_from(&self, column: usize, row: usize) -> Word {
+        let at = row * row_words(self.width) + column / WORD_BITS;
+        let word = |at: usize| u64::from(self.words.get(at).copied().unwrap_or(0));
+        ((word(at) | word(at + 1) << WORD_BITS) >> (column % WORD_BITS)) as Word
+    }
+
     /// The value of all pixels of some columns and rows within the mask, if it is one.
     pub(crate) fn value_of(
         &self,

@@ -1,5 +1,7 @@
 //! Reading a silhouette at the centres of canonical pixels, most of them a block at a time.
 
+use core::ops::Range;
+
 use super::CanonicalForm;
 use crate::contour::Point;
 use crate::mask::{Mask, WORD_BITS, Word};
@@ -11,32 +13,16 @@ const PLACES: u32 = 16;
 /// Side of the square blocks of canonical pixels of which most lie wholly inside or outside.
 pub(super) const BLOCK: usize = 8;
 /// And of the others many a quarter.
-pub(super) const QUARTER: usize = BLOCK / 2;
+const QUARTER: usize = BLOCK / 2;
 
 /// More than rounding moves a position with the steps to it, up to 39 in each direction, in 1/65 536 pixel.
 const MARGIN: i32 = 64;
 
-/// Bits of a word whose value is known, and those of them that are set.
-#[derive(Clone, Copy)]
-pub(super) struct Uniform {
-    known: Word,
-    set: Word,
-}
-
-impl Uniform {
-    /// Bits from a column on have one value.
-    fn learn(&mut self, column: usize, count: usize, set: bool) {
-        let bits = ((1 << count) - 1) << column;
-        self.known |= bits;
-        self.set |= if set { bits } else { 0 };
-    }
-}
-
 /// The affine map from canonical pixels to frame pixels, and its steps.
 pub(super) struct Sampler {
     /// Positions outside this rectangle (columns, rows; in 1/65 536 pixel) see no set pixel.
-    columns: core::ops::Range<i32>,
-    rows: core::ops::Range<i32>,
+    columns: Range<i32>,
+    rows: Range<i32>,
     centre: Point,
     right: [f64; 2],
     up: [f64; 2],
@@ -48,7 +34,7 @@ pub(super) struct Sampler {
 impl Sampler {
     pub(super) fn new(form: &CanonicalForm, mask: &Mask<'_>) -> Self {
         // A position reads the pixels at its floor and one further.
-        let reach = |pixels: core::ops::Range<usize>| {
+        let reach = |pixels: Range<usize>| {
             let fixed = |pixel: usize| (pixel as i32) << PLACES;
             fixed(pixels.start) - (1 << PLACES)..fixed(pixels.end)
         };
@@ -67,30 +53,62 @@ impl Sampler {
         }
     }
 
-    /// Which bits of [`BLOCK`] words below each other, the first of which begins at `right` and
-    /// `up` of the canonical centre, are known from the frame's pixels round each block or each
-    /// quarter of it: of the upper half of the words, and of the lower.
-    pub(super) fn uniform(&self, mask: &Mask<'_>, right: f64, up: f64) -> [Uniform; 2] {
-        let mut halves = [Uniform { known: 0, set: 0 }; 2];
-        let first = self.start(right, up);
+    /// [`BLOCK`] words of canonical pixels below each other, the first of which begins at `right` and `up` of the
+    /// canonical centre.
+    pub(super) fn words(&self, mask: &Mask<'_>, right: f64, up: f64) -> [Word; BLOCK] {
+        let starts = core::array::from_fn(|row| self.start(right, up - row as f64));
+        let mut words = [0; BLOCK];
         for column in (0..WORD_BITS).step_by(BLOCK) {
-            let corner = self.beside(&first, column, 0);
-            if let Some(set) = self.one_value(mask, &corner, BLOCK) {
-                halves
-                    .iter_mut()
-                    .for_each(|half| half.learn(column, BLOCK, set));
-                continue;
+            let corner = self.beside(&starts[0], column, 0);
+            let value = match self.reads(mask, &corner, BLOCK) {
+                Reads::Nothing => Some(false),
+                Reads::Pixels(columns, rows) => mask.value_of(columns, rows),
+                Reads::Beyond => None,
+            };
+            match value {
+                Some(false) => {}
+                Some(true) => words.iter_mut().for_each(|word| *word |= 0xff << column),
+                None => self.quarters(mask, &starts, column, &mut words),
             }
-            for (down, half) in halves.iter_mut().enumerate() {
-                for across in 0..2 {
-                    let corner = self.beside(&corner, across * QUARTER, down * QUARTER);
-                    if let Some(set) = self.one_value(mask, &corner, QUARTER) {
-                        half.learn(column + across * QUARTER, QUARTER, set);
+        }
+        words
+    }
+
+    /// One block of them, a quarter at a time.
+    fn quarters(
+        &self,
+        mask: &Mask<'_>,
+        starts: &[Position; BLOCK],
+        column: usize,
+        words: &mut [Word; BLOCK],
+    ) {
+        let starts = starts.chunks_exact(QUARTER);
+        for (starts, words) in starts.zip(words.chunks_exact_mut(QUARTER)) {
+            for column in [column, column + QUARTER] {
+                let corner = self.beside(&starts[0], column, 0);
+                let window = match self.reads(mask, &corner, QUARTER) {
+                    Reads::Nothing => continue,
+                    Reads::Pixels(columns, rows) => Window::new(mask, &columns, &rows),
+                    Reads::Beyond => None,
+                };
+                if let Some(set) = window.as_ref().and_then(|window| window.value) {
+                    let four = if set { 0xf << column } else { 0 };
+                    words.iter_mut().for_each(|word| *word |= four);
+                    continue;
+                }
+                for (word, start) in words.iter_mut().zip(starts) {
+                    let mut at = self.beside(start, column, 0);
+                    for column in column..column + QUARTER {
+                        let square = match &window {
+                            Some(window) => window.square(&at),
+                            None => at.square(mask),
+                        };
+                        *word |= Word::from(at.is_covered(square)) << column;
+                        at.step(self.step);
                     }
                 }
             }
         }
-        halves
     }
 
     /// The position of a canonical pixel so many to the right and below another.
@@ -106,9 +124,8 @@ impl Sampler {
         }
     }
 
-    /// The value of all frame pixels that the positions of a square of canonical pixels read, if it
-    /// is one; `corner` is its first.
-    fn one_value(&self, mask: &Mask<'_>, corner: &Position, side: usize) -> Option<bool> {
+    /// What the positions of a square of canonical pixels read; `corner` is its first.
+    fn reads(&self, mask: &Mask<'_>, corner: &Position, side: usize) -> Reads {
         let extent = |first: i32, axis: usize| {
             let sides = [self.step[axis], self.down[axis]];
             let sides = sides.map(|step| step.saturating_mul(side as i32 - 1));
@@ -120,35 +137,19 @@ impl Sampler {
         let (left, right) = extent(corner.column, 0);
         let (top, bottom) = extent(corner.row, 1);
         if beyond(left, right, &self.columns) || beyond(top, bottom, &self.rows) {
-            return Some(false);
+            return Reads::Nothing;
         }
-        let pixel = |position: i32| usize::try_from(position >> PLACES);
-        let (left, top) = (pixel(left).ok()?, pixel(top).ok()?);
         // A position reads the pixel after its own too.
-        let (right, bottom) = (pixel(right).ok()? + 1, pixel(bottom).ok()? + 1);
-        if right >= mask.width() || bottom >= mask.height() {
-            return None;
-        }
-        mask.value_of(left..right + 1, top..bottom + 1)
-    }
-
-    /// One word of canonical pixels, from `right` and `up` of the canonical centre.
-    pub(super) fn word(&self, mask: &Mask<'_>, uniform: &Uniform, right: f64, up: f64) -> Word {
-        let (mut word, mut open) = (uniform.set, !uniform.known);
-        if open == 0 {
-            return word;
-        }
-        let start = self.start(right, up);
-        while open != 0 {
-            let bit = open.trailing_zeros();
-            open &= open - 1;
-            let at = Position {
-                column: start.column.saturating_add(self.step[0] * bit as i32),
-                row: start.row.saturating_add(self.step[1] * bit as i32),
-            };
-            word |= Word::from(at.covered(mask)) << bit;
-        }
-        word
+        let pixels = |first: i32, last: i32, all: usize| {
+            let first = usize::try_from(first >> PLACES).ok()?;
+            let end = usize::try_from(last >> PLACES).ok()? + 2;
+            (end <= all).then_some(first..end)
+        };
+        let columns = pixels(left, right, mask.width());
+        let both = columns.zip(pixels(top, bottom, mask.height()));
+        both.map_or(Reads::Beyond, |(columns, rows)| {
+            Reads::Pixels(columns, rows)
+        })
     }
 
     /// The frame position `right` and `up` canonical pixels from the canonical centre.
@@ -162,8 +163,64 @@ impl Sampler {
     }
 }
 
+/// What some positions read of a frame.
+enum Reads {
+    /// No set pixel.
+    Nothing,
+    /// Of these columns and rows.
+    Pixels(Range<usize>, Range<usize>),
+    /// Beyond the frame too.
+    Beyond,
+}
+
+/// Rows of a window at most: those that a quarter block reads where a canonical pixel is up to seven of the frame.
+const ROWS: usize = 32;
+
+/// A few frame pixels, a word a row.
+struct Window {
+    left: i32,
+    top: i32,
+    rows: [Word; ROWS],
+    /// Of all its pixels, if it is one.
+    value: Option<bool>,
+}
+
+impl Window {
+    /// `None` for more pixels than it holds.
+    fn new(mask: &Mask<'_>, columns: &Range<usize>, rows: &Range<usize>) -> Option<Self> {
+        if columns.len() > WORD_BITS || rows.len() > ROWS {
+            return None;
+        }
+        let within = Word::MAX >> (WORD_BITS - columns.len());
+        let (mut any, mut all) = (0, Word::MAX);
+        let mut window = [0; ROWS];
+        for (bits, row) in window.iter_mut().zip(rows.clone()) {
+            *bits = mask.bits_from(columns.start, row);
+            (any, all) = (any | *bits, all & *bits);
+        }
+        Some(Self {
+            left: columns.start as i32,
+            top: rows.start as i32,
+            rows: window,
+            value: match (any & within, all & within) {
+                (0, _) => Some(false),
+                (_, all) if all == within => Some(true),
+                _ => None,
+            },
+        })
+    }
+
+    /// See [`Mask::square`]; the position must be one of those that the window was made for.
+    fn square(&self, at: &Position) -> u32 {
+        let column = ((at.column >> PLACES) - self.left) as u32;
+        let row = ((at.row >> PLACES) - self.top) as usize;
+        let pair = |row: usize| self.rows[row % ROWS] >> (column % Word::BITS) & 3;
+        pair(row) | pair(row + 1) << 2
+    }
+}
+
 /// Whether everything between two positions lies on one side of a range.
-fn beyond(a: i32, b: i32, range: &core::ops::Range<i32>) -> bool {
+fn beyond(a: i32, b: i32, range: &Range<i32>) -> bool {
     a.max(b) < range.start || a.min(b) >= range.end
 }
 
@@ -181,13 +238,23 @@ struct Position {
 }
 
 impl Position {
-    /// Whether the silhouette, interpolated between the four nearest centres, covers half.
-    fn covered(&self, mask: &Mask<'_>) -> bool {
+    /// Where it would leave the numbers it is far beyond any frame, on whichever side.
+    fn step(&mut self, [right, down]: [i32; 2]) {
+        self.column = self.column.wrapping_add(right);
+        self.row = self.row.wrapping_add(down);
+    }
+
+    /// The four pixels round it, as [`Mask::square`] gives them.
+    fn square(&self, mask: &Mask<'_>) -> u32 {
         let (column, row) = (self.column >> PLACES, self.row >> PLACES);
-        let square = match (usize::try_from(column), usize::try_from(row)) {
+        match (usize::try_from(column), usize::try_from(row)) {
             (Ok(column), Ok(row)) => mask.square(column, row),
             _ => pair(mask, column, row) | pair(mask, column, row + 1) << 2,
-        };
+        }
+    }
+
+    /// Whether the silhouette, interpolated between these four, covers half.
+    fn is_covered(&self, square: u32) -> bool {
         if square == 0 || square == 0b1111 {
             return square != 0;
         }
@@ -207,4 +274,73 @@ fn pair(mask: &Mask<'_>, column: i32, row: i32) -> u32 {
         _ => 0,
     };
     pixel(column) | pixel(column + 1) << 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mask::{MaskMut, words_needed};
+    use proptest::prelude::*;
+
+    const WIDTH: usize = 150;
+    const HEIGHT: usize = 90;
+
+    /// Oracle: each canonical pixel by itself, from four pixels that are read one by one.
+    fn one_by_one(sampler: &Sampler, mask: &Mask<'_>, right: f64, up: f64) -> [Word; BLOCK] {
+        core::array::from_fn(|row| {
+            let start = sampler.start(right, up - row as f64);
+            (0..WORD_BITS).fold(0, |word, bit| {
+                let column = i64::from(start.column) + i64::from(sampler.step[0]) * bit as i64;
+                let row = i64::from(start.row) + i64::from(sampler.step[1]) * bit as i64;
+                let weight = |position: i64, next: i64| {
+                    let share = (position >> 8) & 0xff;
+                    if next == 1 { share } else { 256 - share }
+                };
+                let mut covered = 0;
+                for (across, down) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                    let (x, y) = ((column >> PLACES) + across, (row >> PLACES) + down);
+                    let set = x >= 0 && y >= 0 && mask.get(x as usize, y as usize);
+                    covered += i64::from(set) * weight(column, across) * weight(row, down);
+                }
+                word | Word::from(covered >= 1 << 15) << bit
+            })
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn blocks_hold_what_single_pixels_are(
+            solid in (0..WIDTH, 0..WIDTH, 0..HEIGHT, 0..HEIGHT),
+            speckles in proptest::collection::vec((0..WIDTH, 0..HEIGHT, any::<bool>()), 0..60),
+            centroid in (-20.0..170.0f64, -20.0..110.0f64),
+            angle in -4.0..4.0f64,
+            log_scale in -3.0..1.5f64,
+            aspect in 0.5..2.0f64,
+            at in (-6..6i32, -12..12i32),
+        ) {
+            let mut words = std::vec![0; words_needed(WIDTH, HEIGHT)];
+            let mut mask = MaskMut::new(&mut words, WIDTH, HEIGHT).expect("fits");
+            let (left, right, top, bottom) = solid;
+            for row in top.min(bottom)..top.max(bottom) {
+                mask.fill_span(row, left as i64, right as i64);
+            }
+            for (column, row, set) in speckles {
+                mask.set(column, row, set);
+            }
+            let mask = mask.into_mask();
+            let form = CanonicalForm {
+                area_px: 0,
+                centroid: Point { column: centroid.0, row: centroid.1 },
+                angle,
+                scale: libm::exp(log_scale),
+                aspect,
+                elongation: 0.0,
+                clipped: false,
+            };
+            let sampler = Sampler::new(&form, &mask);
+            let (right, up) = (f64::from(32 * at.0) + 0.5, f64::from(8 * at.1) - 0.5);
+            let naive = one_by_one(&sampler, &mask, right, up);
+            prop_assert_eq!(sampler.words(&mask, right, up), naive);
+        }
+    }
 }
