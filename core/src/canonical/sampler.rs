@@ -59,7 +59,7 @@ impl Sampler {
         let starts = core::array::from_fn(|row| self.start(right, up - row as f64));
         let mut words = [0; BLOCK];
         for column in (0..WORD_BITS).step_by(BLOCK) {
-            let corner = self.beside(&starts[0], column, 0);
+            let corner = self.along(&starts[0], column);
             let value = match self.reads(mask, &corner, BLOCK) {
                 Reads::Nothing => Some(false),
                 Reads::Pixels(columns, rows) => mask.value_of(columns, rows),
@@ -84,43 +84,41 @@ impl Sampler {
     ) {
         let starts = starts.chunks_exact(QUARTER);
         for (starts, words) in starts.zip(words.chunks_exact_mut(QUARTER)) {
-            for column in [column, column + QUARTER] {
-                let corner = self.beside(&starts[0], column, 0);
-                let window = match self.reads(mask, &corner, QUARTER) {
-                    Reads::Nothing => continue,
-                    Reads::Pixels(columns, rows) => Window::new(mask, &columns, &rows),
-                    Reads::Beyond => None,
+            self.quarter(mask, starts, column, words);
+            self.quarter(mask, starts, column + QUARTER, words);
+        }
+    }
+
+    fn quarter(&self, mask: &Mask<'_>, starts: &[Position], column: usize, words: &mut [Word]) {
+        let window = match self.reads(mask, &self.along(&starts[0], column), QUARTER) {
+            Reads::Nothing => return,
+            Reads::Pixels(columns, rows) => Window::new(mask, &columns, &rows),
+            Reads::Beyond => None,
+        };
+        if let Some(set) = window.as_ref().and_then(|window| window.value) {
+            let four = if set { 0xf << column } else { 0 };
+            words.iter_mut().for_each(|word| *word |= four);
+            return;
+        }
+        for (word, start) in words.iter_mut().zip(starts) {
+            let mut at = self.along(start, column);
+            for column in column..column + QUARTER {
+                let square = match &window {
+                    Some(window) => window.square(&at),
+                    None => at.square(mask),
                 };
-                if let Some(set) = window.as_ref().and_then(|window| window.value) {
-                    let four = if set { 0xf << column } else { 0 };
-                    words.iter_mut().for_each(|word| *word |= four);
-                    continue;
-                }
-                for (word, start) in words.iter_mut().zip(starts) {
-                    let mut at = self.beside(start, column, 0);
-                    for column in column..column + QUARTER {
-                        let square = match &window {
-                            Some(window) => window.square(&at),
-                            None => at.square(mask),
-                        };
-                        *word |= Word::from(at.is_covered(square)) << column;
-                        at.step(self.step);
-                    }
-                }
+                *word |= Word::from(at.is_covered(square)) << column;
+                at.step(self.step);
             }
         }
     }
 
-    /// The position of a canonical pixel so many to the right and below another.
-    fn beside(&self, from: &Position, right: usize, down: usize) -> Position {
-        let moved = |from: i32, axis: usize| {
-            let (right, down) = (right as i32, down as i32);
-            from.saturating_add(self.step[axis].saturating_mul(right))
-                .saturating_add(self.down[axis].saturating_mul(down))
-        };
+    /// The position of a canonical pixel so many to the right of another.
+    fn along(&self, from: &Position, right: usize) -> Position {
+        let moved = |from: i32, step: i32| from.saturating_add(step.saturating_mul(right as i32));
         Position {
-            column: moved(from.column, 0),
-            row: moved(from.row, 1),
+            column: moved(from.column, self.step[0]),
+            row: moved(from.row, self.step[1]),
         }
     }
 
