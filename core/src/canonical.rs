@@ -4,6 +4,8 @@
 //! the same canonical form, up to sampling (Walker et al. 1996, section 2). What was taken
 //! away is recorded, because the pose comes from it.
 
+mod cells;
+mod marks;
 mod sampler;
 
 use thiserror::Error;
@@ -11,7 +13,7 @@ use thiserror::Error;
 use crate::contour::Point;
 use crate::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
 use crate::math::{atan2, sqrt};
-use sampler::{BLOCK, Sampler};
+use sampler::Sampler;
 
 /// Size and area of the canonical frame; a library and its queries must share them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,21 +160,7 @@ pub fn canonicalise(
 ) -> Result<CanonicalForm, CanonicalError> {
     let mut form = measure(mask, spec.area, aspect)?;
     let mut canonical = MaskMut::new(out, spec.size, spec.size)?;
-    let sampler = Sampler::new(&form, mask);
-    let half = spec.size as f64 / 2.0;
-    let words = spec.size / WORD_BITS;
-    for (first, index) in (0..spec.size)
-        .step_by(BLOCK)
-        .flat_map(|first| (0..words).map(move |index| (first, index)))
-    {
-        let right = (index * WORD_BITS) as f64 + 0.5 - half;
-        let words = sampler.words(mask, right, half - (first as f64 + 0.5));
-        for (row, word) in (first..).zip(words) {
-            if let Some(place) = canonical.row_mut(row).get_mut(index) {
-                *place = word;
-            }
-        }
-    }
+    Sampler::new(&form).draw(mask, &mut canonical);
     form.clipped = touches_border(&canonical.into_mask());
     Ok(form)
 }
@@ -180,14 +168,14 @@ pub fn canonicalise(
 fn touches_border(canonical: &Mask<'_>) -> bool {
     let last = canonical.height() - 1;
     (0..=last).any(|row| {
-        let mut runs = canonical.runs(row);
-        let ends = |run: core::ops::Range<usize>| run.start == 0 || run.end == last + 1;
-        let whole = row == 0 || row == last;
-        if whole {
-            runs.next().is_some()
+        let words = canonical.row(row);
+        let outermost = if row == 0 || row == last {
+            words.iter().fold(0, |sum, word| sum | word)
         } else {
-            runs.any(ends)
-        }
+            let end = words.last().map_or(0, |word| word >> (WORD_BITS - 1));
+            words.first().map_or(0, |word| word & 1) | end
+        };
+        outermost != 0
     })
 }
 

@@ -150,45 +150,16 @@ impl<'a> Mask<'a> {
         if at >= stride {
             return 0;
         }
-        let word = |place: usize| u64::from(self.words.get(place).copied().unwrap_or(0));
-        let pair = |row: usize| {
-            let place = row * stride + at;
-            let next = if shift == WORD_BITS - 1 && at + 1 < stride {
-                word(place + 1)
-            } else {
-                0
-            };
-            ((word(place) | next << WORD_BITS) >> shift & 3) as u32
-        };
-        pair(row) | pair(row + 1) << 2
-    }
-
-    /// The pixels of a row from a column on, as many as a word has, from the lowest bit. Those beyond the row are any.
-    pub(crate) fn bits_from(&self, column: usize, row: usize) -> Word {
-        let at = row * row_words(self.width) + column / WORD_BITS;
-        let word = |at: usize| u64::from(self.words.get(at).copied().unwrap_or(0));
-        ((word(at) | word(at + 1) << WORD_BITS) >> (column % WORD_BITS)) as Word
-    }
-
-    /// The value of all pixels of some columns and rows within the mask, if it is one.
-    pub(crate) fn value_of(
-        &self,
-        columns: core::ops::Range<usize>,
-        rows: core::ops::Range<usize>,
-    ) -> Option<bool> {
-        let (stride, last) = (row_words(self.width), columns.end.checked_sub(1)?);
-        let (mut set, mut unset) = (0, 0);
-        for at in columns.start / WORD_BITS..=last / WORD_BITS {
-            let first = at * WORD_BITS;
-            let left = Word::MAX << columns.start.saturating_sub(first);
-            let right = Word::MAX >> (first + WORD_BITS - 1).saturating_sub(last);
-            let column = self.words.get(rows.start * stride + at..)?.iter();
-            for word in column.step_by(stride).take(rows.len()) {
-                set |= word & left & right;
-                unset |= !word & left & right;
+        let word = |place: usize| self.words.get(place).copied().unwrap_or(0);
+        let pair = |place: usize| {
+            if shift < WORD_BITS - 1 {
+                return word(place) >> shift & 3;
             }
-        }
-        (set == 0 || unset == 0).then_some(set != 0)
+            let next = if at + 1 < stride { word(place + 1) } else { 0 };
+            word(place) >> shift | (next & 1) << 1
+        };
+        let place = row * stride + at;
+        pair(place) | pair(place + stride) << 2
     }
 
     /// Number of pixels set.
@@ -210,15 +181,23 @@ impl<'a> Mask<'a> {
     /// The runs of set pixels of one row, as half-open ranges of columns, left to right.
     pub fn runs(&self, row: usize) -> impl Iterator<Item = core::ops::Range<usize>> + use<'a> {
         let words = self.row(row);
-        let end = words.len() * WORD_BITS;
-        let mut at = 0;
+        // The word that is looked at and, of its pixels that are set, those not passed yet.
+        let (mut at, mut left) = (0, words.first().copied().unwrap_or(0));
         core::iter::from_fn(move || {
-            let start = next_bit(words, at, true);
-            if start >= end {
-                return None;
+            while left == 0 {
+                at += 1;
+                left = *words.get(at)?;
             }
-            at = next_bit(words, start, false);
-            Some(start..at)
+            let start = at * WORD_BITS + left.trailing_zeros() as usize;
+            // As if the run began with the word.
+            left |= left - 1;
+            while left == Word::MAX {
+                at += 1;
+                left = words.get(at).copied().unwrap_or(0);
+            }
+            let ones = left.trailing_ones();
+            left = left >> ones << ones;
+            Some(start..at * WORD_BITS + ones as usize)
         })
     }
 
@@ -304,26 +283,6 @@ mod tests {
                 .map(|(bit, (right, down))| u32::from(mask.get(column + right, row + down)) << bit);
             assert_eq!(mask.square(column, row), bits.sum(), "{column}, {row}");
         }
-    }
-
-    #[test]
-    fn a_box_has_a_value_where_all_its_pixels_have() {
-        let mut words = [0; words_needed(W, H)];
-        let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
-        for row in 0..H {
-            mask.fill_span(row, 20 + row as i64, 66);
-        }
-        let mask = mask.into_mask();
-        for (from, to) in (0..W).flat_map(|from| (from + 1..=W).map(move |to| (from, to))) {
-            for (top, bottom) in (0..H).flat_map(|top| (top + 1..=H).map(move |b| (top, b))) {
-                let mut values = (top..bottom)
-                    .flat_map(|row| (from..to).map(move |column| mask.get(column, row)));
-                let first = values.next();
-                let naive = first.filter(|&value| values.all(|other| other == value));
-                assert_eq!(mask.value_of(from..to, top..bottom), naive);
-            }
-        }
-        assert_eq!(mask.value_of(0..0, 0..1), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Drawing into a mask: pixels, spans and whole outlines.
 
 use core::hint::black_box;
+use core::ops::Range;
 
 use super::{Mask, MaskError, WORD_BITS, Word, check_shape, row_words, tail_mask};
 use crate::contour::Outline;
@@ -104,6 +105,24 @@ impl<'a> MaskMut<'a> {
                 *end |= tail;
             }
             _ => {}
+        }
+    }
+
+    /// Sets a box of at most as many columns as a word has pixels, none beyond the mask.
+    pub(crate) fn fill_box(&mut self, columns: &Range<usize>, rows: Range<usize>) {
+        let bits = ((1u64 << columns.len()) - 1) << (columns.start % WORD_BITS);
+        let (here, next) = (bits as Word, (bits >> WORD_BITS) as Word);
+        let stride = row_words(self.width);
+        let first = columns.start / WORD_BITS;
+        for place in rows.map(|row| row * stride + first) {
+            if let Some(word) = self.words.get_mut(place) {
+                *word |= here;
+            }
+            if next != 0
+                && let Some(word) = self.words.get_mut(place + 1)
+            {
+                *word |= next;
+            }
         }
     }
 

@@ -1,0 +1,96 @@
+//! Which canonical pixels have to be read: those at the silhouette's border.
+
+use core::ops::{ControlFlow, Range};
+
+use super::cells::for_each_mixed;
+use crate::contour::Point;
+use crate::mask::{Mask, MaskMut, WORD_BITS};
+
+/// Half the side of a cell, frame pixels, and more than rounding moves a sampling position.
+const HALF_CELL: f64 = 0.5 + 1.0 / 256.0;
+
+/// Binary places of a canonical position.
+const PLACES: u32 = 32;
+
+/// The affine map from frame pixels to canonical pixels.
+pub(super) struct Inverse {
+    /// Frame position that has the canonical centre for its image.
+    pub(super) centre: Point,
+    /// Canonical columns and rows of a frame column.
+    pub(super) column: [f64; 2],
+    /// And of a frame row.
+    pub(super) row: [f64; 2],
+}
+
+/// The canonical pixels in the boxes round cells' images, which are parallelograms.
+struct Boxes {
+    size: i64,
+    column: [i64; 2],
+    row: [i64; 2],
+    /// The first pixel after the box of cell (0, 0), and the one after its last.
+    first: [i64; 2],
+    end: [i64; 2],
+}
+
+impl Inverse {
+    /// Sets the pixels of an empty canonical frame that lie in a cell of the border, and the one to the right of them.
+    /// Breaks where there is so much border, or where cells are so large, that every pixel might as well be read.
+    pub(super) fn mark(&self, mask: &Mask<'_>, canonical: &mut MaskMut<'_>) -> ControlFlow<()> {
+        let size = canonical.width();
+        let Some(boxes) = self.boxes(size) else {
+            return ControlFlow::Break(());
+        };
+        let mut left = size * size / 4;
+        for_each_mixed(mask, |column, row| {
+            if let Some((columns, rows)) = boxes.of(column, row) {
+                canonical.fill_box(&columns, rows);
+            }
+            left -= 1;
+            if left > 0 {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        })
+    }
+
+    /// `None` where a box is too wide for a word.
+    fn boxes(&self, size: usize) -> Option<Boxes> {
+        let half = [0, 1].map(|axis| HALF_CELL * (self.column[axis].abs() + self.row[axis].abs()));
+        // Two more pixels at most: one for the border between pixels, one to the right.
+        let widest = (WORD_BITS / 2 - 1) as f64;
+        if !(half[0] <= widest && half[1] <= size as f64) {
+            return None;
+        }
+        let fixed = |canonical: f64| (canonical * (1u64 << PLACES) as f64) as i64;
+        let middle = [0, 1].map(|axis| {
+            let column = (1.0 - self.centre.column) * self.column[axis];
+            let row = (1.0 - self.centre.row) * self.row[axis];
+            (size as f64 - 1.0) / 2.0 + column + row
+        });
+        Some(Boxes {
+            size: size as i64,
+            column: self.column.map(fixed),
+            row: self.row.map(fixed),
+            first: [0, 1].map(|axis| fixed(middle[axis] - half[axis] + 1.0)),
+            end: [0, 1].map(|axis| fixed(middle[axis] + half[axis] + 2.0 - axis as f64)),
+        })
+    }
+}
+
+impl Boxes {
+    /// Columns, one more to the right included, and rows; `None` where all are beyond the frame.
+    #[inline(always)]
+    fn of(&self, column: i32, row: i32) -> Option<(Range<usize>, Range<usize>)> {
+        let (column, row) = (i64::from(column), i64::from(row));
+        let reach = |axis: usize| {
+            let moved = column * self.column[axis] + row * self.row[axis];
+            [self.first, self.end].map(|at| (at[axis] + moved) >> PLACES)
+        };
+        let ([left, right], [top, bottom]) = (reach(0), reach(1));
+        let (left, top) = (left.max(0), top.max(0));
+        let (right, bottom) = (right.min(self.size), bottom.min(self.size));
+        let pixels = |from: i64, to: i64| from as usize..to as usize;
+        (left < right && top < bottom).then_some((pixels(left, right), pixels(top, bottom)))
+    }
+}
