@@ -1,21 +1,23 @@
 //! The library: canonical silhouettes of one component over a grid of out-of-plane rotations.
 //!
 //! [`Library::open`] reads it in place from bytes (flash, file, fetched buffer) after checking
-//! all of it once; [`Builder`] renders it into bytes that the caller lends, and [`compact()`] makes
-//! a tenth of them. Both layouts are described in `library/wire.rs` and `DESIGN.md`.
+//! all of it once; [`Builder`] draws its views, packs them, and writes an [`Assembly`] of them into bytes that the caller
+//! lends. Both layouts are described in `library/wire.rs` and `DESIGN.md`.
 
+mod assemble;
 mod build;
 mod compact;
 #[cfg(test)]
 pub(crate) mod fake;
 mod open;
+mod pack;
 pub(crate) mod runs;
 pub(crate) mod sketch;
 mod wire;
 
+pub use assemble::Assembly;
 pub use build::{BuildError, Builder, ViewScratch};
 pub(crate) use compact::Sketches;
-pub use compact::compact;
 pub use open::{Library, LibraryError};
 pub use wire::{HEADER_BYTES, MAGIC, PLAIN_VERSION, RECORD_BYTES, VERSION};
 
@@ -88,6 +90,13 @@ impl Grid {
     #[must_use]
     pub fn place(&self, view: usize) -> (usize, usize) {
         (view % self.x.count, view / self.x.count)
+    }
+
+    /// Rotations of a view about x and y, degrees.
+    #[must_use]
+    pub fn rotations(&self, view: usize) -> [f64; 2] {
+        let (x, y) = self.place(view);
+        [self.x.at(x as f64), self.y.at(y as f64)]
     }
 
     /// The view at a place on both axes.

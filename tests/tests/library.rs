@@ -2,7 +2,7 @@
 
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{
-    Builder, Grid, GridAxis, HEADER_BYTES, Library, LibraryError, ViewScratch, compact,
+    Builder, Grid, GridAxis, HEADER_BYTES, Library, LibraryError, ViewScratch,
 };
 use fluoropose::raster::Projected;
 use fluoropose_tests::{camera, femur, home, mesh, regenerating};
@@ -15,8 +15,8 @@ fn axis(count: usize) -> GridAxis {
     }
 }
 
-/// Six views in frames of 64 x 64, in the plain layout.
-fn plain_library() -> Vec<u8> {
+/// Six views in frames of 64 x 64, in the plain layout and in the compact one.
+fn libraries() -> [Vec<u8>; 2] {
     let model = femur();
     let grid = Grid {
         x: axis(3),
@@ -24,31 +24,43 @@ fn plain_library() -> Vec<u8> {
     };
     let canonical = CanonicalSpec::new(64, 900).expect("possible");
     let builder = Builder::new(mesh(&model), camera(), canonical, grid, 1080.0).expect("possible");
-    let mut bytes = vec![0; builder.bytes_needed()];
+    let mut plain = vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
         projected: &mut vec![Projected::default(); builder.projected_needed()],
         render: &mut vec![0; builder.render_words_needed()],
         canonical: &mut vec![0; canonical.words_needed()],
     };
-    builder.build(&mut bytes, &mut scratch).expect("renders");
-    bytes
+    builder.build(&mut plain, &mut scratch).expect("renders");
+    // In any order.
+    let mut packed = [(); 6].map(|()| vec![0; builder.packed_most()]);
+    for view in [3, 0, 5, 1, 4, 2] {
+        let out = &mut packed[view];
+        let length = builder.pack_view(view, &mut scratch, out).expect("fits");
+        out.truncate(length);
+    }
+    let packed = packed.each_ref().map(Vec::as_slice);
+    let assembly = builder.assemble(&packed).expect("all are there");
+    let mut compact = vec![0; assembly.bytes_needed()];
+    assembly
+        .write(scratch.canonical, &mut compact)
+        .expect("fits");
+    [plain, compact]
 }
 
-/// The same in the compact layout.
+fn plain_library() -> Vec<u8> {
+    let [plain, _] = libraries();
+    plain
+}
+
 fn small_library() -> Vec<u8> {
-    let plain = plain_library();
-    let library = Library::open(&plain).expect("valid");
-    let mut words = vec![0; library.info().canonical.words_needed()];
-    let mut bytes = plain.clone();
-    let length = compact(&library, &mut words, &mut bytes).expect("is smaller");
-    bytes.truncate(length);
-    bytes
+    let [_, compact] = libraries();
+    compact
 }
 
 /// The files of all versions of the layout that ever were are read for ever, and say the same.
 #[test]
 fn old_files_are_read() {
-    let files = [plain_library(), small_library()];
+    let files = libraries();
     let opened: Vec<Vec<u8>> = files
         .iter()
         .enumerate()
@@ -112,7 +124,7 @@ fn views_rendered_in_any_order_make_the_same_file() {
 
 #[test]
 fn any_one_flipped_bit_is_noticed() {
-    for mut bytes in [plain_library(), small_library()] {
+    for mut bytes in libraries() {
         for bit in 0..8 * bytes.len() {
             bytes[bit / 8] ^= 1 << (bit % 8);
             assert!(Library::open(&bytes).is_err(), "bit {bit} went unnoticed");
@@ -124,7 +136,7 @@ fn any_one_flipped_bit_is_noticed() {
 
 #[test]
 fn a_file_cut_or_padded_anywhere_is_noticed() {
-    for mut bytes in [plain_library(), small_library()] {
+    for mut bytes in libraries() {
         for length in 0..bytes.len() {
             assert!(Library::open(&bytes[..length]).is_err(), "{length} bytes");
         }

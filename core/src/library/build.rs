@@ -2,15 +2,13 @@
 
 use thiserror::Error;
 
-use super::compact::compact;
-use super::open::{check_info, library_bytes, view_bytes};
-use super::wire::{
-    Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
-};
-use super::{Grid, Library, LibraryError, LibraryInfo, ViewRecord};
+use super::assemble::{Assembly, write_plain};
+use super::open::{check_info, library_bytes};
+use super::pack::{pack, packed_most};
+use super::{Grid, LibraryError, LibraryInfo, ViewRecord};
 use crate::camera::{Camera, CameraError};
 use crate::canonical::{CanonicalError, CanonicalSpec, canonicalise};
-use crate::mask::{MaskError, MaskMut, Word, words_needed};
+use crate::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use crate::math::{apply, scale, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::{Pose, rotation_zxy};
@@ -42,6 +40,9 @@ pub enum BuildError {
         /// Length lent.
         given: usize,
     },
+    /// What was lent for a packed view is none.
+    #[error("view {0} was not packed, or not whole: pack it again")]
+    Packed(usize),
     /// A view has no canonical form.
     #[error(transparent)]
     Canonical(#[from] CanonicalError),
@@ -151,51 +152,50 @@ impl<'m> Builder<'m> {
         words_needed(self.view_camera.width(), self.view_camera.height())
     }
 
-    /// Splits the lent bytes into the places of records and of bits, one chunk a view, for
-    /// [`Self::render_view`]: `(record, bits)` in order.
-    ///
-    /// # Errors
-    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
-    pub fn places<'b>(
-        &self,
-        bytes: &'b mut [u8],
-    ) -> Result<
-        core::iter::Zip<core::slice::ChunksExactMut<'b, u8>, core::slice::ChunksExactMut<'b, u8>>,
-        BuildError,
-    > {
-        self.check_length(bytes.len())?;
-        let (_, body) = bytes.split_at_mut(HEADER_BYTES);
-        let (records, bits) = body.split_at_mut(self.views() * RECORD_BYTES);
-        let bits = bits.chunks_exact_mut(view_bytes(&self.info.canonical));
-        Ok(records.chunks_exact_mut(RECORD_BYTES).zip(bits))
+    /// Bytes of a packed view at most. Those of an implant take a fiftieth of it.
+    #[must_use]
+    pub fn packed_most(&self) -> usize {
+        packed_most(&self.info.canonical)
     }
 
-    fn check_length(&self, given: usize) -> Result<(), BuildError> {
-        let needed = self.bytes_needed();
-        if given == needed {
-            return Ok(());
-        }
-        Err(BuildError::Memory {
-            what: "bytes",
-            needed,
+    /// Draws one view and packs it into `out`, for [`Self::assemble`]; gives the bytes that it takes. Views may be
+    /// packed in any order and by any thread or process; what is packed is no file and is to be kept by none.
+    ///
+    /// # Errors
+    /// [`BuildError`] for working memory of the wrong length or a view that cannot be drawn.
+    pub fn pack_view(
+        &self,
+        view: usize,
+        scratch: &mut ViewScratch<'_>,
+        out: &mut [u8],
+    ) -> Result<usize, BuildError> {
+        let record = self.draw_view(view, scratch)?;
+        let size = self.info.canonical.size();
+        let canonical = Mask::new(scratch.canonical, size, size)?;
+        let given = out.len();
+        pack(&record, &canonical, out).ok_or(BuildError::Memory {
+            what: "bytes for a packed view",
+            needed: self.packed_most(),
             given,
         })
     }
 
-    /// Renders one view into its place: `record` and `bits` from [`Self::places`].
+    /// The file of all views, packed, in their order: first asked how long it is, then written.
     ///
     /// # Errors
-    /// [`BuildError`] for working memory of the wrong length or a view that cannot be drawn.
-    pub fn render_view(
+    /// [`BuildError::Memory`] where there are not as many as the grid has, [`BuildError::Packed`] where one of them is
+    /// none.
+    pub fn assemble<'p>(&self, packed: &'p [&'p [u8]]) -> Result<Assembly<'p>, BuildError> {
+        Assembly::new(&self.info, packed)
+    }
+
+    /// Draws one view: its record; its canonical silhouette is left in the working memory.
+    fn draw_view(
         &self,
         view: usize,
         scratch: &mut ViewScratch<'_>,
-        record: &mut [u8],
-        bits: &mut [u8],
-    ) -> Result<(), BuildError> {
-        let (x, y) = self.info.grid.place(view);
-        let x_deg = self.info.grid.x.at(x as f64);
-        let y_deg = self.info.grid.y.at(y as f64);
+    ) -> Result<ViewRecord, BuildError> {
+        let [x_deg, y_deg] = self.info.grid.rotations(view);
         let side = self.view_camera.width();
         let mut mask = MaskMut::new(scratch.render, side, side)?;
         let pose = self.view_pose(x_deg, y_deg);
@@ -209,21 +209,15 @@ impl<'m> Builder<'m> {
         let canonical = &self.info.canonical;
         let form = canonicalise(&mask.into_mask(), canonical, 1.0, scratch.canonical)?;
         let middle = side as f64 / 2.0;
-        let offset = [form.centroid.column - middle, middle - form.centroid.row];
-        let values = ViewRecord {
+        Ok(ViewRecord {
             x_deg,
             y_deg,
             scale: form.scale,
             angle: form.angle,
-            offset,
+            offset: [form.centroid.column - middle, middle - form.centroid.row],
             area: form.area_px as u32,
             elongation: form.elongation as f32,
-        };
-        write_record(record, &values);
-        for (four, word) in bits.chunks_exact_mut(4).zip(&*scratch.canonical) {
-            four.copy_from_slice(&word.to_le_bytes());
-        }
-        Ok(())
+        })
     }
 
     /// The reference point on the optical axis, turned by `Rx * Ry`.
@@ -237,70 +231,17 @@ impl<'m> Builder<'m> {
         }
     }
 
-    /// Writes the header of a plain library, once all views are in their places.
-    ///
-    /// # Errors
-    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
-    pub fn finish(&self, bytes: &mut [u8]) -> Result<(), BuildError> {
-        let (needed, given) = (self.bytes_needed(), bytes.len());
-        self.check_length(given)?;
-        let memory = BuildError::Memory {
-            what: "bytes",
-            needed,
-            given,
-        };
-        let (header, body) = bytes.split_first_chunk_mut().ok_or(memory)?;
-        let body = Body {
-            version: PLAIN_VERSION,
-            blocks: 0,
-            bytes: body.len() as u64,
-            crc: checksum([&*body]),
-        };
-        write_header(header, &self.info, &body);
-        Ok(())
-    }
-
-    /// The library as drawn so far, once all views are in their places: what
-    /// [`super::compact()`] makes a file of, so that [`Self::finish`] and opening are not needed.
-    ///
-    /// # Errors
-    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes.
-    pub fn drawn<'b>(&self, bytes: &'b [u8]) -> Result<Library<'b>, BuildError> {
-        self.check_length(bytes.len())?;
-        Ok(Library::plain(self.info, &bytes[HEADER_BYTES..]))
-    }
-
-    /// The file to keep, once all views are in their places in `bytes`: in the compact layout, or
-    /// in the plain one where that is not larger. `words` is working memory for one view
-    /// ([`CanonicalSpec::words_needed`]), `out` has [`Self::bytes_needed`] bytes like `bytes`.
-    ///
-    /// # Errors
-    /// [`BuildError::Memory`] or [`BuildError::Mask`] for lent memory of a wrong length.
-    pub fn finish_smaller<'b>(
-        &self,
-        bytes: &'b mut [u8],
-        words: &mut [Word],
-        out: &'b mut [u8],
-    ) -> Result<&'b [u8], BuildError> {
-        self.check_length(out.len())?;
-        match compact(&self.drawn(bytes)?, words, out) {
-            Ok(length) => Ok(&out[..length]),
-            Err(BuildError::Memory { .. }) => {
-                self.finish(bytes)?;
-                Ok(bytes)
-            }
-            Err(other) => Err(other),
-        }
-    }
-
     /// Builds the whole library, in the plain layout, with one thread's working memory.
     ///
     /// # Errors
-    /// As [`Self::render_view`] and [`Self::places`].
+    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes, and as [`Self::pack_view`].
     pub fn build(&self, bytes: &mut [u8], scratch: &mut ViewScratch<'_>) -> Result<(), BuildError> {
-        for (view, (record, bits)) in self.places(bytes)?.enumerate() {
-            self.render_view(view, scratch, record, bits)?;
-        }
-        self.finish(bytes)
+        write_plain(&self.info, bytes, |view, bits| {
+            let record = self.draw_view(view, scratch)?;
+            for (four, word) in bits.chunks_exact_mut(4).zip(&*scratch.canonical) {
+                four.copy_from_slice(&word.to_le_bytes());
+            }
+            Ok(record)
+        })
     }
 }

@@ -12,17 +12,11 @@
 
 use core::ops::Range;
 
-use super::open::{Library, LibraryError, Views};
-use super::runs::{are_runs, write_runs};
-use super::sketch::{
-    BLOCK, MOST_BLOCKS, STRIDE, at_most_255, block_row_of_bits, block_row_of_runs, blocks,
-};
-use super::wire::{
-    Body, HEADER_BYTES, Reader, SHORT_RECORD_BYTES, VERSION, Writer, checksum, write_header,
-    write_short_record,
-};
-use super::{BuildError, LibraryInfo};
-use crate::mask::{Mask, Word};
+use super::LibraryInfo;
+use super::open::LibraryError;
+use super::runs::are_runs;
+use super::sketch::{BLOCK, STRIDE, at_most_255, block_row_of_runs, blocks};
+use super::wire::{Reader, SHORT_RECORD_BYTES};
 
 /// Views in the compact layout.
 #[derive(Clone, Copy, Debug)]
@@ -156,143 +150,6 @@ impl<'a> Compact<'a> {
     }
 }
 
-/// The blocks of all views of a plain library: where they are alike, and which are not.
-struct Ground {
-    counts: [u8; MOST_BLOCKS],
-    moves: [bool; MOST_BLOCKS],
-}
-
-impl Ground {
-    fn of(library: &Library<'_>) -> Self {
-        let mut ground = Self {
-            counts: [0; MOST_BLOCKS],
-            moves: [false; MOST_BLOCKS],
-        };
-        for view in 0..library.views() {
-            for (block, count) in block_counts(library, view).enumerate() {
-                if view == 0 {
-                    ground.counts[block] = count;
-                }
-                ground.moves[block] |= ground.counts[block] != count;
-            }
-        }
-        ground
-    }
-
-    fn moving(&self) -> impl Iterator<Item = usize> + '_ {
-        let moves = self.moves.iter().enumerate();
-        moves.filter(|(_, moves)| **moves).map(|(block, _)| block)
-    }
-}
-
-/// Set pixels, at most 255, of each block of a view of a plain library.
-fn block_counts<'l>(library: &'l Library<'_>, view: usize) -> impl Iterator<Item = u8> + 'l {
-    let size = library.info().canonical.size();
-    let across = size / BLOCK;
-    let bits = library.bits(view);
-    (0..across).flat_map(move |row| {
-        let counts = block_row_of_bits(bits, size, row);
-        counts.into_iter().take(across).map(at_most_255)
-    })
-}
-
-/// Writes a plain library in the compact layout and returns how many of the lent bytes that
-/// took. As many bytes as the plain library has are always worth lending: where the compact
-/// layout does not fit into them it is not smaller, and the plain one is to be kept.
-///
-/// `words` is working memory for one view ([`crate::canonical::CanonicalSpec::words_needed`]).
-///
-/// # Errors
-/// [`BuildError::Memory`] where the lent bytes do not suffice, [`BuildError::Mask`] where `words` has the
-/// wrong length, [`BuildError::Parameter`] where the library is compact already.
-pub fn compact(
-    library: &Library<'_>,
-    words: &mut [Word],
-    out: &mut [u8],
-) -> Result<usize, BuildError> {
-    if !matches!(library.views, Views::Plain { .. }) {
-        return Err(BuildError::Parameter(LibraryError::Version(VERSION)));
-    }
-    let info = library.info();
-    let ground = Ground::of(library);
-    let moving = ground.moving().count();
-    let views = library.views();
-    let head = HEADER_BYTES
-        + views * (SHORT_RECORD_BYTES + 4 + stride(moving))
-        + blocks(&info.canonical)
-        + 2 * moving;
-    let given = out.len();
-    let memory = move |needed| BuildError::Memory {
-        what: "bytes for the compact form",
-        needed,
-        given,
-    };
-    let (front, runs) = out.split_at_mut_checked(head).ok_or(memory(head))?;
-    let (header, body) = front.split_first_chunk_mut().ok_or(memory(head))?;
-    let (records, rest) = body.split_at_mut(views * SHORT_RECORD_BYTES);
-    let (ends, rest) = rest.split_at_mut(4 * views);
-    write_records(library, records);
-    write_sketches(library, &ground, moving, rest);
-    let length = write_all_runs(library, words, ends, runs)?;
-    let Some(runs) = runs.get(..length) else {
-        return Err(memory(head + length));
-    };
-    let body = Body {
-        version: VERSION,
-        blocks: moving,
-        bytes: (body.len() + length) as u64,
-        crc: checksum([&*body, runs]),
-    };
-    write_header(header, info, &body);
-    Ok(head + length)
-}
-
-fn write_records(library: &Library<'_>, records: &mut [u8]) {
-    let out = &mut Writer::new(records);
-    for view in 0..library.views() {
-        write_short_record(out, &library.record(view));
-    }
-}
-
-/// Ground, places and sketches.
-fn write_sketches(library: &Library<'_>, ground: &Ground, moving: usize, out: &mut [u8]) {
-    let all = blocks(&library.info().canonical);
-    let (alike, rest) = out.split_at_mut(all);
-    for ((to, &count), &moves) in alike.iter_mut().zip(&ground.counts).zip(&ground.moves) {
-        *to = if moves { 0 } else { count };
-    }
-    let (places, sketches) = rest.split_at_mut(2 * moving);
-    let places = &mut Writer::new(places);
-    ground.moving().for_each(|block| places.u16(block));
-    sketches.fill(0);
-    for (view, sketch) in sketches.chunks_exact_mut(stride(moving).max(1)).enumerate() {
-        let counts = block_counts(library, view).zip(&ground.moves);
-        let kept = counts.filter(|(_, moves)| **moves);
-        for (to, (count, _)) in sketch.iter_mut().zip(kept) {
-            *to = count;
-        }
-    }
-}
-
-/// Ends and runs; returns how many bytes the runs take.
-fn write_all_runs(
-    library: &Library<'_>,
-    words: &mut [Word],
-    ends: &mut [u8],
-    runs: &mut [u8],
-) -> Result<usize, BuildError> {
-    let size = library.info().canonical.size();
-    let ends = &mut Writer::new(ends);
-    let mut length = 0;
-    for view in 0..library.views() {
-        library.draw(view, words);
-        let mask = Mask::new(words, size, size)?;
-        length += write_runs(&mask, runs.get_mut(length..).unwrap_or_default());
-        ends.u32(length);
-    }
-    Ok(length)
-}
-
 /// Rotations of a record, which the compact layout leaves to the grid.
 pub(super) fn read_record(
     compact: &Compact<'_>,
@@ -301,10 +158,9 @@ pub(super) fn read_record(
 ) -> super::ViewRecord {
     let start = view.saturating_mul(SHORT_RECORD_BYTES);
     let bytes = compact.records.get(start..).unwrap_or_default();
-    let (x, y) = info.grid.place(view);
     let rotations = match bytes.is_empty() {
         true => [0.0; 2],
-        false => [info.grid.x.at(x as f64), info.grid.y.at(y as f64)],
+        false => info.grid.rotations(view),
     };
     super::wire::read_short_record(&mut Reader::new(bytes), rotations)
 }

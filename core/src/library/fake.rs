@@ -3,13 +3,14 @@
 use proptest::prelude::*;
 use std::vec::Vec;
 
+use super::pack::{pack, packed_most};
 use super::wire::{
     Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
 };
-use super::{Grid, GridAxis, Library, LibraryInfo, ViewRecord, compact};
+use super::{Assembly, Grid, GridAxis, Library, LibraryInfo, ViewRecord};
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
-use crate::mask::{MaskMut, Word};
+use crate::mask::{Mask, MaskMut, Word};
 
 /// A plain library of these canonical masks: `columns` views along x.
 pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: CanonicalSpec) -> Vec<u8> {
@@ -58,12 +59,27 @@ pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: Canonical
 
 /// The same in the compact layout; it may be larger.
 pub(crate) fn compact_library(plain: &[u8]) -> Vec<u8> {
-    let plain_library = Library::open(plain).expect("valid");
-    let mut words = std::vec![0; plain_library.info().canonical.words_needed()];
-    let mut bytes = std::vec![0; 8 * plain.len()];
-    let length = compact(&plain_library, &mut words, &mut bytes).expect("fits");
-    bytes.truncate(length);
+    let library = Library::open(plain).expect("valid");
+    let packed = packed(&library);
+    let packed: Vec<&[u8]> = packed.iter().map(Vec::as_slice).collect();
+    let assembly = Assembly::new(library.info(), &packed).expect("as many as views");
+    let mut bytes = std::vec![0; assembly.compact_bytes()];
+    assembly.write_compact(&mut bytes).expect("fits");
     bytes
+}
+
+fn packed(library: &Library<'_>) -> Vec<Vec<u8>> {
+    let spec = library.info().canonical;
+    let mut words = std::vec![0; spec.words_needed()];
+    let views = (0..library.views()).map(|view| {
+        library.draw(view, &mut words);
+        let mask = Mask::new(&words, spec.size(), spec.size()).expect("a view");
+        let mut bytes = std::vec![0; packed_most(&spec)];
+        let length = pack(&library.record(view), &mask, &mut bytes).expect("fits");
+        bytes.truncate(length);
+        bytes
+    });
+    views.collect()
 }
 
 /// Silhouettes of `size` x `size` pixels from a few spots of any size, some cut out again.
@@ -83,10 +99,9 @@ pub(crate) fn spots(size: usize) -> impl Strategy<Value = Vec<Word>> {
 
 mod tests {
     use super::*;
-    use crate::library::VERSION;
     use crate::library::compact::Sketches;
     use crate::library::sketch::BLOCK;
-    use crate::mask::Mask;
+    use crate::library::{BuildError, VERSION};
     use crate::matching::{score, scores_needed};
 
     /// Set pixels of each block of a view, by its sketch and by its pixels.
@@ -109,6 +124,10 @@ mod tests {
             *count = count.saturating_add(u8::from(mask.get(column, row)));
         }
         counts
+    }
+
+    fn words_of(library: &Library<'_>) -> Vec<Word> {
+        std::vec![0; library.info().canonical.words_needed()]
     }
 
     proptest! {
@@ -146,6 +165,24 @@ mod tests {
                 let naive: u32 = bits.iter().zip(&silhouette).map(|(a, b)| (a ^ b).count_ones()).sum();
                 prop_assert_eq!(score, naive, "{}", view);
             }
+        }
+
+        /// Packed views become a library of the smaller layout, whichever that is, and it says the same.
+        #[test]
+        fn what_is_assembled_is_read_again(views in proptest::collection::vec(spots(64), 6)) {
+            let plain = plain_library(&views, 3, CanonicalSpec::new(64, 900).expect("possible"));
+            let library = Library::open(&plain).expect("valid");
+            let packed = packed(&library);
+            let mut packed: Vec<&[u8]> = packed.iter().map(Vec::as_slice).collect();
+            let assembly = Assembly::new(library.info(), &packed).expect("as many as views");
+            let mut bytes = std::vec![0; assembly.bytes_needed()];
+            assembly.write(&mut words_of(&library), &mut bytes).expect("fits");
+            let compact = compact_library(&plain);
+            prop_assert_eq!(&bytes, if compact.len() < plain.len() { &compact } else { &plain });
+            prop_assert!(assembly.write(&mut words_of(&library), &mut bytes[1..]).is_err());
+            packed[4] = &packed[4][..40];
+            prop_assert_eq!(Assembly::new(library.info(), &packed).err(), Some(BuildError::Packed(4)));
+            prop_assert!(Assembly::new(library.info(), &packed[..5]).is_err());
         }
 
         /// A sketch that is not its view's would make the search miss views.

@@ -47,20 +47,20 @@ fn pieces(mask: &Mask<'_>, row: usize) -> impl Iterator<Item = [u8; 2]> {
     }
 }
 
-/// The head of a band that may still grow.
-struct Head {
+/// A band that may still grow.
+struct Open {
     at: usize,
     first_row: usize,
     rows: usize,
     per_row: usize,
 }
 
-impl Head {
-    fn continues(&self, row: usize, per_row: usize) -> bool {
+impl Open {
+    fn goes_on(&self, row: usize, per_row: usize) -> bool {
         self.per_row == per_row && self.first_row + self.rows == row
     }
 
-    fn write(&self, out: &mut [u8]) {
+    fn close(&self, out: &mut [u8]) {
         let numbers = [self.first_row, self.rows, self.per_row];
         let bytes = numbers.map(|number| (number as u16).to_le_bytes());
         put(out, self.at, bytes.as_flattened());
@@ -74,33 +74,46 @@ fn put(out: &mut [u8], at: usize, bytes: &[u8]) {
     }
 }
 
+/// Bytes of the runs of a view of `size` x `size` pixels at most: each row a band of its own, each of its pieces a pixel
+/// and a gap, or as long as one can be.
+pub(super) const fn runs_most(size: usize) -> usize {
+    size * (BAND_BYTES + 2 * (size / 2 + 2 * size.div_ceil(LONGEST)))
+}
+
 /// Writes the runs of a mask and returns how many bytes they take; where that is more than there
 /// are, what was written is of no use.
 pub(super) fn write_runs(mask: &Mask<'_>, out: &mut [u8]) -> usize {
     let mut length = 0;
-    let mut band: Option<Head> = None;
-    for row in 0..mask.height() {
-        let per_row = pieces(mask, row).count();
-        if per_row == 0 {
-            continue;
-        }
-        let open = band.take().filter(|band| band.continues(row, per_row));
-        let mut head = open.unwrap_or_else(|| {
-            length += BAND_BYTES;
-            Head {
-                at: length - BAND_BYTES,
-                first_row: row,
-                rows: 0,
-                per_row,
-            }
-        });
+    let mut band: Option<Open> = None;
+    for row in mask.rows() {
+        let start = length;
         for piece in pieces(mask, row) {
             put(out, length, &piece);
             length += piece.len();
         }
-        head.rows += 1;
-        head.write(out);
-        band = Some(head);
+        let per_row = (length - start) / 2;
+        if let Some(band) = band.as_mut().filter(|band| band.goes_on(row, per_row)) {
+            band.rows += 1;
+            continue;
+        }
+        if let Some(band) = band.take() {
+            band.close(out);
+        }
+        if per_row > 0 {
+            length += BAND_BYTES;
+            if let Some(pieces) = out.get_mut(start..length) {
+                pieces.copy_within(..2 * per_row, BAND_BYTES);
+            }
+            band = Some(Open {
+                at: start,
+                first_row: row,
+                rows: 1,
+                per_row,
+            });
+        }
+    }
+    if let Some(band) = band {
+        band.close(out);
     }
     length
 }
@@ -229,6 +242,7 @@ mod tests {
 
     fn drawn_again(words: &[Word], size: usize) -> std::vec::Vec<Word> {
         let bytes = packed(words, size);
+        assert!(bytes.len() <= runs_most(size));
         assert!(are_runs(&bytes, size));
         let mut drawn = std::vec![0; words.len()];
         draw_runs(

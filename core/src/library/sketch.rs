@@ -8,6 +8,7 @@
 
 use super::runs::{Band, bands, spans};
 use crate::canonical::CanonicalSpec;
+use crate::mask::Mask;
 
 /// Side of a block, pixels. Canonical frames are whole blocks.
 pub(crate) const BLOCK: usize = 16;
@@ -63,14 +64,22 @@ fn add_span(counts: &mut BlockRow, start: usize, end: usize) {
     }
 }
 
-/// The same of a view's bits, row by row, of a frame of `size` pixels.
-pub(super) fn block_row_of_bits(bits: &[u8], size: usize, row_of_blocks: usize) -> BlockRow {
-    let mut counts = [0; WIDEST];
-    let rows = bits.chunks_exact(size / 8);
-    for row in rows.skip(row_of_blocks * BLOCK).take(BLOCK) {
-        for (count, &two) in counts.iter_mut().zip(row.as_chunks().0) {
-            *count += u16::from_le_bytes(two).count_ones() as u16;
+/// The blocks of a canonical silhouette, row by row, into a byte each.
+pub(super) fn count_blocks(canonical: &Mask<'_>, out: &mut [u8]) {
+    let across = canonical.width() / BLOCK;
+    let filled = canonical.rows();
+    for (row, out) in out.chunks_exact_mut(across).enumerate() {
+        let mut counts: BlockRow = [0; WIDEST];
+        let first = (row * BLOCK).max(filled.start);
+        for row in first..((row + 1) * BLOCK).min(filled.end) {
+            let two_each = counts.as_chunks_mut().0.iter_mut();
+            for ([left, right], &word) in two_each.zip(canonical.row(row)) {
+                *left += (word as u16).count_ones() as u16;
+                *right += ((word >> BLOCK) as u16).count_ones() as u16;
+            }
+        }
+        for (out, count) in out.iter_mut().zip(counts) {
+            *out = at_most_255(count);
         }
     }
-    counts
 }

@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
-use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::library::{BuildError, Builder, Grid, GridAxis, ViewScratch};
 use fluoropose::mesh::Mesh;
 use fluoropose::raster::Projected;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -167,32 +167,37 @@ pub fn build_library(
     let start = Instant::now();
     let canonical = CanonicalSpec::new(options.size, options.area)?;
     let builder = Builder::new(mesh, camera, canonical, options.grid(), distance)?;
-    let mut bytes = vec![0; builder.bytes_needed()];
     let bar = progress(builder.views(), "views");
-    let places: Vec<_> = builder.places(&mut bytes)?.enumerate().collect();
-    places.into_par_iter().try_for_each_init(
-        || {
-            (
-                vec![Projected::default(); builder.projected_needed()],
-                vec![0; builder.render_words_needed()],
-                vec![0; canonical.words_needed()],
-            )
-        },
-        |(projected, render, canonical), (view, (record, bits))| {
-            let mut scratch = ViewScratch {
-                projected,
-                render,
-                canonical,
-            };
-            bar.inc(1);
-            builder.render_view(view, &mut scratch, record, bits)
-        },
-    )?;
-    let (mut words, mut smaller) = (vec![0; canonical.words_needed()], vec![0; bytes.len()]);
-    let file = builder.finish_smaller(&mut bytes, &mut words, &mut smaller)?;
+    let memory = || {
+        (
+            vec![Projected::default(); builder.projected_needed()],
+            vec![0; builder.render_words_needed()],
+            vec![0; canonical.words_needed()],
+            vec![0; builder.packed_most()],
+        )
+    };
+    let pack = |(projected, render, canonical, out): &mut (Vec<_>, Vec<_>, Vec<_>, Vec<u8>),
+                view| {
+        let mut scratch = ViewScratch {
+            projected,
+            render,
+            canonical,
+        };
+        bar.inc(1);
+        let length = builder.pack_view(view, &mut scratch, out)?;
+        Ok::<_, BuildError>(out[..length].to_vec())
+    };
+    let views = (0..builder.views()).into_par_iter();
+    let packed = views
+        .map_init(memory, pack)
+        .collect::<Result<Vec<_>, _>>()?;
+    let packed: Vec<&[u8]> = packed.iter().map(Vec::as_slice).collect();
+    let assembly = builder.assemble(&packed)?;
+    let mut bytes = vec![0; assembly.bytes_needed()];
+    assembly.write(&mut vec![0; canonical.words_needed()], &mut bytes)?;
     bar.finish_and_clear();
     Ok(Built {
-        bytes: file.to_vec(),
+        bytes,
         took: start.elapsed(),
     })
 }

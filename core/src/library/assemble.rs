@@ -1,0 +1,221 @@
+//! The file of a library from its views.
+
+use super::compact::stride;
+use super::open::{library_bytes, view_bytes};
+use super::pack::Packed;
+use super::runs::draw_runs;
+use super::sketch::{MOST_BLOCKS, blocks};
+use super::wire::{
+    Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, Reader, SHORT_RECORD_BYTES, VERSION, Writer,
+    checksum, read_short_record, write_header, write_record,
+};
+use super::{BuildError, LibraryInfo, ViewRecord};
+use crate::mask::{MaskMut, Word};
+
+/// The packed views of a library, checked: a file to be written.
+#[derive(Clone, Debug)]
+pub struct Assembly<'p> {
+    info: LibraryInfo,
+    packed: &'p [&'p [u8]],
+    ground: Ground,
+    /// Of the runs of all views.
+    runs_bytes: usize,
+}
+
+impl<'p> Assembly<'p> {
+    pub(super) fn new(info: &LibraryInfo, packed: &'p [&'p [u8]]) -> Result<Self, BuildError> {
+        let (needed, given) = (info.grid.views(), packed.len());
+        if needed != given {
+            return Err(BuildError::Memory {
+                what: "packed views",
+                needed,
+                given,
+            });
+        }
+        let mut runs_bytes = 0;
+        for (view, bytes) in packed.iter().enumerate() {
+            let parts = Packed::split(bytes, &info.canonical).ok_or(BuildError::Packed(view))?;
+            runs_bytes += parts.runs.len();
+        }
+        let mut assembly = Self {
+            info: *info,
+            packed,
+            ground: Ground::default(),
+            runs_bytes,
+        };
+        assembly.ground = Ground::of(assembly.views().map(|view| view.counts));
+        Ok(assembly)
+    }
+
+    fn views(&self) -> impl Iterator<Item = Packed<'p>> {
+        let spec = self.info.canonical;
+        // They were checked.
+        self.packed
+            .iter()
+            .filter_map(move |bytes| Packed::split(bytes, &spec))
+    }
+
+    /// Bytes of the file: in the compact layout, or in the plain one where that is not larger.
+    #[must_use]
+    pub fn bytes_needed(&self) -> usize {
+        self.compact_bytes().min(self.plain_bytes())
+    }
+
+    pub(super) fn compact_bytes(&self) -> usize {
+        self.head_bytes() + self.runs_bytes
+    }
+
+    fn plain_bytes(&self) -> usize {
+        library_bytes(&self.info.canonical, &self.info.grid).unwrap_or(usize::MAX)
+    }
+
+    /// Before the runs.
+    fn head_bytes(&self) -> usize {
+        let moving = self.ground.moving().count();
+        let view = SHORT_RECORD_BYTES + 4 + stride(moving);
+        HEADER_BYTES + self.packed.len() * view + blocks(&self.info.canonical) + 2 * moving
+    }
+
+    /// Writes the file. `words` is working memory for one view ([`crate::canonical::CanonicalSpec::words_needed`]).
+    ///
+    /// # Errors
+    /// [`BuildError::Memory`] unless `out` has exactly [`Self::bytes_needed`] bytes, [`BuildError::Mask`] where `words`
+    /// has the wrong length.
+    pub fn write(&self, words: &mut [Word], out: &mut [u8]) -> Result<(), BuildError> {
+        if self.compact_bytes() < self.plain_bytes() {
+            return self.write_compact(out);
+        }
+        let size = self.info.canonical.size();
+        let mut views = self.views();
+        write_plain(&self.info, out, |view, bits| {
+            let packed = views.next().ok_or(BuildError::Packed(view))?;
+            draw_runs(packed.runs, &mut MaskMut::new(words, size, size)?);
+            for (four, word) in bits.chunks_exact_mut(4).zip(&*words) {
+                four.copy_from_slice(&word.to_le_bytes());
+            }
+            let rotations = self.info.grid.rotations(view);
+            Ok(read_short_record(
+                &mut Reader::new(packed.record),
+                rotations,
+            ))
+        })
+    }
+
+    pub(super) fn write_compact(&self, out: &mut [u8]) -> Result<(), BuildError> {
+        let (header, rest) = header_and_body(out, self.compact_bytes())?;
+        let (body, runs) = rest.split_at_mut(self.head_bytes() - HEADER_BYTES);
+        self.write_head(body);
+        let runs_of_all = &mut Writer::new(runs);
+        self.views().for_each(|view| runs_of_all.bytes(view.runs));
+        let body = Body {
+            version: VERSION,
+            blocks: self.ground.moving().count(),
+            bytes: (body.len() + runs.len()) as u64,
+            crc: checksum([&*body, runs]),
+        };
+        write_header(header, &self.info, &body);
+        Ok(())
+    }
+
+    /// Records, ends of runs, ground, places and sketches.
+    fn write_head(&self, body: &mut [u8]) {
+        let moving = self.ground.moving().count();
+        let (numbers, sketches) =
+            body.split_at_mut(body.len() - self.packed.len() * stride(moving));
+        let out = &mut Writer::new(numbers);
+        self.views().for_each(|view| out.bytes(view.record));
+        let mut end = 0;
+        for view in self.views() {
+            end += view.runs.len();
+            out.u32(end);
+        }
+        let all = blocks(&self.info.canonical);
+        let alike = self.ground.counts.iter().zip(&self.ground.moves).take(all);
+        alike.for_each(|(&count, &moves)| out.bytes(&[if moves { 0 } else { count }]));
+        self.ground.moving().for_each(|block| out.u16(block));
+        sketches.fill(0);
+        let places = sketches.chunks_exact_mut(stride(moving).max(1));
+        for (view, sketch) in self.views().zip(places) {
+            for (to, block) in sketch.iter_mut().zip(self.ground.moving()) {
+                *to = view.counts[block];
+            }
+        }
+    }
+}
+
+/// The blocks of all views: where they are alike, and which are not.
+#[derive(Clone, Debug)]
+struct Ground {
+    counts: [u8; MOST_BLOCKS],
+    moves: [bool; MOST_BLOCKS],
+}
+
+impl Default for Ground {
+    fn default() -> Self {
+        Self {
+            counts: [0; MOST_BLOCKS],
+            moves: [false; MOST_BLOCKS],
+        }
+    }
+}
+
+impl Ground {
+    fn of<'c>(mut views: impl Iterator<Item = &'c [u8]>) -> Self {
+        let mut ground = Self::default();
+        let first = views.next().unwrap_or_default();
+        ground.counts[..first.len()].copy_from_slice(first);
+        for counts in views {
+            let blocks = ground.moves.iter_mut().zip(&ground.counts);
+            for ((moves, first), count) in blocks.zip(counts) {
+                *moves |= first != count;
+            }
+        }
+        ground
+    }
+
+    fn moving(&self) -> impl Iterator<Item = usize> + '_ {
+        let moves = self.moves.iter().enumerate();
+        moves.filter(|(_, moves)| **moves).map(|(block, _)| block)
+    }
+}
+
+/// Writes a plain library: `view` gives the record of each view and draws its bits.
+///
+/// # Errors
+/// [`BuildError::Memory`] unless `out` has as many bytes as such a library, and those of `view`.
+pub(super) fn write_plain(
+    info: &LibraryInfo,
+    out: &mut [u8],
+    mut view: impl FnMut(usize, &mut [u8]) -> Result<ViewRecord, BuildError>,
+) -> Result<(), BuildError> {
+    let needed = library_bytes(&info.canonical, &info.grid).unwrap_or(usize::MAX);
+    let (header, body) = header_and_body(out, needed)?;
+    let (records, bits) = body.split_at_mut(info.grid.views() * RECORD_BYTES);
+    let bits = bits.chunks_exact_mut(view_bytes(&info.canonical));
+    let places = records.chunks_exact_mut(RECORD_BYTES).zip(bits);
+    for (number, (record, bits)) in places.enumerate() {
+        write_record(record, &view(number, bits)?);
+    }
+    let body = Body {
+        version: PLAIN_VERSION,
+        blocks: 0,
+        bytes: body.len() as u64,
+        crc: checksum([&*body]),
+    };
+    write_header(header, info, &body);
+    Ok(())
+}
+
+/// The parts of a file of `needed` bytes.
+fn header_and_body(
+    out: &mut [u8],
+    needed: usize,
+) -> Result<(&mut [u8; HEADER_BYTES], &mut [u8]), BuildError> {
+    let given = out.len();
+    let parts = out.split_first_chunk_mut().filter(|_| given == needed);
+    parts.ok_or(BuildError::Memory {
+        what: "bytes",
+        needed,
+        given,
+    })
+}
