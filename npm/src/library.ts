@@ -8,6 +8,8 @@ const CANONICAL_AREA = 15_000;
 
 /** About this long between two breaths, ms: a page stays usable while a library is rendered on its thread. */
 const SLICE = 30;
+/** Views between two looks at the clock. */
+const STEP = 4;
 
 /** Renders the views of a model. */
 export async function buildLibrary(mesh: Mesh, options: ImplantOptions): Promise<Uint8Array> {
@@ -17,8 +19,8 @@ export async function buildLibrary(mesh: Mesh, options: ImplantOptions): Promise
   try {
     for (let done = 0; done < total; ) {
       const until = performance.now() + SLICE;
-      while (done < total && performance.now() < until) done = builder.step(4);
-      onProgress?.(done, total);
+      for (; done < total && performance.now() < until; done += STEP) builder.add(builder.pack(done, STEP));
+      onProgress?.(Math.min(done, total), total);
       await breath();
       signal?.throwIfAborted();
     }

@@ -1,4 +1,4 @@
-//! A library built view by view, so that a worker can report, and stop, between views.
+//! A library built some views at a time, by any number of workers.
 
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
@@ -72,15 +72,17 @@ fn axis(name: &str, range: &[f64]) -> Result<GridAxis, JsError> {
     }
 }
 
-/// A library being built.
+/// A library being built: views packed here or by other builders of the same plan, and put together by one.
 #[wasm_bindgen]
 pub struct LibraryBuilder {
     plan: Plan,
-    bytes: Vec<u8>,
-    done: usize,
     projected: Vec<Projected>,
     render: Vec<Word>,
     canonical: Vec<Word>,
+    /// One view.
+    packed: Vec<u8>,
+    /// Views in their order, as [`LibraryBuilder::pack`] gave them.
+    parts: Vec<Vec<u8>>,
 }
 
 #[wasm_bindgen]
@@ -118,11 +120,11 @@ impl LibraryBuilder {
         })?;
         let builder = plan.borrow_dependent();
         Ok(Self {
-            bytes: vec![0; builder.bytes_needed()],
-            done: 0,
             projected: vec![Projected::default(); builder.projected_needed()],
             render: vec![0; builder.render_words_needed()],
             canonical: vec![0; canonical.words_needed()],
+            packed: vec![0; builder.packed_most()],
+            parts: Vec::new(),
             plan,
         })
     }
@@ -133,40 +135,55 @@ impl LibraryBuilder {
         self.plan.borrow_dependent().views()
     }
 
-    /// Renders up to `count` more views and returns how many are done.
+    /// Draws and packs `count` views from number `first` on, or as many as there are.
     ///
     /// # Errors
     /// The core's sentence about a view that cannot be drawn.
-    pub fn step(&mut self, count: usize) -> Result<usize, JsError> {
+    pub fn pack(&mut self, first: usize, count: usize) -> Result<Vec<u8>, JsError> {
         let builder = self.plan.borrow_dependent();
-        let places = builder.places(&mut self.bytes).map_err(sentence)?;
         let mut scratch = ViewScratch {
             projected: &mut self.projected,
             render: &mut self.render,
             canonical: &mut self.canonical,
         };
-        for (record, bits) in places.skip(self.done).take(count) {
-            builder
-                .render_view(self.done, &mut scratch, record, bits)
-                .map_err(sentence)?;
-            self.done += 1;
+        let mut part = Vec::new();
+        for view in first..first.saturating_add(count).min(builder.views()) {
+            let packed = builder.pack_view(view, &mut scratch, &mut self.packed);
+            let length = packed.map_err(sentence)?;
+            part.extend((length as u32).to_le_bytes());
+            part.extend_from_slice(&self.packed[..length]);
         }
-        Ok(self.done)
+        Ok(part)
     }
 
-    /// The finished library; to be called once, when all views are done.
+    /// Takes the views that follow those taken before, as `pack` gave them.
+    pub fn add(&mut self, part: Vec<u8>) {
+        self.parts.push(part);
+    }
+
+    /// The finished library; to be called once, when all views have been added.
     ///
     /// # Errors
     /// A sentence when views are missing.
     pub fn finish(mut self) -> Result<Vec<u8>, JsError> {
-        if self.done < self.views() {
-            return Err(JsError::new("The library is not complete yet"));
-        }
-        let mut smaller = vec![0; self.bytes.len()];
+        let packed: Vec<&[u8]> = self.parts.iter().flat_map(|part| views_of(part)).collect();
         let builder = self.plan.borrow_dependent();
-        let file = builder.finish_smaller(&mut self.bytes, &mut self.canonical, &mut smaller);
-        Ok(file.map_err(sentence)?.to_vec())
+        let assembly = builder.assemble(&packed).map_err(sentence)?;
+        let mut bytes = vec![0; assembly.bytes_needed()];
+        let written = assembly.write(&mut self.canonical, &mut bytes);
+        written.map_err(sentence)?;
+        Ok(bytes)
     }
+}
+
+/// The packed views of a part, each after its length.
+fn views_of(mut part: &[u8]) -> impl Iterator<Item = &[u8]> {
+    core::iter::from_fn(move || {
+        let (length, rest) = part.split_first_chunk()?;
+        let (view, rest) = rest.split_at_checked(u32::from_le_bytes(*length) as usize)?;
+        part = rest;
+        Some(view)
+    })
 }
 
 #[cfg(test)]
@@ -177,5 +194,13 @@ mod tests {
     fn an_axis_counts_both_ends_in_spite_of_decimal_steps() {
         let axis = axis("x", &[-0.3, 0.3, 0.1]).ok().unwrap();
         assert_eq!((axis.count, axis.first, axis.step), (7, -0.3, 0.1));
+    }
+
+    #[test]
+    fn parts_hold_views_one_after_another() {
+        let part = [2, 0, 0, 0, 7, 8, 0, 0, 0, 0, 1, 0, 0, 0, 9];
+        let views: Vec<&[u8]> = views_of(&part).collect();
+        assert_eq!(views, [&[7, 8][..], &[], &[9]]);
+        assert_eq!(views_of(&part[..14]).count(), 2);
     }
 }

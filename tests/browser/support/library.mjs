@@ -26,7 +26,7 @@ export async function femurLibrary({ step }) {
     15_000,
   );
   const builder = new core.LibraryBuilder(vertices, triangles, calibration, FRAME.width, FRAME.height, views);
-  builder.step(builder.views);
+  builder.add(builder.pack(0, builder.views));
   return builder.finish();
 }
 

@@ -2,15 +2,14 @@ import type { ComponentName, Doc } from '../document/types';
 import { COMPONENT_NAMES, titleOf } from '../document/types';
 import { Aborted, type Bridge } from '../worker/bridge';
 import { cameraOf, libraryKey } from './keys';
-import type { LibraryFacts, LibraryProtocol, PoseProtocol } from './protocol';
+import { LibraryCrew } from './library_crew';
+import type { LibraryFacts, PoseProtocol } from './protocol';
 import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from './workers';
 import { texts } from '../texts';
 
-/** One core is left for the page: with two, libraries are built one after the other, and the first is there sooner. */
-function deskOf(component: ComponentName): string {
-  return navigator.hardwareConcurrency > COMPONENT_NAMES.length ? component : 'all';
-}
+/** More workers would wait for each other and for memory longer than they draw. */
+const MOST_WORKERS = 8;
 
 /**
  * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
@@ -20,7 +19,7 @@ export class Librarian {
   readonly #services: Services;
   readonly #poser: Bridge<PoseProtocol>;
   readonly #running = new Map<ComponentName, AbortController>();
-  readonly #builders = new Map<string, { readonly bridge: Bridge<LibraryProtocol>; readonly users: number }>();
+  readonly #crew = new LibraryCrew(Math.min(navigator.hardwareConcurrency, MOST_WORKERS), libraryWorker);
 
   constructor(services: Services, poser: Bridge<PoseProtocol>) {
     this.#services = services;
@@ -90,35 +89,12 @@ export class Librarian {
     const mesh = model && studio.meshOf(model.sha256);
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera) throw new Error(texts.said.library.noInputs);
-    const worker = this.#hire(component);
     const cancel = () => abort.abort();
-    try {
-      return await asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (report) => {
-        const bytes = await worker.call('build', { mesh, camera, spec }, {
-          signal: abort.signal,
-          onProgress: ({ done, total }) => report(done, total),
-        });
-        return this.#poser.call('open', { component, bytes, mesh }, { signal: abort.signal, transfer: [bytes.buffer] });
-      });
-    } finally {
-      this.#release(component);
-    }
-  }
-
-  #hire(component: ComponentName): Bridge<LibraryProtocol> {
-    const desk = deskOf(component);
-    const { bridge, users } = this.#builders.get(desk) ?? { bridge: libraryWorker(), users: 0 };
-    this.#builders.set(desk, { bridge, users: users + 1 });
-    return bridge;
-  }
-
-  #release(component: ComponentName): void {
-    const desk = deskOf(component);
-    const builder = this.#builders.get(desk);
-    if (!builder) return;
-    if (builder.users > 1) return void this.#builders.set(desk, { ...builder, users: builder.users - 1 });
-    this.#builders.delete(desk);
-    builder.bridge.dispose();
+    const { signal } = abort;
+    return asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (onProgress) => {
+      const bytes = await this.#crew.build({ mesh, camera, spec }, { signal, onProgress });
+      return this.#poser.call('open', { component, bytes, mesh }, { signal, transfer: [bytes.buffer] });
+    });
   }
 
   #stopped(component: ComponentName, key: string, error: unknown): void {

@@ -115,12 +115,20 @@ export interface DecodeProtocol {
   model: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: ModelMesh; progress: never };
 }
 
+/** What a library is built from. */
+export interface LibraryPlan {
+  readonly mesh: ModelMesh;
+  readonly camera: CameraInput;
+  readonly spec: LibrarySpec;
+}
+
 export interface LibraryProtocol {
-  build: {
-    input: { mesh: ModelMesh; camera: CameraInput; spec: LibrarySpec };
-    output: Uint8Array<ArrayBuffer>;
-    progress: { readonly done: number; readonly total: number };
-  };
+  /** Forgets the plan before; gives the number of views. */
+  plan: { input: LibraryPlan; output: number; progress: never };
+  /** Some views, drawn and packed. */
+  pack: { input: { first: number; count: number }; output: Uint8Array<ArrayBuffer>; progress: never };
+  /** The library of all views, packed by workers of the same plan, in their order. */
+  assemble: { input: { parts: readonly Uint8Array<ArrayBuffer>[] }; output: Uint8Array<ArrayBuffer>; progress: never };
 }
 
 export interface MatchInput {

@@ -3,7 +3,7 @@ import type { MasksProtocol } from './exchange/protocol';
 import type { CalibrateProtocol } from './calibrate_protocol';
 import type { DecodeProtocol, LibraryProtocol, PoseProtocol } from './protocol';
 
-/** Each worker starts with its first call. A library has a worker of its own: two are built at the same time. */
+/** Each worker starts with its first call. */
 export function decodeWorker(): Bridge<DecodeProtocol> {
   return new Bridge<DecodeProtocol>(() =>
     port(new Worker(new URL('../worker/decode.ts', import.meta.url), { type: 'module', name: 'decode' })),

@@ -4,29 +4,38 @@ import type { LibraryProtocol } from '../engine/protocol';
 import { loadCore } from './core_module';
 import { serve, Transferred } from './serve';
 
-/** Builds one library, some views at a time, so that it can report and be stopped. */
+/** Draws some views of one library, for whoever puts them together. */
 const ready = loadCore();
 
-/** About this long between two reports. */
-const SLICE_MILLISECONDS = 40;
+let builder: LibraryBuilder | null = null;
 
 serve<LibraryProtocol>({
-  build: async ({ mesh, camera, spec }, context) => {
+  plan: async ({ mesh, camera, spec }) => {
     await ready;
     const { text, width, height } = camera;
-    const views = viewsOf(spec);
-    const builder = new LibraryBuilder(mesh.vertices, mesh.triangles, text, width, height, views);
-    const total = builder.views;
-    for (let done = 0; done < total; ) {
-      const until = performance.now() + SLICE_MILLISECONDS;
-      while (done < total && performance.now() < until) done = builder.step(4);
-      context.report({ done, total });
-      await context.breathe();
-    }
-    const bytes = builder.finish() as Uint8Array<ArrayBuffer>;
+    builder?.free();
+    builder = null;
+    builder = new LibraryBuilder(mesh.vertices, mesh.triangles, text, width, height, viewsOf(spec));
+    return builder.views;
+  },
+  pack: ({ first, count }) => {
+    const part = planned().pack(first, count) as Uint8Array<ArrayBuffer>;
+    return new Transferred(part, [part.buffer]);
+  },
+  assemble: ({ parts }) => {
+    const whole = planned();
+    for (const part of parts) whole.add(part);
+    // It is used up, whether that succeeds or not.
+    builder = null;
+    const bytes = whole.finish() as Uint8Array<ArrayBuffer>;
     return new Transferred(bytes, [bytes.buffer]);
   },
 });
+
+function planned(): LibraryBuilder {
+  if (!builder) throw new Error('no library is planned');
+  return builder;
+}
 
 function viewsOf(spec: LibrarySpec): LibraryViews {
   return new LibraryViews(
