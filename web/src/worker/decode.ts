@@ -9,9 +9,9 @@ const ready = init({ module_or_path: wasmAddress });
 type FrameProgress = DecodeProtocol['frames']['progress'];
 
 serve<DecodeProtocol>({
-  sniff: async ({ bytes, name }) => {
+  sniff: async ({ head, length, name }) => {
     await ready;
-    return kindOf(sniff(bytes, name));
+    return kindOf(sniff(head, length, name));
   },
   frames: async ({ bytes, name }, context) => {
     await ready;
