@@ -4,6 +4,7 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
 use fluoropose::mask::Word;
 use fluoropose::raster::Projected;
+use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::calibration_of;
@@ -92,8 +93,8 @@ impl LibraryBuilder {
     /// The core's sentence about the model, the calibration or the views.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        vertices: &[f32],
-        triangles: &[u32],
+        vertices: Vec<f32>,
+        triangles: Vec<u32>,
         calibration: &str,
         width: u32,
         height: u32,
@@ -158,14 +159,14 @@ impl LibraryBuilder {
     ///
     /// # Errors
     /// A sentence when views are missing.
-    pub fn finish(mut self) -> Result<Vec<u8>, JsError> {
+    pub fn finish(mut self) -> Result<Uint8Array, JsError> {
         if self.done < self.views() {
             return Err(JsError::new("The library is not complete yet"));
         }
         let mut smaller = vec![0; self.bytes.len()];
         let builder = self.plan.borrow_dependent();
         let file = builder.finish_smaller(&mut self.bytes, &mut self.canonical, &mut smaller);
-        Ok(file.map_err(sentence)?.to_vec())
+        Ok(Uint8Array::from(file.map_err(sentence)?))
     }
 }
 
