@@ -136,8 +136,7 @@ impl Film {
                 Self::derive(&self.pixels, look, self.width, self.height),
             )
         }));
-        let rgba = developed(picture, &shades);
-        put(context, &rgba, self.width, 0, 0)
+        develop(picture, &shades, self.width, context)
     }
 
     /// A copy of the pixels, row by row, for another thread: `Uint8Array` of an 8-bit frame, `Uint16Array` of a 16-bit one.
@@ -188,11 +187,10 @@ impl Film {
 
     fn put(&self, context: &CanvasRenderingContext2d, shades: &[Rgba]) -> Result<(), JsValue> {
         let count = self.width * self.height;
-        let rgba = match self.pixels() {
-            Pixels::Eight(pixels) => developed(&pixels[..count], shades),
-            Pixels::Sixteen(pixels) => developed(&pixels[..count], shades),
-        };
-        put(context, &rgba, self.width, 0, 0)
+        match self.pixels() {
+            Pixels::Eight(pixels) => develop(&pixels[..count], shades, self.width, context),
+            Pixels::Sixteen(pixels) => develop(&pixels[..count], shades, self.width, context),
+        }
     }
 
     /// Smooths the film into as many cells as it has pixels.
@@ -277,17 +275,24 @@ fn shades(centre: f64, width: f64, levels: usize) -> Vec<Rgba> {
         .collect()
 }
 
-fn developed<P: Pixel>(pixels: &[P], shades: &[Rgba]) -> Vec<Rgba> {
-    // There is a shade for every value of the type.
-    pixels
-        .iter()
-        .map(|&grey| {
-            shades
-                .get(grey.into() as usize)
-                .copied()
-                .unwrap_or_default()
-        })
-        .collect()
+/// Rows that are developed at a time: the memory for them is used again and again and stays in the processor's caches.
+const STRIP: usize = 64;
+
+fn develop<P: Pixel>(
+    pixels: &[P],
+    shades: &[Rgba],
+    width: usize,
+    context: &CanvasRenderingContext2d,
+) -> Result<(), JsValue> {
+    let mut strip = Vec::new();
+    for (number, pixels) in pixels.chunks((STRIP * width).max(1)).enumerate() {
+        // There is a shade for every value of the type.
+        let shade = |&grey: &P| shades.get(grey.into() as usize).copied();
+        strip.clear();
+        strip.extend(pixels.iter().map(|grey| shade(grey).unwrap_or_default()));
+        put(context, &strip, width, 0, number * STRIP)?;
+    }
+    Ok(())
 }
 
 fn grey_range<P: Pixel>(pixels: &[P]) -> Vec<f64> {

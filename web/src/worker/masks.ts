@@ -5,7 +5,7 @@ import decodeAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { MaskLabel, MaskPage, MasksProtocol } from '../engine/exchange/protocol';
 import { loadCore } from './core_module';
 import { filmOf } from './film';
-import { serve, Transferred, type Context } from './serve';
+import { serve, type Context } from './serve';
 
 /** Masks to outlines and outlines to masks, with both modules: one decodes and encodes, the other follows and fills. */
 const ready = Promise.all([loadCore(), initDecode({ module_or_path: decodeAddress })]);
@@ -39,8 +39,7 @@ serve<MasksProtocol>({
     }
     files['README.txt'] = strToU8(README);
     // PNG is packed already.
-    const zip = zipSync(files, { level: 0 }) as Uint8Array<ArrayBuffer>;
-    return new Transferred(zip, [zip.buffer]);
+    return zipSync(files, { level: 0 }) as Uint8Array<ArrayBuffer>;
   },
 });
 

@@ -1,13 +1,14 @@
+import { buffersIn } from './buffers';
 import type { FromWorker, Method, Protocol, ToWorker } from './messages';
 
 /** What a handler may do besides returning. */
 export interface Context<Progress> {
-  report(progress: Progress, transfer?: Transferable[]): void;
+  report(progress: Progress): void;
   /** Lets messages in; throws when the call was aborted in the meantime. Long work calls it every few milliseconds. */
   breathe(): Promise<void>;
 }
 
-/** Output with the buffers that are handed over instead of copied. */
+/** Output that names itself which buffers are handed over. */
 export class Transferred<T> {
   constructor(
     readonly output: T,
@@ -39,7 +40,7 @@ async function answer(
 ): Promise<void> {
   const { id, method, input } = call;
   const context: Context<unknown> = {
-    report: (progress, transfer) => send({ type: 'progress', id, progress }, transfer),
+    report: (progress) => send({ type: 'progress', id, progress }),
     breathe: async () => {
       await nextMessage();
       if (aborted.has(id)) throw new Error('aborted');
@@ -66,7 +67,8 @@ function crash(error: Error): void {
   });
 }
 
-function send(message: FromWorker, transfer: Transferable[] = []): void {
+/** What a worker answers it has made for that: buffers are handed over, not copied. */
+function send(message: FromWorker, transfer: Transferable[] = buffersIn(message)): void {
   self.postMessage(message, { transfer });
 }
 
