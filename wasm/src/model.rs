@@ -244,6 +244,34 @@ mod tests {
         }
     }
 
+    /// Bends what lies off the middle of a frame of 256 x 256 outwards.
+    #[cfg(feature = "workers")]
+    fn pin_cushion() -> Straightener {
+        let beads = (0..11 * 11).flat_map(|bead| {
+            let place = [bead % 11, bead / 11].map(|at| f64::from(at - 5));
+            let stretch = 22.0 * (1.0 + 0.001 * (place[0].powi(2) + place[1].powi(2)));
+            let [column, row] = place.map(|at| 128.0 + stretch * at);
+            [column, row, place[0], place[1]]
+        });
+        let fit = crate::fit_distortion(&beads.collect::<Vec<_>>(), 256, 256).unwrap();
+        Straightener::new(&fit.numbers()).unwrap()
+    }
+
+    #[cfg(feature = "workers")]
+    #[test]
+    fn a_border_is_bent_where_it_lies_as_any_points_are() {
+        let mut model = plates(&[[0.0; 3]]);
+        let pose = [10.0, 0.0, -200.0, 0.0, 0.0, 0.0];
+        model.project(CALIBRATION, 256, 256, &pose).unwrap();
+        model.follow_border(256, 256).unwrap();
+        let (straight, address) = (model.corners.clone(), model.border_address());
+        model.bend_border(&pin_cushion());
+        assert_eq!(model.border_address(), address);
+        assert_eq!(model.corners, pin_cushion().bent(straight.clone()));
+        let mut moved = model.corners.iter().zip(&straight);
+        assert!(moved.any(|(bent, straight)| bent - straight > 1.0));
+    }
+
     #[test]
     fn a_cut_out_is_the_smallest_box_round_the_mask() {
         let mut words = vec![0; words_needed(100, 8)];
