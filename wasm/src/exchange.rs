@@ -1,15 +1,20 @@
 //! Masks and outlines, one made from the other.
 
+use std::collections::BTreeSet;
+
 use fluoropose::aids::Vertex;
 use fluoropose::aids::list::List;
 use fluoropose::aids::simplify::{Simplify, simplify};
 use fluoropose::border::follow_border;
 use fluoropose::contour::{Contour, Outline, Point};
+use fluoropose::frame::Pixel;
 use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::region::largest_region;
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;
+use crate::film::{Film, Pixels};
 
 /// Corners of a border that a mask may have.
 const BORDER_CORNERS: usize = 65_536;
@@ -22,6 +27,7 @@ pub struct MaskOutline {
     specks: u32,
     holes: u32,
     area: u32,
+    differing: u32,
 }
 
 #[wasm_bindgen]
@@ -29,14 +35,14 @@ impl MaskOutline {
     /// Columns and rows by turns, along the cracks between pixels: filled again it gives the region exactly, its holes
     /// filled.
     #[wasm_bindgen(getter)]
-    pub fn exact(&self) -> Vec<f64> {
-        self.exact.clone()
+    pub fn exact(&self) -> Float64Array {
+        Float64Array::from(&self.exact[..])
     }
 
     /// The same with few points: through the middles of the cracks, which leave a staircase to neither side, simplified.
     #[wasm_bindgen(getter)]
-    pub fn points(&self) -> Vec<f64> {
-        self.points.clone()
+    pub fn points(&self) -> Float64Array {
+        Float64Array::from(&self.points[..])
     }
 
     /// Pixels apart from the largest region, which are left out.
@@ -56,32 +62,50 @@ impl MaskOutline {
     pub fn area(&self) -> u32 {
         self.area
     }
+
+    /// Pixels that are inside one of both outlines and not inside the other.
+    #[wasm_bindgen(getter)]
+    pub fn differing(&self) -> u32 {
+        self.differing
+    }
 }
 
-/// The outline of the pixels that are `value`, `width * height` of them row by row; simplified to `tolerance` pixels.
+/// Grey values besides 0 of a film, rising; nothing where there are more than `most`, or where no pixel is 0: then it is
+/// no mask.
+#[wasm_bindgen(js_name = labelsOfMask)]
+#[must_use]
+pub fn labels_of_mask(film: &Film, most: usize) -> Option<Vec<u32>> {
+    match film.pixels() {
+        Pixels::Eight(pixels) => labels(pixels, most),
+        Pixels::Sixteen(pixels) => labels(pixels, most),
+    }
+}
+
+fn labels<P: Pixel>(pixels: &[P], most: usize) -> Option<Vec<u32>> {
+    let mut seen = BTreeSet::new();
+    let mut before = None;
+    for &pixel in pixels {
+        let grey: u32 = pixel.into();
+        if before.replace(grey) != Some(grey) && seen.insert(grey) && seen.len() > most + 1 {
+            return None;
+        }
+    }
+    seen.remove(&0).then(|| seen.into_iter().collect())
+}
+
+/// The outline of a film's pixels that are `value`, simplified to `tolerance` pixels.
 ///
 /// # Errors
-/// A sentence for an empty mask, a shape that does not fit the pixels, or a border with too many corners.
+/// A sentence for an empty mask or a border with too many corners.
 #[wasm_bindgen(js_name = outlineOfMask)]
-pub fn outline_of_mask(
-    pixels: &[u16],
-    value: u16,
-    width: u32,
-    height: u32,
-    tolerance: f64,
-) -> Result<MaskOutline, JsError> {
-    let (width, height) = (width as usize, height as usize);
-    if pixels.len() != width * height {
-        return Err(sentence(format!(
-            "the mask has {} pixels for {width} x {height}",
-            pixels.len()
-        )));
-    }
+pub fn outline_of_mask(film: &Film, value: u32, tolerance: f64) -> Result<MaskOutline, JsError> {
+    let (width, height) = film.size();
     let mut memory: [Vec<Word>; 4] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
     let [given, rest, current, largest] = &mut memory;
     let mut mask = MaskMut::new(given, width, height).map_err(sentence)?;
-    for (at, _) in pixels.iter().enumerate().filter(|&(_, &p)| p == value) {
-        mask.set(at % width, at / width, true);
+    match film.pixels() {
+        Pixels::Eight(pixels) => select(pixels, value, &mut mask),
+        Pixels::Sixteen(pixels) => select(pixels, value, &mut mask),
     }
     let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
     let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
@@ -90,18 +114,41 @@ pub fn outline_of_mask(
     traced(&largest.as_mask(), specks, tolerance)
 }
 
+/// Sets the pixels that are `value`.
+fn select<P: Pixel>(pixels: &[P], value: u32, mask: &mut MaskMut<'_>) {
+    let (width, height) = (mask.width(), mask.height());
+    let rows = pixels.chunks_exact(width).take(height).enumerate();
+    for (row, line) in rows {
+        let columns = line.iter().enumerate();
+        for (column, _) in columns.filter(|&(_, &pixel)| pixel.into() == value) {
+            mask.set(column, row, true);
+        }
+    }
+}
+
 fn traced(region: &Mask<'_>, specks: u64, tolerance: f64) -> Result<MaskOutline, JsError> {
     let mut border = Box::<Contour<BORDER_CORNERS>>::default();
     follow_border(region, border.as_mut()).map_err(sentence)?;
     let numbers = |points: &[Point]| points.iter().flat_map(|p| [p.column, p.row]).collect();
     let few = simplified(&border, tolerance)?;
     let area = area_of(&border);
+    let (width, height) = (region.width(), region.height());
+    let [exact, simple] = [
+        filled(&border, width, height)?,
+        filled(&few, width, height)?,
+    ];
+    let differing: u32 = exact
+        .iter()
+        .zip(&simple)
+        .map(|(exact, simple)| (exact ^ simple).count_ones())
+        .sum();
     Ok(MaskOutline {
         exact: numbers(&border),
         points: numbers(&few),
         specks: specks as u32,
         holes: (area - region.area()) as u32,
         area: area as u32,
+        differing,
     })
 }
 
@@ -143,6 +190,15 @@ fn area_of(border: &[Point]) -> u64 {
     (twice.abs() / 2.0) as u64
 }
 
+/// The mask of a closed outline.
+fn filled(points: &[Point], width: usize, height: usize) -> Result<Vec<Word>, JsError> {
+    let outline = Outline::new(points, width, height).map_err(sentence)?;
+    let mut words = vec![0; words_needed(width, height)];
+    let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
+    mask.fill_outline(&outline);
+    Ok(words)
+}
+
 /// The pixels inside a closed outline (columns and rows by turns), one byte each: 1 inside, 0 outside.
 ///
 /// # Errors
@@ -154,12 +210,9 @@ pub fn mask_of_outline(outline: &[f64], width: u32, height: u32) -> Result<Vec<u
     let points: Vec<Point> = pairs
         .map(|&[column, row]| Point::new(column, row))
         .collect();
-    let outline = Outline::new(&points, width, height).map_err(sentence)?;
-    let mut words = vec![0; words_needed(width, height)];
-    let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-    mask.fill_outline(&outline);
+    let words = filled(&points, width, height)?;
+    let mask = Mask::new(&words, width, height).map_err(sentence)?;
     let mut pixels = vec![0; width * height];
-    let mask = mask.as_mask();
     for (row, line) in pixels.chunks_exact_mut(width).enumerate() {
         for run in mask.runs(row) {
             line[run].fill(1);
@@ -181,10 +234,14 @@ mod tests {
             .collect()
     }
 
-    fn outline(pixels: &[u16]) -> MaskOutline {
-        outline_of_mask(pixels, 9, WIDTH as u32, HEIGHT as u32, 0.4)
+    fn film(pixels: &[u16]) -> Film {
+        Film::from_sixteen_bit(pixels.to_vec(), WIDTH as u32, HEIGHT as u32)
             .ok()
             .unwrap()
+    }
+
+    fn outline(pixels: &[u16]) -> MaskOutline {
+        outline_of_mask(&film(pixels), 9, 0.4).ok().unwrap()
     }
 
     #[test]
@@ -226,6 +283,7 @@ mod tests {
             .zip(&pixels)
             .filter(|&(&a, &b)| a == 0 && b != 0);
         let (gained, lost) = (gained.count() as i64, lost.count() as i64);
+        assert_eq!(i64::from(found.differing), gained + lost);
         assert!(
             gained + lost < 30,
             "{gained} gained, {lost} lost of {}",
@@ -242,6 +300,15 @@ mod tests {
         let found = outline(&draw(|c, r| ring(c, r) && !hole(c, r) || speck(c, r)));
         assert_eq!((found.specks, found.holes, found.area), (10, 12, 400));
         assert_eq!(found.exact.len(), 8);
+    }
+
+    #[test]
+    fn a_film_of_too_many_greys_or_without_black_is_no_mask() {
+        let mut pixels = draw(|c, r| c < 10 && r < 10);
+        pixels[0] = 3;
+        assert_eq!(labels_of_mask(&film(&pixels), 2), Some(vec![3, 9]));
+        assert_eq!(labels_of_mask(&film(&pixels), 1), None);
+        assert_eq!(labels_of_mask(&film(&draw(|_, _| true)), 2), None);
     }
 
     #[test]

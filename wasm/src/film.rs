@@ -1,18 +1,22 @@
 //! Frames held and painted with window and level.
 
+use std::rc::Rc;
+
 use fluoropose::aids::smoothed::{Scale, Smoothed};
 use fluoropose::frame::{Frame, Grey, Pixel};
+use js_sys::{Uint8Array, Uint16Array};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
 use crate::error::sentence;
 use crate::looks;
-use crate::paint::put;
+use crate::paint::{Rgba, put};
 
 /// One frame's pixels.
 #[wasm_bindgen]
 pub struct Film {
-    pixels: Pixels,
+    /// Of all that look at this film: nobody changes them.
+    pixels: Rc<Pixels>,
     width: usize,
     height: usize,
     /// The picture that was last shown instead of the film itself.
@@ -30,7 +34,6 @@ pub enum FilmLook {
 }
 
 /// Grey values as they came.
-#[derive(Clone)]
 pub(crate) enum Pixels {
     Eight(Vec<u8>),
     Sixteen(Vec<u16>),
@@ -49,7 +52,7 @@ impl Film {
     pub fn from_eight_bit(pixels: Vec<u8>, width: u32, height: u32) -> Result<Film, JsError> {
         check(&pixels, width, height)?;
         Ok(Self {
-            pixels: Pixels::Eight(pixels),
+            pixels: Rc::new(Pixels::Eight(pixels)),
             width: width as usize,
             height: height as usize,
             derived: None,
@@ -64,7 +67,7 @@ impl Film {
     pub fn from_sixteen_bit(pixels: Vec<u16>, width: u32, height: u32) -> Result<Film, JsError> {
         check(&pixels, width, height)?;
         Ok(Self {
-            pixels: Pixels::Sixteen(pixels),
+            pixels: Rc::new(Pixels::Sixteen(pixels)),
             width: width as usize,
             height: height as usize,
             derived: None,
@@ -74,7 +77,7 @@ impl Film {
     /// Least and greatest grey value, then the centre and width of a window that leaves out half a percent at either end.
     #[wasm_bindgen(js_name = greyRange)]
     pub fn grey_range(&self) -> Vec<f64> {
-        match &self.pixels {
+        match self.pixels() {
             Pixels::Eight(pixels) => grey_range(pixels),
             Pixels::Sixteen(pixels) => grey_range(pixels),
         }
@@ -91,12 +94,7 @@ impl Film {
         centre: f64,
         width: f64,
     ) -> Result<(), JsValue> {
-        let shades = shades(centre, width, self.levels());
-        let rgba: Vec<u32> = match &self.pixels {
-            Pixels::Eight(pixels) => developed(pixels, &shades),
-            Pixels::Sixteen(pixels) => developed(pixels, &shades),
-        };
-        put(context, &rgba[..self.width * self.height], self.width, 0, 0)
+        self.put(context, &shades(centre, width, self.levels()))
     }
 
     /// The same with dark and bright exchanged.
@@ -111,12 +109,10 @@ impl Film {
         width: f64,
     ) -> Result<(), JsValue> {
         let mut shades = shades(centre, width, self.levels());
-        shades.iter_mut().for_each(|word| *word ^= 0x00FF_FFFF);
-        let rgba: Vec<u32> = match &self.pixels {
-            Pixels::Eight(pixels) => developed(pixels, &shades),
-            Pixels::Sixteen(pixels) => developed(pixels, &shades),
-        };
-        put(context, &rgba[..self.width * self.height], self.width, 0, 0)
+        for [red, green, blue, _] in &mut shades {
+            [*red, *green, *blue] = [!*red, !*green, !*blue];
+        }
+        self.put(context, &shades)
     }
 
     /// Paints a picture made from the frame, whose own grey values run from 0 to 255. It is made once and kept until
@@ -140,25 +136,15 @@ impl Film {
                 Self::derive(&self.pixels, look, self.width, self.height),
             )
         }));
-        let rgba = developed(picture, &shades);
-        put(context, &rgba, self.width, 0, 0)
+        develop(picture, &shades, self.width, context)
     }
 
-    /// The pixels of an 8-bit frame; nothing of a 16-bit one.
-    #[wasm_bindgen(js_name = eightBit)]
-    pub fn eight_bit(&self) -> Option<Vec<u8>> {
-        match &self.pixels {
-            Pixels::Eight(pixels) => Some(pixels.clone()),
-            Pixels::Sixteen(_) => None,
-        }
-    }
-
-    /// The pixels of a 16-bit frame; nothing of an 8-bit one.
-    #[wasm_bindgen(js_name = sixteenBit)]
-    pub fn sixteen_bit(&self) -> Option<Vec<u16>> {
-        match &self.pixels {
-            Pixels::Eight(_) => None,
-            Pixels::Sixteen(pixels) => Some(pixels.clone()),
+    /// A copy of the pixels, row by row, for another thread: `Uint8Array` of an 8-bit frame, `Uint16Array` of a 16-bit one.
+    #[wasm_bindgen(js_name = copyPixels, unchecked_return_type = "Uint8Array | Uint16Array")]
+    pub fn copy_pixels(&self) -> JsValue {
+        match self.pixels() {
+            Pixels::Eight(pixels) => Uint8Array::from(&pixels[..]).into(),
+            Pixels::Sixteen(pixels) => Uint16Array::from(&pixels[..]).into(),
         }
     }
 
@@ -170,14 +156,14 @@ impl Film {
             return None;
         }
         let index = row * self.width + column;
-        match &self.pixels {
+        match self.pixels() {
             Pixels::Eight(pixels) => pixels.get(index).map(|&grey| grey.into()),
             Pixels::Sixteen(pixels) => pixels.get(index).map(|&grey| grey.into()),
         }
     }
 
     fn levels(&self) -> usize {
-        match self.pixels {
+        match self.pixels() {
             Pixels::Eight(_) => 1 << 8,
             Pixels::Sixteen(_) => 1 << 16,
         }
@@ -189,13 +175,31 @@ impl Film {
         &self.pixels
     }
 
+    /// The same pixels, not copied: the page may let go of its film while work on it goes on.
+    pub(crate) fn shared(&self) -> Self {
+        Self {
+            pixels: Rc::clone(&self.pixels),
+            width: self.width,
+            height: self.height,
+            derived: None,
+        }
+    }
+
+    fn put(&self, context: &CanvasRenderingContext2d, shades: &[Rgba]) -> Result<(), JsValue> {
+        let count = self.width * self.height;
+        match self.pixels() {
+            Pixels::Eight(pixels) => develop(&pixels[..count], shades, self.width, context),
+            Pixels::Sixteen(pixels) => develop(&pixels[..count], shades, self.width, context),
+        }
+    }
+
     /// Smooths the film into as many cells as it has pixels.
     ///
     /// # Errors
     /// The core's sentence where there are fewer.
     pub(crate) fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
         let (width, height) = (self.width, self.height);
-        let smoothed = match &self.pixels {
+        let smoothed = match self.pixels() {
             Pixels::Eight(pixels) => {
                 let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
                 Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
@@ -222,7 +226,7 @@ impl Film {
         with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         let (width, height) = (self.width, self.height);
-        match &self.pixels {
+        match self.pixels() {
             Pixels::Eight(pixels) => {
                 with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
             }
@@ -257,8 +261,8 @@ fn check<P: Pixel>(pixels: &[P], width: u32, height: u32) -> Result<(), JsError>
         .map_err(sentence)
 }
 
-/// The RGBA word of every grey value.
-fn shades(centre: f64, width: f64, levels: usize) -> Vec<u32> {
+/// The colour of every grey value.
+fn shades(centre: f64, width: f64, levels: usize) -> Vec<Rgba> {
     let width = width.max(1.0);
     let black = centre - width / 2.0;
     (0..levels)
@@ -266,22 +270,29 @@ fn shades(centre: f64, width: f64, levels: usize) -> Vec<u32> {
             let shade = ((grey as f64 - black) / width * 255.0)
                 .round()
                 .clamp(0.0, 255.0) as u8;
-            u32::from_le_bytes([shade, shade, shade, 255])
+            [shade, shade, shade, 255]
         })
         .collect()
 }
 
-fn developed<P: Pixel>(pixels: &[P], shades: &[u32]) -> Vec<u32> {
-    // There is a shade for every value of the type.
-    pixels
-        .iter()
-        .map(|&grey| {
-            shades
-                .get(grey.into() as usize)
-                .copied()
-                .unwrap_or_default()
-        })
-        .collect()
+/// Rows that are developed at a time: the memory for them is used again and again and stays in the processor's caches.
+const STRIP: usize = 64;
+
+fn develop<P: Pixel>(
+    pixels: &[P],
+    shades: &[Rgba],
+    width: usize,
+    context: &CanvasRenderingContext2d,
+) -> Result<(), JsValue> {
+    let mut strip = Vec::new();
+    for (number, pixels) in pixels.chunks((STRIP * width).max(1)).enumerate() {
+        // There is a shade for every value of the type.
+        let shade = |&grey: &P| shades.get(grey.into() as usize).copied();
+        strip.clear();
+        strip.extend(pixels.iter().map(|grey| shade(grey).unwrap_or_default()));
+        put(context, &strip, width, 0, number * STRIP)?;
+    }
+    Ok(())
 }
 
 fn grey_range<P: Pixel>(pixels: &[P]) -> Vec<f64> {
@@ -316,10 +327,16 @@ mod tests {
     #[test]
     fn a_window_maps_its_ends_to_black_and_white() {
         let shades = shades(100.0, 50.0, 256);
-        assert_eq!(shades[75], 0xFF00_0000);
-        assert_eq!(shades[74], 0xFF00_0000);
-        assert_eq!(shades[125], 0xFFFF_FFFF);
-        assert_eq!(shades[100].to_le_bytes()[0], 128);
+        assert_eq!(shades[75], [0, 0, 0, 255]);
+        assert_eq!(shades[74], [0, 0, 0, 255]);
+        assert_eq!(shades[125], [255; 4]);
+        assert_eq!(shades[100][0], 128);
+    }
+
+    #[test]
+    fn who_shares_a_film_reads_its_pixels_where_they_are() {
+        let film = Film::from_eight_bit(vec![1, 2, 3, 4], 2, 2).ok().unwrap();
+        assert!(std::ptr::eq(film.pixels(), film.shared().pixels()));
     }
 
     #[test]

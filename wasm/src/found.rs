@@ -1,6 +1,8 @@
 //! What was found for an outline, as the page reads it.
 
 use fluoropose::covariance::Deviations;
+use fluoropose::mask::Word;
+use js_sys::{Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::choice::Chosen;
@@ -15,8 +17,8 @@ pub(crate) struct Candidate {
     pub(crate) start: Option<PoseNumbers>,
     pub(crate) view: [f64; 2],
     pub(crate) at_border: bool,
-    pub(crate) input: Vec<u8>,
-    pub(crate) library: Vec<u8>,
+    pub(crate) input: Vec<Word>,
+    pub(crate) library: Vec<Word>,
 }
 
 /// Standard deviations in the order of a pose's numbers.
@@ -124,15 +126,20 @@ impl Match {
     /// The outline's canonical silhouette, turned as the view: one bit a pixel, row by row, least significant leftmost.
     /// Empty where pieces of the outline led to the pose.
     #[wasm_bindgen(js_name = inputBits)]
-    pub fn input_bits(&self, index: usize) -> Option<Vec<u8>> {
+    pub fn input_bits(&self, index: usize) -> Option<Uint8Array> {
         let candidate = self.candidates.get(index)?;
-        Some(candidate.input.clone())
+        Some(bits_of(&candidate.input))
     }
 
     /// The library view's canonical silhouette, in the same form.
     #[wasm_bindgen(js_name = viewBits)]
-    pub fn view_bits(&self, index: usize) -> Option<Vec<u8>> {
+    pub fn view_bits(&self, index: usize) -> Option<Uint8Array> {
         let candidate = self.candidates.get(index)?;
-        Some(candidate.library.clone())
+        Some(bits_of(&candidate.library))
     }
+}
+
+/// Words of a mask are little-endian in JavaScript's memory as in the module's.
+fn bits_of(words: &[Word]) -> Uint8Array {
+    Uint8Array::new(&Uint32Array::from(words).buffer())
 }

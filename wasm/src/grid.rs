@@ -9,7 +9,7 @@ use fluoropose::grid::ruler::scale;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;
-use crate::film::Film;
+use crate::film::{Film, Pixels};
 
 /// Four numbers a bead: column, row, number to the right, number down.
 const PER_BEAD: usize = 4;
@@ -54,11 +54,9 @@ impl Straightener {
     }
 
     /// The way back. A point that has no place near by in the picture as taken stays where it is.
-    pub fn bent(&self, points: &[f64]) -> Vec<f64> {
-        let points = points.as_chunks::<2>().0.iter();
+    pub fn bent(&self, mut points: Vec<f64>) -> Vec<f64> {
+        self.bend(&mut points);
         points
-            .flat_map(|&point| self.distortion.bent(point).unwrap_or(point))
-            .collect()
     }
 
     /// The straight frame of a frame as taken.
@@ -80,13 +78,12 @@ impl Straightener {
             }
         }
         let (columns, rows) = (width as u32, height as u32);
-        match (film.eight_bit(), film.sixteen_bit()) {
-            (Some(pixels), _) => {
-                Film::from_eight_bit(resampled(&pixels, &self.map, width, height)?, columns, rows)
+        match film.pixels() {
+            Pixels::Eight(pixels) => {
+                Film::from_eight_bit(resampled(pixels, &self.map, width, height)?, columns, rows)
             }
-            (_, pixels) => {
-                let pixels = pixels.unwrap_or_default();
-                Film::from_sixteen_bit(resampled(&pixels, &self.map, width, height)?, columns, rows)
+            Pixels::Sixteen(pixels) => {
+                Film::from_sixteen_bit(resampled(pixels, &self.map, width, height)?, columns, rows)
             }
         }
     }
@@ -111,6 +108,15 @@ impl Straightener {
             }
         }
         out
+    }
+}
+
+impl Straightener {
+    /// Moves points, columns and rows by turns, as `bent` does.
+    pub(crate) fn bend(&self, points: &mut [f64]) {
+        for point in points.as_chunks_mut::<2>().0 {
+            *point = self.distortion.bent(*point).unwrap_or(*point);
+        }
     }
 }
 

@@ -111,7 +111,7 @@ impl LentModel {
     ///
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
-    pub(crate) fn new(vertices: &[f32], triangles: &[u32]) -> Result<Self, JsError> {
+    pub(crate) fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, JsError> {
         let surface = Surface::new(vertices, triangles)?;
         let projected = scratch_needed(&surface.mesh()?);
         Ok(Self {

@@ -1,7 +1,13 @@
 //! The core of fluoropose for a page: owns pixels, meshes, libraries and masks, and paints them through web-sys.
 //!
 //! Every class owns its memory and lends it to the core. Whatever goes wrong is thrown as a JavaScript `Error` whose
-//! message is the core's sentence. Nothing here hands out a view of WASM memory: what leaves is copied.
+//! message is the core's sentence.
+//!
+//! WASM memory can neither adopt a JavaScript buffer nor give one away, so what is large (pixels, files, models, libraries,
+//! canonical pictures, landscapes, masks) is moved once when it enters or leaves, and not copied inside: constructors take
+//! a `Vec` and keep it, getters make a typed array from what is kept, and who reads a film shares its pixels. What
+//! JavaScript reads at once stays here: a canvas reads what is painted where it lies, and of a border it is told the
+//! address, which holds until the next call.
 //!
 //! The page's own thread loads this without the feature `workers`: libraries are built, and poses and grids found, in workers.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
@@ -52,7 +58,7 @@ pub use calibration::{CalibrationText, jt_intcalib_text};
 #[cfg(feature = "workers")]
 pub use choice::{Chosen, Surroundings, choose_pose};
 #[cfg(feature = "workers")]
-pub use exchange::{MaskOutline, mask_of_outline, outline_of_mask};
+pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use film::{Film, FilmLook};
 #[cfg(feature = "workers")]
 pub use found::Match;

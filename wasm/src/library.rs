@@ -4,6 +4,7 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
 use fluoropose::mask::Word;
 use fluoropose::raster::Projected;
+use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::calibration_of;
@@ -94,8 +95,8 @@ impl LibraryBuilder {
     /// The core's sentence about the model, the calibration or the views.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        vertices: &[f32],
-        triangles: &[u32],
+        vertices: Vec<f32>,
+        triangles: Vec<u32>,
         calibration: &str,
         width: u32,
         height: u32,
@@ -139,7 +140,7 @@ impl LibraryBuilder {
     ///
     /// # Errors
     /// The core's sentence about a view that cannot be drawn.
-    pub fn pack(&mut self, first: usize, count: usize) -> Result<Vec<u8>, JsError> {
+    pub fn pack(&mut self, first: usize, count: usize) -> Result<Uint8Array, JsError> {
         let builder = self.plan.borrow_dependent();
         let mut scratch = ViewScratch {
             projected: &mut self.projected,
@@ -153,7 +154,7 @@ impl LibraryBuilder {
             part.extend((length as u32).to_le_bytes());
             part.extend_from_slice(&self.packed[..length]);
         }
-        Ok(part)
+        Ok(Uint8Array::from(part.as_slice()))
     }
 
     /// Takes the views that follow those taken before, as `pack` gave them.
@@ -165,14 +166,14 @@ impl LibraryBuilder {
     ///
     /// # Errors
     /// A sentence when views are missing.
-    pub fn finish(mut self) -> Result<Vec<u8>, JsError> {
+    pub fn finish(mut self) -> Result<Uint8Array, JsError> {
         let packed: Vec<&[u8]> = self.parts.iter().flat_map(|part| views_of(part)).collect();
         let builder = self.plan.borrow_dependent();
         let assembly = builder.assemble(&packed).map_err(sentence)?;
         let mut bytes = vec![0; assembly.bytes_needed()];
         let written = assembly.write(&mut self.canonical, &mut bytes);
         written.map_err(sentence)?;
-        Ok(bytes)
+        Ok(Uint8Array::from(bytes.as_slice()))
     }
 }
 

@@ -30,21 +30,21 @@ pub(crate) fn equalised<P: Pixel>(pixels: &[P], width: usize, height: usize) -> 
 
 /// Grey values in [`BINS`] steps between their least and greatest, outliers left out.
 fn binned<P: Pixel>(pixels: &[P]) -> Vec<u8> {
-    let values: Vec<u32> = pixels.iter().map(|&grey| grey.into()).collect();
-    let (low, high) = (level(&values, OUTLIERS), level(&values, 1.0 - OUTLIERS));
+    let (low, high) = (level(pixels, OUTLIERS), level(pixels, 1.0 - OUTLIERS));
     let span = f64::from(high.saturating_sub(low).max(1));
     let bin = |grey: u32| (f64::from(grey.saturating_sub(low)) * 255.0 / span).min(255.0) as u8;
-    values.into_iter().map(bin).collect()
+    pixels.iter().map(|&grey| bin(grey.into())).collect()
 }
 
 /// The value that a share of all do not exceed.
-fn level(values: &[u32], share: f64) -> u32 {
-    let most = values.iter().copied().max().unwrap_or(0) as usize;
+fn level<P: Pixel>(pixels: &[P], share: f64) -> u32 {
+    let most = pixels.iter().map(|&grey| grey.into()).max();
+    let most = most.unwrap_or(0) as usize;
     let mut counts = vec![0usize; most + 1];
-    for &value in values {
-        counts[value as usize] += 1;
+    for &grey in pixels {
+        counts[grey.into() as usize] += 1;
     }
-    let wanted = values.len() as f64 * share;
+    let wanted = pixels.len() as f64 * share;
     let mut below = 0;
     let found = counts.iter().position(|count| {
         below += count;

@@ -86,7 +86,7 @@ impl Matcher {
     /// # Errors
     /// A sentence when the library was made from another model.
     #[wasm_bindgen(js_name = lendModel)]
-    pub fn lend_model(&mut self, vertices: &[f32], triangles: &[u32]) -> Result<(), JsError> {
+    pub fn lend_model(&mut self, vertices: Vec<f32>, triangles: Vec<u32>) -> Result<(), JsError> {
         let model = LentModel::new(vertices, triangles)?;
         if model.mesh()?.digest() != self.library.borrow_dependent().info().model {
             return Err(JsError::new(
@@ -314,19 +314,16 @@ impl Matcher {
     }
 
     /// Bits of the outline's canonical silhouette, turned as the view, and of the view's.
-    fn pictures(&self, ranked: &Ranked) -> (Vec<u8>, Vec<u8>) {
+    fn pictures(&self, ranked: &Ranked) -> (Vec<Word>, Vec<Word>) {
+        // The next outline is drawn over the matcher's own.
         let mut input = self.canonical.clone();
         if ranked.located.fine.reversed {
             reverse(&self.canonical, &mut input);
         }
-        let input = input.iter().flat_map(|word| word.to_le_bytes()).collect();
         let library = self.library.borrow_dependent();
         let mut view = vec![0; self.canonical.len()];
         library.draw(ranked.located.view, &mut view);
-        (
-            input,
-            view.iter().flat_map(|word| word.to_le_bytes()).collect(),
-        )
+        (input, view)
     }
 
     /// The same with how sure the pose is.

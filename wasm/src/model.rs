@@ -12,7 +12,8 @@ use web_sys::CanvasRenderingContext2d;
 
 use crate::calibration::camera;
 use crate::error::sentence;
-use crate::paint::{opaque, put};
+use crate::grid::Straightener;
+use crate::paint::{Rgba, opaque, put};
 use crate::pose_numbers::from_numbers;
 use crate::surface::Surface;
 
@@ -27,6 +28,8 @@ pub struct Model {
     /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
     masks: [Vec<Word>; 4],
     border: Box<Contour<BORDER_CORNERS>>,
+    /// The border's columns and rows by turns, for the page to read where they lie.
+    corners: Vec<f64>,
     /// The border encloses all that is drawn and nothing else.
     whole: bool,
 }
@@ -38,13 +41,14 @@ impl Model {
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
     #[wasm_bindgen(constructor)]
-    pub fn new(vertices: &[f32], triangles: &[u32]) -> Result<Model, JsError> {
+    pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Model, JsError> {
         let surface = Surface::new(vertices, triangles)?;
         Ok(Self {
             projected: vec![Projected::default(); scratch_needed(&surface.mesh()?)],
             surface,
             masks: Default::default(),
             border: Box::default(),
+            corners: Vec::new(),
             whole: false,
         })
     }
@@ -56,7 +60,7 @@ impl Model {
     }
 
     /// Draws the silhouette at a pose (x, y, z in mm, z, x, y rotation in degrees) as `calibration` projects it; what is
-    /// drawn stays until the next call, for `paint` and `border`.
+    /// drawn stays until the next call, for `paint` and `followBorder`.
     ///
     /// # Errors
     /// The core's sentence: a bad calibration, or a pose behind the focus.
@@ -95,32 +99,39 @@ impl Model {
         Ok(sides.map(|side| side as u32).to_vec())
     }
 
-    /// The border of the silhouette's largest region, columns and rows by turns, along the cracks between pixels; empty
-    /// when nothing of the model is in the frame.
+    /// Follows the border of the silhouette's largest region along the cracks between pixels. It has no corner when
+    /// nothing of the model is in the frame.
     ///
     /// # Errors
     /// The core's sentence for a border with more corners than the page draws.
-    pub fn border(&mut self, width: u32, height: u32) -> Result<Vec<f64>, JsError> {
-        let (width, height) = (width as usize, height as usize);
+    #[wasm_bindgen(js_name = followBorder)]
+    pub fn follow_border(&mut self, width: u32, height: u32) -> Result<(), JsError> {
+        self.corners.clear();
         self.whole = false;
-        let [drawn, rest, current, largest] = &mut self.masks;
-        let Ok(drawn) = Mask::new(drawn, width, height) else {
-            return Ok(Vec::new());
-        };
-        if drawn.area() == 0 {
-            return Ok(Vec::new());
+        if self.find_border(width as usize, height as usize)? {
+            let points = self.border.iter();
+            let numbers = points.flat_map(|&Point { column, row }| [column, row]);
+            self.corners.extend(numbers);
         }
-        follow_border(&drawn, self.border.as_mut()).map_err(sentence)?;
-        self.whole = bounds_all(&self.border, &drawn);
-        if self.whole {
-            return Ok(self.border_numbers());
-        }
-        let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
-        let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
-        let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
-        largest_region(&drawn, &mut rest, &mut current, &mut largest);
-        follow_border(&largest.as_mask(), self.border.as_mut()).map_err(sentence)?;
-        Ok(self.border_numbers())
+        Ok(())
+    }
+
+    /// Moves the corners of the border to where they lie on a frame as it was taken.
+    #[wasm_bindgen(js_name = bendBorder)]
+    pub fn bend_border(&mut self, straightener: &Straightener) {
+        straightener.bend(&mut self.corners);
+    }
+
+    /// Where columns and rows of the border's corners, by turns, begin in the module's memory, bytes.
+    #[wasm_bindgen(getter, js_name = borderAddress)]
+    pub fn border_address(&self) -> usize {
+        self.corners.as_ptr() as usize
+    }
+
+    /// How many columns and rows there are.
+    #[wasm_bindgen(getter, js_name = borderLength)]
+    pub fn border_length(&self) -> usize {
+        self.corners.len()
     }
 
     /// Does the last border enclose all that is drawn and nothing else? Then to fill it is to paint the silhouette.
@@ -131,11 +142,26 @@ impl Model {
 }
 
 impl Model {
-    fn border_numbers(&self) -> Vec<f64> {
-        let points = self.border.iter();
-        points
-            .flat_map(|&Point { column, row }| [column, row])
-            .collect()
+    /// Whether there is a border.
+    fn find_border(&mut self, width: usize, height: usize) -> Result<bool, JsError> {
+        let [drawn, rest, current, largest] = &mut self.masks;
+        let Ok(drawn) = Mask::new(drawn, width, height) else {
+            return Ok(false);
+        };
+        if drawn.area() == 0 {
+            return Ok(false);
+        }
+        follow_border(&drawn, self.border.as_mut()).map_err(sentence)?;
+        self.whole = bounds_all(&self.border, &drawn);
+        if self.whole {
+            return Ok(true);
+        }
+        let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
+        let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
+        let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
+        largest_region(&drawn, &mut rest, &mut current, &mut largest);
+        follow_border(&largest.as_mask(), self.border.as_mut()).map_err(sentence)?;
+        Ok(true)
     }
 
     fn render(&mut self, camera: &Camera, pose: &Pose) -> Result<(), JsError> {
@@ -152,7 +178,7 @@ impl Model {
 
 /// The smallest box round the mask's pixels: its first column and row, its width, and its pixels, transparent where the
 /// mask is not set. Nothing for an empty mask.
-fn cut_out(mask: &Mask<'_>, colour: u32) -> Option<(usize, usize, usize, Vec<u32>)> {
+fn cut_out(mask: &Mask<'_>, colour: Rgba) -> Option<(usize, usize, usize, Vec<Rgba>)> {
     let rows = 0..mask.height();
     let runs = || {
         rows.clone()
@@ -163,7 +189,7 @@ fn cut_out(mask: &Mask<'_>, colour: u32) -> Option<(usize, usize, usize, Vec<u32
     let top = runs().next()?.0;
     let bottom = runs().last()?.0;
     let width = right - left;
-    let mut rgba = vec![0; width * (bottom - top + 1)];
+    let mut rgba = vec![Rgba::default(); width * (bottom - top + 1)];
     for (row, run) in runs() {
         let start = (row - top) * width;
         rgba[start + run.start - left..start + run.end - left].fill(colour);
@@ -196,13 +222,10 @@ mod tests {
             .flat_map(|[x, y, z]| corners.map(|[right, up]| [right + x, up + y, *z]).concat());
         let triangles = (0..offsets.len() as u32)
             .flat_map(|plate| [0, 1, 2, 0, 2, 3].map(|corner| 4 * plate + corner));
-        Model::new(
-            &vertices.collect::<Vec<_>>(),
-            &triangles.collect::<Vec<_>>(),
-        )
-        .unwrap()
+        Model::new(vertices.collect(), triangles.collect()).unwrap()
     }
 
+    const RED: Rgba = [255, 0, 0, 255];
     const CALIBRATION: &str = "JT_INTCALIB\n1000\n0\n0\n1\n";
 
     #[test]
@@ -215,9 +238,38 @@ mod tests {
         ] {
             let mut model = plates(offsets);
             model.project(CALIBRATION, 256, 256, &pose).unwrap();
-            assert!(!model.border(256, 256).unwrap().is_empty());
+            model.follow_border(256, 256).unwrap();
+            assert!(model.border_length() > 0);
             assert_eq!(model.border_is_whole(), whole, "{offsets:?}");
         }
+    }
+
+    /// Bends what lies off the middle of a frame of 256 x 256 outwards.
+    #[cfg(feature = "workers")]
+    fn pin_cushion() -> Straightener {
+        let beads = (0..11 * 11).flat_map(|bead| {
+            let place = [bead % 11, bead / 11].map(|at| f64::from(at - 5));
+            let stretch = 22.0 * (1.0 + 0.001 * (place[0].powi(2) + place[1].powi(2)));
+            let [column, row] = place.map(|at| 128.0 + stretch * at);
+            [column, row, place[0], place[1]]
+        });
+        let fit = crate::fit_distortion(&beads.collect::<Vec<_>>(), 256, 256).unwrap();
+        Straightener::new(&fit.numbers()).unwrap()
+    }
+
+    #[cfg(feature = "workers")]
+    #[test]
+    fn a_border_is_bent_where_it_lies_as_any_points_are() {
+        let mut model = plates(&[[0.0; 3]]);
+        let pose = [10.0, 0.0, -200.0, 0.0, 0.0, 0.0];
+        model.project(CALIBRATION, 256, 256, &pose).unwrap();
+        model.follow_border(256, 256).unwrap();
+        let (straight, address) = (model.corners.clone(), model.border_address());
+        model.bend_border(&pin_cushion());
+        assert_eq!(model.border_address(), address);
+        assert_eq!(model.corners, pin_cushion().bent(straight.clone()));
+        let mut moved = model.corners.iter().zip(&straight);
+        assert!(moved.any(|(bent, straight)| bent - straight > 1.0));
     }
 
     #[test]
@@ -226,15 +278,15 @@ mod tests {
         let mut mask = MaskMut::new(&mut words, 100, 8).unwrap();
         mask.set(70, 2, true);
         mask.set(72, 5, true);
-        let (column, row, width, rgba) = cut_out(&mask.as_mask(), 7).unwrap();
+        let (column, row, width, rgba) = cut_out(&mask.as_mask(), RED).unwrap();
         assert_eq!((column, row, width, rgba.len()), (70, 2, 3, 12));
-        assert_eq!((rgba[0], rgba[11]), (7, 7));
-        assert_eq!(rgba.iter().filter(|&&word| word == 7).count(), 2);
+        assert_eq!((rgba[0], rgba[11]), (RED, RED));
+        assert_eq!(rgba.iter().filter(|&&pixel| pixel == RED).count(), 2);
     }
 
     #[test]
     fn an_empty_mask_has_no_cut_out() {
         let words = vec![0; words_needed(10, 10)];
-        assert!(cut_out(&Mask::new(&words, 10, 10).unwrap(), 7).is_none());
+        assert!(cut_out(&Mask::new(&words, 10, 10).unwrap(), RED).is_none());
     }
 }

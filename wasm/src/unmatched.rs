@@ -3,7 +3,7 @@
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
-use crate::paint::{opaque, put};
+use crate::paint::{Rgba, opaque, put};
 
 /// Outside both silhouettes, inside both, and where they differ: black on light, as in the source's figures.
 const OUTSIDE: u32 = 0xF4_F4F1;
@@ -24,7 +24,7 @@ pub fn paint_unmatched(
     put(context, &compared(input, view), size as usize, 0, 0)
 }
 
-fn compared(input: &[u8], view: &[u8]) -> Vec<u32> {
+fn compared(input: &[u8], view: &[u8]) -> Vec<Rgba> {
     let [outside, inside, differs] = [OUTSIDE, INSIDE, DIFFERS].map(opaque);
     let pairs = input.iter().zip(view);
     let shade = |a: u8, b: u8, bit: usize| match (a >> bit & 1, b >> bit & 1) {
@@ -33,7 +33,7 @@ fn compared(input: &[u8], view: &[u8]) -> Vec<u32> {
         _ => differs,
     };
     pairs
-        .flat_map(|(&a, &b)| (0..8).map(move |bit| shade(a, b, bit)))
+        .flat_map(|(&a, &b)| std::array::from_fn::<_, 8, _>(|bit| shade(a, b, bit)))
         .collect()
 }
 

@@ -10,11 +10,11 @@ use crate::frame::checked_area;
 ///
 /// # Errors
 /// [`DecodeError`] when the number of pixels is not that of the size, or the size is beyond the [limits](crate::limits).
-pub fn encode_mask(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, DecodeError> {
+pub fn encode_mask(inside: Vec<u8>, width: u32, height: u32) -> Result<Vec<u8>, DecodeError> {
     encode(inside, width, height).map_err(|problem| problem.of("mask"))
 }
 
-fn encode(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Problem> {
+fn encode(mut inside: Vec<u8>, width: u32, height: u32) -> Result<Vec<u8>, Problem> {
     let area = checked_area(width.into(), height.into())?;
     if inside.len() != area {
         return Err(Problem::damaged(
@@ -22,17 +22,16 @@ fn encode(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Problem> {
             format!("it has {} pixels for {width} x {height}", inside.len()),
         ));
     }
-    let pixels: Vec<u8> = inside
-        .iter()
-        .map(|&p| if p == 0 { 0 } else { 255 })
-        .collect();
+    for pixel in &mut inside {
+        *pixel = if *pixel == 0 { 0 } else { 255 };
+    }
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, height);
     encoder.set_color(ColorType::Grayscale);
     encoder.set_depth(BitDepth::Eight);
     let failed = |error: png::EncodingError| Problem::damaged("PNG", error.to_string());
     let mut writer = encoder.write_header().map_err(failed)?;
-    writer.write_image_data(&pixels).map_err(failed)?;
+    writer.write_image_data(&inside).map_err(failed)?;
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
@@ -46,7 +45,7 @@ mod tests {
     #[test]
     fn a_written_mask_is_read_back() {
         let inside: Vec<u8> = (0..37 * 11).map(|at| u8::from(at % 3 == 0) * 7).collect();
-        let bytes = encode_mask(&inside, 37, 11).unwrap();
+        let bytes = encode_mask(inside.clone(), 37, 11).unwrap();
         let again = decode_mask(&bytes, "m.png").unwrap();
         assert_eq!((again.width, again.height), (37, 11));
         assert!(
@@ -60,7 +59,7 @@ mod tests {
 
     #[test]
     fn too_few_pixels_are_refused() {
-        let sentence = encode_mask(&[1, 0, 1], 2, 2).unwrap_err().to_string();
+        let sentence = encode_mask(vec![1, 0, 1], 2, 2).unwrap_err().to_string();
         assert!(sentence.contains("3 pixels for 2 x 2"), "{sentence}");
     }
 }

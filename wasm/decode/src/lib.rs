@@ -29,4 +29,4 @@ pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
 pub use mask::{MaskImage, MaskRule, decode_mask, decode_mask_by, mask_of};
 pub use model::{Model, decode_model};
-pub use sniff::{Kind, sniff};
+pub use sniff::{Kind, SNIFFED, sniff, sniff_head};

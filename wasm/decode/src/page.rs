@@ -1,4 +1,4 @@
-//! What a page's worker calls. Errors arrive as a JavaScript `Error` whose message is the sentence.
+//! What a page's worker calls. Files are moved in once and what is decoded moved out once. Errors arrive as a JavaScript `Error` whose message is the sentence.
 
 use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
 use wasm_bindgen::prelude::*;
@@ -9,11 +9,12 @@ fn thrown(error: DecodeError) -> Error {
     Error::new(&error.to_string())
 }
 
-/// Tells what a file is: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
+/// Tells what a file is by its beginning ([`SNIFFED`](crate::SNIFFED) bytes, or all of a shorter one) and its length in
+/// bytes: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
 /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `video`, `unknown`.
 #[wasm_bindgen]
-pub fn sniff(bytes: &[u8], name: &str) -> String {
-    crate::sniff(bytes, name).word().to_owned()
+pub fn sniff(head: &[u8], length: usize, name: &str) -> String {
+    crate::sniff_head(head, length, name).word().to_owned()
 }
 
 /// A file of frames, kept in the module's memory until it is freed.
@@ -180,7 +181,7 @@ impl PageFrame {
 /// # Errors
 /// Throws if the number of pixels is not that of the size.
 #[wasm_bindgen(js_name = encodeMask)]
-pub fn page_encode_mask(inside: &[u8], width: u32, height: u32) -> Result<Vec<u8>, Error> {
+pub fn page_encode_mask(inside: Vec<u8>, width: u32, height: u32) -> Result<Vec<u8>, Error> {
     crate::encode_mask(inside, width, height).map_err(thrown)
 }
 
@@ -214,7 +215,7 @@ impl PageModel {
 /// # Errors
 /// Throws if the file is not a model or is damaged.
 #[wasm_bindgen]
-pub fn decode_model(bytes: &[u8], name: &str) -> Result<PageModel, Error> {
+pub fn decode_model(bytes: Vec<u8>, name: &str) -> Result<PageModel, Error> {
     crate::decode_model(bytes, name)
         .map(PageModel)
         .map_err(thrown)

@@ -68,6 +68,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<GreyFrame, Problem> {
             let wide = samples.as_chunks::<2>().0.iter().copied();
             Pixels::U16(grey_from_u16(wide.map(u16::from_be_bytes), channels))
         }
+        _ if channels == 1 => Pixels::U8(samples),
         _ => Pixels::U8(grey_from_u8(&samples, channels)),
     };
     Ok(GreyFrame::plain(width, height, pixels))

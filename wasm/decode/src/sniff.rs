@@ -96,8 +96,8 @@ impl Kind {
     }
 }
 
-/// How much of a text is looked at.
-const TEXT_BYTES: usize = 64 << 10;
+/// How much of the beginning of a file is looked at, bytes.
+pub const SNIFFED: usize = 64 << 10;
 
 /// Any of these stands near the beginning of a COCO file, in whatever order it lists its parts.
 const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""];
@@ -123,13 +123,19 @@ const SIGNATURES: [(&[u8], Kind); 13] = [
 /// is cut too short to tell, so that the person is told what is wrong with the file rather than that it is
 /// unknown.
 pub fn sniff(bytes: &[u8], name: &str) -> Kind {
-    by_content(bytes).unwrap_or_else(|| match bytes.is_empty() {
+    sniff_head(&bytes[..bytes.len().min(SNIFFED)], bytes.len(), name)
+}
+
+/// The same from the first [`SNIFFED`] bytes of a file of `length` bytes, or all of a shorter one: the rest need not be
+/// moved to where it is told.
+pub fn sniff_head(head: &[u8], length: usize, name: &str) -> Kind {
+    by_content(head, length).unwrap_or_else(|| match head.is_empty() {
         true => Kind::Unknown,
         false => by_name(name),
     })
 }
 
-fn by_content(bytes: &[u8]) -> Option<Kind> {
+fn by_content(bytes: &[u8], length: usize) -> Option<Kind> {
     let signed = SIGNATURES
         .iter()
         .find(|(signature, _)| bytes.starts_with(signature));
@@ -142,7 +148,7 @@ fn by_content(bytes: &[u8]) -> Option<Kind> {
     if is_video(bytes) {
         return Some(Kind::Video);
     }
-    if stl::is_binary(bytes) {
+    if stl::is_binary(bytes, length) {
         return Some(Kind::Stl);
     }
     text_kind(bytes)
@@ -164,8 +170,8 @@ fn is_video(bytes: &[u8]) -> bool {
 }
 
 fn text_kind(bytes: &[u8]) -> Option<Kind> {
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(TEXT_BYTES)]);
-    let text = head.trim_start_matches('\u{FEFF}').trim_start();
+    let text = String::from_utf8_lossy(bytes);
+    let text = text.trim_start_matches('\u{FEFF}').trim_start();
     let first = text.lines().next().unwrap_or_default().trim();
     if text.starts_with("JT_EULER_312") {
         Some(Kind::Jts)

@@ -20,7 +20,7 @@ pub struct LiveWire {
     height: usize,
     builder: CostBuilder,
     /// Nothing once the edges are worked out.
-    film: Option<Preparing>,
+    preparing: Option<Preparing>,
     edges: Vec<Edge>,
     nodes: Vec<Node>,
     waiting: Vec<Waiting>,
@@ -34,7 +34,7 @@ pub struct LiveWire {
 
 /// What is needed until the edges are worked out.
 struct Preparing {
-    pixels: Pixels,
+    film: Film,
     fine: Vec<u16>,
     coarse: Vec<u16>,
     magnitude: Vec<u16>,
@@ -43,7 +43,7 @@ struct Preparing {
 #[wasm_bindgen]
 impl LiveWire {
     /// Takes a film on which the implant is dark or else bright, and memory: some 22 bytes a pixel, of which the page uses
-    /// a part, and 8 more until all is prepared.
+    /// a part, and 6 more until all is prepared.
     #[wasm_bindgen(constructor)]
     #[must_use]
     pub fn new(film: &Film, dark_inside: bool) -> Self {
@@ -53,8 +53,8 @@ impl LiveWire {
             width,
             height,
             builder: CostBuilder::new(width, height, inside_of(dark_inside)),
-            film: Some(Preparing {
-                pixels: film.pixels().clone(),
+            preparing: Some(Preparing {
+                film: film.shared(),
                 fine: vec![0; count],
                 coarse: vec![0; count],
                 magnitude: vec![0; count],
@@ -75,17 +75,17 @@ impl LiveWire {
     /// # Errors
     /// The core's sentence about the film.
     pub fn prepare(&mut self, rows: u32) -> Result<bool, JsError> {
-        let Some(film) = &mut self.film else {
+        let Some(preparing) = &mut self.preparing else {
             return Ok(true);
         };
         let mut memory = CostMemory {
-            fine: &mut film.fine,
-            coarse: &mut film.coarse,
-            magnitude: &mut film.magnitude,
+            fine: &mut preparing.fine,
+            coarse: &mut preparing.coarse,
+            magnitude: &mut preparing.magnitude,
             edges: &mut self.edges,
         };
         let (width, height, rows) = (self.width, self.height, rows as usize);
-        let done = match &film.pixels {
+        let done = match preparing.film.pixels() {
             Pixels::Eight(pixels) => {
                 let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
                 self.builder.step(&frame, &mut memory, rows)
@@ -96,9 +96,9 @@ impl LiveWire {
             }
         };
         if done.map_err(sentence)? {
-            self.film = None;
+            self.preparing = None;
         }
-        Ok(self.film.is_none())
+        Ok(self.preparing.is_none())
     }
 
     /// Column and row of the middle of the strongest pixel of an edge within a radius, or the point itself where there is
@@ -119,7 +119,7 @@ impl LiveWire {
     /// # Errors
     /// A sentence where the film's edges are not worked out yet.
     pub fn seed(&mut self, column: f64, row: f64, side: i32) -> Result<(), JsError> {
-        if self.film.is_some() {
+        if self.preparing.is_some() {
             return Err(sentence(fluoropose::aids::AidError::NotPrepared));
         }
         let costs = Costs::new(&self.edges, self.width, self.height).map_err(sentence)?;

@@ -10,6 +10,7 @@ use fluoropose::matching::Scores;
 use fluoropose::partial::known_share;
 use fluoropose::pose::EulerPose;
 use fluoropose::silhouette::Silhouette;
+use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 
 use super::{MINIMA, Matcher};
@@ -36,8 +37,8 @@ impl Landscape {
 
     /// Unmatched canonical pixels of each view, in view order: x rotations run fastest.
     #[wasm_bindgen(getter)]
-    pub fn scores(&self) -> Vec<u32> {
-        self.scores.clone()
+    pub fn scores(&self) -> Uint32Array {
+        Uint32Array::from(&self.scores[..])
     }
 
     /// Local minima, best first: x and y rotation between the views (degrees) and unmatched pixels.

@@ -27,7 +27,7 @@ use crate::calibration::camera;
 use crate::choice::{Chosen, Surroundings};
 use crate::error::sentence;
 use crate::exchange::simplified;
-use crate::film::{Film, Pixels};
+use crate::film::Film;
 use crate::found::{Candidate, Match, deviation_numbers};
 use crate::pose_numbers::to_numbers;
 use answer::told;
@@ -49,16 +49,6 @@ fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
             "A click is 2 numbers and a box is 4, but {} were given",
             numbers.len()
         ))),
-    }
-}
-
-/// The same film once more: the page's own may be closed while the work goes on.
-fn copy(film: &Film) -> Result<Film, JsError> {
-    let (width, height) = film.size();
-    let (width, height) = (width as u32, height as u32);
-    match film.pixels() {
-        Pixels::Eight(pixels) => Film::from_eight_bit(pixels.clone(), width, height),
-        Pixels::Sixteen(pixels) => Film::from_sixteen_bit(pixels.clone(), width, height),
     }
 }
 
@@ -131,7 +121,7 @@ impl OneClick {
     ) -> Result<OneClick, JsError> {
         let (width, height) = film.size();
         Ok(Self {
-            film: copy(film)?,
+            film: film.shared(),
             camera: camera(calibration, width as u32, height as u32)?,
             polarity: if bright_implant {
                 Polarity::BrightImplant

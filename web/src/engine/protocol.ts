@@ -105,7 +105,8 @@ export interface LibraryFacts {
 export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'video' | 'unknown';
 
 export interface DecodeProtocol {
-  sniff: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: FileKind; progress: never };
+  /** By the file's beginning and its length, bytes. */
+  sniff: { input: { head: Uint8Array<ArrayBuffer>; length: number; name: string }; output: FileKind; progress: never };
   /** Frames arrive one by one as progress. */
   frames: {
     input: { bytes: Uint8Array<ArrayBuffer>; name: string };

@@ -1,4 +1,4 @@
-import { Straightener, type Film } from '../pkg/page/fluoropose_wasm.js';
+import { Straightener, type Film, type Model } from '../pkg/page/fluoropose_wasm.js';
 import { distortionKey, fits, numbersOf, type Distortion, type MovePoints } from '../document/distortion';
 
 /** Corrections at work on the page's own thread: for points, and for films that are shown straight. */
@@ -72,8 +72,8 @@ export class Bender {
     this.#straightener = new Straightener(numbers);
   }
 
-  border(corners: Float64Array): Float64Array {
-    return this.#straightener.bent(corners);
+  border(model: Model): void {
+    model.bendBorder(this.#straightener);
   }
 
   /** Moves what was painted, pixel by pixel. */

@@ -20,8 +20,10 @@ import type { Size } from '../geometry/viewport';
 import type { Motion } from '../document/motion';
 import { poseArray, poseFrom } from './pose_array';
 import { paintLook, type Look } from './film_looks';
+import type { FilmPixels } from './hand_protocol';
 import type { Bend, CalibrationFacts, CameraInput, DecodedFrame, ModelMesh, Picture, StatedGeometry } from './protocol';
 import { Bender, StraightFilms } from './straight_films';
+import { numbersAt } from './wasm_view';
 
 /** Grey values of a frame, and the window to begin with. */
 export interface FilmFacts {
@@ -50,7 +52,7 @@ export interface Box extends Size {
 }
 
 interface PaintedSilhouette {
-  /** Columns and rows of its corners by turns. */
+  /** Columns and rows of its corners by turns, in WASM memory: to be read before the studio is asked for anything else. */
   readonly border: Float64Array;
   /** What was painted on a canvas of the frame's size; null where to fill the border is the same. */
   readonly box: Box | null;
@@ -61,15 +63,20 @@ interface PaintedSilhouette {
  * worker's work.
  */
 export class Studio {
+  readonly #memory: WebAssembly.Memory;
   readonly #films = new Map<string, HeldFilm>();
   readonly #straight = new StraightFilms();
   #bender: Bender | null = null;
   /** By the file's SHA-256: undo may go back to an earlier one. */
   readonly #models = new Map<string, HeldModel>();
 
+  private constructor(memory: WebAssembly.Memory) {
+    this.#memory = memory;
+  }
+
   static async open(): Promise<Studio> {
-    await init({ module_or_path: wasmAddress });
-    return new Studio();
+    const { memory } = await init({ module_or_path: wasmAddress });
+    return new Studio(memory);
   }
 
   // --- Frames -------------------------------------------------------------------------------------------------
@@ -124,12 +131,12 @@ export class Studio {
   }
 
   /** A copy of a frame's grey values, for a worker. */
-  filmPixels(id: string): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+  filmPixels(id: string): FilmPixels['pixels'] | null {
     return pixelsOf(this.#shown(id));
   }
 
   /** The same of the frame as it was taken, whether it is shown straight or not. */
-  takenPixels(id: string): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
+  takenPixels(id: string): FilmPixels['pixels'] | null {
     return pixelsOf(this.#films.get(id)?.film ?? null);
   }
 
@@ -163,16 +170,11 @@ export class Studio {
     if (!model) return null;
     const { text, width, height, bend } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));
-    const straight = model.border(width, height);
-    const bender = bend && this.#benderOf(bend);
-    const border = bender ? bender.border(straight) : straight;
-    if (model.borderIsWhole) return { border, box: null };
-    const canvas = context();
-    canvas.clearRect(0, 0, width, height);
-    const [left = 0, top = 0, across = 0, down = 0] = model.paint(canvas, width, height, rgb);
-    if (!bender) return { border, box: { left, top, width: across, height: down } };
-    bender.picture(canvas, width, height);
-    return { border, box: { left: 0, top: 0, width, height } };
+    model.followBorder(width, height);
+    const bender = bend ? this.#benderOf(bend) : null;
+    bender?.border(model);
+    const box = model.borderIsWhole ? null : paintPicture(model, context(), camera, rgb, bender);
+    return { border: numbersAt(this.#memory, model.borderAddress, model.borderLength), box };
   }
 
   #benderOf({ key, numbers }: Bend): Bender {
@@ -259,8 +261,17 @@ export class Studio {
   }
 }
 
-function pixelsOf(film: Film | null): Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer> | null {
-  return (film && ((film.eightBit() ?? film.sixteenBit()) as Uint8Array<ArrayBuffer> | undefined)) ?? null;
+/** The part of the canvas that was painted. */
+function paintPicture(model: Model, canvas: CanvasRenderingContext2D, { width, height }: Size, rgb: number, bender: Bender | null): Box {
+  canvas.clearRect(0, 0, width, height);
+  const [left = 0, top = 0, across = 0, down = 0] = model.paint(canvas, width, height, rgb);
+  if (!bender) return { left, top, width: across, height: down };
+  bender.picture(canvas, width, height);
+  return { left: 0, top: 0, width, height };
+}
+
+function pixelsOf(film: Film | null): FilmPixels['pixels'] | null {
+  return film && (film.copyPixels() as FilmPixels['pixels']);
 }
 
 /** At the focus, where nothing can be: other programs of the field read it without complaint. */

@@ -1,8 +1,9 @@
-import { Film, HiddenPixels, type HandFit, type Landscape, type Matcher, type Traced } from '../pkg/core/fluoropose_wasm.js';
+import { HiddenPixels, type HandFit, type Landscape, type Matcher, type Traced } from '../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../document/types';
-import type { FilmPixels, FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../engine/hand_protocol';
+import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../engine/hand_protocol';
 import { poseArray, poseFrom } from '../engine/pose_array';
 import type { MatchInput } from '../engine/protocol';
+import { filmOf } from './film';
 import type { Handlers } from './serve';
 
 /** What the handlers share with those that hold the libraries. */
@@ -60,10 +61,6 @@ function triples(values: Float64Array): [number, number, number][] {
     const [a = 0, b = 0, c = 0] = values.subarray(3 * at, 3 * at + 3);
     return [a, b, c];
   });
-}
-
-function filmOf({ pixels, width, height }: FilmPixels): Film {
-  return pixels instanceof Uint8Array ? Film.fromEightBit(pixels, width, height) : Film.fromSixteenBit(pixels, width, height);
 }
 
 function numbers(values: readonly number[]): Float64Array {

@@ -1,7 +1,7 @@
 import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../pkg/decode/fluoropose_decode.js';
 import wasmAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { DecodedFrame, DecodeProtocol, FileKind, StatedGeometry } from '../engine/protocol';
-import { serve, Transferred, type Context } from './serve';
+import { serve, type Context } from './serve';
 
 /** Image and model files, decoded away from the page. */
 const ready = init({ module_or_path: wasmAddress });
@@ -9,9 +9,9 @@ const ready = init({ module_or_path: wasmAddress });
 type FrameProgress = DecodeProtocol['frames']['progress'];
 
 serve<DecodeProtocol>({
-  sniff: async ({ bytes, name }) => {
+  sniff: async ({ head, length, name }) => {
     await ready;
-    return kindOf(sniff(bytes, name));
+    return kindOf(sniff(head, length, name));
   },
   frames: async ({ bytes, name }, context) => {
     await ready;
@@ -30,7 +30,7 @@ serve<DecodeProtocol>({
     const triangles = model.triangles as Uint32Array<ArrayBuffer>;
     const { notes } = model;
     model.free();
-    return new Transferred({ vertices, triangles, notes }, [vertices.buffer, triangles.buffer]);
+    return { vertices, triangles, notes };
   },
 });
 
@@ -40,7 +40,7 @@ async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Prom
     const raw = file.frame(index);
     const frame = copied(raw);
     raw.free();
-    context.report({ index, total, frame }, [frame.pixels.buffer]);
+    context.report({ index, total, frame });
     await context.breathe();
   }
 }

@@ -2,7 +2,7 @@ import { LibraryBuilder, LibraryViews } from '../pkg/core/fluoropose_wasm.js';
 import type { LibrarySpec } from '../document/types';
 import type { LibraryProtocol } from '../engine/protocol';
 import { loadCore } from './core_module';
-import { serve, Transferred } from './serve';
+import { serve } from './serve';
 
 /** Draws some views of one library, for whoever puts them together. */
 const ready = loadCore();
@@ -18,17 +18,13 @@ serve<LibraryProtocol>({
     builder = new LibraryBuilder(mesh.vertices, mesh.triangles, text, width, height, viewsOf(spec));
     return builder.views;
   },
-  pack: ({ first, count }) => {
-    const part = planned().pack(first, count) as Uint8Array<ArrayBuffer>;
-    return new Transferred(part, [part.buffer]);
-  },
+  pack: ({ first, count }) => planned().pack(first, count) as Uint8Array<ArrayBuffer>,
   assemble: ({ parts }) => {
     const whole = planned();
     for (const part of parts) whole.add(part);
     // It is used up, whether that succeeds or not.
     builder = null;
-    const bytes = whole.finish() as Uint8Array<ArrayBuffer>;
-    return new Transferred(bytes, [bytes.buffer]);
+    return whole.finish() as Uint8Array<ArrayBuffer>;
   },
 });
 

@@ -1,10 +1,11 @@
 import { strToU8, zipSync, type Zippable } from 'fflate';
-import { maskOfOutline, outlineOfMask } from '../pkg/core/fluoropose_wasm.js';
-import initDecode, { encodeMask, FrameFile } from '../pkg/decode/fluoropose_decode.js';
+import { labelsOfMask, maskOfOutline, outlineOfMask, type Film } from '../pkg/core/fluoropose_wasm.js';
+import initDecode, { encodeMask, FrameFile, type DecodedFrame } from '../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { MaskLabel, MaskPage, MasksProtocol } from '../engine/exchange/protocol';
 import { loadCore } from './core_module';
-import { serve, Transferred, type Context } from './serve';
+import { filmOf } from './film';
+import { serve, type Context } from './serve';
 
 /** Masks to outlines and outlines to masks, with both modules: one decodes and encodes, the other follows and fills. */
 const ready = Promise.all([loadCore(), initDecode({ module_or_path: decodeAddress })]);
@@ -17,7 +18,7 @@ const MOST_LABELS = 8;
 serve<MasksProtocol>({
   look: async ({ bytes, name }) => {
     await ready;
-    return withFile(bytes, name, (file) => labelsOf(pageOf(file, 0).pixels)?.length ?? null);
+    return using(new FrameFile(bytes, name), (file) => using(firstPage(file), (page) => labelsOfMask(page, MOST_LABELS)?.length ?? null));
   },
   read: async ({ bytes, name, tolerance }, context) => {
     await ready;
@@ -38,8 +39,7 @@ serve<MasksProtocol>({
     }
     files['README.txt'] = strToU8(README);
     // PNG is packed already.
-    const zip = zipSync(files, { level: 0 }) as Uint8Array<ArrayBuffer>;
-    return new Transferred(zip, [zip.buffer]);
+    return zipSync(files, { level: 0 }) as Uint8Array<ArrayBuffer>;
   },
 });
 
@@ -49,62 +49,37 @@ async function readPages(file: FrameFile, name: string, tolerance: number, conte
   const pages: MaskPage[] = [];
   const total = file.count;
   for (let index = 0; index < total; index++) {
-    const { pixels, width, height } = pageOf(file, index);
-    const values = labelsOf(pixels);
     const where = total === 1 ? name : `${name} #${index + 1}`;
-    if (!values) throw new Error(`${where} has more than ${MOST_LABELS} grey values: it is no mask`);
-    const labels = values.map((value) => labelOf(pixels, value, width, height, tolerance));
-    pages.push({ width, height, labels });
+    pages.push(using(file.frame(index), (frame) => readPage(frame, where, tolerance)));
     context.report({ done: index + 1, total });
     await context.breathe();
   }
   return pages;
 }
 
-function labelOf(pixels: Uint16Array, value: number, width: number, height: number, tolerance: number): MaskLabel {
-  const traced = outlineOfMask(pixels, value, width, height, tolerance);
+function readPage(frame: DecodedFrame, where: string, tolerance: number): MaskPage {
+  const { width, height } = frame;
+  return using(filmOf(frame), (page) => {
+    const values = labelsOfMask(page, MOST_LABELS);
+    if (!values) throw new Error(`${where} has more than ${MOST_LABELS} grey values: it is no mask`);
+    return { width, height, labels: Array.from(values, (value) => labelOf(page, value, tolerance)) };
+  });
+}
+
+function labelOf(page: Film, value: number, tolerance: number): MaskLabel {
+  return using(outlineOfMask(page, value, tolerance), ({ points, exact, area, specks, holes, differing }) => {
+    return { value, points: points as Buffered, exact: exact as Buffered, area, specks, holes, differing };
+  });
+}
+
+function firstPage(file: FrameFile): Film {
+  return using(file.frame(0), filmOf);
+}
+
+function using<H extends { free(): void }, T>(held: H, work: (held: H) => T): T {
   try {
-    const { area, specks, holes } = traced;
-    const [points, exact] = [traced.points as Buffered, traced.exact as Buffered];
-    return { value, points, exact, area, specks, holes, differing: difference(exact, points, width, height) };
+    return work(held);
   } finally {
-    traced.free();
-  }
-}
-
-function difference(a: Float64Array, b: Float64Array, width: number, height: number): number {
-  const [one, other] = [maskOfOutline(a, width, height), maskOfOutline(b, width, height)];
-  let count = 0;
-  for (let at = 0; at < one.length; at++) if (one[at] !== other[at]) count++;
-  return count;
-}
-
-/** Grey values besides 0, rising; null where there are too many for a mask, or nothing is 0. */
-function labelsOf(pixels: Uint16Array): number[] | null {
-  const seen = new Set<number>();
-  for (const value of pixels) {
-    if (seen.has(value)) continue;
-    seen.add(value);
-    if (seen.size > MOST_LABELS + 1) return null;
-  }
-  if (!seen.delete(0)) return null;
-  return [...seen].sort((a, b) => a - b);
-}
-
-function pageOf(file: FrameFile, index: number): { pixels: Uint16Array; width: number; height: number } {
-  const frame = file.frame(index);
-  try {
-    return { pixels: Uint16Array.from(frame.pixels as Uint8Array | Uint16Array), width: frame.width, height: frame.height };
-  } finally {
-    frame.free();
-  }
-}
-
-function withFile<T>(bytes: Uint8Array, name: string, work: (file: FrameFile) => T): T {
-  const file = new FrameFile(bytes, name);
-  try {
-    return work(file);
-  } finally {
-    file.free();
+    held.free();
   }
 }

@@ -1,7 +1,8 @@
-import { Film, OneClick, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../pkg/core/fluoropose_wasm.js';
+import { OneClick, type Film, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../document/types';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../engine/one_click_protocol';
 import type { Match, Surroundings } from '../engine/protocol';
+import { filmOf } from './film';
 import type { Context, Handlers } from './serve';
 
 /** What the handler shares with those that hold the libraries. */
@@ -18,8 +19,7 @@ export function oneClick(held: Held): Handlers<OneClickProtocol> {
     oneClick: async (input, context) => {
       await held.ready;
       const matcher = input.withModel ? await held.matcherOf(input.component) : null;
-      const { pixels, width, height } = input.film;
-      const film = pixels instanceof Uint8Array ? Film.fromEightBit(pixels, width, height) : Film.fromSixteenBit(pixels, width, height);
+      const film = filmOf(input.film);
       try {
         return await search(held, input, film, matcher, context);
       } finally {

@@ -1,24 +1,17 @@
+import { buffersIn } from './buffers';
 import type { FromWorker, Method, Protocol, ToWorker } from './messages';
 
 /** What a handler may do besides returning. */
 export interface Context<Progress> {
-  report(progress: Progress, transfer?: Transferable[]): void;
+  report(progress: Progress): void;
   /** Lets messages in; throws when the call was aborted in the meantime. Long work calls it every few milliseconds. */
   breathe(): Promise<void>;
-}
-
-/** Output with the buffers that are handed over instead of copied. */
-export class Transferred<T> {
-  constructor(
-    readonly output: T,
-    readonly transfer: Transferable[],
-  ) {}
 }
 
 type Handler<M extends Method> = (
   input: M['input'],
   context: Context<M['progress']>,
-) => M['output'] | Transferred<M['output']> | Promise<M['output'] | Transferred<M['output']>>;
+) => M['output'] | Promise<M['output']>;
 
 export type Handlers<P extends Protocol<P>> = { readonly [K in keyof P]: Handler<P[K]> };
 
@@ -39,7 +32,7 @@ async function answer(
 ): Promise<void> {
   const { id, method, input } = call;
   const context: Context<unknown> = {
-    report: (progress, transfer) => send({ type: 'progress', id, progress }, transfer),
+    report: (progress) => send({ type: 'progress', id, progress }),
     breathe: async () => {
       await nextMessage();
       if (aborted.has(id)) throw new Error('aborted');
@@ -48,9 +41,7 @@ async function answer(
   try {
     const handler = handlers[method];
     if (!handler) throw new Error(`this worker has no method "${method}"`);
-    const result = await handler(input, context);
-    if (result instanceof Transferred) send({ type: 'done', id, output: result.output }, result.transfer);
-    else send({ type: 'done', id, output: result });
+    send({ type: 'done', id, output: await handler(input, context) });
   } catch (error) {
     if (error instanceof WebAssembly.RuntimeError) return crash(error);
     send({ type: 'failed', id, sentence: error instanceof Error ? error.message : String(error) });
@@ -66,8 +57,9 @@ function crash(error: Error): void {
   });
 }
 
-function send(message: FromWorker, transfer: Transferable[] = []): void {
-  self.postMessage(message, { transfer });
+/** What a worker answers it has made for that: buffers are handed over, not copied. */
+function send(message: FromWorker): void {
+  self.postMessage(message, { transfer: buffersIn(message) });
 }
 
 /** Unlike a timer, a message to oneself is not slowed down when nested. */

@@ -8,6 +8,7 @@ mod obj;
 mod ply;
 pub(crate) mod stl;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use crate::error::{DecodeError, Problem};
@@ -36,22 +37,22 @@ pub(crate) struct Raw {
 
 /// Decodes an STL (binary or ASCII), OBJ or PLY (ASCII or binary) model.
 ///
-/// `bytes` is the whole file; `name` is used in errors, and its extension only where the content alone does not
+/// `bytes` is the whole file, borrowed or owned; `name` is used in errors, and its extension only where the content alone does not
 /// tell the format.
 ///
 /// # Errors
 /// [`DecodeError`] if the file is not a model, is damaged, has no triangle with three different corners, names a
 /// vertex that is not there, has a coordinate that is not finite, or is larger than the
 /// [limits](crate::limits).
-pub fn decode_model(bytes: &[u8], name: &str) -> Result<Model, DecodeError> {
-    decode(bytes, name).map_err(|problem| problem.of(name))
+pub fn decode_model<'a>(bytes: impl Into<Cow<'a, [u8]>>, name: &str) -> Result<Model, DecodeError> {
+    decode(bytes.into(), name).map_err(|problem| problem.of(name))
 }
 
-fn decode(bytes: &[u8], name: &str) -> Result<Model, Problem> {
-    let raw = match sniff(bytes, name) {
+fn decode(bytes: Cow<'_, [u8]>, name: &str) -> Result<Model, Problem> {
+    let raw = match sniff(&bytes, name) {
         Kind::Stl => stl::read(bytes)?,
-        Kind::Obj => obj::read(bytes)?,
-        Kind::Ply => ply::read(bytes)?,
+        Kind::Obj => obj::read(&bytes)?,
+        Kind::Ply => ply::read(&bytes)?,
         _ if bytes.is_empty() => return Err(Problem::Empty),
         other => {
             return Err(Problem::NotAModel {

@@ -7,6 +7,7 @@
 //! fewer bytes than a triangle takes. Anything else may be triangles that the header does not count, and a model with a
 //! part missing gives a wrong pose: that is refused.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 
 use stl_io::{Triangle, create_stl_reader};
@@ -25,9 +26,9 @@ fn stated_triangles(bytes: &[u8]) -> Option<u32> {
     Some(u32::from_le_bytes(field.try_into().ok()?))
 }
 
-/// Whether the length is exactly that of a binary file of the stated number of triangles.
-pub(crate) fn is_binary(bytes: &[u8]) -> bool {
-    stated_triangles(bytes).is_some_and(|count| binary_length(count) == bytes.len() as u64)
+/// Whether a file of `length` bytes that begins so has exactly the length of a binary one of the stated number of triangles.
+pub(crate) fn is_binary(head: &[u8], length: usize) -> bool {
+    stated_triangles(head).is_some_and(|count| binary_length(count) == length as u64)
 }
 
 /// Whether the content reads like the ASCII form: the word `solid`, then text with `facet` or `endsolid`.
@@ -42,9 +43,9 @@ fn binary_length(triangles: u32) -> u64 {
 }
 
 /// Reads the triangles.
-pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
-    match is_ascii(bytes) && !is_binary(bytes) {
-        true => read_ascii(bytes),
+pub(super) fn read(bytes: Cow<'_, [u8]>) -> Result<Raw, Problem> {
+    match is_ascii(&bytes) && !is_binary(&bytes, bytes.len()) {
+        true => read_ascii(&bytes),
         false => read_binary(bytes),
     }
 }
@@ -57,16 +58,17 @@ fn is_filling(rest: &[u8]) -> bool {
             .all(|byte| matches!(byte, 0 | b' ' | b'\r' | b'\n'))
 }
 
-fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
-    let count = stated_triangles(bytes)
+fn read_binary(bytes: Cow<'_, [u8]>) -> Result<Raw, Problem> {
+    let count = stated_triangles(&bytes)
         .ok_or_else(|| Problem::damaged(FORMAT, "it is shorter than its header"))?;
     check_triangles(count as usize)?;
     let needed = binary_length(count);
     let counted = usize::try_from(needed)
         .ok()
         .and_then(|needed| bytes.split_at_checked(needed));
-    let Some((counted, rest)) =
-        counted.filter(|(_, rest)| count > 0 && is_filling(rest) || rest.is_empty())
+    let Some((counted, rest)) = counted
+        .filter(|(_, rest)| count > 0 && is_filling(rest) || rest.is_empty())
+        .map(|(counted, rest)| (counted.len(), rest.len()))
     else {
         let found = bytes.len();
         return Err(Problem::damaged(
@@ -77,14 +79,14 @@ fn read_binary(bytes: &[u8]) -> Result<Raw, Problem> {
         ));
     };
     // An empty line as header: the library takes `solid ` there for the ASCII form.
-    let mut content = counted.to_vec();
+    let mut content = bytes.into_owned();
+    content.truncate(counted);
     content[..HEADER].fill(b'\n');
     let mut raw = Raw::default();
     push_solid(content, &mut raw)?;
-    if !rest.is_empty() {
+    if rest > 0 {
         raw.notes.push(format!(
-            "{} bytes after the last of its {count} triangles were left out.",
-            rest.len()
+            "{rest} bytes after the last of its {count} triangles were left out."
         ));
     }
     Ok(raw)

@@ -1,8 +1,15 @@
-use fluoropose_decode::{Kind, sniff};
+use fluoropose_decode::{Kind, sniff, sniff_head};
 
 use crate::samples::dicom::{Builder, EXPLICIT};
 use crate::samples::models::{obj, ply_ascii, ply_little, stl_ascii, stl_binary};
 use crate::samples::{jpeg, png, raw_tiff};
+
+#[test]
+fn the_beginning_and_the_length_tell_as_much_as_the_whole() {
+    let stl = stl_binary("any header");
+    assert_eq!(sniff_head(&stl[..84], stl.len(), ""), Kind::Stl);
+    assert_eq!(sniff_head(&stl[..84], stl.len() + 1, ""), Kind::Unknown);
+}
 
 #[test]
 fn content_decides_whatever_the_name() {

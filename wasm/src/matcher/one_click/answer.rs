@@ -1,5 +1,6 @@
 //! What came of a click or a box, and how sure it is.
 
+use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use crate::found::Match;
@@ -50,8 +51,9 @@ impl OneClickAnswer {
     }
 
     /// Columns and rows by turns: a simple polygon.
-    pub fn outline(&self, index: usize) -> Option<Vec<f64>> {
-        self.outlines.get(index).cloned()
+    pub fn outline(&self, index: usize) -> Option<Float64Array> {
+        let outline = self.outlines.get(index)?;
+        Some(Float64Array::from(&outline[..]))
     }
 
     /// Part of the outline that lies on an edge of the right polarity, 0 to 1; nothing for a region.

@@ -53,6 +53,7 @@ export class OneClick {
     const answer = await asJob(store, job, (report) =>
       this.#worker.call('oneClick', input, {
         signal: running.signal,
+        transfer: [input.film.pixels.buffer],
         onProgress: ({ share }) => report(Math.round(100 * share), 100),
       }),
     );
