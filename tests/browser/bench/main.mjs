@@ -3,6 +3,7 @@ import { writeFile } from 'node:fs/promises';
 import { argv } from 'node:process';
 import { browser, openWindow, visit } from '../support/browser.mjs';
 import { dragging, wiring } from './interaction.mjs';
+import { libraries } from './libraries.mjs';
 import { firstLoad, warmStart } from './loading.mjs';
 import { newUser } from './new_user.mjs';
 import { speed } from './speed.mjs';
@@ -14,7 +15,7 @@ if (!file) throw new Error('the file to write is not named: run `cargo xtask ben
 
 /** @type {Row[]} */
 const rows = [];
-for (const measurement of [firstLoad, warmStart, newUser, dragging, wiring]) rows.push(...(await measured(measurement)));
+for (const measurement of [firstLoad, warmStart, libraries, newUser, dragging, wiring]) rows.push(...(await measured(measurement)));
 rows.push(...(await speed()));
 await writeFile(file, JSON.stringify({ rows: rows.map(rounded) }));
 await (await browser()).close();

@@ -143,11 +143,14 @@ export async function waitForFrames(page, count) {
   await page.getByRole('application', { name: new RegExp(`frame \\d+ of ${count}\\b`) }).waitFor();
 }
 
+/** @param {Page} page @param {'Femur' | 'Tibia'} component */
+export function waitForLibrary(page, component) {
+  return page.getByRole('button', { name: new RegExp(`^${component}: \\S+$`) }).waitFor();
+}
+
 /** Waits until libraries have been built. @param {Page} page @param {...('Femur' | 'Tibia')} components */
 export async function waitForLibraries(page, ...components) {
-  for (const component of components) {
-    await page.getByRole('button', { name: new RegExp(`^${component}: \\S+$`) }).waitFor();
-  }
+  for (const component of components) await waitForLibrary(page, component);
   await until(() => page.getByRole('progressbar').count(), (count) => count === 0, 'no work to be under way');
 }
 

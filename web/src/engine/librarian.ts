@@ -8,8 +8,13 @@ import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from './workers';
 import { texts } from '../texts';
 
-/** More workers would wait for each other and for memory longer than they draw. */
+/** More workers take longer to start than they save. */
 const MOST_WORKERS = 8;
+
+/** One core is left for the page, unless that were half of all. */
+function workersFor(cores: number): number {
+  return Math.min(cores, Math.max(2, cores - 1), MOST_WORKERS);
+}
 
 /**
  * Sees to it that each component has the library that the document asks for: as soon as model, calibration and frame
@@ -19,7 +24,7 @@ export class Librarian {
   readonly #services: Services;
   readonly #poser: Bridge<PoseProtocol>;
   readonly #running = new Map<ComponentName, AbortController>();
-  readonly #crew = new LibraryCrew(Math.min(navigator.hardwareConcurrency, MOST_WORKERS), libraryWorker);
+  readonly #crew = new LibraryCrew(workersFor(navigator.hardwareConcurrency), libraryWorker);
 
   constructor(services: Services, poser: Bridge<PoseProtocol>) {
     this.#services = services;
