@@ -1,5 +1,7 @@
 //! The file of a library from its views.
 
+use heapless::Vec;
+
 use super::compact::stride;
 use super::open::{library_bytes, view_bytes};
 use super::pack::Packed;
@@ -37,22 +39,17 @@ impl<'p> Assembly<'p> {
             let parts = Packed::split(bytes, &info.canonical).ok_or(BuildError::Packed(view))?;
             runs_bytes += parts.runs.len();
         }
-        let mut assembly = Self {
+        let views = views(packed, info);
+        Ok(Self {
             info: *info,
             packed,
-            ground: Ground::default(),
+            ground: Ground::of(views.map(|view| view.counts)),
             runs_bytes,
-        };
-        assembly.ground = Ground::of(assembly.views().map(|view| view.counts));
-        Ok(assembly)
+        })
     }
 
     fn views(&self) -> impl Iterator<Item = Packed<'p>> {
-        let spec = self.info.canonical;
-        // They were checked.
-        self.packed
-            .iter()
-            .filter_map(move |bytes| Packed::split(bytes, &spec))
+        views(self.packed, &self.info)
     }
 
     /// Bytes of the file: in the compact layout, or in the plain one where that is not larger.
@@ -71,7 +68,7 @@ impl<'p> Assembly<'p> {
 
     /// Before the runs.
     fn head_bytes(&self) -> usize {
-        let moving = self.ground.moving().count();
+        let moving = self.ground.moving.len();
         let view = SHORT_RECORD_BYTES + 4 + stride(moving);
         HEADER_BYTES + self.packed.len() * view + blocks(&self.info.canonical) + 2 * moving
     }
@@ -109,7 +106,7 @@ impl<'p> Assembly<'p> {
         self.views().for_each(|view| runs_of_all.bytes(view.runs));
         let body = Body {
             version: VERSION,
-            blocks: self.ground.moving().count(),
+            blocks: self.ground.moving.len(),
             bytes: (body.len() + runs.len()) as u64,
             crc: checksum([&*body, runs]),
         };
@@ -119,9 +116,8 @@ impl<'p> Assembly<'p> {
 
     /// Records, ends of runs, ground, places and sketches.
     fn write_head(&self, body: &mut [u8]) {
-        let moving = self.ground.moving().count();
-        let (numbers, sketches) =
-            body.split_at_mut(body.len() - self.packed.len() * stride(moving));
+        let sketches_bytes = self.packed.len() * stride(self.ground.moving.len());
+        let (numbers, sketches) = body.split_at_mut(body.len() - sketches_bytes);
         let out = &mut Writer::new(numbers);
         self.views().for_each(|view| out.bytes(view.record));
         let mut end = 0;
@@ -129,53 +125,56 @@ impl<'p> Assembly<'p> {
             end += view.runs.len();
             out.u32(end);
         }
-        let all = blocks(&self.info.canonical);
-        let alike = self.ground.counts.iter().zip(&self.ground.moves).take(all);
-        alike.for_each(|(&count, &moves)| out.bytes(&[if moves { 0 } else { count }]));
-        self.ground.moving().for_each(|block| out.u16(block));
+        out.bytes(&self.ground.alike[..blocks(&self.info.canonical)]);
+        let moving = &self.ground.moving;
+        moving.iter().for_each(|&block| out.u16(block.into()));
         sketches.fill(0);
-        let places = sketches.chunks_exact_mut(stride(moving).max(1));
+        let places = sketches.chunks_exact_mut(stride(moving.len()).max(1));
         for (view, sketch) in self.views().zip(places) {
-            for (to, block) in sketch.iter_mut().zip(self.ground.moving()) {
-                *to = view.counts[block];
+            for (to, &block) in sketch.iter_mut().zip(moving) {
+                *to = view.counts[usize::from(block)];
             }
         }
     }
 }
 
-/// The blocks of all views: where they are alike, and which are not.
-#[derive(Clone, Debug)]
-struct Ground {
-    counts: [u8; MOST_BLOCKS],
-    moves: [bool; MOST_BLOCKS],
+fn views<'p>(
+    packed: &'p [&'p [u8]],
+    info: &LibraryInfo,
+) -> impl Iterator<Item = Packed<'p>> + use<'p> {
+    let spec = info.canonical;
+    // They were checked.
+    let parts = packed.iter();
+    parts.filter_map(move |bytes| Packed::split(bytes, &spec))
 }
 
-impl Default for Ground {
-    fn default() -> Self {
-        Self {
-            counts: [0; MOST_BLOCKS],
-            moves: [false; MOST_BLOCKS],
-        }
-    }
+/// The blocks of all views.
+#[derive(Clone, Debug)]
+struct Ground {
+    /// Where they are alike; 0 elsewhere.
+    alike: [u8; MOST_BLOCKS],
+    /// Numbers of the others, rising.
+    moving: Vec<u16, MOST_BLOCKS>,
 }
 
 impl Ground {
     fn of<'c>(mut views: impl Iterator<Item = &'c [u8]>) -> Self {
-        let mut ground = Self::default();
+        let (mut alike, mut moves) = ([0; MOST_BLOCKS], [false; MOST_BLOCKS]);
         let first = views.next().unwrap_or_default();
-        ground.counts[..first.len()].copy_from_slice(first);
-        for counts in views {
-            let blocks = ground.moves.iter_mut().zip(&ground.counts);
-            for ((moves, first), count) in blocks.zip(counts) {
+        alike[..first.len()].copy_from_slice(first);
+        for view in views {
+            for ((moves, first), count) in moves.iter_mut().zip(&alike).zip(view) {
                 *moves |= first != count;
             }
         }
-        ground
-    }
-
-    fn moving(&self) -> impl Iterator<Item = usize> + '_ {
-        let moves = self.moves.iter().enumerate();
-        moves.filter(|(_, moves)| **moves).map(|(block, _)| block)
+        let moving: Vec<u16, MOST_BLOCKS> = (0..)
+            .zip(moves)
+            .filter_map(|(block, moves)| moves.then_some(block))
+            .collect();
+        for &block in &moving {
+            alike[usize::from(block)] = 0;
+        }
+        Self { alike, moving }
     }
 }
 
