@@ -72,13 +72,9 @@ impl Mask<'_> {
     }
 }
 
-/// Number, sum and sum of squares of the integers from `a` up to and without `b`.
+/// Number, sum and sum of squares of the integers from `a` up to and without `b`: with `m` twice their mean,
+/// `n`, `n m / 2` and `n (3 m^2 + n^2 - 1) / 12`.
 fn run_sums(a: u64, b: u64) -> (u64, u64, u64) {
-    let below = |n: u64| n * n.saturating_sub(1) / 2;
-    let squares_below = |n: u64| n * n.saturating_sub(1) / 2 * (2 * n).saturating_sub(1) / 3;
-    (
-        b - a,
-        below(b) - below(a),
-        squares_below(b) - squares_below(a),
-    )
+    let (n, m) = (b - a, (a + b).saturating_sub(1));
+    (n, n * m / 2, n * (3 * m * m + n * n).saturating_sub(1) / 12)
 }

@@ -217,7 +217,7 @@ mod tests {
             }
             // So many cells that every pixel is read.
             for at in (0..WIDTH * HEIGHT).filter(|_| chequered) {
-                mask.set(at % WIDTH, at / WIDTH, (at % WIDTH + at / WIDTH) % 2 == 0);
+                mask.set(at % WIDTH, at / WIDTH, (at % WIDTH + at / WIDTH).is_multiple_of(2));
             }
             let form = CanonicalForm {
                 area_px: 0,
