@@ -20,9 +20,9 @@ const SLIVER_MM: f64 = 0.01;
 /// A box round the duals of the triangles beside some edges. Made by [`super::link`] alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeBox {
-    /// Of unit normals, and of distances of planes from the model's origin, mm.
-    pub(super) low: [f32; 4],
-    pub(super) high: [f32; 4],
+    /// Of unit normals, and of distances of planes from the model's origin, mm: the middle, and how far they are from it.
+    pub(super) middle: [f32; 4],
+    pub(super) reach: [f32; 4],
     /// Greatest reciprocal of a triangle's least height, 1/mm, and of its doubled area, 1/mm^2.
     pub(super) thin: f32,
     pub(super) small: f32,
@@ -103,11 +103,11 @@ pub(super) fn gather(
     edges.sort_unstable_by_key(|edge| (edge.order, edge.from, edge.to, edge.forth));
     let places = boxes.iter_mut().zip(groups);
     for ((bounds, group), edges) in places.zip(edges.chunks(IN_BOX)) {
-        (*bounds, *group) = (EdgeBox::EMPTY, EdgeGroup::default());
+        *group = EdgeGroup::default();
+        *bounds = EdgeBox::round(edges.iter().flat_map(|edge| Dual::beside(mesh, edge)));
         for (at, edge) in edges.iter().enumerate() {
             group.edges[at] = *edge;
             for (dual, lanes) in Dual::beside(mesh, edge).iter().zip(&mut group.duals) {
-                bounds.hold(dual);
                 for (lane, &x) in lanes.iter_mut().zip(&dual.point) {
                     lane[at] = x as f32;
                 }
@@ -149,20 +149,24 @@ fn spread(bits: u32) -> u32 {
 }
 
 impl EdgeBox {
-    const EMPTY: Self = Self {
-        low: [f32::INFINITY; 4],
-        high: [f32::NEG_INFINITY; 4],
-        thin: 0.0,
-        small: 0.0,
-    };
-
-    /// Grows to hold a triangle.
-    fn hold(&mut self, dual: &Dual) {
-        for ((low, high), &x) in self.low.iter_mut().zip(&mut self.high).zip(&dual.point) {
-            *low = low.min(x as f32);
-            *high = high.max(x as f32);
+    /// The least that holds some triangles.
+    fn round(duals: impl Iterator<Item = Dual>) -> Self {
+        let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
+        let (mut thin, mut small) = (0f32, 0f32);
+        for dual in duals {
+            for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(&dual.point) {
+                *low = low.min(x as f32);
+                *high = high.max(x as f32);
+            }
+            thin = thin.max(dual.thin as f32);
+            small = small.max(dual.small as f32);
         }
-        self.thin = self.thin.max(dual.thin as f32);
-        self.small = self.small.max(dual.small as f32);
+        let middle: [f32; 4] = core::array::from_fn(|k| (low[k] + high[k]) / 2.0);
+        Self {
+            middle,
+            reach: core::array::from_fn(|k| (high[k] - middle[k]).max(middle[k] - low[k])),
+            thin,
+            small,
+        }
     }
 }

@@ -43,6 +43,8 @@ pub(crate) struct Eye<'a> {
     /// the longest side, and beside that.
     per_mm: f64,
     least: f64,
+    /// The same two, and how far planes are from where they seem, mm, in 32 bits.
+    margins: [f32; 3],
     /// Whether it is certain that all vertices have images.
     sees_all: bool,
 }
@@ -70,13 +72,15 @@ impl<'a> Eye<'a> {
         } else {
             (f64::INFINITY, f64::INFINITY)
         };
+        let distance = norm(&place) + norm(&centre) + radius;
         Self {
             vertices: mesh.vertices(),
             place,
             single: place.map(|x| x as f32),
-            distance: norm(&place) + norm(&centre) + radius,
+            distance,
             per_mm,
             least,
+            margins: [per_mm as f32, least as f32, SINGLE * distance as f32],
             // Well inside of what is refused.
             sees_all: in_front && (0..2).all(|k| farthest(k) < 0.99 * MAX_COORDINATE),
         }
@@ -96,8 +100,8 @@ impl<'a> Eye<'a> {
         images: &mut Images<'_>,
         mut visit: impl FnMut([u32; 2]),
     ) {
-        let edge_on = bounds.thin * self.per_mm as f32 + bounds.small * self.least as f32;
-        let margin = edge_on + SINGLE * self.distance as f32;
+        let [per_mm, least, rounding] = self.margins;
+        let margin = bounds.thin * per_mm + bounds.small * least + rounding;
         if self.is_clear(bounds, margin) {
             return;
         }
@@ -128,15 +132,12 @@ impl<'a> Eye<'a> {
 
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.
     fn is_clear(&self, bounds: &EdgeBox, margin: f32) -> bool {
-        let (mut least, mut most) = (-bounds.high[3], -bounds.low[3]);
-        for ((&x, &low), &high) in self.single.iter().zip(&bounds.low).zip(&bounds.high) {
-            let (a, b) = (x * low, x * high);
-            // No number is NaN here, and `min` would look for that.
-            let (less, more) = if a < b { (a, b) } else { (b, a) };
-            least += less;
-            most += more;
+        let (mut from_middle, mut reach) = (-bounds.middle[3], bounds.reach[3] + margin);
+        for (k, x) in self.single.iter().enumerate() {
+            from_middle += x * bounds.middle[k];
+            reach += x.abs() * bounds.reach[k];
         }
-        least > margin || most < -margin
+        from_middle.abs() > reach
     }
 
     /// Of triangles by their duals.

@@ -38,6 +38,8 @@ const DRAWINGS: usize = 5;
 /// The frame of one silhouette, and how far the model is from the focus, mm.
 const SIDE: usize = 256;
 const DISTANCE_MM: f64 = 1080.0;
+/// Libraries built, of which the median counts.
+const BUILDS: usize = 9;
 /// One piece of work, ours and a peer's.
 #[derive(Debug, Serialize)]
 pub(super) struct Row {
@@ -87,7 +89,7 @@ pub(super) fn measure(implants: usize) -> Result<Vec<Row>> {
     }
     let mut rows = bench.searches(&mut peers)?;
     rows.extend(bench.silhouettes(&mut peers)?);
-    let builds = (0..3).map(|_| build_library(mesh, camera, &options, DISTANCE_MM));
+    let builds = (0..BUILDS).map(|_| build_library(mesh, camera, &options, DISTANCE_MM));
     let builds = builds.map(|built| built.map(|built| 1000.0 * built.took.as_secs_f64()));
     let whole = median(builds.collect::<Result<_>>()?);
     rows.push(bench.library_row(&rows, whole));
