@@ -87,9 +87,7 @@ impl<'p> Assembly<'p> {
         write_plain(&self.info, out, |view, bits| {
             let packed = views.next().ok_or(BuildError::Packed(view))?;
             draw_runs(packed.runs, &mut MaskMut::new(words, size, size)?);
-            for (four, word) in bits.chunks_exact_mut(4).zip(&*words) {
-                four.copy_from_slice(&word.to_le_bytes());
-            }
+            write_bits(words, bits);
             let rotations = self.info.grid.rotations(view);
             Ok(read_short_record(
                 &mut Reader::new(packed.record),
@@ -203,6 +201,13 @@ pub(super) fn write_plain(
     };
     write_header(header, info, &body);
     Ok(())
+}
+
+/// Writes the canonical bits of a view as a plain library has them.
+pub(super) fn write_bits(canonical: &[Word], out: &mut [u8]) {
+    for (four, word) in out.chunks_exact_mut(4).zip(canonical) {
+        four.copy_from_slice(&word.to_le_bytes());
+    }
 }
 
 /// The parts of a file of `needed` bytes.

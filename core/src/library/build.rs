@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::assemble::{Assembly, write_plain};
+use super::assemble::{Assembly, write_bits, write_plain};
 use super::open::{check_info, library_bytes};
 use super::pack::{pack, packed_most};
 use super::{Grid, LibraryError, LibraryInfo, ViewRecord};
@@ -238,9 +238,7 @@ impl<'m> Builder<'m> {
     pub fn build(&self, bytes: &mut [u8], scratch: &mut ViewScratch<'_>) -> Result<(), BuildError> {
         write_plain(&self.info, bytes, |view, bits| {
             let record = self.draw_view(view, scratch)?;
-            for (four, word) in bits.chunks_exact_mut(4).zip(&*scratch.canonical) {
-                four.copy_from_slice(&word.to_le_bytes());
-            }
+            write_bits(scratch.canonical, bits);
             Ok(record)
         })
     }
