@@ -8,7 +8,7 @@ import { asJob, sentenceOf, type Services } from './services';
 import { libraryWorker } from './workers';
 import { texts } from '../texts';
 
-/** More workers take longer to start than they save. */
+/** Each has memory of its own, some megabytes; that more than these save time was not tried. */
 const MOST_WORKERS = 8;
 
 /** One core is left for the page, unless that were half of all. */
