@@ -10,8 +10,8 @@ mod sampler;
 
 use thiserror::Error;
 
-use crate::contour::Point;
-use crate::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
+use crate::image::contour::Point;
+use crate::image::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
 use crate::math::{atan2, sqrt};
 use sampler::Sampler;
 
@@ -191,7 +191,7 @@ pub fn reverse(canonical: &[Word], out: &mut [Word]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contour::Outline;
+    use crate::image::contour::Outline;
     use proptest::prelude::*;
 
     const SIDE: usize = 480;

@@ -33,10 +33,10 @@ pub use view::{ImageTarget, Polarity, Target, View};
 use thiserror::Error;
 
 use crate::camera::Camera;
-use crate::mask::{MaskError, Word, words_needed};
+use crate::image::mask::{MaskError, Word, words_needed};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::raster::{Projected, RenderError};
+use crate::render::{Projected, RenderError};
 use problem::{Pass, Problem};
 use stages::STAGES;
 
@@ -72,9 +72,9 @@ pub enum RefineError {
 /// Working memory of [`refine`], for the largest of its views.
 #[derive(Debug)]
 pub struct RefineMemory<'a> {
-    /// [`crate::raster::scratch_needed`] vertices.
+    /// [`crate::render::scratch_needed`] vertices.
     pub projected: &'a mut [Projected],
-    /// [`crate::mask::words_needed`] words of the frame's size: the model as drawn.
+    /// [`crate::image::mask::words_needed`] words of the frame's size: the model as drawn.
     pub drawn: &'a mut [Word],
     /// One number a pixel of the frame.
     pub places: &'a mut [u16],

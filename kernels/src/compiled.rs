@@ -4,14 +4,14 @@
     reason = "a function compiled for instructions that not every machine has may be called only where they were found"
 )]
 
-use fluoropose::kernels::Kernels;
+use fluoropose::search::kernels::Kernels;
 
 /// Compiles the kernels for some instructions.
 macro_rules! compile_for {
     ($module:ident, $name:literal, $features:literal) => {
         mod $module {
-            use fluoropose::kernels::{self, Kernels};
-            use fluoropose::mask::Word;
+            use fluoropose::image::mask::Word;
+            use fluoropose::search::kernels::{self, Kernels};
 
             #[target_feature(enable = $features)]
             fn unmatched_here(words: &[Word], bytes: &[u8]) -> u32 {

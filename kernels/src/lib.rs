@@ -1,13 +1,13 @@
 //! The loops of matching, compiled for the machine at hand and chosen when the program runs.
 //!
-//! The loops themselves are those of [`fluoropose::kernels`]: safe and portable, written so that
+//! The loops themselves are those of [`fluoropose::search::kernels`]: safe and portable, written so that
 //! the compiler makes wide instructions of them. Here they are compiled once more for each kind of
 //! machine. All that is unsafe stands in `compiled.rs`: calling what was compiled for a machine that was found to be
 //! this one.
 
 mod compiled;
 
-use fluoropose::kernels::Kernels;
+use fluoropose::search::kernels::Kernels;
 
 pub use compiled::available;
 

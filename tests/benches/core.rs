@@ -8,15 +8,15 @@ use std::sync::LazyLock;
 use divan::{Bencher, black_box};
 use fluoropose::camera::Camera;
 use fluoropose::canonical::{CanonicalSpec, canonicalise};
-use fluoropose::mask::Word;
+use fluoropose::image::mask::Word;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::math::radians;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{
     OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
 };
-use fluoropose::silhouette::Silhouette;
+use fluoropose::render::{Projected, render, scratch_needed};
 use xtask::implant::{self, Parameters};
 use xtask::pipeline::files::{MaskBuffer, Surface};
 use xtask::pipeline::refiner::Refiner;

@@ -3,10 +3,10 @@
 //! `FLUOROPOSE_REGENERATE=1 cargo test -p fluoropose-tests` rewrites them; look at them then.
 
 use fluoropose::camera::Camera;
-use fluoropose::contour::{Outline, Point};
-use fluoropose::mask::Mask;
+use fluoropose::image::contour::{Outline, Point};
+use fluoropose::image::mask::Mask;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{femur, home, mesh, regenerating, tibia};
 use xtask::implant::Triangles;
 use xtask::pipeline::files::{MaskBuffer, read_mask};

@@ -4,7 +4,7 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{
     Builder, Grid, GridAxis, HEADER_BYTES, Library, LibraryError, ViewScratch,
 };
-use fluoropose::raster::Projected;
+use fluoropose::render::Projected;
 use fluoropose_tests::{camera, femur, home, mesh, regenerating};
 
 fn axis(count: usize) -> GridAxis {

@@ -1,12 +1,12 @@
 //! Refinement with its options: numbers that are locked stay, and the others do what they can; swiftness costs little.
 
-use fluoropose::mask::{MaskMut, words_needed};
+use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{
     BorderPixel, Effort, Locks, RefineMemory, RefineOptions, Refined, View, refine,
 };
+use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{camera, femur, mesh};
 
 const TRUTH: EulerPose = EulerPose {

@@ -2,18 +2,18 @@
 //! border, on the built-in implants.
 
 use fluoropose::camera::Camera;
+use fluoropose::finder::rivals::worth_refining;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::math::apply;
-use fluoropose::mesh::Mesh;
-use fluoropose::partial::{
+use fluoropose::locate::partial::{
     Hypothesis, OutlinePoint, PartialMemory, Side, known_share, locate_partial, partial_needed,
 };
+use fluoropose::locate::rerank::Verified;
+use fluoropose::math::apply;
+use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{RefineOptions, View};
-use fluoropose::rivals::worth_refining;
-use fluoropose::silhouette::Silhouette;
-use fluoropose::verify::Verified;
+use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{camera, femur, surface, tibia};
 use xtask::pipeline::build::{ViewOptions, build_library};
 use xtask::pipeline::disturb::DisturbanceOptions;

@@ -1,13 +1,13 @@
 //! The rules that tell a pose from its mirror image, on the reference poses of a real study.
 
-use fluoropose::choice::{
+use fluoropose::finder::choice::{
     Candidate, Context, Counterpart, FilmFrame, FilmStep, Reason, TILT_MARGIN_DEG, choose,
     choose_film,
 };
-use fluoropose::kinematics::coronal_tilt_deg;
-use fluoropose::mirror::mirror_pose;
+use fluoropose::mesh::mirror::mirror_pose;
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
-use fluoropose::symmetry::symmetry_planes;
+use fluoropose::pose::kinematics::coronal_tilt_deg;
 use fluoropose_tests::study;
 use xtask::pipeline::files::{read_model, read_poses};
 use xtask::pipeline::study::{Component, Study};

@@ -1,6 +1,6 @@
 //! Planes of near-symmetry of the built-in implants and of a real pair.
 
-use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose_tests::{mesh, study};
 use xtask::implant::{self, Parameters, Side, Size, Triangles};
 use xtask::pipeline::files::read_model;

@@ -10,9 +10,9 @@ pub use live_wire::{Cooling, LiveWire};
 pub use reshape::{brush_outline, simplify_outline, smooth_outline, snap_outline, snap_path};
 pub use threshold::ThresholdAid;
 
-use fluoropose::aids::wire::Hand;
-use fluoropose::aids::{ShapeError, Vertex, threshold::Inside};
-use fluoropose::contour::Point;
+use fluoropose::image::contour::Point;
+use fluoropose_tracing::wire::Hand;
+use fluoropose_tracing::{ShapeError, Vertex, threshold::Inside};
 use wasm_bindgen::prelude::*;
 
 /// What an aid made of an outline.

@@ -1,10 +1,10 @@
 //! Bead grids found in pictures, and the correction of distortion that they give. For workers: it takes a second.
 
-use fluoropose::frame::{Frame, Pixel};
-use fluoropose::grid::automatic::{FoundGrid, MARKS, Memory, find_grid};
-use fluoropose::grid::correction::{Corrected, fit};
-use fluoropose::grid::discs::{Disc, sums_needed};
-use fluoropose::grid::lattice::Bead;
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose_distortion::automatic::{FoundGrid, MARKS, Memory, find_grid};
+use fluoropose_distortion::correction::{Corrected, fit};
+use fluoropose_distortion::discs::{Disc, sums_needed};
+use fluoropose_distortion::lattice::Bead;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;

@@ -1,7 +1,7 @@
 //! Calibration texts read and written for the page.
 
-use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;

@@ -1,6 +1,6 @@
 //! Which of several refined poses is chosen, and why, in words.
 
-use fluoropose::choice::{Candidate, Choice, Context, Counterpart, Reason, choose};
+use fluoropose::finder::choice::{Candidate, Choice, Context, Counterpart, Reason, choose};
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 

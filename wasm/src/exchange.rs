@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use fluoropose::aids::Vertex;
-use fluoropose::aids::list::List;
-use fluoropose::aids::simplify::{Simplify, simplify};
-use fluoropose::border::follow_border;
-use fluoropose::contour::{Contour, Outline, Point};
-use fluoropose::frame::Pixel;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::region::largest_region;
+use fluoropose::image::border::follow_border;
+use fluoropose::image::contour::{Contour, Outline, Point};
+use fluoropose::image::frame::Pixel;
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
+use fluoropose_tracing::Vertex;
+use fluoropose_tracing::list::List;
+use fluoropose_tracing::simplify::{Simplify, simplify};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 

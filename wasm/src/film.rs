@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use fluoropose::aids::smoothed::{Scale, Smoothed};
-use fluoropose::frame::{Frame, Grey, Pixel};
+use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose_tracing::smoothed::{Scale, Smoothed};
 use js_sys::{Uint8Array, Uint16Array};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;

@@ -1,7 +1,7 @@
 //! What was found for an outline, as the page reads it.
 
-use fluoropose::covariance::Deviations;
-use fluoropose::mask::Word;
+use fluoropose::image::mask::Word;
+use fluoropose::pose::covariance::Deviations;
 use js_sys::{Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 

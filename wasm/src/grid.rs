@@ -1,11 +1,11 @@
 //! Calibration from the beads of a grid or from a ruler, and distortion corrected, for the page.
 
-use fluoropose::frame::{Frame, Pixel};
-use fluoropose::grid::distortion::Distortion;
-use fluoropose::grid::lattice::Bead;
-use fluoropose::grid::plate::{Distances, camera};
-use fluoropose::grid::resample::{map_row, resample_row};
-use fluoropose::grid::ruler::scale;
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose_distortion::distortion::Distortion;
+use fluoropose_distortion::lattice::Bead;
+use fluoropose_distortion::plate::{Distances, camera};
+use fluoropose_distortion::resample::{map_row, resample_row};
+use fluoropose_distortion::ruler::scale;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;

@@ -1,6 +1,6 @@
 //! `.jts` texts read and written for the page.
 
-use fluoropose::jts;
+use fluoropose::pose::jts;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;

@@ -1,7 +1,7 @@
 //! The joint between two components, for the page's curve.
 
-use fluoropose::kinematics::{Side, joint_angles, relative_pose};
 use fluoropose::pose::Pose;
+use fluoropose::pose::kinematics::{Side, joint_angles, relative_pose};
 use wasm_bindgen::prelude::*;
 
 use crate::pose_numbers::from_numbers;

@@ -1,23 +1,23 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
-use fluoropose::covariance::Deviations;
-use fluoropose::frame::Grey;
+use fluoropose::finder::rivals::{RefinedRival, refine_rivals, worth_refining};
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::{MaskMut, Word, words_needed};
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
-use fluoropose::mask::{MaskMut, Word, words_needed};
+use fluoropose::locate::rerank::{Verified, unmatched_at};
 use fluoropose::mesh::Mesh;
-use fluoropose::mirror::mirror_pose;
+use fluoropose::mesh::mirror::mirror_pose;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::{
     BorderPixel, Iterate, Polarity, RefineMemory, RefineOptions, Refined, View, outline_samples,
     refine, refine_traced, uncertainty,
 };
-use fluoropose::rivals::{RefinedRival, refine_rivals, worth_refining};
-use fluoropose::silhouette::Silhouette;
-use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
-use fluoropose::verify::{Verified, unmatched_at};
+use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::JsError;
 
 use crate::error::sentence;

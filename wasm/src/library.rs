@@ -1,9 +1,9 @@
 //! A library built some views at a time, by any number of workers.
 
 use fluoropose::canonical::CanonicalSpec;
+use fluoropose::image::mask::Word;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
-use fluoropose::mask::Word;
-use fluoropose::raster::Projected;
+use fluoropose::render::Projected;
 use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 

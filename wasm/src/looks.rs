@@ -1,7 +1,7 @@
 //! Other pictures of a frame: its edges, and its contrast equalised region by region. Display only: nothing is measured
 //! in them.
 
-use fluoropose::frame::Pixel;
+use fluoropose::image::frame::Pixel;
 
 /// Tiles to each side of the frame whose histograms are equalised.
 const TILES: usize = 8;

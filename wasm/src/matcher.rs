@@ -12,14 +12,14 @@ pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;
-use fluoropose::choice::Candidate as Contender;
-use fluoropose::kernels::Kernels;
+use fluoropose::finder::choice::Candidate as Contender;
+use fluoropose::image::mask::Word;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
+use fluoropose::locate::partial::known_share;
 use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
-use fluoropose::mask::Word;
-use fluoropose::partial::known_share;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::silhouette::Silhouette;
+use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
 use crate::choice::{Chosen, Surroundings};

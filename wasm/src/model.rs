@@ -1,12 +1,12 @@
 //! A component's model: its projected silhouette, painted and as an outline.
 
-use fluoropose::border::follow_border;
 use fluoropose::camera::Camera;
-use fluoropose::contour::{Contour, Point};
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::border::follow_border;
+use fluoropose::image::contour::{Contour, Point};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, render, scratch_needed};
-use fluoropose::region::largest_region;
+use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 

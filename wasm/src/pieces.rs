@@ -1,15 +1,15 @@
 //! Memory for the search by pieces of an outline.
 
 use fluoropose::camera::Camera;
+use fluoropose::image::mask::Word;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::mask::Word;
-use fluoropose::mesh::Mesh;
-use fluoropose::partial::{
+use fluoropose::locate::partial::{
     Hypothesis, OutlinePoint, PartialMemory, Side, locate_partial, partial_needed,
 };
-use fluoropose::raster::Projected;
-use fluoropose::silhouette::Silhouette;
-use fluoropose::verify::Verified;
+use fluoropose::locate::rerank::Verified;
+use fluoropose::mesh::Mesh;
+use fluoropose::render::Projected;
 use wasm_bindgen::JsError;
 
 use crate::error::sentence;

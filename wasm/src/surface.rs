@@ -1,7 +1,9 @@
 //! A model's surface as the page's modules own it.
 
-use fluoropose::edges::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
 use fluoropose::mesh::Mesh;
+use fluoropose::mesh::edges::{
+    EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link,
+};
 use wasm_bindgen::JsError;
 
 use crate::error::sentence;

@@ -1,9 +1,9 @@
 //! What was traced on a frame: the filled outline, and the pixels round those of its sides that were marked unknown.
 
 use fluoropose::camera::Camera;
-use fluoropose::contour::{Outline, Point};
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::silhouette::Silhouette;
+use fluoropose::image::contour::{Outline, Point};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::silhouette::Silhouette;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::camera;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::covariance::PoseCovariance;
+use fluoropose::image::silhouette::Silhouette;
+use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{Refined, View};
-use fluoropose::silhouette::Silhouette;
 
 use crate::pipeline::biplane::between;
 use crate::pipeline::build::progress;

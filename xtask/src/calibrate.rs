@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use fluoropose::calibration::Calibration;
-use fluoropose::frame::Frame;
-use fluoropose::grid::automatic::{MARKS, Memory, find_grid};
-use fluoropose::grid::correction::{Corrected, ORDERS, fit};
-use fluoropose::grid::discs::{Disc, sums_needed};
-use fluoropose::grid::lattice::Bead;
-use fluoropose::grid::plate::{Distances, PlateCamera, camera};
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::image::frame::Frame;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
+use fluoropose_distortion::automatic::{MARKS, Memory, find_grid};
+use fluoropose_distortion::correction::{Corrected, ORDERS, fit};
+use fluoropose_distortion::discs::{Disc, sums_needed};
+use fluoropose_distortion::lattice::Bead;
+use fluoropose_distortion::plate::{Distances, PlateCamera, camera};
 
 use crate::pipeline::distortion::write_distortion;
 use crate::pipeline::files::{name_of, read, write_text};

@@ -4,15 +4,15 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use fluoropose::border::follow_border;
 use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
-use fluoropose::contour::{Contour, Point};
+use fluoropose::image::border::follow_border;
+use fluoropose::image::contour::{Contour, Point};
+use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
-use fluoropose::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{self, Projected};
+use fluoropose::render::{Projected, render, scratch_needed};
 
 use crate::implant;
 
@@ -84,8 +84,8 @@ fn library(mesh: Mesh<'_>, camera: Camera) -> Result<Vec<u8>> {
 fn outline(mesh: &Mesh<'_>, camera: &Camera) -> Result<Vec<u8>> {
     let mut words = vec![0; words_needed(FRAME_SIDE, FRAME_SIDE)];
     let mut mask = MaskMut::new(&mut words, FRAME_SIDE, FRAME_SIDE)?;
-    let mut scratch = vec![Projected::default(); raster::scratch_needed(mesh)];
-    raster::render(mesh, camera, &Pose::from(TRUTH), &mut scratch, &mut mask)?;
+    let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
+    render(mesh, camera, &Pose::from(TRUTH), &mut scratch, &mut mask)?;
     let mut border: Contour<MAX_POINTS> = Contour::new();
     follow_border(&mask.as_mask(), &mut border)?;
     let next = border.iter().cycle().skip(1);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::calibration::Calibration;
+use fluoropose::camera::calibration::Calibration;
 use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};

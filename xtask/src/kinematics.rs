@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::kinematics::{joint_angles, relative_pose};
+use fluoropose::pose::kinematics::{joint_angles, relative_pose};
 use fluoropose::pose::{EulerPose, Pose};
 
 use crate::implant::Side;
@@ -78,7 +78,7 @@ pub fn run(args: Args) -> Result<()> {
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
 }
 
-impl From<Side> for fluoropose::kinematics::Side {
+impl From<Side> for fluoropose::pose::kinematics::Side {
     fn from(side: Side) -> Self {
         match side {
             Side::Left => Self::Left,

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use fluoropose::image::mask::WORD_BITS;
 use fluoropose::library::Library;
-use fluoropose::mask::WORD_BITS;
 
 use crate::pipeline::build::{Pair, ViewOptions, build_library};
 use crate::pipeline::files::{read_calibration, read_model};
@@ -45,7 +45,7 @@ pub fn run(args: Args) -> Result<()> {
     let calibration = read_calibration(&args.calibration)?;
     let Pair([width, height]) = args.frame;
     let (width, height) = match calibration {
-        fluoropose::calibration::Calibration::CameraMatrix { size, .. } => size,
+        fluoropose::camera::calibration::Calibration::CameraMatrix { size, .. } => size,
         _ => (width as usize, height as usize),
     };
     let camera = calibration.camera(width, height)?;

@@ -7,11 +7,11 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::mask::Mask;
+use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, render, scratch_needed};
 use fluoropose::refine::Polarity;
+use fluoropose::render::{Projected, render, scratch_needed};
 use serde::Serialize;
 
 use crate::pipeline::accuracy::{Errors, is_wrong_side, median_absolute};

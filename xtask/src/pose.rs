@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::choice::{Counterpart, DECISIVE_RATIO};
+use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
 use fluoropose::math::Vector3;
 use fluoropose::pose::EulerPose;
 

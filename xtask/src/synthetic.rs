@@ -6,13 +6,13 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
-use fluoropose::covariance::PoseCovariance;
 use fluoropose::library::{Grid, GridAxis};
 use fluoropose::math::{Vector3, add, apply, multiply, norm, rotation_by, scale};
 use fluoropose::mesh::Mesh;
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::View;
-use fluoropose::symmetry::symmetry_planes;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;

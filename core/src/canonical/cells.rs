@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use crate::mask::{MAX_SIDE, Mask, WORD_BITS, Word, row_words};
+use crate::image::mask::{MAX_SIDE, Mask, WORD_BITS, Word, row_words};
 
 /// Calls `visit(column, row)` for each cell whose four pixels are not alike, until it breaks. A cell is the square between
 /// the centres of a pixel, the one to its right and the two below them; it is numbered as the first of these. Pixels
@@ -90,7 +90,7 @@ pub(super) fn ones(mut word: u64) -> impl Iterator<Item = u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mask::{MaskMut, words_needed};
+    use crate::image::mask::{MaskMut, words_needed};
     use proptest::prelude::*;
 
     proptest! {

@@ -3,8 +3,8 @@
 use core::ops::{ControlFlow, Range};
 
 use super::cells::for_each_mixed;
-use crate::contour::Point;
-use crate::mask::{Mask, MaskMut, WORD_BITS};
+use crate::image::contour::Point;
+use crate::image::mask::{Mask, MaskMut, WORD_BITS};
 
 /// Half the side of a cell, frame pixels, and more than rounding moves a sampling position.
 const HALF_CELL: f64 = 0.5 + 1.0 / 256.0;

@@ -3,8 +3,8 @@
 use super::CanonicalForm;
 use super::cells::ones;
 use super::marks::Inverse;
-use crate::contour::Point;
-use crate::mask::{Mask, MaskMut, WORD_BITS, Word};
+use crate::image::contour::Point;
+use crate::image::mask::{Mask, MaskMut, WORD_BITS, Word};
 use crate::math::ranking;
 
 /// Binary places of a position.
@@ -149,7 +149,7 @@ fn pair(mask: &Mask<'_>, column: i64, row: i64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mask::words_needed;
+    use crate::image::mask::words_needed;
     use proptest::prelude::*;
 
     const WIDTH: usize = 150;

@@ -12,7 +12,7 @@ use super::wire::{
     checksum, read_short_record, write_header, write_record,
 };
 use super::{BuildError, LibraryInfo, ViewRecord};
-use crate::mask::{MaskMut, Word};
+use crate::image::mask::{MaskMut, Word};
 
 /// The packed views of a library, checked: a file to be written.
 #[derive(Clone, Debug)]

@@ -8,11 +8,11 @@ use super::pack::{pack, packed_most};
 use super::{Grid, LibraryError, LibraryInfo, ViewRecord};
 use crate::camera::{Camera, CameraError};
 use crate::canonical::{CanonicalError, CanonicalSpec, canonicalise};
-use crate::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use crate::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use crate::math::{apply, scale, sqrt};
 use crate::mesh::Mesh;
 use crate::pose::{Pose, rotation_zxy};
-use crate::raster::{Projected, RenderError, render, scratch_needed};
+use crate::render::{Projected, RenderError, render, scratch_needed};
 
 /// Why a library cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

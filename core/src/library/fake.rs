@@ -10,7 +10,7 @@ use super::wire::{
 use super::{Assembly, Grid, GridAxis, Library, LibraryInfo, ViewRecord};
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
-use crate::mask::{Mask, MaskMut, Word};
+use crate::image::mask::{Mask, MaskMut, Word};
 
 /// A plain library of these canonical masks: `columns` views along x.
 pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: CanonicalSpec) -> Vec<u8> {
@@ -102,7 +102,7 @@ mod tests {
     use crate::library::compact::Sketches;
     use crate::library::sketch::BLOCK;
     use crate::library::{BuildError, VERSION};
-    use crate::matching::{score, scores_needed};
+    use crate::search::exhaustive::{score, scores_needed};
 
     /// Set pixels of each block of a view, by its sketch and by its pixels.
     fn said(sketches: &Sketches<'_>, view: usize) -> Vec<u8> {

@@ -11,7 +11,7 @@ use super::wire::{
 use super::{Grid, LibraryInfo, ViewRecord};
 use crate::camera::{Camera, CameraError};
 use crate::canonical::{CanonicalError, CanonicalSpec};
-use crate::mask::{MaskMut, WORD_BITS, Word};
+use crate::image::mask::{MaskMut, WORD_BITS, Word};
 
 /// Why bytes are not a library.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

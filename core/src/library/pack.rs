@@ -6,7 +6,7 @@ use super::runs::{runs_most, write_runs};
 use super::sketch::{blocks, count_blocks};
 use super::wire::{SHORT_RECORD_BYTES, Writer, write_short_record};
 use crate::canonical::CanonicalSpec;
-use crate::mask::Mask;
+use crate::image::mask::Mask;
 
 /// A packed view taken apart.
 pub(super) struct Packed<'p> {

@@ -6,7 +6,7 @@
 //! gap of more than 255 pixels passes through runs of none; a run of more is continued after a
 //! gap of none.
 
-use crate::mask::{Mask, MaskMut};
+use crate::image::mask::{Mask, MaskMut};
 
 /// Bytes before a band's runs.
 const BAND_BYTES: usize = 6;
@@ -229,8 +229,8 @@ fn common(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::mask::{Word, words_needed};
     use crate::library::fake::spots;
-    use crate::mask::{Word, words_needed};
     use proptest::prelude::*;
 
     fn packed(words: &[Word], size: usize) -> std::vec::Vec<u8> {

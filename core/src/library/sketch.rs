@@ -8,7 +8,7 @@
 
 use super::runs::{Band, bands, spans};
 use crate::canonical::CanonicalSpec;
-use crate::mask::{Mask, Word};
+use crate::image::mask::{Mask, Word};
 
 /// Side of a block, pixels. Canonical frames are whole blocks.
 pub(crate) const BLOCK: usize = 16;

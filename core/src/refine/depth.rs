@@ -10,9 +10,9 @@
 use core::ops::Range;
 
 use super::outline::{BorderPixel, Depth, Outliner};
+use crate::image::scan::pixel_box;
 use crate::math::dot;
-use crate::raster::{Projected, contour, for_each_span, project};
-use crate::scan::pixel_box;
+use crate::render::{Projected, contour, for_each_span, project};
 
 impl Outliner<'_> {
     /// Writes the depth behind each border pixel. `places` has the number of each in the list.
@@ -204,11 +204,11 @@ impl Tiles {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use crate::edges::fake::Linked;
-    use crate::mask::{MaskMut, words_needed};
+    use crate::image::mask::{MaskMut, words_needed};
     use crate::mesh::Mesh;
+    use crate::mesh::edges::fake::Linked;
     use crate::pose::Pose;
-    use crate::raster::{render, scratch_needed};
+    use crate::render::{render, scratch_needed};
     use std::vec;
     use std::vec::Vec;
 

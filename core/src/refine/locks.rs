@@ -1,8 +1,8 @@
 //! Numbers of a pose that refinement leaves as they are.
 
 use super::solve::Step;
-use crate::covariance::numbers_per_step;
 use crate::math::Vector3;
+use crate::pose::covariance::numbers_per_step;
 use crate::pose::{EulerPose, Pose};
 
 /// Which of a pose's numbers are locked, as the field writes them: nothing is by default.

@@ -8,11 +8,11 @@ use super::solve::Equations;
 use super::stages::Stage;
 use super::view::Target;
 use crate::camera::Camera;
-use crate::mask::{Mask, WORD_BITS, Word};
+use crate::image::mask::{Mask, WORD_BITS, Word};
 use crate::math::sqrt;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::raster::Projected;
+use crate::render::Projected;
 
 /// A sample of the model's outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -289,7 +289,7 @@ fn bits_round(row: &[Word], column: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mask::{MaskMut, words_needed};
+    use crate::image::mask::{MaskMut, words_needed};
     use proptest::prelude::*;
 
     const SIDE: usize = 200;

@@ -1,8 +1,8 @@
 //! Where a silhouette's outline crosses a normal.
 
 use super::outline::BorderPixel;
-use crate::mask::Mask;
-use crate::silhouette::Silhouette;
+use crate::image::mask::Mask;
+use crate::image::silhouette::Silhouette;
 
 /// Distance between readings along a normal, pixels.
 const STEP: f64 = 0.5;

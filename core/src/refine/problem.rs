@@ -8,11 +8,11 @@ use super::solve::{Equations, Step};
 use super::stages::{POLISHING, Stage};
 use super::view::{Target, View};
 use super::{Effort, Iterate, RefineError, RefineMemory, Refined, check_memory};
-use crate::mask::{MaskError, MaskMut, words_needed};
+use crate::image::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
 use crate::mesh::Mesh;
 use crate::pose::{EulerPose, Pose};
-use crate::raster::{RenderError, render};
+use crate::render::{RenderError, render};
 
 /// Part of a loss that is not known, because the model is drawn in whole pixels.
 const GRAIN: f64 = 0.02;

@@ -6,10 +6,10 @@ use super::problem::OWN_RANGE;
 use super::solve::Step;
 use super::{RefineError, RefineMemory, check_memory};
 use crate::camera::Camera;
-use crate::mask::{MaskMut, words_needed};
+use crate::image::mask::{MaskMut, words_needed};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::raster::render;
+use crate::render::render;
 
 /// A piece of the model's occluding contour as one camera sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]

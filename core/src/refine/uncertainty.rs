@@ -14,8 +14,8 @@ use super::solve::{Equations, Loss};
 use super::stages::{STAGES, Stage};
 use super::view::View;
 use super::{RefineError, RefineMemory, Refined};
-use crate::covariance::{Matrix6, PoseCovariance};
 use crate::mesh::Mesh;
+use crate::pose::covariance::{Matrix6, PoseCovariance};
 
 /// Width of a bin of distance, pixels, and number of bins.
 const BIN: f64 = 2.0;

@@ -1,10 +1,10 @@
 //! What is looked at: cameras, where they stand, and what they saw.
 
 use crate::camera::Camera;
-use crate::frame::Grey;
-use crate::mask::Mask;
+use crate::image::frame::Grey;
+use crate::image::mask::Mask;
+use crate::image::silhouette::Silhouette;
 use crate::pose::Pose;
-use crate::silhouette::Silhouette;
 
 /// One camera and what it saw of the implant.
 #[derive(Clone, Copy, Debug)]

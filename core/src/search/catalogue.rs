@@ -14,10 +14,10 @@ use thiserror::Error;
 
 use super::query::{Query, longest_sketch};
 use crate::canonical::CanonicalSpec;
-use crate::kernels::Kernels;
 use crate::library::Library;
 use crate::library::sketch::{STRIDE, blocks};
-use crate::matching::{Candidate, MatchError, check};
+use crate::search::exhaustive::{Candidate, MatchError, check};
+use crate::search::kernels::Kernels;
 pub use build::{CatalogueMemory, CatalogueNeeds, Leaf, catalogue_needed};
 
 /// Views of a patch along each axis of the grid.

@@ -1,12 +1,12 @@
 //! A canonical silhouette made ready for searching libraries.
 
 use crate::canonical::CanonicalSpec;
-use crate::kernels::Kernels;
+use crate::image::mask::{WORD_BITS, Word};
 use crate::library::runs::bands;
 use crate::library::sketch::{BLOCK, STRIDE, at_most_255, blocks};
 use crate::library::{Library, Sketches};
-use crate::mask::{WORD_BITS, Word};
-use crate::matching::{MatchError, check};
+use crate::search::exhaustive::{MatchError, check};
+use crate::search::kernels::Kernels;
 
 /// Blocks of a silhouette, set pixels of each: at least, and at most where some are unknown.
 #[derive(Clone, Copy, Debug)]

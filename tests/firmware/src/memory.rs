@@ -1,10 +1,10 @@
 //! All memory that the way from outline to pose uses, of one size known when it is built.
 
 use fluoropose::canonical::CanonicalSpec;
-use fluoropose::contour::Contour;
+use fluoropose::image::contour::Contour;
+use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::workspace_bytes_needed;
-use fluoropose::mask::{Word, words_needed};
-use fluoropose::matching::scores_needed;
+use fluoropose::search::exhaustive::scores_needed;
 
 /// Columns and rows of the frame, pixels.
 pub const FRAME_SIDE: usize = 512;

@@ -2,12 +2,12 @@
 
 use core::fmt::{self, Write};
 
-use fluoropose::contour::{Contour, Outline, OutlineError, Point};
-use fluoropose::kernels::Kernels;
+use fluoropose::image::contour::{Contour, Outline, OutlineError, Point};
+use fluoropose::image::mask::{MaskError, MaskMut};
 use fluoropose::library::{Library, LibraryError};
 use fluoropose::locate::{Found, LocateError, Located, Workspace, locate};
-use fluoropose::mask::{MaskError, MaskMut};
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::search::kernels::Kernels;
 
 use crate::memory::{FRAME_SIDE, MAX_POINTS, Memory};
 

@@ -1,13 +1,13 @@
 //! The interactive threshold on a film.
 
-use fluoropose::aids::list::List;
-use fluoropose::aids::smoothed::{Scale, Smoothed};
-use fluoropose::aids::threshold::{
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::Word;
+use fluoropose_tracing::list::List;
+use fluoropose_tracing::smoothed::{Scale, Smoothed};
+use fluoropose_tracing::threshold::{
     Inside, Threshold, ThresholdMemory, region_at, suggested_level, threshold_needed,
 };
-use fluoropose::aids::{ShapeError, Vertex};
-use fluoropose::contour::Point;
-use fluoropose::mask::Word;
+use fluoropose_tracing::{ShapeError, Vertex};
 use wasm_bindgen::prelude::*;
 
 use super::{Reshaped, inside_of};

@@ -1,9 +1,9 @@
 //! Refined poses that go along with an outline while it changes.
 
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::Located;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{Effort, RefineOptions, View};
-use fluoropose::silhouette::Silhouette;
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;

@@ -1,7 +1,7 @@
 //! Poses that a person set, refined from where they stand: against an outline, or the grey frame itself.
 
 use fluoropose::camera::Camera;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{ImageTarget, Locks, Polarity, RefineOptions, Refined, View};
 use wasm_bindgen::prelude::*;

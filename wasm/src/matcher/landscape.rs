@@ -1,15 +1,15 @@
 //! The scores of all views of a library for an outline, and the pose of any of them.
 
 use fluoropose::canonical::CanonicalForm;
-use fluoropose::estimate::pose_from_view;
-use fluoropose::interpolate::FineView;
-use fluoropose::kernels::Kernels;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::GridAxis;
+use fluoropose::locate::estimate::pose_from_view;
+use fluoropose::locate::interpolate::FineView;
+use fluoropose::locate::partial::known_share;
 use fluoropose::locate::{Found, Workspace, locate, score_views};
-use fluoropose::matching::Scores;
-use fluoropose::partial::known_share;
 use fluoropose::pose::EulerPose;
-use fluoropose::silhouette::Silhouette;
+use fluoropose::search::exhaustive::Scores;
+use fluoropose::search::kernels::Kernels;
 use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 

@@ -1,8 +1,8 @@
 //! The view of a library that is nearest to an outline, and nothing more.
 
 use fluoropose::canonical::{canonicalise, reverse};
-use fluoropose::kernels::Kernels;
-use fluoropose::mask::Word;
+use fluoropose::image::mask::Word;
+use fluoropose::search::kernels::Kernels;
 use fluoropose::search::{Directions, Query, Search, SearchMemory, query_bytes_needed};
 use wasm_bindgen::prelude::*;
 

@@ -4,21 +4,21 @@ mod answer;
 
 pub use answer::OneClickAnswer;
 
-use fluoropose::border::follow_border;
 use fluoropose::camera::Camera;
-use fluoropose::choice::Candidate as Contender;
-use fluoropose::contour::{Contour, Outline, Point};
-use fluoropose::covariance::Deviations;
-use fluoropose::kernels::Kernels;
+use fluoropose::finder::choice::Candidate as Contender;
+use fluoropose::image::border::follow_border;
+use fluoropose::image::contour::{Contour, Outline, Point};
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
 use fluoropose::locate::Workspace;
-use fluoropose::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::math::{multiply, transpose};
-use fluoropose::oneclick::{
-    Answer, OneClick as Work, OneClickMemory, Part, Progress, Prompt, Scene,
-};
+use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{ImageTarget, Polarity, RefineMemory, Refined, View};
-use fluoropose::region::largest_region;
+use fluoropose::search::kernels::Kernels;
+use fluoropose_tracing::one_click::{
+    Answer, OneClick as Work, OneClickMemory, Part, Progress, Prompt, Scene,
+};
 use wasm_bindgen::prelude::*;
 
 use super::from_here::model_of;

@@ -3,10 +3,10 @@
 use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
+use fluoropose::image::mask::Word;
 use fluoropose::library::Library;
-use fluoropose::mask::Word;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::{
     Catalogue, CatalogueMemory, Leaf, Query, catalogue_needed, identify_bytes_needed,
     query_bytes_needed,

@@ -8,16 +8,16 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
+use fluoropose::image::mask::Word;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::mask::Word;
-use fluoropose::matching::scores_needed;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::search::exhaustive::scores_needed;
 use fluoropose::search::{
     Directions, Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed,
 };
-use fluoropose::silhouette::Silhouette;
 use serde::Serialize;
 
 use super::catalogue;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
-use fluoropose::choice::Counterpart;
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::finder::choice::Counterpart;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use rayon::prelude::*;
 

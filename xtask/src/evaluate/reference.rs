@@ -2,8 +2,8 @@
 
 use anyhow::{Context, Result, bail};
 use fluoropose::mesh::Mesh;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
-use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 
 use super::found::Found;
 use super::{Row, StartDifference};

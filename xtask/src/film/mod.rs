@@ -23,7 +23,7 @@ use anyhow::{Result, anyhow};
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::render::{Projected, render, scratch_needed};
 use plane::Plane;
 use rayon::prelude::*;
 use sagittal::{Sagittal, ray};

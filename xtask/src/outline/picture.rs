@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use fluoropose::frame::Grey;
-use fluoropose::mask::Mask;
-use fluoropose::oneclick::Prompt;
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::Mask;
+use fluoropose_tracing::one_click::Prompt;
 use image::{Rgb, RgbImage};
 
 /// Pixels round mask and answer that are shown.

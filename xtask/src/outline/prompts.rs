@@ -1,8 +1,8 @@
 //! What a person might have pointed at, from a mask of the implant.
 
-use fluoropose::contour::Point;
-use fluoropose::mask::Mask;
-use fluoropose::oneclick::Prompt;
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::Mask;
+use fluoropose_tracing::one_click::Prompt;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

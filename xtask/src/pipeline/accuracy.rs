@@ -1,9 +1,9 @@
 //! Errors of poses against known ones, and their statistics.
 
 use fluoropose::math::wrap;
-use fluoropose::mirror::mirror_pose;
+use fluoropose::mesh::mirror::mirror_pose;
+use fluoropose::mesh::symmetry::SymmetryPlane;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::symmetry::SymmetryPlane;
 use serde::Serialize;
 
 /// Signed differences of one pose from a reference; the geodesic one is not signed.
@@ -83,7 +83,7 @@ pub fn median_absolute(values: &[f64]) -> f64 {
 /// Whether `found` lies on the wrong side of the mirror trap: nearer to a mirror image of the
 /// reference than to the reference itself.
 ///
-/// `planes` are those in which the part is nearly symmetric ([`fluoropose::symmetry`]); a part
+/// `planes` are those in which the part is nearly symmetric ([`fluoropose::mesh::symmetry`]); a part
 /// without any has no side to be wrong about. Where image and reference are less than 2 degrees
 /// apart there is none either.
 pub fn is_wrong_side(found: &Pose, reference: &Pose, planes: &[SymmetryPlane]) -> bool {

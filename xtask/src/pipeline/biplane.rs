@@ -1,6 +1,6 @@
 //! Two cameras that see one implant at once.
 
-use fluoropose::calibration::Calibration;
+use fluoropose::camera::calibration::Calibration;
 use fluoropose::pose::{EulerPose, Pose};
 
 /// Where a second camera stands whose axis meets that of the first at `distance` mm from both,

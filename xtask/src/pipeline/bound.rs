@@ -25,7 +25,7 @@ mod sites;
 
 pub use sites::{Outlines, Site};
 
-use fluoropose::covariance::{Deviations, Matrix6, PoseCovariance};
+use fluoropose::pose::covariance::{Deviations, Matrix6, PoseCovariance};
 use nalgebra::{DMatrix, Matrix6xX};
 use serde::Serialize;
 

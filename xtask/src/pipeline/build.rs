@@ -4,12 +4,12 @@ use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, bail};
-use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{BuildError, Builder, Grid, GridAxis, ViewScratch};
 use fluoropose::mesh::Mesh;
-use fluoropose::raster::Projected;
+use fluoropose::render::Projected;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 

@@ -4,17 +4,17 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::frame::Grey;
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, workspace_needed};
-use fluoropose::mask::{Word, words_needed};
 use fluoropose::mesh::Mesh;
-use fluoropose::oneclick::{
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
+use fluoropose::render::{Projected, scratch_needed};
+use fluoropose_tracing::one_click::{
     Answer, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Part, Prompt, Scene, Start,
 };
-use fluoropose::raster::{Projected, scratch_needed};
-use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
-use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
 
 /// Border pixels that are lent.
 const BORDER: usize = 16_384;

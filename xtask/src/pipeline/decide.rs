@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use fluoropose::choice::{
+use fluoropose::finder::choice::{
     Candidate, Choice, Counterpart, FilmFrame, FilmStep, Open, Reason, choose_film,
 };
 use fluoropose::pose::Pose;

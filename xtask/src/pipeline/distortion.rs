@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
-use fluoropose::frame::{Frame, Pixel};
-use fluoropose::grid::correction::Corrected;
-use fluoropose::grid::distortion::{Distortion, NUMBERS};
-use fluoropose::grid::polynomial::TERMS;
-use fluoropose::grid::resample::{map_row, resample_row};
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose_distortion::correction::Corrected;
+use fluoropose_distortion::distortion::{Distortion, NUMBERS};
+use fluoropose_distortion::polynomial::TERMS;
+use fluoropose_distortion::resample::{map_row, resample_row};
 use serde::{Deserialize, Serialize};
 
 use super::files::{read_text, write_json};

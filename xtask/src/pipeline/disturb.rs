@@ -9,9 +9,9 @@ pub mod jitter;
 pub mod occluder;
 
 use anyhow::{Result, ensure};
-use fluoropose::contour::Point;
-use fluoropose::mask::{MAX_SIDE, Mask};
-use fluoropose::silhouette::Silhouette;
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::{MAX_SIDE, Mask};
+use fluoropose::image::silhouette::Silhouette;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

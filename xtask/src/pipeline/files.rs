@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 
 use crate::implant::Triangles;
 use anyhow::{Context, Result, bail};
-use fluoropose::calibration::Calibration;
-use fluoropose::edges::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
-use fluoropose::jts;
-use fluoropose::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
 use fluoropose::mesh::Mesh;
+use fluoropose::mesh::edges::{
+    EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link,
+};
+use fluoropose::pose::jts;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::region::largest_region;
 use fluoropose_decode::{decode_mask, decode_model};
 
 /// Reads a whole file.

@@ -2,14 +2,14 @@
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::covariance::PoseCovariance;
-use fluoropose::frame::Grey;
+use fluoropose::finder::rivals::{RefinedRival, worth_refining};
+use fluoropose::image::frame::Grey;
+use fluoropose::image::silhouette::Silhouette;
+use fluoropose::locate::rerank::Verified;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, View};
-use fluoropose::rivals::{RefinedRival, worth_refining};
-use fluoropose::silhouette::Silhouette;
-use fluoropose::verify::Verified;
 use serde::Serialize;
 
 use super::locator::Locator;
@@ -218,7 +218,7 @@ impl<'l> Finder<'l> {
         found.iter().map(sure).collect()
     }
 
-    /// Starts round a pose that is only roughly known; see [`fluoropose::nearby::nearby`].
+    /// Starts round a pose that is only roughly known; see [`fluoropose::finder::nearby::nearby`].
     pub fn nearby(&mut self, silhouette: &Silhouette<'_>, start: &Pose) -> Vec<Pose> {
         let camera = self.camera;
         self.refiner.nearby(&camera, silhouette, start)

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use fluoropose::frame::{Frame, Grey};
+use fluoropose::image::frame::{Frame, Grey};
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
 
 use super::files::{files_in, name_of, read};

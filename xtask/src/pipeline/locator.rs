@@ -2,17 +2,17 @@
 
 use anyhow::{Result, bail};
 use fluoropose::camera::Camera;
+use fluoropose::image::mask::Word;
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::locate::{Workspace, locate, workspace_needed};
-use fluoropose::mask::Word;
-use fluoropose::mesh::Mesh;
-use fluoropose::partial::{
+use fluoropose::locate::partial::{
     Hypothesis, OutlinePoint, PartialMemory, PartialNeeds, Side, known_share, locate_partial,
     partial_needed,
 };
-use fluoropose::raster::{Projected, scratch_needed};
-use fluoropose::silhouette::Silhouette;
-use fluoropose::verify::{Verified, verify};
+use fluoropose::locate::rerank::{Verified, verify};
+use fluoropose::locate::{Workspace, locate, workspace_needed};
+use fluoropose::mesh::Mesh;
+use fluoropose::render::{Projected, scratch_needed};
 
 use super::files::MaskBuffer;
 

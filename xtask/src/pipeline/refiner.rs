@@ -1,18 +1,18 @@
 //! Refinement of poses, with the memory that the core wants lent.
 
 use fluoropose::camera::Camera;
-use fluoropose::covariance::PoseCovariance;
-use fluoropose::mask::{Word, words_needed};
+use fluoropose::finder::nearby::{WIDE_DEG, nearby};
+use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
+use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::image::silhouette::Silhouette;
 use fluoropose::mesh::Mesh;
-use fluoropose::nearby::{WIDE_DEG, nearby};
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, scratch_needed};
+use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{
     BorderPixel, RefineError, RefineMemory, RefineOptions, Refined, View, uncertainty,
 };
-use fluoropose::rivals::{RefinedRival, refine_rivals};
-use fluoropose::silhouette::Silhouette;
-use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::render::{Projected, scratch_needed};
 
 /// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;

@@ -4,7 +4,7 @@ use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::raster::{Projected, render, scratch_needed};
+use fluoropose::render::{Projected, render, scratch_needed};
 use rand::RngExt;
 
 use super::bound::Noise;

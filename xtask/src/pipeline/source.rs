@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use fluoropose::calibration::Calibration;
 use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
 
 use super::disturb::{DisturbanceOptions, Disturbed};
 use super::files::{MaskBuffer, files_in, read_mask};

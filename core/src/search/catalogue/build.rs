@@ -4,8 +4,8 @@ use core::ops::Range;
 
 use super::{Catalogue, CatalogueError, Node, PATCH, STRIDE, Tree, blocks};
 use crate::canonical::CanonicalSpec;
-use crate::kernels::gap;
 use crate::library::{Grid, Library};
+use crate::search::kernels::gap;
 
 /// A patch of neighbouring views of one library.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::canonical::reverse;
+use crate::image::mask::Word;
 use crate::library::fake::{compact_library, plain_library, spots};
-use crate::mask::Word;
-use crate::matching::{score, scores_needed};
+use crate::search::exhaustive::{score, scores_needed};
 use crate::search::query_bytes_needed;
 use proptest::prelude::*;
 

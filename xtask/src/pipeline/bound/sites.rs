@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::mask::Mask;
+use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
 use fluoropose::pose::Pose;
-use fluoropose::raster::render;
 use fluoropose::refine::{OutlineSample, RefineOptions, outline_samples};
+use fluoropose::render::render;
 
 use super::{Limit, Limits, Noise, PoseLimits, limits};
 use crate::pipeline::disturb::DisturbanceOptions;

@@ -5,9 +5,9 @@
 //! is left is to smooth the steps without drawing curves inwards, as plain smoothing does.
 
 use anyhow::Result;
-use fluoropose::border::{first_pixel, follow_border};
-use fluoropose::contour::{Contour, Point};
-use fluoropose::mask::Mask;
+use fluoropose::image::border::{first_pixel, follow_border};
+use fluoropose::image::contour::{Contour, Point};
+use fluoropose::image::mask::Mask;
 
 use super::fill::filled;
 use crate::pipeline::files::MaskBuffer;

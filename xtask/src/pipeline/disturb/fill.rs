@@ -1,8 +1,8 @@
 //! Polygons that may cross themselves, filled.
 
 use anyhow::Result;
-use fluoropose::contour::Point;
-use fluoropose::mask::MaskMut;
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::MaskMut;
 
 use crate::pipeline::files::MaskBuffer;
 
@@ -13,7 +13,7 @@ pub type Painted<'a> = (&'a [Point], bool);
 /// clockwise.
 ///
 /// For a polygon that does not cross itself that is its inside, as
-/// [`fluoropose::mask::MaskMut::fill_outline`] fills it. Where the sides of a displaced polygon cross at a sharp
+/// [`fluoropose::image::mask::MaskMut::fill_outline`] fills it. Where the sides of a displaced polygon cross at a sharp
 /// corner they leave small loops: those on the outer side run anticlockwise and are left out, those on the
 /// inner side are wound round twice and stay filled (X. Chen and S. McMains, *Polygon offsetting by
 /// computing winding numbers*, ASME DETC 2005). What is beyond the frame is cut off.
@@ -82,7 +82,7 @@ fn crossings(points: &[Point], height: usize) -> Vec<Vec<Crossing>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use fluoropose::contour::Outline;
+    use fluoropose::image::contour::Outline;
 
     const SIDE: usize = 64;
 
@@ -101,7 +101,7 @@ mod tests {
                 Point::new(round(31.3 + radius * cosine), round(33.1 + radius * sine))
             })
             .collect();
-        let mut words = vec![0; fluoropose::mask::words_needed(SIDE, SIDE)];
+        let mut words = vec![0; fluoropose::image::mask::words_needed(SIDE, SIDE)];
         let mut oracle = MaskMut::new(&mut words, SIDE, SIDE).unwrap();
         oracle.fill_outline(&Outline::new(&star, SIDE, SIDE).unwrap());
         let found = filled(&[(&star, false)], SIDE, SIDE).unwrap();

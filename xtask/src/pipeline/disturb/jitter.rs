@@ -3,7 +3,7 @@
 use rand::Rng;
 use std::f64::consts::TAU;
 
-use fluoropose::contour::Point;
+use fluoropose::image::contour::Point;
 
 use super::curve::Curve;
 

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use fluoropose::contour::Point;
-use fluoropose::mask::Mask;
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::Mask;
 use rand::{Rng, RngExt};
 
 use super::curve::Curve;

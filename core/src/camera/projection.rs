@@ -1,0 +1,210 @@
+//! The X-ray camera: principal distance, principal point and pixel pitch as one projection.
+
+use thiserror::Error;
+
+use crate::image::contour::Point;
+use crate::image::mask::MAX_SIDE;
+use crate::math::Vector3;
+
+/// Why numbers do not make a camera.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum CameraError {
+    /// A value is NaN, infinite or out of its range.
+    #[error("the calibration's {name} is {value}; it must be {rule}")]
+    Value {
+        /// Which value.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is possible.
+        rule: &'static str,
+    },
+}
+
+/// A pinhole camera at the X-ray focus, looking along -z with y up.
+///
+/// `column = cx + fx * X / -Z`, `row = cy - fy * Y / -Z`; `fx`, `fy`, `cx`, `cy` in pixels,
+/// continuous image coordinates. Built only with values that are finite and possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    width: usize,
+    height: usize,
+    fx: f64,
+    fy: f64,
+    cx: f64,
+    cy: f64,
+}
+
+fn check(
+    name: &'static str,
+    value: f64,
+    rule: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<f64, CameraError> {
+    if holds(value) {
+        Ok(value)
+    } else {
+        Err(CameraError::Value { name, value, rule })
+    }
+}
+
+impl Camera {
+    /// A camera for frames of `width` x `height` pixels, from its focal lengths and principal
+    /// point in pixels (continuous coordinates: the first pixel's centre is 0.5).
+    ///
+    /// # Errors
+    /// [`CameraError::Value`] names the value that is not finite or not possible.
+    pub fn new(
+        width: usize,
+        height: usize,
+        [fx, fy]: [f64; 2],
+        [cx, cy]: [f64; 2],
+    ) -> Result<Self, CameraError> {
+        let side = "1 to 16384 pixels";
+        let possible = |v: f64| (1.0..=MAX_SIDE as f64).contains(&v);
+        check("frame width", width as f64, side, possible)?;
+        check("frame height", height as f64, side, possible)?;
+        let focal = "between 1 and 1 000 000 pixels";
+        let possible = |v: f64| (1.0..=1e6).contains(&v);
+        check("horizontal focal length", fx, focal, possible)?;
+        check("vertical focal length", fy, focal, possible)?;
+        let ratio = "between 0.1 and 10";
+        let possible = |v: f64| (0.1..=10.0).contains(&v);
+        check("ratio of the focal lengths", fx / fy, ratio, possible)?;
+        let point = "within 100 000 pixels of the frame";
+        let possible = |v: f64| v.abs() <= 1e5;
+        check("principal point (column)", cx, point, possible)?;
+        check("principal point (row)", cy, point, possible)?;
+        Ok(Self {
+            width,
+            height,
+            fx,
+            fy,
+            cx,
+            cy,
+        })
+    }
+
+    /// A camera from the field's quantities: `distance` from focus to detector, `pitch` between
+    /// pixels, and the principal point's `offset` from the frame's centre (x right, y up), all
+    /// in mm at the detector.
+    ///
+    /// # Errors
+    /// [`CameraError::Value`] names the value that is not finite or not possible.
+    pub fn from_principal_distance(
+        width: usize,
+        height: usize,
+        distance: f64,
+        pitch: f64,
+        offset: [f64; 2],
+    ) -> Result<Self, CameraError> {
+        let rule = "a positive number of mm, at most 100 000";
+        let possible = |v: f64| v > 0.0 && v <= 1e5;
+        check("principal distance", distance, rule, possible)?;
+        check("pixel pitch", pitch, rule, possible)?;
+        let finite = |v: f64| v.abs() <= 1e5;
+        let rule = "a number of mm, at most 100 000 either way";
+        check("principal point x", offset[0], rule, finite)?;
+        check("principal point y", offset[1], rule, finite)?;
+        let focal = distance / pitch;
+        let centre = [
+            width as f64 / 2.0 + offset[0] / pitch,
+            height as f64 / 2.0 - offset[1] / pitch,
+        ];
+        Self::new(width, height, [focal, focal], centre)
+    }
+
+    /// Columns of the frame.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows of the frame.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Horizontal and vertical focal length, pixels.
+    #[must_use]
+    pub fn focal(&self) -> [f64; 2] {
+        [self.fx, self.fy]
+    }
+
+    /// Principal point (column, row), continuous image coordinates in pixels.
+    #[must_use]
+    pub fn principal_point(&self) -> [f64; 2] {
+        [self.cx, self.cy]
+    }
+
+    /// Height of a pixel divided by its width at the object: `fx / fy`.
+    #[must_use]
+    pub fn aspect(&self) -> f64 {
+        self.fx / self.fy
+    }
+
+    /// The image of a point in camera coordinates (mm); `None` on or behind the focus.
+    #[must_use]
+    pub fn project(&self, point: &Vector3) -> Option<Point> {
+        let depth = -point[2];
+        (depth > 0.0).then(|| Point {
+            column: self.cx + self.fx * point[0] / depth,
+            row: self.cy - self.fy * point[1] / depth,
+        })
+    }
+
+    /// The same camera for frames sampled `factor` times as finely in both directions.
+    ///
+    /// # Errors
+    /// [`CameraError::Value`] when the frame becomes too large.
+    pub fn supersampled(&self, factor: usize) -> Result<Self, CameraError> {
+        let f = factor as f64;
+        Self::new(
+            self.width.saturating_mul(factor),
+            self.height.saturating_mul(factor),
+            [self.fx * f, self.fy * f],
+            [self.cx * f, self.cy * f],
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_optical_axis_meets_a_1024_frame_at_index_511_and_a_half() {
+        let camera =
+            Camera::from_principal_distance(1024, 1024, 1198.0, 0.373, [0.0, 0.0]).expect("valid");
+        let centre = camera.project(&[0.0, 0.0, -900.0]).expect("in front");
+        assert_eq!((centre.column - 0.5, centre.row - 0.5), (511.5, 511.5));
+    }
+
+    #[test]
+    fn x_goes_right_and_y_goes_up_on_the_detector() {
+        let camera =
+            Camera::from_principal_distance(800, 600, 1000.0, 0.5, [10.0, 20.0]).expect("valid");
+        assert_eq!(camera.principal_point(), [420.0, 260.0]);
+        // 30 mm right and 40 mm up at half the principal distance are 60 and 80 mm there.
+        let image = camera.project(&[30.0, 40.0, -500.0]).expect("in front");
+        assert_eq!((image.column, image.row), (420.0 + 120.0, 260.0 - 160.0));
+        assert_eq!(camera.project(&[0.0, 0.0, 1.0]), None);
+        assert_eq!(camera.project(&[0.0, 0.0, f64::NAN]), None);
+    }
+
+    #[test]
+    fn impossible_values_are_named() {
+        let name = |result: Result<Camera, CameraError>| match result {
+            Err(CameraError::Value { name, .. }) => name,
+            Ok(_) => "accepted",
+        };
+        let make =
+            |distance, pitch, x| Camera::from_principal_distance(9, 9, distance, pitch, [x, 0.0]);
+        assert_eq!(name(make(0.0, 0.3, 0.0)), "principal distance");
+        assert_eq!(name(make(f64::NAN, 0.3, 0.0)), "principal distance");
+        assert_eq!(name(make(1000.0, -0.3, 0.0)), "pixel pitch");
+        assert_eq!(name(make(1000.0, 0.3, f64::INFINITY)), "principal point x");
+        assert_eq!(name(Camera::new(0, 9, [1e3; 2], [4.0; 2])), "frame width");
+    }
+}

@@ -1,0 +1,11 @@
+//! What is seen: grey frames, outlines, masks of one bit a pixel, and what is measured of them.
+
+pub mod border;
+pub mod contour;
+pub mod frame;
+pub mod mask;
+pub mod median;
+pub mod moments;
+pub mod region;
+pub mod scan;
+pub mod silhouette;

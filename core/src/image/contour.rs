@@ -1,0 +1,302 @@
+//! Outlines: polygons traced round a silhouette, in sub-pixel image coordinates.
+
+use heapless::Vec;
+use thiserror::Error;
+
+/// A point of the image plane in continuous coordinates: the centre of the first pixel is
+/// (0.5, 0.5), `row` grows downwards.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// Pixels to the right of the frame's left border.
+    pub column: f64,
+    /// Pixels below the frame's upper border.
+    pub row: f64,
+}
+
+impl Point {
+    /// The point at a column and row.
+    #[must_use]
+    pub fn new(column: f64, row: f64) -> Self {
+        Self { column, row }
+    }
+
+    fn is_finite(self) -> bool {
+        self.column.is_finite() && self.row.is_finite()
+    }
+}
+
+/// A traced polygon in fixed memory: at most `N` vertices.
+pub type Contour<const N: usize> = Vec<Point, N>;
+
+/// Why a polygon is not an outline. Fields count points from 0, sentences from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum OutlineError {
+    /// Fewer than three vertices.
+    #[error("the outline has {0} points; it needs at least 3")]
+    TooFewPoints(usize),
+    /// A coordinate is NaN or infinite.
+    #[error("point {} of the outline has a coordinate that is not a number", .0 + 1)]
+    NotFinite(usize),
+    /// A vertex lies beyond the frame's border.
+    #[error(
+        "point {} of the outline, at column {column:.1}, row {row:.1}, is outside the frame", index + 1
+    )]
+    OutsideFrame {
+        /// Which vertex, from 0.
+        index: usize,
+        /// Where it is.
+        column: f64,
+        /// Where it is.
+        row: f64,
+    },
+    /// Two sides meet where they should not.
+    #[error(
+        "the outline crosses itself: the side after point {} meets the side after point {}; move one of their points",
+        first + 1,
+        second + 1
+    )]
+    SelfCrossing {
+        /// The side from this vertex to the next, from 0.
+        first: usize,
+        /// The other side.
+        second: usize,
+    },
+    /// All vertices lie on one line.
+    #[error("the outline encloses no area")]
+    ZeroArea,
+}
+
+/// A polygon that is known to be closed, simple and inside its frame. The last vertex is joined
+/// to the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Outline<'a> {
+    points: &'a [Point],
+}
+
+impl<'a> Outline<'a> {
+    /// Checks `points` against a frame of `width` x `height` pixels. Time grows with the square
+    /// of the number of points.
+    ///
+    /// # Errors
+    /// An [`OutlineError`] that names the first offending point or pair of sides.
+    pub fn new(points: &'a [Point], width: usize, height: usize) -> Result<Self, OutlineError> {
+        if points.len() < 3 {
+            return Err(OutlineError::TooFewPoints(points.len()));
+        }
+        for (index, point) in points.iter().enumerate() {
+            if !point.is_finite() {
+                return Err(OutlineError::NotFinite(index));
+            }
+            let inside = (0.0..=width as f64).contains(&point.column)
+                && (0.0..=height as f64).contains(&point.row);
+            if !inside {
+                return Err(OutlineError::OutsideFrame {
+                    index,
+                    column: point.column,
+                    row: point.row,
+                });
+            }
+        }
+        // Before crossings, because points on one line also fold back; a crossing polygon may
+        // enclose equal areas of both signs, so its area says nothing.
+        if on_one_line(points) {
+            return Err(OutlineError::ZeroArea);
+        }
+        match first_crossing(points.len(), |number| points[number]) {
+            Some((first, second)) => Err(OutlineError::SelfCrossing { first, second }),
+            None => Ok(Self { points }),
+        }
+    }
+
+    /// The vertices.
+    #[must_use]
+    pub fn points(&self) -> &'a [Point] {
+        self.points
+    }
+
+    /// The sides, each as its two ends; the last one closes the polygon.
+    pub fn sides(&self) -> impl Iterator<Item = (Point, Point)> + use<'a> {
+        sides(self.points)
+    }
+
+    /// Enclosed area in square pixels, never negative.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        libm::fabs(signed_area(self.points))
+    }
+}
+
+fn sides(points: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
+    let next = points.iter().cycle().skip(1);
+    points.iter().copied().zip(next.copied())
+}
+
+/// Shoelace formula; positive where the polygon runs clockwise on the screen. The coordinates
+/// are taken from the first vertex, so a small outline far from the corner loses no digits.
+fn signed_area(points: &[Point]) -> f64 {
+    let origin = points.first().copied().unwrap_or_default();
+    let shifted = |p: Point| (p.column - origin.column, p.row - origin.row);
+    let twice: f64 = sides(points)
+        .map(|(a, b)| {
+            let ((ax, ay), (bx, by)) = (shifted(a), shifted(b));
+            ax * by - bx * ay
+        })
+        .sum();
+    twice / 2.0
+}
+
+fn on_one_line(points: &[Point]) -> bool {
+    let first = points.first().copied().unwrap_or_default();
+    let other = points.iter().copied().find(|&point| point != first);
+    other.is_none_or(|other| points.iter().all(|&p| orientation(first, other, p) == 0.0))
+}
+
+/// The first two sides of a closed line through `count` points that meet where they should not.
+#[must_use]
+pub fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usize, usize)> {
+    let side = |number: usize| (at(number), at((number + 1) % count));
+    for first in 0..count {
+        let a = side(first);
+        for second in first + 1..count {
+            let b = side(second);
+            let neighbours = second == first + 1 || (first == 0 && second == count - 1);
+            let touch = if neighbours {
+                folds_back(a, b)
+            } else {
+                // Most pairs are far apart: boxes are compared before anything is multiplied.
+                boxes_meet(a, b) && segments_meet(a, b)
+            };
+            if touch {
+                return Some((first, second));
+            }
+        }
+    }
+    None
+}
+
+fn boxes_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let overlap = |a: f64, b: f64, c: f64, d: f64| a.max(b) >= c.min(d) && c.max(d) >= a.min(b);
+    overlap(a.row, b.row, c.row, d.row) && overlap(a.column, b.column, c.column, d.column)
+}
+
+/// Twice the signed area of the triangle `a b c`.
+fn orientation(a: Point, b: Point, c: Point) -> f64 {
+    (b.column - a.column) * (c.row - a.row) - (b.row - a.row) * (c.column - a.column)
+}
+
+fn within_box(a: Point, b: Point, p: Point) -> bool {
+    let between = |x: f64, y: f64, v: f64| v >= x.min(y) && v <= x.max(y);
+    between(a.column, b.column, p.column) && between(a.row, b.row, p.row)
+}
+
+/// Whether two segments share a point (Cormen et al., *Introduction to Algorithms*, 33.1).
+fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let (o1, o2) = (orientation(a, b, c), orientation(a, b, d));
+    let (o3, o4) = (orientation(c, d, a), orientation(c, d, b));
+    let straddles = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
+    (straddles(o1, o2) && straddles(o3, o4))
+        || (o1 == 0.0 && within_box(a, b, c))
+        || (o2 == 0.0 && within_box(a, b, d))
+        || (o3 == 0.0 && within_box(c, d, a))
+        || (o4 == 0.0 && within_box(c, d, b))
+}
+
+/// Whether two sides that share one vertex lie on each other, or one of them has no length.
+fn folds_back(a: (Point, Point), b: (Point, Point)) -> bool {
+    let (before, shared, after) = if a.1 == b.0 {
+        (a.0, a.1, b.1)
+    } else {
+        (b.0, b.1, a.1)
+    };
+    let ahead = (shared.column - before.column) * (after.column - shared.column)
+        + (shared.row - before.row) * (after.row - shared.row);
+    orientation(before, shared, after) == 0.0 && ahead <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points<const N: usize>(pairs: [(f64, f64); N]) -> [Point; N] {
+        pairs.map(|(column, row)| Point::new(column, row))
+    }
+
+    #[test]
+    fn a_square_is_an_outline() {
+        let square = points([(1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0)]);
+        let outline = Outline::new(&square, 8, 8).expect("valid");
+        assert_eq!(outline.area(), 16.0);
+        assert_eq!(outline.sides().count(), 4);
+        let reversed = points([(1.0, 5.0), (5.0, 5.0), (5.0, 1.0), (1.0, 1.0)]);
+        assert_eq!(
+            Outline::new(&reversed, 8, 8).map(|o| o.area()).ok(),
+            Some(16.0)
+        );
+    }
+
+    #[test]
+    fn each_fault_has_its_name() {
+        let error = |points: &[Point]| Outline::new(points, 8, 8).map(|_| ()).err();
+        assert_eq!(
+            error(&points([(1.0, 1.0), (2.0, 2.0)])),
+            Some(OutlineError::TooFewPoints(2))
+        );
+        assert_eq!(
+            error(&points([(1.0, 1.0), (2.0, f64::NAN), (3.0, 1.0)])),
+            Some(OutlineError::NotFinite(1))
+        );
+        assert_eq!(
+            error(&points([(1.0, 1.0), (2.0, 2.0), (9.0, 1.0)])),
+            Some(OutlineError::OutsideFrame {
+                index: 2,
+                column: 9.0,
+                row: 1.0
+            })
+        );
+        assert_eq!(
+            error(&points([(1.0, 1.0), (2.0, 2.0), (4.0, 4.0)])),
+            Some(OutlineError::ZeroArea)
+        );
+        let even = points([(1.0, 1.0), (5.0, 5.0), (5.0, 1.0), (1.0, 5.0)]);
+        assert!(matches!(
+            error(&even),
+            Some(OutlineError::SelfCrossing { .. })
+        ));
+        assert_eq!(
+            error(&points([(3.0, 3.0); 4])),
+            Some(OutlineError::ZeroArea)
+        );
+        let bow_tie = points([(1.0, 1.0), (5.0, 5.0), (5.0, 1.0), (1.0, 6.0)]);
+        assert_eq!(
+            error(&bow_tie),
+            Some(OutlineError::SelfCrossing {
+                first: 0,
+                second: 2
+            })
+        );
+        let spike = points([(1.0, 1.0), (5.0, 1.0), (3.0, 1.0), (3.0, 5.0)]);
+        assert_eq!(
+            error(&spike),
+            Some(OutlineError::SelfCrossing {
+                first: 0,
+                second: 1
+            })
+        );
+        let doubled = points([(1.0, 1.0), (5.0, 1.0), (5.0, 1.0), (3.0, 5.0)]);
+        assert!(matches!(
+            error(&doubled),
+            Some(OutlineError::SelfCrossing { .. })
+        ));
+        let touching = points([(1.0, 1.0), (5.0, 1.0), (5.0, 5.0), (3.0, 1.0), (1.0, 5.0)]);
+        assert!(matches!(
+            error(&touching),
+            Some(OutlineError::SelfCrossing { .. })
+        ));
+    }
+
+    #[test]
+    fn a_point_in_the_middle_of_a_side_is_allowed() {
+        let square = points([(1.0, 1.0), (3.0, 1.0), (5.0, 1.0), (5.0, 5.0), (1.0, 5.0)]);
+        assert!(Outline::new(&square, 8, 8).is_ok());
+    }
+}

@@ -1,0 +1,210 @@
+//! Exact scan conversion: which pixel centres a polygon or triangle covers.
+//!
+//! Vertices are rounded to 1/4096 pixel and everything after that is integer arithmetic, so two
+//! triangles that share an edge neither overlap nor leave a gap, and every target fills the
+//! same pixels. A pixel belongs to a shape when its centre does; a centre exactly on an edge
+//! belongs to the shape below or to the right of it (Foley et al., *Computer Graphics*, 3.6).
+
+use crate::image::contour::Point;
+
+/// Binary places of a fixed-point coordinate.
+const PLACES: u32 = 12;
+const ONE: i64 = 1 << PLACES;
+const HALF: i64 = ONE / 2;
+
+/// How far rounding moves a coordinate at most, pixels.
+pub(crate) const ROUNDING: f64 = 0.5 / ONE as f64;
+
+/// Beside this number an `f64` holds whole numbers alone, and those of 32 bits in its low bits.
+const WHOLE: f64 = 6_755_399_441_055_744.0;
+
+/// Coordinates beyond this many pixels are refused: products of two must stay in 64 bits.
+pub const MAX_COORDINATE: f64 = 131_072.0;
+
+/// An image point in units of 1/4096 pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FixedPoint {
+    column: i32,
+    row: i32,
+}
+
+impl FixedPoint {
+    /// In place of a point: no coordinate is that far out.
+    pub(crate) const NONE: Self = Self {
+        column: i32::MIN,
+        row: i32::MIN,
+    };
+
+    /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
+    #[must_use]
+    pub fn from_point(point: Point) -> Option<Self> {
+        let (rounded, inside) = Self::rounded(point);
+        inside.then_some(rounded)
+    }
+
+    /// The nearest fixed point, and whether it is one: outside of [`MAX_COORDINATE`] it is not.
+    /// Without a branch, so that many can be rounded at once.
+    pub(crate) fn rounded(Point { column, row }: Point) -> (Self, bool) {
+        let inside = |value: f64| value.abs() <= MAX_COORDINATE;
+        // The sum is rounded to a whole number (of two as near, to the even one).
+        let fix = |value: f64| (value * ONE as f64 + WHOLE).to_bits() as i32;
+        let point = Self {
+            column: fix(column),
+            row: fix(row),
+        };
+        (point, inside(column) & inside(row))
+    }
+
+    /// Twice the signed area of the triangle `a`, `b`, `c`, in squares of 1/4096 pixel; positive
+    /// where it is run clockwise as seen on the screen.
+    pub(crate) fn doubled_area([a, b, c]: [Self; 3]) -> i64 {
+        let right = |p: Self| i64::from(p.column) - i64::from(a.column);
+        let down = |p: Self| i64::from(p.row) - i64::from(a.row);
+        right(b) * down(c) - down(b) * right(c)
+    }
+
+    /// Column and row, pixels.
+    pub(crate) fn place(self) -> [f32; 2] {
+        [self.column, self.row].map(|value| value as f32 / ONE as f32)
+    }
+
+    pub(crate) fn is_above(self, other: Self) -> bool {
+        self.row < other.row
+    }
+}
+
+/// As 64 bits of working memory for other things than points.
+impl From<u64> for FixedPoint {
+    fn from(bits: u64) -> Self {
+        Self {
+            column: bits as i32,
+            row: (bits >> 32) as i32,
+        }
+    }
+}
+
+impl From<FixedPoint> for u64 {
+    fn from(point: FixedPoint) -> Self {
+        Self::from(point.row as u32) << 32 | Self::from(point.column as u32)
+    }
+}
+
+/// Index of the first pixel whose centre is at or beyond a coordinate.
+fn first_centre(coordinate: i32) -> i32 {
+    // ceil((coordinate - HALF) / ONE)
+    (coordinate + HALF as i32 - 1) >> PLACES
+}
+
+/// A polygon side, ordered downwards, so that its crossings do not depend on who asks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Edge {
+    from: FixedPoint,
+    last_row: i32,
+    right: i64,
+    down: i64,
+    per_step: f64,
+}
+
+impl Edge {
+    pub(crate) fn new(a: FixedPoint, b: FixedPoint) -> Self {
+        let (from, to) = if a.row <= b.row { (a, b) } else { (b, a) };
+        let down = i64::from(to.row) - i64::from(from.row);
+        Self {
+            from,
+            last_row: to.row,
+            right: i64::from(to.column) - i64::from(from.column),
+            down,
+            // Infinite for a level edge, which crosses no row.
+            per_step: 1.0 / (down * ONE) as f64,
+        }
+    }
+
+    /// The rows whose centre line the edge crosses, cut to `0..height`.
+    pub(crate) fn rows(&self, height: usize) -> core::ops::Range<usize> {
+        let cut = |row: i32| usize::try_from(row).unwrap_or(0).min(height);
+        cut(first_centre(self.from.row))..cut(first_centre(self.last_row))
+    }
+
+    /// The first column whose centre is at or to the right of the edge on a row that it crosses:
+    /// the quotient of two integers, rounded up.
+    ///
+    /// A 64-bit division costs more than the rest of a span together. The quotient is
+    /// therefore estimated in floating point, which errs by far less than one at these sizes,
+    /// and put right by its integer remainder: the result is exact.
+    pub(crate) fn column_at(&self, row: usize) -> i64 {
+        let centre = row as i64 * ONE + HALF - i64::from(self.from.row);
+        let numerator = (i64::from(self.from.column) - HALF) * self.down + self.right * centre;
+        let step = self.down * ONE;
+        let estimate = (numerator as f64 * self.per_step) as i64;
+        let remainder = numerator - estimate * step;
+        estimate + i64::from(remainder > 0) - i64::from(remainder <= -step)
+    }
+}
+
+/// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
+/// Most triangles of a CAD model are smaller than a pixel and cover none.
+pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [core::ops::Range<i32>; 2] {
+    let range = |of: fn(FixedPoint) -> i32| {
+        let [a, b, c] = corners.map(of);
+        first_centre(a.min(b).min(c))..first_centre(a.max(b).max(c))
+    };
+    [range(|corner| corner.column), range(|corner| corner.row)]
+}
+
+/// Calls `fill(row, from, to)` for each row of the triangle that has pixel centres: columns
+/// `from..to`, not yet cut to a frame's width.
+pub(crate) fn triangle_spans(
+    corners: [FixedPoint; 3],
+    height: usize,
+    mut fill: impl FnMut(usize, i64, i64),
+) {
+    if pixel_box(corners).iter().any(core::ops::Range::is_empty) {
+        return;
+    }
+    let [a, b, c] = sorted_by_row(corners);
+    let (long, upper, lower) = (Edge::new(a, c), Edge::new(a, b), Edge::new(b, c));
+    for short in [upper, lower] {
+        for row in short.rows(height) {
+            let (x, y) = (long.column_at(row), short.column_at(row));
+            fill(row, x.min(y), x.max(y));
+        }
+    }
+}
+
+fn sorted_by_row([a, b, c]: [FixedPoint; 3]) -> [FixedPoint; 3] {
+    let order = |a: FixedPoint, b: FixedPoint| if a.row <= b.row { (a, b) } else { (b, a) };
+    let (a, b) = order(a, b);
+    let (b, c) = order(b, c);
+    let (a, b) = order(a, b);
+    [a, b, c]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_estimated_quotient_is_the_exact_one(
+            a in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
+            b in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
+            near in any::<bool>(),
+            share in 0.0..1.0f64,
+        ) {
+            let point = |(column, row): (i32, i32)| FixedPoint { column, row };
+            // Half the cases are short edges, as in a CAD model.
+            let b = if near { (a.0 + b.0 % 9000, a.1 + b.1 % 9000) } else { b };
+            let edge = Edge::new(point(a), point(b));
+            let rows = edge.rows(1 << 17);
+            prop_assume!(!rows.is_empty());
+            let row = rows.start + (share * rows.len() as f64) as usize;
+            let ((x, y), (to_x, to_y)) = if a.1 <= b.1 { (a, b) } else { (b, a) };
+            let (down, right) = (i128::from(to_y) - i128::from(y), i128::from(to_x) - i128::from(x));
+            let centre = row as i128 * i128::from(ONE) + i128::from(HALF) - i128::from(y);
+            let numerator = (i128::from(x) - i128::from(HALF)) * down + right * centre;
+            let exact = -(-numerator).div_euclid(down * i128::from(ONE));
+            prop_assert_eq!(i128::from(edge.column_at(row)), exact);
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Between the views: sub-degree rotation from the score surface, and the view's record there.
+
+use crate::library::{Grid, Library, ViewRecord};
+use crate::locate::bands::{self, lagrange, window};
+use crate::math::{solve_spd, wrap};
+use crate::search::Search;
+use crate::search::exhaustive::Candidate;
+
+/// A view between the views of the grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FineView {
+    /// The record there: rotations, scale, angle, offset.
+    pub record: ViewRecord,
+    /// Whether the silhouette fits when turned by 180 degrees.
+    pub reversed: bool,
+    /// Unmatched pixels of the nearest view of the grid.
+    pub unmatched: u32,
+    /// Whether the best fit is at the border of the grid: the true rotation may lie beyond it,
+    /// and a library about another nominal view should be tried.
+    pub at_border: bool,
+}
+
+/// Half width of the neighbourhood that the quadratic is fitted to, in views. Wider ones were
+/// worse: the score is no quadratic that far from its minimum.
+const REACH: usize = 2;
+
+/// Finds the rotation between the views round `candidate` and reads scale, angle and offset
+/// there.
+///
+/// The rotation comes from the bands that the outline sweeps between neighbouring views
+/// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
+/// is the minimum of a quadratic fitted to the scores.
+#[must_use]
+pub fn interpolate(search: &mut Search<'_, '_>, candidate: &Candidate) -> FineView {
+    let library = search.library();
+    let grid = &library.info().grid;
+    let (x, y) = grid.place(candidate.view);
+    let canonical = search.query().canonical(candidate.reversed);
+    let [fine_x, fine_y] = bands::solve(library, canonical, (x, y)).unwrap_or_else(|| {
+        let score = |view| search.score(view, candidate.reversed);
+        let (dx, dy) = fit_minimum(grid, score, x, y);
+        [x as f64 + dx, y as f64 + dy]
+    });
+    let last = |count: usize| count.saturating_sub(1) as f64;
+    let place = [
+        fine_x.clamp(0.0, last(grid.x.count)),
+        fine_y.clamp(0.0, last(grid.y.count)),
+    ];
+    let inside = |at: usize, count: usize| count == 1 || (at > 0 && at + 1 < count);
+    FineView {
+        record: record_at(library, place),
+        reversed: candidate.reversed,
+        unmatched: candidate.unmatched,
+        at_border: !(inside(x, grid.x.count) && inside(y, grid.y.count)),
+    }
+}
+
+/// Offset in steps from the view at (x, y) to the minimum of the fitted quadratic; (0, 0) where
+/// the surface has none near.
+fn fit_minimum(grid: &Grid, mut score: impl FnMut(usize) -> u32, x: usize, y: usize) -> (f64, f64) {
+    let mut normal = [[0.0; 6]; 6];
+    let mut right = [0.0; 6];
+    for v in window(y, grid.y.count, REACH) {
+        for u in window(x, grid.x.count, REACH) {
+            let (a, b) = (u as f64 - x as f64, v as f64 - y as f64);
+            let terms = [1.0, a, b, a * a, a * b, b * b];
+            let value = f64::from(score(grid.view(u, v)));
+            for (row, &term) in terms.iter().enumerate() {
+                right[row] += term * value;
+                for (column, &other) in terms.iter().enumerate() {
+                    normal[row][column] += term * other;
+                }
+            }
+        }
+    }
+    solve_spd(normal, right)
+        .and_then(|fit| minimum_of(&fit))
+        .filter(|(dx, dy)| dx.abs() <= 1.0 && dy.abs() <= 1.0)
+        .unwrap_or((0.0, 0.0))
+}
+
+/// Minimum of `c0 + c1 a + c2 b + c3 a^2 + c4 a b + c5 b^2`, where it has one.
+fn minimum_of(c: &[f64; 6]) -> Option<(f64, f64)> {
+    let [a, b] = solve_spd([[2.0 * c[3], c[4]], [c[4], 2.0 * c[5]]], [-c[1], -c[2]])?;
+    Some((a, b))
+}
+
+/// The record between the views, by biquadratic interpolation over the 3 x 3 nearest.
+///
+/// Axis angles are unwrapped towards the nearest view's first: an axis has a period of pi.
+fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
+    let grid = &library.info().grid;
+    let nearest = [place[0] + 0.5, place[1] + 0.5].map(|p| p as usize);
+    let centre = library.record(grid.view(nearest[0], nearest[1]));
+    let columns = window(nearest[0], grid.x.count, 1);
+    let rows = window(nearest[1], grid.y.count, 1);
+    let mut mean = ViewRecord {
+        x_deg: grid.x.at(place[0]),
+        y_deg: grid.y.at(place[1]),
+        angle: centre.angle,
+        area: centre.area,
+        elongation: centre.elongation,
+        ..ViewRecord::default()
+    };
+    for v in rows.clone() {
+        for u in columns.clone() {
+            let record = library.record(grid.view(u, v));
+            let weight = lagrange(&columns, u, place[0]) * lagrange(&rows, v, place[1]);
+            mean.scale += weight * record.scale;
+            mean.angle += weight * wrap(record.angle - centre.angle, core::f64::consts::PI);
+            mean.offset[0] += weight * record.offset[0];
+            mean.offset[1] += weight * record.offset[1];
+        }
+    }
+    mean
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::library::GridAxis;
+
+    #[test]
+    fn the_minimum_of_a_bowl_is_found_between_the_views() {
+        let axis = |count| GridAxis {
+            first: -3.0,
+            step: 1.0,
+            count,
+        };
+        let grid = Grid {
+            x: axis(7),
+            y: axis(9),
+        };
+        for (mx, my) in [(3.3, 4.2), (2.6, 4.45), (3.0, 3.9)] {
+            let mut surface = [0u32; 63];
+            for (view, score) in surface.iter_mut().enumerate() {
+                let (x, y) = grid.place(view);
+                let (a, b) = (x as f64 - mx, y as f64 - my);
+                *score = (80.0 + 300.0 * a * a + 90.0 * a * b + 150.0 * b * b) as u32;
+            }
+            let (x, y) = (libm::round(mx), libm::round(my));
+            let (dx, dy) = fit_minimum(&grid, |view| surface[view], x as usize, y as usize);
+            assert!((x + dx - mx).abs() < 0.02, "{mx}: {}", x + dx);
+            assert!((y + dy - my).abs() < 0.02, "{my}: {}", y + dy);
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Memory lent to the search for a first pose.
+
+use super::PartialError;
+use super::field::FIELD_CELLS;
+use super::hypothesis::Hypothesis;
+use super::ladder::LADDER_NUMBERS;
+use super::outline::OutlinePoint;
+use super::search::{PER_VIEW, VIEW_NUMBERS, VIEW_SAMPLES, coarse_views};
+use super::trace::Side;
+use crate::camera::Camera;
+use crate::image::mask::{Word, words_needed};
+use crate::library::Library;
+use crate::mesh::Mesh;
+use crate::render::{Projected, scratch_needed};
+
+/// Working memory of [`super::locate_partial`]: each slice at least as long as [`partial_needed`] says.
+#[derive(Debug)]
+pub struct PartialMemory<'a> {
+    /// Masks of the frame's size and of the canonical frame's.
+    pub words: &'a mut [Word],
+    /// Sides of pixels along an outline.
+    pub sides: &'a mut [Side],
+    /// Points along the known outline and that of a view.
+    pub points: &'a mut [OutlinePoint],
+    /// The nearest point of the known outline, place by place.
+    pub cells: &'a mut [u16],
+    /// Samples of outlines.
+    pub numbers: &'a mut [f32],
+    /// What the coarse search proposes.
+    pub hypotheses: &'a mut [Hypothesis],
+    /// Vertices of the model.
+    pub projected: &'a mut [Projected],
+}
+
+/// Lengths of a [`PartialMemory`]'s slices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartialNeeds {
+    /// Of `words`.
+    pub words: usize,
+    /// Of `sides`.
+    pub sides: usize,
+    /// Of `points`.
+    pub points: usize,
+    /// Of `cells`.
+    pub cells: usize,
+    /// Of `numbers`.
+    pub numbers: usize,
+    /// Of `hypotheses`.
+    pub hypotheses: usize,
+    /// Of `projected`.
+    pub projected: usize,
+}
+
+/// Points of the known outline, at most: some ten outlines of an implant.
+pub(super) const KNOWN_POINTS: usize = 4096;
+/// Sides for each column and row of a frame, and for those of a canonical frame.
+const SIDES_PER_LINE: usize = 8;
+
+/// How much working memory a library, a camera and a model take: for 1271 views, a frame of
+/// 1024 x 1024 pixels and 6000 vertices some 600 KB.
+#[must_use]
+pub fn partial_needed(library: &Library<'_>, camera: &Camera, mesh: &Mesh<'_>) -> PartialNeeds {
+    let size = library.info().canonical.size();
+    let lines = (camera.width() + camera.height()).max(2 * size);
+    PartialNeeds {
+        words: words_needed(camera.width(), camera.height()) + 2 * words_needed(size, size),
+        sides: SIDES_PER_LINE * lines,
+        points: KNOWN_POINTS + VIEW_SAMPLES,
+        cells: FIELD_CELLS,
+        numbers: LADDER_NUMBERS + VIEW_NUMBERS,
+        hypotheses: PER_VIEW * coarse_views(library),
+        projected: scratch_needed(mesh),
+    }
+}
+
+impl PartialMemory<'_> {
+    /// # Errors
+    /// [`PartialError::Memory`] names the first slice that is too short.
+    pub(super) fn check(&self, needs: &PartialNeeds) -> Result<(), PartialError> {
+        let lengths = [
+            ("words", needs.words, self.words.len()),
+            ("sides", needs.sides, self.sides.len()),
+            ("points", needs.points, self.points.len()),
+            ("cells", needs.cells, self.cells.len()),
+            ("numbers", needs.numbers, self.numbers.len()),
+            ("hypotheses", needs.hypotheses, self.hypotheses.len()),
+            ("projected vertices", needs.projected, self.projected.len()),
+        ];
+        let short = lengths
+            .into_iter()
+            .find(|(_, needed, given)| given < needed);
+        match short {
+            Some((what, needed, given)) => Err(PartialError::Memory {
+                what,
+                needed,
+                given,
+            }),
+            None => Ok(()),
+        }
+    }
+}

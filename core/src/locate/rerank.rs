@@ -1,0 +1,73 @@
+//! Choosing between rival poses: draw the model at each and count the pixels that differ.
+//!
+//! The scores of [`crate::search::exhaustive`] are those of whole views; two rivals may differ by less
+//! than the distance of their poses from the nearest view. Drawn at its own pose, each rival
+//! answers for itself.
+
+use heapless::Vec;
+
+use crate::camera::Camera;
+use crate::image::mask::MaskMut;
+use crate::image::silhouette::Silhouette;
+use crate::locate::whole::Located;
+use crate::mesh::Mesh;
+use crate::pose::Pose;
+use crate::render::{Projected, RenderError, render};
+
+/// A located pose and how well the model drawn at it covers the silhouette.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Verified {
+    /// The pose and the view that led to it.
+    pub located: Located,
+    /// Known frame pixels in the silhouette or in the drawing but not in both.
+    pub unmatched: u64,
+}
+
+/// Known frame pixels that differ between `silhouette` and the model drawn at `pose`. `scratch` and `drawn`
+/// are working memory as for [`render`]; `drawn` holds the drawing afterwards.
+///
+/// # Errors
+/// Those of [`render`]; [`RenderError::Size`] also where `silhouette` has another size.
+pub fn unmatched_at(
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    silhouette: &Silhouette<'_>,
+    scratch: &mut [Projected],
+    drawn: &mut MaskMut<'_>,
+) -> Result<u64, RenderError> {
+    drawn.clear();
+    render(mesh, camera, pose, scratch, drawn)?;
+    silhouette
+        .unmatched(&drawn.as_mask())
+        .ok_or(RenderError::Size)
+}
+
+/// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
+/// more than `K` poses the first `K` are looked at.
+///
+/// # Errors
+/// Those of [`unmatched_at`].
+pub fn verify<const K: usize>(
+    poses: &[Located],
+    mesh: &Mesh<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    scratch: &mut [Projected],
+    drawn: &mut MaskMut<'_>,
+) -> Result<Vec<Verified, K>, RenderError> {
+    let mut verified: Vec<Verified, K> = Vec::new();
+    for located in poses.iter().take(K) {
+        let unmatched = unmatched_at(mesh, camera, &located.pose, silhouette, scratch, drawn)?;
+        let place = verified.partition_point(|other| other.unmatched <= unmatched);
+        // At most K poses are looked at, so there is room.
+        let _ = verified.insert(
+            place,
+            Verified {
+                located: *located,
+                unmatched,
+            },
+        );
+    }
+    Ok(verified)
+}

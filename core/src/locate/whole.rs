@@ -1,0 +1,175 @@
+//! The whole way at once: from a silhouette to the poses that explain it.
+
+use heapless::Vec;
+use thiserror::Error;
+
+use crate::camera::Camera;
+use crate::canonical::{CanonicalError, CanonicalForm, CanonicalSpec, canonicalise, reverse};
+use crate::image::mask::{Mask, Word};
+use crate::library::Library;
+use crate::locate::estimate::pose_from_view;
+use crate::locate::interpolate::{FineView, interpolate};
+use crate::pose::Pose;
+use crate::search::exhaustive::{MatchError, Scores, scores_needed};
+use crate::search::kernels::Kernels;
+use crate::search::{Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed};
+
+/// Why no pose was found.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum LocateError {
+    /// The silhouette has no canonical form.
+    #[error(transparent)]
+    Canonical(#[from] CanonicalError),
+    /// Working memory has the wrong length.
+    #[error(transparent)]
+    Match(#[from] MatchError),
+}
+
+/// Working memory of [`locate`].
+#[derive(Debug)]
+pub struct Workspace<'a> {
+    /// [`crate::canonical::CanonicalSpec::words_needed`] words; afterwards the canonical mask.
+    pub canonical: &'a mut [Word],
+    /// As many words again.
+    pub turned: &'a mut [Word],
+    /// [`scores_needed`] numbers.
+    pub scores: &'a mut [u32],
+    /// [`workspace_bytes_needed`] bytes.
+    pub bytes: &'a mut [u8],
+    /// The loops to run.
+    pub kernels: Kernels,
+}
+
+impl Workspace<'_> {
+    /// The same memory, lent on.
+    pub fn lend(&mut self) -> Workspace<'_> {
+        Workspace {
+            canonical: self.canonical,
+            turned: self.turned,
+            scores: self.scores,
+            bytes: self.bytes,
+            kernels: self.kernels,
+        }
+    }
+}
+
+/// Lengths of a [`Workspace`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkspaceNeeds {
+    /// Words of each of the two masks.
+    pub words: usize,
+    /// Scores.
+    pub scores: usize,
+    /// Bytes.
+    pub bytes: usize,
+}
+
+/// Lengths of a [`Workspace`] for a library.
+#[must_use]
+pub fn workspace_needed(library: &Library<'_>) -> WorkspaceNeeds {
+    let spec = &library.info().canonical;
+    WorkspaceNeeds {
+        words: spec.words_needed(),
+        scores: scores_needed(library.views()),
+        bytes: workspace_bytes_needed(spec),
+    }
+}
+
+/// Bytes of a [`Workspace`] for libraries of a canonical frame.
+#[must_use]
+pub const fn workspace_bytes_needed(spec: &CanonicalSpec) -> usize {
+    query_bytes_needed(spec, false) + search_bytes_needed(spec)
+}
+
+/// A pose that explains the silhouette, and the view that led to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located {
+    /// `camera_from_model`.
+    pub pose: Pose,
+    /// Number of the nearest view of the library.
+    pub view: usize,
+    /// The view between the views.
+    pub fine: FineView,
+}
+
+/// What [`locate`] found.
+#[derive(Clone, Debug)]
+pub struct Found<const K: usize> {
+    /// What was taken away from the silhouette to reach canonical form.
+    pub form: CanonicalForm,
+    /// At most `K` poses, one for each local minimum of the score surface that is not hopeless
+    /// ([`Search::rivals`]), fewest unmatched pixels first. More than one with similar scores means that the silhouette is ambiguous.
+    pub poses: Vec<Located, K>,
+}
+
+/// Finds the poses of the library's model that explain `mask`, as seen by `camera`.
+///
+/// # Errors
+/// [`LocateError`] for a mask without a canonical form or working memory of the wrong length.
+pub fn locate<const K: usize>(
+    mask: &Mask<'_>,
+    camera: &Camera,
+    library: &Library<'_>,
+    work: Workspace<'_>,
+) -> Result<Found<K>, LocateError> {
+    let info = library.info();
+    let form = canonicalise(mask, &info.canonical, camera.aspect(), work.canonical)?;
+    reverse(work.canonical, work.turned);
+    let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
+    let query = Query::new(&info.canonical, work.canonical, work.turned, None, prepared)?;
+    let memory = SearchMemory {
+        bounds: work.scores,
+        sketches,
+    };
+    let mut search = Search::new(library, &query, &work.kernels, memory)?;
+    let rivals: Vec<_, K> = search.rivals();
+    let poses = rivals
+        .iter()
+        .map(|candidate| {
+            let fine = interpolate(&mut search, candidate);
+            Located {
+                pose: pose_from_view(camera, info, &form, &fine),
+                view: candidate.view,
+                fine,
+            }
+        })
+        .collect();
+    Ok(Found { form, poses })
+}
+
+/// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them
+/// than it has to.
+///
+/// # Errors
+/// As [`locate`].
+pub fn score_views<'w>(
+    mask: &Mask<'_>,
+    camera: &Camera,
+    library: &Library<'_>,
+    work: Workspace<'w>,
+) -> Result<(CanonicalForm, Scores<'w>), LocateError> {
+    let spec = &library.info().canonical;
+    let form = canonicalise(mask, spec, camera.aspect(), work.canonical)?;
+    reverse(work.canonical, work.turned);
+    let (prepared, _) = split_bytes(work.bytes, spec)?;
+    let query = Query::new(spec, work.canonical, work.turned, None, prepared)?;
+    let scores = Scores::fill(library, work.scores, |view, reversed| {
+        query.unmatched(library, view, reversed, &work.kernels)
+    })?;
+    Ok((form, scores))
+}
+
+/// The query's bytes and the sketches'.
+fn split_bytes<'a>(
+    bytes: &'a mut [u8],
+    spec: &CanonicalSpec,
+) -> Result<(&'a mut [u8], &'a mut [u8]), MatchError> {
+    let memory = MatchError::Memory {
+        what: "bytes",
+        needed: workspace_bytes_needed(spec),
+        given: bytes.len(),
+    };
+    bytes
+        .split_at_mut_checked(query_bytes_needed(spec, false))
+        .ok_or(memory)
+}

@@ -1,0 +1,269 @@
+//! A camera that looks at a model's triangles from where the model sees it.
+//!
+//! Facing is that of the drawn triangle, whose vertices are rounded. Three points at `p0`, `p1`, `p2`
+//! in camera coordinates have an image of the doubled area
+//! `fx fy det(p0, p1, p2) / (z0 z1 z2)`, where `det` is the doubled area of the triangle times the
+//! distance of the camera from its plane. Rounding by up to `h` changes the image's by
+//! `2 h (a + b) + 8 h^2` at most, with `a` and `b` two sides of it, columns and rows added. What is
+//! nearer to edge-on than that is rounded and measured.
+
+use super::MeshEdge;
+use super::boxes::{EdgeBox, EdgeGroup, IN_BOX, place};
+use crate::camera::Camera;
+use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
+use crate::math::{Vector3, cross, dot, norm, sqrt, subtract};
+use crate::mesh::{Bounds, Mesh};
+use crate::pose::Pose;
+use crate::render::Images;
+
+/// Part of a distance that rounding to 32 bits changes at most, with some to spare.
+const SINGLE: f32 = 4e-6;
+/// The same of 64 bits and of poses that are rigid but for [`RIGID`].
+const DOUBLE: f64 = 1e-8;
+const RIGID: f64 = 1e-9;
+
+/// A bit for each edge of a group.
+type Bits = u16;
+
+/// Which triangles beside edges face the camera, and of which that is certain.
+struct Sides {
+    certain: Bits,
+    faces: Bits,
+}
+
+/// A camera as the model's triangles see it.
+pub(crate) struct Eye<'a> {
+    vertices: &'a [[f32; 3]],
+    /// In model coordinates, mm.
+    place: Vector3,
+    single: [f32; 3],
+    /// Distance from the origin of the model and farthest distance of its parts, mm.
+    distance: f64,
+    /// How far edge-on must be, as doubled area times distance from the plane, mm^3: for each mm of
+    /// the longest side, and beside that.
+    per_mm: f64,
+    least: f64,
+    /// The same two, and how far planes are from where they seem, mm, in 32 bits.
+    margins: [f32; 3],
+    /// Whether it is certain that all vertices have images.
+    sees_all: bool,
+}
+
+impl<'a> Eye<'a> {
+    pub(crate) fn new(mesh: &Mesh<'a>, camera: &Camera, pose: &Pose) -> Self {
+        let Bounds { centre, radius } = mesh.bounds();
+        let middle = pose.transform(&centre);
+        let (near, far) = (-middle[2] - radius, -middle[2] + radius);
+        let place = pose.inverse().translation;
+        let ([fx, fy], principal) = (camera.focal(), camera.principal_point());
+        // Tangents of the angles off the axis.
+        let aside = [middle[0], middle[1]].map(|x| (x.abs() + radius) / near);
+        let stretch: f64 = aside.iter().map(|tan| sqrt(1.0 + tan * tan)).sum();
+        let in_front = near > 0.0 && pose.is_rigid(RIGID);
+        let farthest = |k: usize| camera.focal()[k] * aside[k] + principal[k].abs();
+        // With a thousandth for what rounding before the last does.
+        let scale = 1.001 * far * far * far / (fx * fy);
+        let (per_mm, least) = if in_front {
+            let side_px = fx.max(fy) / near * stretch;
+            (
+                scale * 4.0 * ROUNDING * side_px,
+                scale * 8.0 * ROUNDING * ROUNDING,
+            )
+        } else {
+            (f64::INFINITY, f64::INFINITY)
+        };
+        let distance = norm(&place) + norm(&centre) + radius;
+        Self {
+            vertices: mesh.vertices(),
+            place,
+            single: place.map(|x| x as f32),
+            distance,
+            per_mm,
+            least,
+            margins: [per_mm as f32, least as f32, SINGLE * distance as f32],
+            // Well inside of what is refused.
+            sees_all: in_front && (0..2).all(|k| farthest(k) < 0.99 * MAX_COORDINATE),
+        }
+    }
+
+    /// Whether no vertex can lie behind the camera or too far aside.
+    pub(crate) fn sees_all(&self) -> bool {
+        self.sees_all
+    }
+
+    /// Calls `visit` for each edge of a group that is on the contour: its vertices, in the direction
+    /// of the triangle that faces the camera.
+    pub(crate) fn contour(
+        &self,
+        bounds: &EdgeBox,
+        group: &EdgeGroup,
+        images: &mut Images<'_>,
+        mut visit: impl FnMut([u32; 2]),
+    ) {
+        let [per_mm, least, rounding] = self.margins;
+        let margin = bounds.thin * per_mm + bounds.small * least + rounding;
+        if self.is_clear(bounds, margin) {
+            return;
+        }
+        let [forth, back] = group
+            .duals
+            .each_ref()
+            .map(|duals| self.sides(duals, margin));
+        let certain = forth.certain & back.certain;
+        let mut wanted = !certain | (forth.faces ^ back.faces);
+        while wanted != 0 {
+            let at = wanted.trailing_zeros() as usize;
+            wanted &= wanted - 1;
+            let Some(edge) = group.edge(at) else {
+                continue;
+            };
+            let [forth, back] = if certain >> at & 1 == 1 {
+                [forth.faces, back.faces].map(|faces| faces >> at & 1 == 1)
+            } else {
+                self.faces(edge, images)
+            };
+            match (forth, back) {
+                (true, false) => visit([edge.from, edge.to]),
+                (false, true) => visit([edge.to, edge.from]),
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether all triangles of a box turn the same way, by more than a margin in mm.
+    fn is_clear(&self, bounds: &EdgeBox, margin: f32) -> bool {
+        let (mut from_middle, mut reach) = (-bounds.middle[3], bounds.reach[3] + margin);
+        for (k, x) in self.single.iter().enumerate() {
+            from_middle += x * bounds.middle[k];
+            reach += x.abs() * bounds.reach[k];
+        }
+        from_middle.abs() > reach
+    }
+
+    /// Of triangles by their duals.
+    fn sides(&self, [a, b, c, d]: &[[f32; IN_BOX]; 4], margin: f32) -> Sides {
+        let [x, y, z] = self.single;
+        let from_plane: [f32; IN_BOX] =
+            core::array::from_fn(|k| a[k] * x + b[k] * y + c[k] * z - d[k]);
+        let bits = |holds: fn(f32, f32) -> bool| {
+            let bits = from_plane.iter().enumerate();
+            bits.fold(0, |sum, (k, &distance)| {
+                sum | Bits::from(holds(distance, margin)) << k
+            })
+        };
+        Sides {
+            certain: bits(|distance, margin| distance.abs() > margin),
+            // Images are run clockwise where normals point away.
+            faces: bits(|distance, _| distance < 0.0),
+        }
+    }
+
+    /// Whether the triangles forth and back beside an edge face the camera.
+    fn faces(&self, edge: &MeshEdge, images: &mut Images<'_>) -> [bool; 2] {
+        let &MeshEdge { from, to, .. } = edge;
+        let start = place(self.vertices, from);
+        let along = subtract(&place(self.vertices, to), &start);
+        let sight = subtract(&start, &self.place);
+        [(edge.forth, 1.0), (edge.back, -1.0)].map(|(third, sign)| {
+            let side = subtract(&place(self.vertices, third), &start);
+            let doubled = sign * dot(&cross(&along, &side), &sight);
+            if doubled.abs() > self.edge_on(&along, &side) {
+                return doubled > 0.0;
+            }
+
+            let corners = [from, to, third].map(|vertex| images.of(vertex));
+            let area = FixedPoint::doubled_area(corners);
+            if sign > 0.0 { area > 0 } else { area < 0 }
+        })
+    }
+
+    /// Doubled area times distance from the plane of a triangle with two such sides below which
+    /// rounding may turn its image over, mm^3.
+    fn edge_on(&self, a: &Vector3, b: &Vector3) -> f64 {
+        let sides: f64 = a.iter().chain(b).map(|x| x.abs()).sum();
+        self.per_mm / 2.0 * sides + self.least + DOUBLE * sides * sides * self.distance
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{add, scale};
+    use crate::mesh::edges::fake::{self, Linked};
+    use crate::pose::EulerPose;
+    use crate::render::{Projected, project};
+    use proptest::prelude::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// Silhouette edges without looking at each edge, and by the images of all triangles.
+    fn contours(mesh: &Mesh<'_>, focal: f64, pose: &Pose) -> [Vec<[u32; 2]>; 2] {
+        let camera = Camera::new(64, 64, [focal, 0.97 * focal], [31.0, 33.5]).expect("valid");
+        let linked = Linked::new(mesh);
+        let mut slots = vec![Projected::default(); mesh.vertices().len()];
+        let mut images = Images::new(mesh, &camera, pose, &mut slots);
+        let eye = Eye::new(mesh, &camera, pose);
+        let mut found = Vec::new();
+        for (bounds, group) in linked.edges().groups() {
+            eye.contour(bounds, group, &mut images, |ends| found.push(ends));
+        }
+        let images = project(mesh, &camera, pose, &mut slots).expect("in front");
+        let faces = |corners: [u32; 3]| {
+            FixedPoint::doubled_area(corners.map(|vertex| images[vertex as usize])) > 0
+        };
+        let mut naive = Vec::new();
+        for edge in linked.edges().groups().flat_map(|(_, group)| group.edges()) {
+            let MeshEdge { from, to, .. } = edge;
+            match (faces([from, to, edge.forth]), faces([to, from, edge.back])) {
+                (true, false) => naive.push([from, to]),
+                (false, true) => naive.push([to, from]),
+                _ => {}
+            }
+        }
+        [found, naive]
+    }
+
+    proptest! {
+        #[test]
+        fn edges_of_a_torus_are_those_of_its_images(
+            dents in proptest::collection::vec(-1.0..1.0f32, 1..40),
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            place in proptest::array::uniform3(-40.0..40.0f64),
+            focal in 1.0..9.0f64,
+        ) {
+            let (vertices, triangles) = fake::torus(&dents);
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let [x_mm, y_mm, nearer] = place;
+            let pose = Pose::from(EulerPose {
+                x_mm, y_mm, z_mm: nearer - 150.0, z_rot_deg, x_rot_deg, y_rot_deg
+            });
+            let [found, naive] = contours(&mesh, libm::exp(focal), &pose);
+            prop_assert_eq!(found, naive);
+        }
+    }
+
+    #[test]
+    fn edges_of_a_plate_edge_on_near_or_bent_are_those_of_its_images() {
+        let (vertices, triangles) = fake::plate();
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let turns = [0.0, 1e-7, 1e-4, 0.01, 0.2, 45.0, 89.999, 90.0];
+        for (x_rot_deg, y_rot_deg) in turns.iter().flat_map(|&x| turns.map(|y| (x, y))) {
+            for (z_mm, focal) in [(-5000.0, 9000.0), (-500.0, 20.0), (-21.5, 600.0)] {
+                let mut pose = Pose::from(EulerPose {
+                    x_mm: 1.7,
+                    z_mm,
+                    x_rot_deg,
+                    y_rot_deg,
+                    ..EulerPose::default()
+                });
+                let [found, naive] = contours(&mesh, focal, &pose);
+                assert_eq!(found, naive, "{x_rot_deg} {y_rot_deg} {z_mm}");
+                let [first, _, last] = pose.rotation;
+                pose.rotation[0] = add(&first, &scale(&last, 0.3));
+                let [found, naive] = contours(&mesh, focal, &pose);
+                assert_eq!(found, naive, "{x_rot_deg} {y_rot_deg} {z_mm} bent");
+            }
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! A model's surface: borrowed vertices and triangles, checked once.
+
+use sha2::{Digest as _, Sha256};
+use thiserror::Error;
+
+use crate::math::Vector3;
+use crate::mesh::edges::Edges;
+
+/// Why vertices and triangles are not a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum MeshError {
+    /// There is nothing to draw.
+    #[error("the model has no triangles")]
+    Empty,
+    /// A coordinate is NaN, infinite, or beyond 10 m.
+    #[error("vertex {0} of the model is not finite or lies more than 10 m away; lengths are in mm")]
+    Vertex(usize),
+    /// A triangle names a vertex that is not there.
+    #[error("triangle {0} of the model names a vertex that does not exist")]
+    Index(usize),
+    /// All vertices are one point.
+    #[error("the model has no extent: all its vertices are the same point")]
+    Point,
+}
+
+/// A triangle mesh in model coordinates, mm. Winding, holes and order do not matter.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh<'a> {
+    vertices: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    edges: Option<Edges<'a>>,
+    bounds: Bounds,
+}
+
+/// SHA-256 of a mesh's vertices and triangles as they are stored.
+pub type ModelDigest = [u8; 32];
+
+/// A sphere round all vertices, in model coordinates, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Middle of the box round the vertices.
+    pub centre: Vector3,
+    /// Distance from it to the farthest vertex.
+    pub radius: f64,
+}
+
+impl Bounds {
+    fn of(vertices: &[[f32; 3]]) -> Self {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for vertex in vertices {
+            for ((low, high), &x) in low.iter_mut().zip(&mut high).zip(vertex) {
+                *low = low.min(f64::from(x));
+                *high = high.max(f64::from(x));
+            }
+        }
+        let centre = core::array::from_fn(|k| (low[k] + high[k]) / 2.0);
+        let squared = vertices.iter().fold(0.0f64, |most, vertex| {
+            let d: Vector3 = core::array::from_fn(|k| f64::from(vertex[k]) - centre[k]);
+            most.max(crate::math::dot(&d, &d))
+        });
+        Self {
+            centre,
+            radius: crate::math::sqrt(squared),
+        }
+    }
+}
+
+impl<'a> Mesh<'a> {
+    /// A mesh over vertices and triples of vertex indices.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the first vertex or triangle at fault.
+    pub fn new(vertices: &'a [[f32; 3]], triangles: &'a [[u32; 3]]) -> Result<Self, MeshError> {
+        if triangles.is_empty() {
+            return Err(MeshError::Empty);
+        }
+        // A NaN fails the comparison too.
+        let possible = |v: &[f32; 3]| v.iter().all(|x| x.abs() <= 10_000.0);
+        if let Some(index) = vertices.iter().position(|v| !possible(v)) {
+            return Err(MeshError::Vertex(index));
+        }
+        let known = |t: &[u32; 3]| t.iter().all(|&v| (v as usize) < vertices.len());
+        if let Some(index) = triangles.iter().position(|t| !known(t)) {
+            return Err(MeshError::Index(index));
+        }
+        let bounds = Bounds::of(vertices);
+        if bounds.radius == 0.0 {
+            return Err(MeshError::Point);
+        }
+        Ok(Self {
+            vertices,
+            triangles,
+            edges: None,
+            bounds,
+        })
+    }
+
+    /// Vertices, mm.
+    #[must_use]
+    pub fn vertices(&self) -> &'a [[f32; 3]] {
+        self.vertices
+    }
+
+    /// Triangles as vertex indices, all in range.
+    #[must_use]
+    pub fn triangles(&self) -> &'a [[u32; 3]] {
+        self.triangles
+    }
+
+    /// The same mesh with the edges that [`crate::mesh::edges::link`] found for these triangles: its
+    /// silhouettes are the same, and are drawn several times as fast.
+    #[must_use]
+    pub fn with_edges(self, edges: Edges<'a>) -> Self {
+        Self {
+            edges: Some(edges),
+            ..self
+        }
+    }
+
+    pub(crate) fn edges(&self) -> Option<Edges<'a>> {
+        self.edges
+    }
+
+    /// Centre of the bounding box and the radius of the sphere round it that holds the model.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// Digest of the geometry, which a library records to know its model again.
+    #[must_use]
+    pub fn digest(&self) -> ModelDigest {
+        let mut hash = Sha256::new();
+        hash.update((self.vertices.len() as u64).to_le_bytes());
+        for x in self.vertices.iter().flatten() {
+            hash.update(x.to_le_bytes());
+        }
+        for index in self.triangles.iter().flatten() {
+            hash.update(index.to_le_bytes());
+        }
+        hash.finalize().into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn faults_are_named() {
+        let v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, f32::NAN]];
+        let error = |v: &[[f32; 3]], t: &[[u32; 3]]| Mesh::new(v, t).map(|_| ()).err();
+        assert_eq!(error(&v, &[]), Some(MeshError::Empty));
+        assert_eq!(error(&v, &[[0, 1, 2]]), Some(MeshError::Vertex(2)));
+        assert_eq!(error(&v[..2], &[[0, 1, 2]]), Some(MeshError::Index(0)));
+        assert_eq!(error(&[[1.0; 3]; 3], &[[0, 1, 2]]), Some(MeshError::Point));
+    }
+
+    #[test]
+    fn the_digest_knows_a_moved_vertex() {
+        let mut v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let before = Mesh::new(&v, &[[0, 1, 2]]).expect("valid").digest();
+        v[2][2] = f32::MIN_POSITIVE;
+        assert_ne!(before, Mesh::new(&v, &[[0, 1, 2]]).expect("valid").digest());
+    }
+
+    #[test]
+    fn the_sphere_holds_the_box() {
+        let v = [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+        let bounds = Mesh::new(&v, &[[0, 1, 2]]).expect("valid").bounds();
+        assert_eq!(bounds.centre, [2.0, 1.5, 0.0]);
+        assert_eq!(bounds.radius, 2.5);
+    }
+}

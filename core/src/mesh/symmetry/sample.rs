@@ -1,0 +1,164 @@
+//! A surface's size, axes and an even sample of its points.
+
+use super::nearest::{corners, normal};
+use crate::math::eigen::eigen_symmetric;
+use crate::math::{Matrix3, Vector3, add, cross, norm, scale, sqrt, subtract};
+use crate::mesh::Mesh;
+
+/// Points of a sample; a power of two. Of 2048 points instead of 256 the deviations measured
+/// differ by 6 percent and the planes by 0.5 degrees.
+pub(super) const SAMPLES: usize = 256;
+/// Neighbouring points that share a box, and neighbouring groups of them that share another.
+pub(super) const GROUP: usize = 4;
+pub(super) const BLOCK: usize = 32;
+
+/// A surface as far as its symmetry is concerned. Coordinates are relative to `origin`, so an
+/// origin far from the part costs no digits.
+pub(super) struct Samples {
+    /// Centroid of the surface, model coordinates, mm.
+    pub(super) origin: Vector3,
+    /// Root mean square distance of the surface from its centroid, mm.
+    pub(super) size: f64,
+    /// Mean squares along the principal axes, largest first, square mm.
+    pub(super) spread: [f64; 3],
+    /// The principal axes, a row each.
+    pub(super) axes: Matrix3,
+    /// Points of the surface, each for the same area; neighbours in the list are near each other.
+    pub(super) points: [Vector3; SAMPLES],
+    /// Unit normals there, of either sign.
+    pub(super) normals: [Vector3; SAMPLES],
+    /// The triangle on which each point lies.
+    pub(super) triangles: [[u32; 3]; SAMPLES],
+}
+
+/// Area, first and second moments of a surface.
+#[derive(Default)]
+struct Moments {
+    area: f64,
+    first: Vector3,
+    second: Matrix3,
+}
+
+impl Moments {
+    /// Adds a triangle: its second moment is that of a twelfth of its area at each corner and
+    /// nine twelfths at its centroid, exactly.
+    fn add(&mut self, corners: &[Vector3; 3]) {
+        let area = area(corners);
+        let centroid = at(corners, 1.0 / 3.0, 1.0 / 3.0);
+        self.area += area;
+        self.first = add(&self.first, &scale(&centroid, area));
+        for (point, weight) in corners.iter().map(|c| (c, 1.0)).chain([(&centroid, 9.0)]) {
+            for (row, x) in self.second.iter_mut().zip(point) {
+                *row = add(row, &scale(point, x * area * weight / 12.0));
+            }
+        }
+    }
+}
+
+impl Samples {
+    /// `None` for a surface without area.
+    pub(super) fn new(mesh: &Mesh<'_>) -> Option<Self> {
+        let middle = mesh.bounds().centre;
+        let mut moments = Moments::default();
+        for triangle in mesh.triangles() {
+            moments.add(&corners(mesh, triangle, &middle));
+        }
+        if moments.area.is_nan() || moments.area <= 0.0 {
+            return None;
+        }
+        let mean = scale(&moments.first, 1.0 / moments.area);
+        let mut covariance = moments.second;
+        for (row, x) in covariance.iter_mut().zip(mean) {
+            *row = add(&scale(row, 1.0 / moments.area), &scale(&mean, -x));
+        }
+        let (spread, axes) = eigen_symmetric(&covariance);
+        let mut samples = Self {
+            origin: add(&middle, &mean),
+            size: sqrt(spread.iter().sum::<f64>().max(0.0)),
+            spread,
+            axes,
+            points: [[0.0; 3]; SAMPLES],
+            normals: [[0.0; 3]; SAMPLES],
+            triangles: [[0; 3]; SAMPLES],
+        };
+        samples.draw(mesh, moments.area);
+        samples.sort();
+        Some(samples)
+    }
+
+    /// One point for each equal share of the area, in the triangles' order; within a triangle
+    /// by the additive recurrence of Roberts ("The unreasonable effectiveness of quasirandom
+    /// sequences"), so that large triangles are covered evenly.
+    fn draw(&mut self, mesh: &Mesh<'_>, whole: f64) {
+        let share = whole / SAMPLES as f64;
+        let mut covered = 0.0;
+        let mut count = 0;
+        for triangle in mesh.triangles() {
+            let corners = corners(mesh, triangle, &self.origin);
+            covered += area(&corners);
+            while count < SAMPLES && (count as f64 + 0.5) * share <= covered {
+                let number = count as f64 + 1.0;
+                let s = fraction(number * 0.754_877_666_246_692_8);
+                let t = fraction(number * 0.569_840_290_998_053_3);
+                let (s, t) = if s + t > 1.0 {
+                    (1.0 - s, 1.0 - t)
+                } else {
+                    (s, t)
+                };
+                self.points[count] = at(&corners, s, t);
+                self.normals[count] = normal(&corners);
+                self.triangles[count] = *triangle;
+                count += 1;
+            }
+        }
+    }
+
+    /// Puts the points in such an order that each aligned block of a power of two is one side of
+    /// a cut across the longest side of the next larger block.
+    fn sort(&mut self) {
+        let mut order: [u16; SAMPLES] = core::array::from_fn(|k| k as u16);
+        let points = self.points;
+        let mut length = SAMPLES;
+        while length > GROUP {
+            for block in order.chunks_exact_mut(length) {
+                let axis = longest(block.iter().map(|&k| &points[usize::from(k)]));
+                let key = |k: &u16| points[usize::from(*k)][axis];
+                block.select_nth_unstable_by(length / 2, |a, b| key(a).total_cmp(&key(b)));
+            }
+            length /= 2;
+        }
+        let triangles = self.triangles;
+        let normals = self.normals;
+        self.normals = order.map(|k| normals[usize::from(k)]);
+        self.points = order.map(|k| points[usize::from(k)]);
+        self.triangles = order.map(|k| triangles[usize::from(k)]);
+    }
+}
+
+/// The axis along which points reach farthest.
+fn longest<'a>(points: impl Iterator<Item = &'a Vector3>) -> usize {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for point in points {
+        for k in 0..3 {
+            low[k] = low[k].min(point[k]);
+            high[k] = high[k].max(point[k]);
+        }
+    }
+    let reach = |k: usize| high[k] - low[k];
+    (1..3).fold(0, |best, k| if reach(k) > reach(best) { k } else { best })
+}
+
+fn fraction(x: f64) -> f64 {
+    x - crate::math::floor(x)
+}
+
+/// The point `a + s (b - a) + t (c - a)`.
+fn at(&[a, b, c]: &[Vector3; 3], s: f64, t: f64) -> Vector3 {
+    core::array::from_fn(|k| a[k] + s * (b[k] - a[k]) + t * (c[k] - a[k]))
+}
+
+fn area(&[a, b, c]: &[Vector3; 3]) -> f64 {
+    let (ab, ac) = (subtract(&b, &a), subtract(&c, &a));
+    norm(&cross(&ab, &ac)) / 2.0
+}

@@ -1,0 +1,350 @@
+//! Exact search of a library that reads little of it.
+//!
+//! The differences of two sketches (set pixels of blocks) are a lower bound on their silhouettes'
+//! unmatched pixels. Bounds of all views are quick; only views whose bound does not exceed what has
+//! been found already are compared in full. The answers are those of comparing every view, ties
+//! included. In a plain library, which has no sketches, every view is compared.
+
+use heapless::Vec;
+
+use crate::canonical::CanonicalSpec;
+use crate::library::Library;
+use crate::search::exhaustive::{Candidate, MatchError, check, neighbours, scores_needed};
+use crate::search::kernels::Kernels;
+use crate::search::query::{Query, longest_sketch};
+
+/// Bounds below this bit; set where the number is no bound but exact.
+const EXACT: u32 = 1 << 31;
+
+/// See [`Search::rivals`]. A true pose is less than one step from the nearest view.
+const RIVAL_STEPS: u32 = 4;
+
+/// Directions of the principal axis that are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Directions {
+    /// The silhouette as it is.
+    Straight,
+    /// As it is and turned by 180 degrees.
+    Both,
+}
+
+/// Working memory of a [`Search`].
+#[derive(Debug)]
+pub struct SearchMemory<'m> {
+    /// [`crate::search::exhaustive::scores_needed`] numbers.
+    pub bounds: &'m mut [u32],
+    /// [`search_bytes_needed`] bytes.
+    pub sketches: &'m mut [u8],
+}
+
+/// Bytes of [`SearchMemory::sketches`].
+#[must_use]
+pub const fn search_bytes_needed(spec: &CanonicalSpec) -> usize {
+    2 * longest_sketch(spec)
+}
+
+/// A silhouette being looked for in a library: what is known of every view's score, bounds and
+/// exact numbers.
+#[derive(Debug)]
+pub struct Search<'s, 'm> {
+    library: &'s Library<'s>,
+    query: &'s Query<'s>,
+    kernels: Kernels,
+    /// Straight, then reversed.
+    bounds: &'m mut [u32],
+}
+
+impl<'s, 'm> Search<'s, 'm> {
+    /// Bounds the scores of all views. `query` was made for the library's own canonical frame.
+    ///
+    /// # Errors
+    /// [`MatchError`] for memory of a wrong length or a query of another canonical frame.
+    pub fn new(
+        library: &'s Library<'s>,
+        query: &'s Query<'s>,
+        kernels: &Kernels,
+        memory: SearchMemory<'m>,
+    ) -> Result<Self, MatchError> {
+        let spec = library.info().canonical;
+        if *query.spec() != spec {
+            return Err(MatchError::Canonical);
+        }
+        check(
+            "scores",
+            scores_needed(library.views()),
+            memory.bounds.len(),
+        )?;
+        let needed = search_bytes_needed(&spec);
+        check("bytes of sketches", needed, memory.sketches.len())?;
+        let mut search = Self {
+            library,
+            query,
+            kernels: *kernels,
+            bounds: memory.bounds,
+        };
+        search.bound(memory.sketches);
+        Ok(search)
+    }
+
+    fn bound(&mut self, memory: &mut [u8]) {
+        let Some(sketches) = self.library.sketches() else {
+            self.score_all();
+            return;
+        };
+        let stride = sketches.stride();
+        let (low, high) = memory.split_at_mut(memory.len() / 2);
+        let (low, high) = (&mut low[..stride], &mut high[..stride]);
+        let views = self.library.views();
+        for (reversed, bounds) in [false, true].into_iter().zip(self.bounds.chunks_mut(views)) {
+            let out = [&mut *low, &mut *high];
+            let base = self
+                .query
+                .sketch_for(&sketches, reversed, &self.kernels, out);
+            self.query
+                .bound([low, high], sketches.all, base, &self.kernels, bounds);
+        }
+    }
+
+    /// Without sketches every view is compared at once.
+    fn score_all(&mut self) {
+        self.bounds.fill(0);
+        for reversed in [false, true] {
+            for view in 0..self.library.views() {
+                self.score(view, reversed);
+            }
+        }
+    }
+
+    /// The library.
+    #[must_use]
+    pub fn library(&self) -> &'s Library<'s> {
+        self.library
+    }
+
+    /// The silhouette.
+    #[must_use]
+    pub fn query(&self) -> &'s Query<'s> {
+        self.query
+    }
+
+    /// Unmatched pixels of a view, counted at most once.
+    pub fn score(&mut self, view: usize, reversed: bool) -> u32 {
+        let at = self.place(view, reversed);
+        match self.bounds.get(at) {
+            Some(known) if known & EXACT != 0 => known & !EXACT,
+            _ => {
+                let query = self.query;
+                let exact = query.unmatched(self.library, view, reversed, &self.kernels);
+                if let Some(bound) = self.bounds.get_mut(at) {
+                    *bound = exact | EXACT;
+                }
+                exact
+            }
+        }
+    }
+
+    /// At most a view's unmatched pixels.
+    fn at_least(&self, view: usize, reversed: bool) -> u32 {
+        let bound = self.bounds.get(self.place(view, reversed));
+        bound.map_or(u32::MAX, |bound| bound & !EXACT)
+    }
+
+    fn known(&self, view: usize, reversed: bool) -> Option<u32> {
+        let known = self.bounds.get(self.place(view, reversed))?;
+        (known & EXACT != 0).then_some(known & !EXACT)
+    }
+
+    fn place(&self, view: usize, reversed: bool) -> usize {
+        let views = self.library.views();
+        if view >= views {
+            return usize::MAX;
+        }
+        view + if reversed { views } else { 0 }
+    }
+
+    fn candidate(&mut self, place: usize) -> Candidate {
+        let views = self.library.views();
+        let (view, reversed) = (place % views, place >= views);
+        Candidate {
+            view,
+            reversed,
+            unmatched: self.score(view, reversed),
+        }
+    }
+
+    /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
+    /// straight direction first.
+    pub fn best<const K: usize>(&mut self, directions: Directions) -> Vec<Candidate, K> {
+        let places = match directions {
+            Directions::Straight => self.library.views(),
+            Directions::Both => scores_needed(self.library.views()),
+        };
+        let mut best = Shortlist::up_to(u32::MAX);
+        // The least bound first: what it turns out to be rules most of the others out.
+        let bounds = self.bounds.iter().take(places).enumerate();
+        let least = bounds.min_by_key(|(_, bound)| **bound & !EXACT);
+        let Some(first) = least.map(|(place, _)| place) else {
+            return best.candidates;
+        };
+        best.offer(self.candidate(first));
+        for place in 0..places {
+            let bound = self
+                .bounds
+                .get(place)
+                .map_or(u32::MAX, |bound| bound & !EXACT);
+            if bound <= best.limit() && place != first {
+                let candidate = self.candidate(place);
+                best.offer(candidate);
+            }
+        }
+        best.candidates
+    }
+
+    /// The best `K` local minima of the score surfaces, both directions: views that none of their
+    /// eight neighbours beats. These are the rival poses; the views beside a minimum are not.
+    pub fn minima<const K: usize>(&mut self) -> Vec<Candidate, K> {
+        self.minima_up_to(u32::MAX)
+    }
+
+    /// Of these minima those that leave no more unmatched pixels than the best and four steps of the grid at it: what
+    /// is farther off explains nothing, whatever view lies beside it.
+    pub fn rivals<const K: usize>(&mut self) -> Vec<Candidate, K> {
+        let best = self.best::<1>(Directions::Both);
+        let Some(best) = best.first() else {
+            return Vec::new();
+        };
+        let library = self.library;
+        let step = neighbours(&library.info().grid, best.view)
+            .map(|near| {
+                let pixels = library.pixels(best.view) + library.pixels(near);
+                pixels - 2 * library.overlap(best.view, near)
+            })
+            .max();
+        let beyond = step.map_or(u32::MAX, |step| RIVAL_STEPS.saturating_mul(step));
+        self.minima_up_to(best.unmatched.saturating_add(beyond))
+    }
+
+    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<Candidate, K> {
+        let places = scores_needed(self.library.views());
+        let mut minima = Shortlist::up_to(most);
+        // Going downhill from the bounds' own minima finds most of them: a limit for the rest.
+        for place in 0..places {
+            let (view, reversed) = self.apart(place);
+            if self.at_least(view, reversed) <= most && self.is_minimum_of_bounds(view, reversed) {
+                let candidate = self.descend(view, reversed);
+                minima.offer(candidate);
+            }
+        }
+        for place in 0..places {
+            let (view, reversed) = self.apart(place);
+            if self.at_least(view, reversed) <= minima.limit() && self.is_minimum(view, reversed) {
+                let candidate = self.candidate(place);
+                minima.offer(candidate);
+            }
+        }
+        minima.candidates
+    }
+
+    fn apart(&self, place: usize) -> (usize, bool) {
+        let views = self.library.views();
+        (place % views, place >= views)
+    }
+
+    fn is_minimum_of_bounds(&self, view: usize, reversed: bool) -> bool {
+        let bound = self.at_least(view, reversed);
+        neighbours(&self.library.info().grid, view)
+            .all(|neighbour| bound <= self.at_least(neighbour, reversed))
+    }
+
+    /// The minimum that steps to ever better neighbours lead to.
+    fn descend(&mut self, view: usize, reversed: bool) -> Candidate {
+        let mut view = view;
+        while let Some(better) = self.better_neighbour(view, reversed) {
+            view = better;
+        }
+        Candidate {
+            view,
+            reversed,
+            unmatched: self.score(view, reversed),
+        }
+    }
+
+    fn is_minimum(&mut self, view: usize, reversed: bool) -> bool {
+        // Where a neighbour is known to beat even the bound, the view need not be compared.
+        let bound = self.at_least(view, reversed);
+        let grid = self.library.info().grid;
+        let beaten = neighbours(&grid, view).any(|neighbour| {
+            let known = self.known(neighbour, reversed);
+            known.is_some_and(|known| known < bound)
+        });
+        if beaten {
+            return false;
+        }
+        // Otherwise the likeliest neighbour is compared first: it beats other views round it, too.
+        let least = neighbours(&grid, view).min_by_key(|&near| self.at_least(near, reversed));
+        let beaten = least.is_some_and(|least| {
+            self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
+        });
+        !beaten && self.better_neighbour(view, reversed).is_none()
+    }
+
+    /// The neighbour that beats a view, if one does: that with the least bound is looked at first. Of
+    /// equal neighbours the first beats.
+    fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
+        let score = self.score(view, reversed);
+        let grid = self.library.info().grid;
+        let mut near: Vec<usize, 8> = neighbours(&grid, view).collect();
+        near.sort_unstable_by_key(|&neighbour| (self.at_least(neighbour, reversed), neighbour));
+        near.into_iter().find(|&neighbour| {
+            self.at_least(neighbour, reversed) <= score
+                && (self.score(neighbour, reversed), neighbour) < (score, view)
+        })
+    }
+}
+
+/// The best `K` candidates so far, best first.
+struct Shortlist<const K: usize> {
+    candidates: Vec<Candidate, K>,
+    /// Unmatched pixels that are too many in any case are more than this.
+    most: u32,
+}
+
+impl<const K: usize> Shortlist<K> {
+    fn up_to(most: u32) -> Self {
+        Self {
+            candidates: Vec::new(),
+            most,
+        }
+    }
+
+    /// What has more unmatched pixels than this is none of the best.
+    fn limit(&self) -> u32 {
+        match self.candidates.last() {
+            Some(last) if self.candidates.is_full() => last.unmatched.min(self.most),
+            // A list without room has no best.
+            None if K == 0 => 0,
+            _ => self.most,
+        }
+    }
+
+    /// Takes a candidate in its place, once.
+    fn offer(&mut self, candidate: Candidate) {
+        let key = |one: &Candidate| (one.unmatched, one.reversed, one.view);
+        let new = key(&candidate);
+        if candidate.unmatched > self.most {
+            return;
+        }
+        let place = self.candidates.partition_point(|other| key(other) < new);
+        if place == K || self.candidates.get(place) == Some(&candidate) {
+            return;
+        }
+        if self.candidates.is_full() {
+            self.candidates.pop();
+        }
+        // There is room now, so the insertion cannot fail.
+        let _ = self.candidates.insert(place, candidate);
+    }
+}
+
+#[cfg(test)]
+mod tests;

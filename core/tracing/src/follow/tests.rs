@@ -1,0 +1,196 @@
+use super::*;
+use crate::costs::tests::edges_of;
+use crate::films::{Film, Random};
+use crate::polyline::distance;
+use crate::threshold::Inside;
+use crate::wire::{Hand, Waiting};
+use std::vec::Vec;
+
+/// A live-wire with its memory.
+struct Session {
+    edges: Vec<Edge>,
+    width: usize,
+    nodes: Vec<Node>,
+    waiting: Vec<Waiting>,
+    wire: Wire,
+    follower: Follower,
+}
+
+impl Session {
+    fn new(film: &Film, seed: [f64; 2], hand: Hand) -> Self {
+        let edges = edges_of(film, Inside::Dark, 64);
+        let mut nodes = std::vec![Node::default(); edges.len()];
+        let mut waiting = std::vec![Waiting::default(); edges.len()];
+        let mut memory = WireMemory {
+            nodes: &mut nodes,
+            waiting: &mut waiting,
+        };
+        let costs = Costs::new(&edges, film.width, film.height).expect("fits");
+        let seed = Point::new(seed[0], seed[1]);
+        let wire = Wire::start(&costs, seed, hand, &mut memory).expect("fits");
+        Self {
+            wire,
+            nodes,
+            waiting,
+            width: film.width,
+            edges,
+            follower: Follower::default(),
+        }
+    }
+
+    fn follow(&mut self, column: f64, row: f64, radius: f64, budget: usize) -> Vec<u32> {
+        let height = self.edges.len() / self.width;
+        let costs = Costs::new(&self.edges, self.width, height).expect("fits");
+        let mut memory = WireMemory {
+            nodes: &mut self.nodes,
+            waiting: &mut self.waiting,
+        };
+        let mut places = std::vec![0; 4000];
+        let mut path = List::new(&mut places);
+        let at = Point::new(column, row);
+        let cursor = Cursor { at, radius };
+        let work = (cursor, budget);
+        let follower = &mut self.follower;
+        follower
+            .follow(&mut self.wire, &costs, &mut memory, work, &mut path)
+            .expect("fits");
+        path.as_slice().to_vec()
+    }
+
+    fn end(&self, path: &[u32]) -> Point {
+        self.wire.centre(path[path.len() - 1])
+    }
+}
+
+const ALL: usize = usize::MAX;
+
+fn disc(noise: f64) -> Film {
+    let mut film = Film::new(160, 150, 190.0);
+    film.disc([80.0, 75.0], 50.0, 90.0);
+    film.add_noise(noise, 6);
+    film
+}
+
+#[test]
+fn the_path_ends_on_the_edge_and_follows_the_hand_along_it() {
+    let mut session = Session::new(&disc(8.0), [30.0, 75.0], Hand::Right);
+    let mut random = Random(4);
+    let mut before: Vec<u32> = Vec::new();
+    for step in 0..150 {
+        let turn = core::f64::consts::PI * (1.0 + f64::from(step) / 150.0);
+        let away = 50.0 + 8.0 * (random.share() - 0.5);
+        let at = Point::new(80.0 + away * turn.cos(), 75.0 + away * turn.sin());
+        let path = session.follow(at.column, at.row, 6.0, ALL);
+        let end = session.end(&path);
+        assert!(
+            (distance(end, Point::new(80.0, 75.0)) - 50.0).abs() < 1.6,
+            "{end:?}"
+        );
+        assert!(distance(end, at) < 6.01);
+        // Nothing jumps: of the path before, only what is near the cursor is given up.
+        assert!(
+            common_length(&before, &path) + 16 >= before.len(),
+            "step {step}"
+        );
+        before = path;
+    }
+}
+
+#[test]
+fn a_hand_that_trembles_leaves_the_path_alone() {
+    let mut session = Session::new(&disc(12.0), [30.0, 75.0], Hand::Right);
+    let mut random = Random(12);
+    let mut before = session.follow(80.0, 26.0, 6.0, ALL);
+    for _ in 0..200 {
+        let mut shift = || 3.0 * (random.share() - 0.5);
+        let path = session.follow(80.0 + shift(), 26.0 + shift(), 6.0, ALL);
+        assert!(common_length(&before, &path) + 6 >= before.len());
+        before = path;
+    }
+}
+
+#[test]
+fn between_two_edges_the_one_that_is_held_stays() {
+    let mut film = Film::new(160, 60, 190.0);
+    film.plate([80.0, 30.0], [70.0, 2.5], 0.0, 90.0);
+    film.add_noise(5.0, 3);
+    let mut session = Session::new(&film, [20.0, 27.5], Hand::Right);
+    let mut random = Random(2);
+    let begin = session.follow(100.0, 27.0, 6.0, ALL);
+    assert!((session.end(&begin).row - 27.5).abs() < 1.1);
+    for _ in 0..100 {
+        // Round the middle of the plate, nearer to either edge by turns.
+        let row = 30.0 + 2.0 * (random.share() - 0.5);
+        let path = session.follow(100.0 + 4.0 * random.share(), row, 6.0, ALL);
+        assert!(
+            (session.end(&path).row - 27.5).abs() < 1.1,
+            "{:?}",
+            session.end(&path)
+        );
+    }
+    // But who goes to the other edge gets it.
+    let path = session.follow(102.0, 35.5, 6.0, ALL);
+    assert!((session.end(&path).row - 32.5).abs() < 1.1);
+}
+
+#[test]
+fn two_ways_of_one_cost_do_not_take_turns() {
+    let mut session = Session::new(&disc(6.0), [30.0, 75.0], Hand::Either);
+    // Opposite to the seed, where both ways round cost nearly the same; find where they change.
+    let ways: Vec<bool> = (-20..=20)
+        .map(|k| {
+            session.follower.release();
+            let path = session.follow(129.0, 75.0 + f64::from(k), 6.0, ALL);
+            path.iter()
+                .any(|&pixel| session.wire.centre(pixel).row < 40.0)
+        })
+        .collect();
+    let change = ways.windows(2).position(|pair| pair[0] != pair[1]);
+    let row = 75.0 + change.expect("both ways are taken") as f64 - 20.0;
+    let mut random = Random(7);
+    let (mut before, mut jumps) = (Vec::new(), 0);
+    for _ in 0..200 {
+        let row = row + 4.0 * (random.share() - 0.5);
+        let path = session.follow(129.0, row, 6.0, ALL);
+        jumps += usize::from(common_length(&before, &path) + 60 < before.len());
+        before = path;
+    }
+    assert_eq!(jumps, 0);
+    // Far enough away the other way is taken after all.
+    let above = |path: &[u32]| {
+        path.iter()
+            .any(|&pixel| session.wire.centre(pixel).row < 40.0)
+    };
+    let was_above = above(&before);
+    let far = if was_above { 110.0 } else { 40.0 };
+    let side = 80.0 + (2500.0f64 - (far - 75.0) * (far - 75.0)).sqrt();
+    let path = session.follow(side, far, 6.0, ALL);
+    let now_above = path
+        .iter()
+        .any(|&pixel| session.wire.centre(pixel).row < 40.0);
+    assert_ne!(now_above, was_above);
+}
+
+#[test]
+fn without_a_radius_the_path_ends_under_the_cursor() {
+    let mut session = Session::new(&disc(6.0), [30.0, 75.0], Hand::Right);
+    for at in [[90.4, 31.7], [3.2, 140.9], [80.5, 75.5]] {
+        let path = session.follow(at[0], at[1], 0.0, ALL);
+        let end = session.end(&path);
+        assert_eq!(
+            (end.column, end.row),
+            (at[0].floor() + 0.5, at[1].floor() + 0.5)
+        );
+    }
+}
+
+#[test]
+fn what_the_budget_does_not_reach_comes_later() {
+    let mut session = Session::new(&disc(6.0), [30.0, 75.0], Hand::Right);
+    let mut calls = 1;
+    while session.follow(130.0, 75.0, 5.0, 100).is_empty() {
+        calls += 1;
+    }
+    assert!(calls > 2);
+    assert!(!session.follow(130.0, 75.0, 5.0, 0).is_empty());
+}

@@ -1,0 +1,236 @@
+//! What was pointed at: the window to look at, places to grow from, and whether a silhouette
+//! agrees with it.
+
+use heapless::Vec;
+
+use super::shape::Shaper;
+use super::window::{BLOCKED, LEVELS, Window};
+use super::{OneClickError, OneClickMemory, Prompt};
+use fluoropose::camera::Camera;
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::Mask;
+
+/// Places that growing begins from, at most.
+pub(super) const SEEDS: usize = 4;
+
+/// Parts of a box that are taken to be metal, by turns.
+const DARKEST: [f64; SEEDS] = [0.2, 0.1, 0.35, 0.5];
+/// How far round a click the darkest pixel is taken for the seed, pixels.
+const AROUND: isize = 3;
+
+/// Sides of a box are at least so long, pixels.
+const LEAST_BOX: f64 = 16.0;
+/// A box is widened by this part of its sides: it may be drawn a little too tight.
+const WIDEN: f64 = 0.03;
+
+/// A click may miss the silhouette by so much, pixels; one that misses by more speaks against it,
+/// and wholly where it is far.
+const MISSED: usize = 4;
+const FAR: usize = 24;
+/// Part that a rough box and that round the silhouette have in common at least.
+const ROUGH: f64 = 0.5;
+
+impl Prompt {
+    /// The part of the frame to look at, for a component that reaches no farther than `extent`
+    /// pixels from the click.
+    pub(super) fn window(&self, camera: &Camera, extent: f64) -> Result<Window, OneClickError> {
+        let size = (camera.width(), camera.height());
+        let (width, height) = (size.0 as f64, size.1 as f64);
+        match *self {
+            Self::Click(Point { column, row }) => {
+                if !((0.0..width).contains(&column) && (0.0..height).contains(&row)) {
+                    return Err(OneClickError::Outside);
+                }
+                let sides = [column - extent, row - extent, column + extent, row + extent];
+                Ok(Window::cut(sides, size))
+            }
+            Self::Box(low, high) => {
+                let cut = |a: f64, b: f64, most: f64| (a.min(b).max(0.0), a.max(b).min(most));
+                let (left, right) = cut(low.column, high.column, width);
+                let (top, bottom) = cut(low.row, high.row, height);
+                // A NaN is in no range.
+                let large = |side: f64| (LEAST_BOX..=f64::INFINITY).contains(&side);
+                if !(large(right - left) && large(bottom - top)) {
+                    return Err(OneClickError::SmallBox {
+                        width: right - left,
+                        height: bottom - top,
+                        least: LEAST_BOX,
+                    });
+                }
+                let (x, y) = (WIDEN * (right - left), WIDEN * (bottom - top));
+                Ok(Window::cut(
+                    [left - x, top - y, right + x, bottom + y],
+                    size,
+                ))
+            }
+        }
+    }
+
+    /// The places that growing begins from, in a window whose grey values are in `memory`.
+    pub(super) fn seeds(
+        &self,
+        window: &Window,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Vec<usize, SEEDS> {
+        match *self {
+            Self::Click(click) => {
+                core::iter::once(darkest_near(click, window, memory.grey)).collect()
+            }
+            Self::Box(..) => thickest(window, memory),
+        }
+    }
+
+    /// How well a drawn silhouette agrees with what was pointed at, 0 to 1.
+    pub(super) fn agreement(&self, drawn: &Mask<'_>) -> f64 {
+        match *self {
+            Self::Click(at) => {
+                let missed = (0..=FAR).find(|&missed| touches(drawn, at, missed));
+                missed.map_or(0.0, |missed| {
+                    let more = missed.saturating_sub(MISSED) as f64;
+                    1.0 - more / (FAR - MISSED) as f64
+                })
+            }
+            Self::Box(low, high) => {
+                let (columns, rows) = drawn.bounds();
+                let own = [columns.start, rows.start, columns.end, rows.end];
+                let wanted = [
+                    low.column.min(high.column),
+                    low.row.min(high.row),
+                    low.column.max(high.column),
+                    low.row.max(high.row),
+                ];
+                (common(&own.map(|side| side as f64), &wanted) / ROUGH).min(1.0)
+            }
+        }
+    }
+}
+
+/// Whether a mask has a pixel on the square round a place, `away` pixels from it.
+fn touches(mask: &Mask<'_>, at: Point, away: usize) -> bool {
+    let (column, row) = (at.column as usize, at.row as usize);
+    let near = |at: usize| at.saturating_sub(away)..=at + away;
+    let far = |c: usize, r: usize| c.abs_diff(column).max(r.abs_diff(row)) == away;
+    let hit = |r: usize| near(column).any(|c| far(c, r) && mask.get(c, r));
+    near(row).any(hit)
+}
+
+/// Intersection of two boxes divided by their union.
+fn common(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    let area =
+        |[left, top, right, bottom]: [f64; 4]| (right - left).max(0.0) * (bottom - top).max(0.0);
+    let both = [
+        a[0].max(b[0]),
+        a[1].max(b[1]),
+        a[2].min(b[2]),
+        a[3].min(b[3]),
+    ];
+    let inside = area(both);
+    inside / (area(*a) + area(*b) - inside).max(f64::MIN_POSITIVE)
+}
+
+/// The darkest pixel near a click: it may have met a speck of noise, or missed a thin part.
+fn darkest_near(click: Point, window: &Window, grey: &[u16]) -> usize {
+    let middle = window.index(click.column, click.row);
+    let mut best = (grey.get(middle).copied().unwrap_or(BLOCKED), middle);
+    for down in -AROUND..=AROUND {
+        for right in -AROUND..=AROUND {
+            let at = window.index(click.column + right as f64, click.row + down as f64);
+            let value = grey.get(at).copied().unwrap_or(BLOCKED);
+            if value < best.0 {
+                best = (value, at);
+            }
+        }
+    }
+    best.1
+}
+
+/// The middles of the thickest dark things in a window, each once, for several shares of dark
+/// pixels.
+fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEEDS> {
+    let mut seeds = Vec::new();
+    let histogram = &mut *memory.tallies;
+    histogram.fill(0);
+    for &grey in memory
+        .grey
+        .iter()
+        .filter(|&&grey| usize::from(grey) < LEVELS)
+    {
+        if let Some(count) = histogram.get_mut(usize::from(grey)) {
+            *count += 1;
+        }
+    }
+    for share in DARKEST {
+        let wanted = share * window.pixels() as f64;
+        let mut sum = 0.0;
+        let level = memory.tallies.iter().position(|&count| {
+            sum += f64::from(count);
+            sum >= wanted
+        });
+        let mut shaper = Shaper {
+            window: *window,
+            reached: &*memory.grey,
+            distance: &mut *memory.distance,
+            marks: &mut *memory.marks,
+            stack: &mut *memory.links,
+        };
+        let seed = shaper.thickest(level.unwrap_or(0) as u16);
+        if let Some(seed) = seed.filter(|seed| !seeds.contains(seed)) {
+            // There are as many places as shares.
+            let _ = seeds.push(seed);
+        }
+    }
+    seeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::image::mask::{MaskMut, words_needed};
+
+    const SIDE: usize = 64;
+
+    fn boxed([left, top, right, bottom]: [f64; 4]) -> Prompt {
+        Prompt::Box(Point::new(left, top), Point::new(right, bottom))
+    }
+
+    #[test]
+    fn a_prompt_agrees_with_what_it_points_at() {
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        (20..40).for_each(|row| mask.fill_span(row, 10, 50));
+        let drawn = mask.into_mask();
+        let click = |column, row| Prompt::Click(Point::new(column, row)).agreement(&drawn);
+        assert_eq!([click(30.0, 30.0), click(7.5, 18.0)], [1.0, 1.0]);
+        assert_eq!(
+            [click(30.0, 54.0), click(30.0, 63.9)],
+            [1.0 - 11.0 / 20.0, 0.0]
+        );
+        let agreement = |corners| boxed(corners).agreement(&drawn);
+        assert_eq!(agreement([8.0, 18.0, 52.0, 42.0]), 1.0);
+        // A fifth of it in common, whichever corners are told.
+        for corners in [[10.0, 20.0, 50.0, 120.0], [50.0, 20.0, 10.0, 120.0]] {
+            assert!((agreement(corners) - 0.4).abs() < 1e-12);
+        }
+        assert_eq!(agreement([51.0, 0.0, 60.0, 60.0]), 0.0);
+    }
+
+    #[test]
+    fn prompts_beside_the_frame_are_refused() {
+        let camera = Camera::new(SIDE, SIDE, [400.0, 400.0], [32.0, 32.0]).expect("valid");
+        for at in [-1.0, 64.0, f64::NAN] {
+            let click = Prompt::Click(Point::new(at, 5.0));
+            assert_eq!(click.window(&camera, 20.0), Err(OneClickError::Outside));
+        }
+        let small = boxed([60.0, 3.0, 90.0, 40.0]).window(&camera, 20.0);
+        assert!(matches!(small, Err(OneClickError::SmallBox { .. })));
+        let nothing = boxed([f64::NAN, 3.0, 90.0, 40.0]).window(&camera, 20.0);
+        assert!(matches!(nothing, Err(OneClickError::SmallBox { .. })));
+        let window = boxed([50.0, 30.0, 10.0, 10.0])
+            .window(&camera, 20.0)
+            .expect("large");
+        assert_eq!(
+            (window.left, window.top, window.width, window.height),
+            (8, 9, 44, 22)
+        );
+    }
+}

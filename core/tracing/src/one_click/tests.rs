@@ -1,0 +1,319 @@
+use super::*;
+use fluoropose::canonical::CanonicalSpec;
+use fluoropose::image::frame::Frame;
+use fluoropose::image::mask::MaskMut;
+use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::locate::workspace_needed;
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::refine::BorderPixel;
+use fluoropose::render::{Projected, render};
+use fluoropose::search::kernels::Kernels;
+use std::vec::Vec;
+
+const SIDE: usize = 384;
+
+/// A tray with a stem and a tab: no symmetry, and parts of some width.
+fn model() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
+    let boxes = [
+        ([-36.0, -8.0, -22.0], [36.0, 8.0, 22.0]),
+        ([-9.0, 8.0, -9.0], [9.0, 40.0, 9.0]),
+        ([24.0, -22.0, -12.0], [36.0, -8.0, 16.0]),
+    ];
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    for (low, high) in boxes {
+        let first = vertices.len() as u32;
+        for corner in 0..8 {
+            let pick = |k: usize| [low, high][corner >> k & 1][k];
+            vertices.push([pick(0), pick(1), pick(2)]);
+        }
+        let faces = [
+            [0, 1, 3, 2],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 3, 7, 6],
+            [0, 2, 6, 4],
+            [1, 3, 7, 5],
+        ];
+        for [a, b, c, d] in faces {
+            triangles.push([a, b, c].map(|v| first + v));
+            triangles.push([a, c, d].map(|v| first + v));
+        }
+    }
+    (vertices, triangles)
+}
+
+fn camera() -> Camera {
+    Camera::new(SIDE, SIDE, [1800.0, 1800.0], [192.0, 192.0]).expect("valid")
+}
+
+fn library(mesh: Mesh<'_>) -> Vec<u8> {
+    let axis = GridAxis {
+        first: -8.0,
+        step: 2.0,
+        count: 9,
+    };
+    let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
+    let builder = Builder::new(mesh, camera(), canonical, grid, 1000.0).expect("possible");
+    let mut bytes = std::vec![0; builder.bytes_needed()];
+    let mut scratch = ViewScratch {
+        projected: &mut std::vec![Projected::default(); builder.projected_needed()],
+        render: &mut std::vec![0; builder.render_words_needed()],
+        canonical: &mut std::vec![0; canonical.words_needed()],
+    };
+    builder.build(&mut bytes, &mut scratch).expect("renders");
+    bytes
+}
+
+fn pose() -> Pose {
+    Pose::from(EulerPose {
+        x_mm: 6.0,
+        y_mm: -9.0,
+        z_mm: -1040.0,
+        z_rot_deg: 31.0,
+        x_rot_deg: -3.5,
+        y_rot_deg: 4.6,
+    })
+}
+
+/// The silhouette of a model at a pose.
+fn silhouette(mesh: &Mesh<'_>, pose: &Pose) -> Vec<Word> {
+    let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+    let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+    let mut scratch = std::vec![Projected::default(); mesh.vertices().len()];
+    render(mesh, &camera(), pose, &mut scratch, &mut mask).expect("in front");
+    words
+}
+
+/// A noisy, blurred film of the implant on tissue that grows darker to one side. `cluttered`: a
+/// line that crosses it, as of a sheet, leads to another implant that is as dark.
+fn film(mesh: &Mesh<'_>, cluttered: bool) -> Vec<u16> {
+    let words = silhouette(mesh, &pose());
+    let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
+    let dark = |column: usize, row: usize| {
+        let other = (300..360).contains(&column) && (60..260).contains(&row);
+        let line = (column + 3 * row).abs_diff(900) < 12 && column > 60;
+        match () {
+            () if mask.get(column, row) || (cluttered && other) => 900.0,
+            () if cluttered && line => 1500.0,
+            () => 2600.0 - 1.5 * row as f64 - 0.8 * column as f64,
+        }
+    };
+    let blurred = |column: usize, row: usize| {
+        let mut sum = 0.0;
+        for (c, r) in (0..9).map(|k| (k % 3, k / 3)) {
+            let weight = [1.0, 2.0, 1.0][c] * [1.0, 2.0, 1.0][r] / 16.0;
+            let at = |at: usize, step: usize| (at + step).saturating_sub(1).min(SIDE - 1);
+            sum += weight * dark(at(column, c), at(row, r));
+        }
+        sum
+    };
+    let mut state = 1u32;
+    let mut noise = || {
+        let mut sum = 0.0;
+        for _ in 0..4 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            sum += f64::from(state >> 16) / 65_536.0 - 0.5;
+        }
+        80.0 * sum
+    };
+    (0..SIDE * SIDE)
+        .map(|k| (blurred(k % SIDE, k / SIDE) + noise()) as u16)
+        .collect()
+}
+
+/// A model with its library, and a film.
+struct Bench {
+    vertices: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    library: Vec<u8>,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let (vertices, triangles) = model();
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let library = library(mesh);
+        Self {
+            vertices,
+            triangles,
+            library,
+        }
+    }
+
+    fn mesh(&self) -> Mesh<'_> {
+        Mesh::new(&self.vertices, &self.triangles).expect("valid")
+    }
+
+    /// What comes of a prompt, with the region that is left to say without a component.
+    fn work(
+        &self,
+        pixels: &[u16],
+        prompt: Prompt,
+        polarity: Polarity,
+        with_part: bool,
+    ) -> Result<(OneClick, Vec<Word>), OneClickError> {
+        let (mesh, camera) = (self.mesh(), camera());
+        let library = Library::open(&self.library).expect("valid");
+        let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
+        let scene = Scene {
+            frame: &frame,
+            camera: &camera,
+            polarity,
+            excluded: None,
+        };
+        let part = Part {
+            library: &library,
+            mesh: &mesh,
+            planes: &[],
+        };
+        let part = with_part.then_some(&part);
+        let mut work = OneClick::new(prompt, &camera, part)?;
+        let (needs, lent) = (work.needs(&camera), workspace_needed(&library));
+        let mut memory = OneClickMemory {
+            grey: &mut std::vec![0; needs.pixels],
+            reached: &mut std::vec![0; needs.pixels],
+            distance: &mut std::vec![0; needs.pixels],
+            marks: &mut std::vec![0; needs.pixels],
+            links: &mut std::vec![0; needs.links],
+            tallies: &mut std::vec![0; needs.tallies],
+            words: &mut std::vec![0; needs.words],
+            workspace: Workspace {
+                canonical: &mut std::vec![0; lent.words],
+                turned: &mut std::vec![0; lent.words],
+                scores: &mut std::vec![0; lent.scores],
+                bytes: &mut std::vec![0; lent.bytes],
+                kernels: Kernels::PORTABLE,
+            },
+            refine: RefineMemory {
+                projected: &mut std::vec![Projected::default(); mesh.vertices().len()],
+                drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
+                places: &mut std::vec![0; SIDE * SIDE],
+                border: &mut std::vec![BorderPixel::default(); 4096],
+            },
+        };
+        let mut before = 0.0;
+        while work.step(&scene, part, &mut memory)? {
+            let (Progress::Regions(done) | Progress::Poses(done)) = work.progress() else {
+                panic!("there is more to do");
+            };
+            assert!((before..1.0).contains(&done), "{before} {done}");
+            before = done;
+        }
+        assert_eq!(work.progress(), Progress::Done);
+        let region = match part {
+            Some(_) => Vec::new(),
+            None => work.draw_region(&scene, &mut memory)?.words().to_vec(),
+        };
+        Ok((work, region))
+    }
+}
+
+fn overlap(a: &[Word], b: &[Word]) -> f64 {
+    let count = |rule: fn(Word, Word) -> Word| -> u32 {
+        a.iter()
+            .zip(b)
+            .map(|(&a, &b)| rule(a, b).count_ones())
+            .sum()
+    };
+    f64::from(count(|a, b| a & b)) / f64::from(count(|a, b| a | b))
+}
+
+/// A click on the stem, one on the tray and a rough box.
+fn prompts() -> [Prompt; 3] {
+    let at = |x: f64, y: f64| {
+        let point = pose().transform(&[x, y, 0.0]);
+        camera().project(&point).expect("in front")
+    };
+    [
+        Prompt::Click(at(0.0, 25.0)),
+        Prompt::Click(at(-28.0, 1.0)),
+        Prompt::Box(Point::new(115.0, 105.0), Point::new(290.0, 290.0)),
+    ]
+}
+
+#[test]
+fn a_click_or_a_box_leads_to_outline_and_pose() {
+    let bench = Bench::new();
+    let mesh = bench.mesh();
+    let truth = silhouette(&mesh, &pose());
+    for cluttered in [false, true] {
+        let pixels = film(&mesh, cluttered);
+        for prompt in prompts() {
+            let found = bench.work(&pixels, prompt, Polarity::DarkImplant, true);
+            let (work, _) = found.expect("an answer");
+            let best = &work.answers()[0];
+            let turn = geodesic_deg(&best.refined.pose.rotation, &pose().rotation);
+            let iou = overlap(&silhouette(&mesh, &best.refined.pose), &truth);
+            let what = std::format!("{prompt:?}, cluttered {cluttered}");
+            assert!(turn < 0.7 && iou > 0.97, "{what}: {turn} deg, {iou}");
+            assert!(best.support.share > 0.8, "{what}: {:?}", best.support);
+        }
+    }
+}
+
+#[test]
+fn a_film_with_its_greys_turned_round_gives_the_same() {
+    let bench = Bench::new();
+    let mesh = bench.mesh();
+    let bright: Vec<u16> = film(&mesh, true).iter().map(|grey| 4095 - grey).collect();
+    let found = bench.work(&bright, prompts()[1], Polarity::BrightImplant, true);
+    let (work, _) = found.expect("an answer");
+    let rotation = &work.answers()[0].refined.pose.rotation;
+    assert!(geodesic_deg(rotation, &pose().rotation) < 0.7);
+}
+
+#[test]
+fn without_a_component_the_region_is_the_outline() {
+    let bench = Bench::new();
+    let mesh = bench.mesh();
+    let pixels = film(&mesh, false);
+    for prompt in prompts() {
+        let found = bench.work(&pixels, prompt, Polarity::DarkImplant, false);
+        let (work, region) = found.expect("a region");
+        assert!(work.answers().is_empty());
+        let iou = overlap(&region, &silhouette(&mesh, &pose()));
+        assert!(iou > 0.95, "{prompt:?}: {iou}");
+    }
+}
+
+#[test]
+fn where_there_is_no_implant_a_sentence_says_so() {
+    let bench = Bench::new();
+    let pixels = film(&bench.mesh(), true);
+    let click = |column, row| {
+        let prompt = Prompt::Click(Point::new(column, row));
+        bench
+            .work(&pixels, prompt, Polarity::DarkImplant, true)
+            .err()
+    };
+    assert_eq!(click(-3.0, 10.0), Some(OneClickError::Outside));
+    let nothing = [Some(OneClickError::NoRegion), Some(OneClickError::NoFit)];
+    assert!(nothing.contains(&click(40.0, 340.0)));
+    let flat = std::vec![700u16; SIDE * SIDE];
+    let prompt = Prompt::Click(Point::new(200.0, 200.0));
+    let error = bench.work(&flat, prompt, Polarity::DarkImplant, true).err();
+    assert_eq!(error, Some(OneClickError::NoRegion));
+}
+
+#[test]
+fn the_window_holds_the_component_and_no_more() {
+    let bench = Bench::new();
+    let (mesh, camera) = (bench.mesh(), camera());
+    let needs = OneClick::new(prompts()[0], &camera, None)
+        .expect("inside")
+        .needs(&camera);
+    assert_eq!(needs.pixels, SIDE * SIDE);
+    let library = Library::open(&bench.library).expect("valid");
+    let part = Part {
+        library: &library,
+        mesh: &mesh,
+        planes: &[],
+    };
+    // The window round a click holds the component at its nearest, and no more.
+    let click = Prompt::Click(Point::new(0.0, 0.0));
+    let needs = OneClick::new(click, &camera, Some(&part))
+        .expect("inside")
+        .needs(&camera);
+    let extent = 2.0 * mesh.bounds().radius * 1800.0 / 750.0;
+    assert_eq!(needs.pixels, (extent as usize + 1).pow(2).min(SIDE * SIDE));
+}

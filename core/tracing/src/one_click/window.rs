@@ -1,0 +1,285 @@
+//! The part of a frame that is looked at: smoothed, dark implant, whole steps of grey.
+
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::Mask;
+use fluoropose::refine::Polarity;
+
+/// Steps of grey that are told apart.
+pub(super) const LEVELS: usize = 1024;
+/// The grey of a pixel that belongs to something else; no region enters it.
+pub(super) const BLOCKED: u16 = u16::MAX;
+
+/// Part of the pixels at either end of the scale that share its first or last step.
+const CLIPPED: f64 = 0.0005;
+/// Bits that a grey value loses to find its place in a histogram of [`LEVELS`] bins.
+const BIN_SHIFT: u32 = 6;
+
+/// A rectangle of a frame's pixels, never empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Window {
+    pub(super) left: usize,
+    pub(super) top: usize,
+    pub(super) width: usize,
+    pub(super) height: usize,
+}
+
+impl Window {
+    /// The pixels of a frame of `size` that meet the rectangle; at least one.
+    pub(super) fn cut([left, top, right, bottom]: [f64; 4], size: (usize, usize)) -> Self {
+        let span = |from: f64, to: f64, size: usize| {
+            let first = (from.max(0.0) as usize).min(size.saturating_sub(1));
+            let last = (fluoropose::math::floor(to).max(0.0) as usize)
+                .clamp(first, size.saturating_sub(1));
+            (first, last - first + 1)
+        };
+        let (left, width) = span(left, right, size.0);
+        let (top, height) = span(top, bottom, size.1);
+        Self {
+            left,
+            top,
+            width,
+            height,
+        }
+    }
+
+    pub(super) fn pixels(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// Index of the pixel of the frame that holds a place, moved into the window.
+    pub(super) fn index(&self, column: f64, row: f64) -> usize {
+        let cut = |at: f64, first: usize, length: usize| {
+            (at.max(0.0) as usize).clamp(first, first + length - 1) - first
+        };
+        cut(row, self.top, self.height) * self.width + cut(column, self.left, self.width)
+    }
+
+    /// Column and row in the window of a pixel.
+    pub(super) fn place(&self, index: usize) -> (usize, usize) {
+        (index % self.width, index / self.width)
+    }
+
+    /// Calls `visit` with the pixels above, to the left, to the right and below.
+    pub(super) fn neighbours(&self, index: usize, mut visit: impl FnMut(usize)) {
+        let (column, row) = self.place(index);
+        if row > 0 {
+            visit(index - self.width);
+        }
+        if column > 0 {
+            visit(index - 1);
+        }
+        if column + 1 < self.width {
+            visit(index + 1);
+        }
+        if row + 1 < self.height {
+            visit(index + self.width);
+        }
+    }
+}
+
+/// Fills `grey` with the window's pixels in steps of grey, dark metal whatever the film's
+/// polarity, after `passes` of the binomial filter 1 2 1 each way (variance 1/2 square pixel a
+/// pass). Pixels of `excluded` become [`BLOCKED`]. `histogram` is working memory of [`LEVELS`]
+/// numbers. Returns the film's grey values that one step stands for; 0 for a uniform window.
+pub(super) fn look(
+    frame: &dyn Grey,
+    window: &Window,
+    (polarity, passes): (Polarity, usize),
+    excluded: Option<&Mask<'_>>,
+    grey: &mut [u16],
+    histogram: &mut [u32],
+) -> f64 {
+    let read = |visit: &mut dyn FnMut(usize, f64)| {
+        for index in 0..window.pixels() {
+            let (column, row) = window.place(index);
+            let (column, row) = (window.left + column, window.top + row);
+            let value = frame.at(column as f64 + 0.5, row as f64 + 0.5);
+            visit(index, value.unwrap_or(0.0));
+        }
+    };
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    read(&mut |_, value| (low, high) = (low.min(value), high.max(value)));
+    if high <= low {
+        grey.fill(0);
+        return 0.0;
+    }
+    let unit = f64::from(u16::MAX) / (high - low);
+    read(&mut |index, value| {
+        let value = match polarity {
+            Polarity::DarkImplant => value - low,
+            Polarity::BrightImplant => high - value,
+        };
+        if let Some(pixel) = grey.get_mut(index) {
+            *pixel = (value * unit) as u16;
+        }
+    });
+    for _ in 0..passes {
+        smooth(grey, window);
+    }
+    let (dark, bright) = ends(grey, histogram);
+    let scale = (LEVELS - 1) as f64 / f64::from(bright - dark);
+    for pixel in &mut *grey {
+        let value = pixel.saturating_sub(dark).min(bright - dark);
+        *pixel = (f64::from(value) * scale) as u16;
+    }
+    block(grey, window, excluded);
+    1.0 / (unit * scale)
+}
+
+/// One pass of the binomial filter in both directions; at the border the last pixel counts twice.
+fn smooth(grey: &mut [u16], window: &Window) {
+    let mut line = |first: usize, step: usize, length: usize| {
+        let at = |k: usize| first + k * step;
+        let mut before = grey.get(first).copied().map_or(0, u32::from);
+        let mut here = before;
+        for k in 0..length {
+            let after = if k + 1 < length {
+                grey.get(at(k + 1)).copied().map_or(here, u32::from)
+            } else {
+                here
+            };
+            if let Some(pixel) = grey.get_mut(at(k)) {
+                *pixel = ((before + 2 * here + after + 2) / 4) as u16;
+            }
+            (before, here) = (here, after);
+        }
+    };
+    for row in 0..window.height {
+        line(row * window.width, 1, window.width);
+    }
+    for column in 0..window.width {
+        line(column, window.width, window.height);
+    }
+}
+
+/// The ends of the scale: all but a few pixels lie between them; the second is the greater.
+fn ends(grey: &[u16], histogram: &mut [u32]) -> (u16, u16) {
+    histogram.fill(0);
+    for &value in grey {
+        if let Some(count) = histogram.get_mut((value >> BIN_SHIFT) as usize) {
+            *count += 1;
+        }
+    }
+    let few = CLIPPED * grey.len() as f64;
+    let low = rank(histogram.iter(), few);
+    let high = histogram
+        .len()
+        .saturating_sub(1 + rank(histogram.iter().rev(), few));
+    let edge = |bin: usize| (bin << BIN_SHIFT).min(usize::from(u16::MAX) - 1) as u16;
+    let (dark, bright) = (edge(low), edge(high + 1));
+    (dark, bright.max(dark + 1))
+}
+
+/// Place of the count at which the sum of counts exceeds `few`.
+fn rank<'c>(mut counts: impl Iterator<Item = &'c u32>, few: f64) -> usize {
+    let mut sum = 0.0;
+    let place = counts.position(|&count| {
+        sum += f64::from(count);
+        sum > few
+    });
+    place.unwrap_or(0)
+}
+
+fn block(grey: &mut [u16], window: &Window, excluded: Option<&Mask<'_>>) {
+    let Some(excluded) = excluded else { return };
+    for (index, pixel) in grey.iter_mut().enumerate() {
+        let (column, row) = window.place(index);
+        if excluded.get(window.left + column, window.top + row) {
+            *pixel = BLOCKED;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::image::frame::Frame;
+
+    #[test]
+    fn a_window_is_cut_to_the_frame_and_numbers_its_pixels() {
+        let window = Window::cut([-5.0, 3.2, 6.9, 99.0], (20, 10));
+        let whole = Window {
+            left: 0,
+            top: 3,
+            width: 7,
+            height: 7,
+        };
+        assert_eq!(window, whole);
+        assert_eq!(window.place(window.index(6.5, 4.5)), (6, 1));
+        assert_eq!(window.index(50.0, -3.0), 6);
+        let mut seen = std::vec::Vec::new();
+        window.neighbours(0, |index| seen.push(index));
+        window.neighbours(8, |index| seen.push(index));
+        assert_eq!(seen, [1, 7, 1, 7, 9, 15]);
+        assert_eq!(Window::cut([30.0, 0.0, 40.0, 1.0], (20, 10)).width, 1);
+    }
+
+    /// A dark square on a ramp, and the same film with its greys turned round.
+    fn film(turned: bool) -> std::vec::Vec<u16> {
+        (0..64 * 64)
+            .map(|k| {
+                let (column, row) = (k % 64, k / 64);
+                let inside = (20..40).contains(&column) && (20..40).contains(&row);
+                let value = if inside { 900 } else { 3000 + 4 * column };
+                if turned { 4095 - value } else { value }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn either_polarity_gives_the_same_picture() {
+        let window = Window::cut([0.0, 0.0, 63.0, 63.0], (64, 64));
+        let picture = |polarity: Polarity, turned: bool| {
+            let pixels = film(turned);
+            let frame = Frame::new(&pixels, 64, 64, 64).expect("fits");
+            let mut grey = std::vec![0; window.pixels()];
+            let mut histogram = [0; LEVELS];
+            let step = look(
+                &frame,
+                &window,
+                (polarity, 2),
+                None,
+                &mut grey,
+                &mut histogram,
+            );
+            (grey, step)
+        };
+        let (dark, step) = picture(Polarity::DarkImplant, false);
+        let (bright, other) = picture(Polarity::BrightImplant, true);
+        assert_eq!(step, other);
+        let differ = dark.iter().zip(&bright).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(differ <= Some(1), "{differ:?}");
+        assert_eq!(dark[30 * 64 + 30], 0);
+        // A step stands for the range of greys divided by the number of steps.
+        assert!((step - (3252.0 - 900.0) / 1023.0).abs() < 0.1, "{step}");
+    }
+
+    #[test]
+    fn excluded_pixels_are_blocked_and_a_uniform_window_has_no_step() {
+        let window = Window::cut([0.0, 0.0, 31.0, 3.0], (32, 4));
+        let words = [0b10, 0, 0, 0];
+        let excluded = Mask::new(&words, 32, 4).expect("valid");
+        let pixels: [u8; 128] = core::array::from_fn(|k| k as u8);
+        let frame = Frame::new(&pixels, 32, 4, 32).expect("fits");
+        let (mut grey, mut histogram) = ([0; 128], [0; LEVELS]);
+        let how = (Polarity::DarkImplant, 0);
+        assert!(
+            look(
+                &frame,
+                &window,
+                how,
+                Some(&excluded),
+                &mut grey,
+                &mut histogram
+            ) > 0.0
+        );
+        assert_eq!(grey.iter().filter(|&&value| value == BLOCKED).count(), 1);
+        assert_eq!(grey[1], BLOCKED);
+        let flat = [7u8; 128];
+        let frame = Frame::new(&flat, 32, 4, 32).expect("fits");
+        assert_eq!(
+            look(&frame, &window, how, None, &mut grey, &mut histogram),
+            0.0
+        );
+    }
+}

@@ -1,0 +1,199 @@
+use super::*;
+use crate::films::{Random, circle};
+use crate::polyline::side;
+use std::vec::Vec;
+
+fn vertices(points: &[Point]) -> Vec<Vertex> {
+    let numbered = points.iter().enumerate();
+    numbered
+        .map(|(number, &at)| Vertex::kept(number, at))
+        .collect()
+}
+
+fn simple(points: &[Point], closed: bool, tolerance: f64) -> (Vec<Vertex>, ShapeError) {
+    let mut marks = std::vec![false; points.len()];
+    let mut places = std::vec![Vertex::default(); points.len()];
+    let mut out = List::new(&mut places);
+    let line = vertices(points);
+    let settings = Simplify {
+        closed,
+        tolerance,
+        balanced: false,
+    };
+    let error = simplify(&line, &settings, |_| false, &mut marks, &mut out).expect("valid");
+    (out.as_slice().to_vec(), error)
+}
+
+fn round(tolerance: f64) -> Simplify {
+    Simplify {
+        closed: true,
+        tolerance,
+        balanced: false,
+    }
+}
+
+/// A circle that wobbles.
+fn wobbly(count: usize) -> Vec<Point> {
+    let mut random = Random(3);
+    let radius = |k: usize| 40.0 + 4.0 * (k as f64 / 9.0).sin();
+    let points = circle([0.0, 0.0], 1.0, count).into_iter().enumerate();
+    points
+        .map(|(k, p)| {
+            let radius = radius(k) + 0.4 * random.share();
+            Point::new(60.0 + radius * p.column, 60.0 + radius * p.row)
+        })
+        .collect()
+}
+
+/// Oracle: the definition, by recursion.
+fn naive(line: &[Point], tolerance: f64) -> Vec<Point> {
+    let chord = (line[0], line[line.len() - 1]);
+    let away: Vec<f64> = line
+        .iter()
+        .map(|&p| squared_distance(p, chord).sqrt())
+        .collect();
+    let inner = 1..line.len() - 1;
+    let greatest = inner.clone().map(|k| away[k]).fold(0.0, f64::max);
+    if greatest <= tolerance {
+        return std::vec![chord.0, chord.1];
+    }
+    let at = inner
+        .into_iter()
+        .find(|&k| away[k] == greatest)
+        .expect("one is");
+    let mut both = naive(&line[..=at], tolerance);
+    both.pop();
+    both.extend(naive(&line[at..], tolerance));
+    both
+}
+
+#[test]
+fn an_open_line_is_that_of_the_definition() {
+    let points = wobbly(180);
+    for tolerance in [0.05, 0.3, 1.0, 5.0] {
+        let (line, _) = simple(&points, false, tolerance);
+        let got: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
+        assert_eq!(got, naive(&points, tolerance));
+    }
+}
+
+#[test]
+fn the_error_is_that_of_the_shape_and_within_the_tolerance() {
+    let points = wobbly(200);
+    for tolerance in [0.1, 0.5, 2.0] {
+        let (line, error) = simple(&points, true, tolerance);
+        assert!(line.len() < 150, "{}", line.len());
+        let simple: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
+        // Every point of the given line is as near to the simple one as is said, or nearer.
+        let mut greatest = 0.0f64;
+        let (mut sum, mut count) = (0.0, 0.0);
+        for number in 0..points.len() {
+            for part in 0..10 {
+                let at = crate::polyline::between(side(&points, number), f64::from(part) / 10.0);
+                let sides = (0..simple.len()).map(|number| side(&simple, number));
+                let nearest = sides
+                    .map(|s| squared_distance(at, s))
+                    .fold(f64::MAX, f64::min);
+                greatest = greatest.max(nearest.sqrt());
+                sum += nearest;
+                count += 1.0;
+            }
+        }
+        assert!(greatest <= error.max + 1e-9 && error.max <= tolerance + 1e-9);
+        assert!((error.rms / (sum / count).sqrt() - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_closed_line_does_not_depend_on_its_first_point() {
+    let points = wobbly(120);
+    let (line, error) = simple(&points, true, 0.6);
+    let key = |vertex: &Vertex| (vertex.at.column.to_bits(), vertex.at.row.to_bits());
+    let mut wanted: Vec<_> = line.iter().map(key).collect();
+    wanted.sort_unstable();
+    for first in [1, 37, 100] {
+        let mut turned = points.clone();
+        turned.rotate_left(first);
+        let (line, other) = simple(&turned, true, 0.6);
+        let mut got: Vec<_> = line.iter().map(key).collect();
+        got.sort_unstable();
+        assert_eq!(got, wanted);
+        assert!((other.rms - error.rms).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_balanced_outline_keeps_its_area() {
+    let points = circle([100.0, 100.0], 60.0, 400);
+    let made: Vec<Vertex> = points.iter().map(|&at| Vertex::new(at)).collect();
+    let area = |line: &[Vertex]| {
+        let points: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
+        twice_area(&points) / 2.0
+    };
+    let mut marks = std::vec![false; points.len()];
+    let mut places = std::vec![Vertex::default(); points.len()];
+    let mut out = List::new(&mut places);
+    let mut lost = |balanced: bool| {
+        let settings = Simplify {
+            balanced,
+            ..round(0.5)
+        };
+        let error = simplify(&made, &settings, |_| false, &mut marks, &mut out).expect("valid");
+        assert!(out.len() < 40 && error.max < 0.5);
+        // As a distance all round.
+        (area(&made) - area(out.as_slice())) / (120.0 * core::f64::consts::PI)
+    };
+    assert!(lost(false) > 0.15);
+    assert!(lost(true).abs() < 0.005, "{}", lost(true));
+}
+
+#[test]
+fn what_is_to_stay_stays() {
+    let points = circle([50.0, 50.0], 20.0, 64);
+    let line = vertices(&points);
+    let mut marks = [false; 64];
+    let mut places = [Vertex::default(); 64];
+    let mut out = List::new(&mut places);
+    let keep = |vertex: &Vertex| vertex.from == 5.0 || vertex.from == 6.0;
+    simplify(&line, &round(3.0), keep, &mut marks, &mut out).expect("valid");
+    let numbers: Vec<_> = out
+        .as_slice()
+        .iter()
+        .filter_map(Vertex::kept_number)
+        .collect();
+    assert!(numbers.contains(&5) && numbers.contains(&6) && numbers.len() < 10);
+}
+
+#[test]
+fn a_thin_plate_does_not_fold_onto_itself() {
+    // Two long wavy sides 1 pixel apart, a tolerance of 3.
+    let wave = |k: usize| (k as f64 / 3.0).sin() * 2.5;
+    let there = (0..100).map(|k| Point::new(k as f64, 50.0 + wave(k)));
+    let back = (0..100)
+        .rev()
+        .map(|k| Point::new(k as f64 + 0.3, 51.0 + wave(k)));
+    let points: Vec<Point> = there.chain(back).collect();
+    assert_eq!(first_crossing(points.len(), |k| points[k]), None);
+    let (line, error) = simple(&points, true, 3.0);
+    assert_eq!(first_crossing(line.len(), |k| line[k].at), None);
+    assert!(line.len() < points.len() && error.max < 3.0);
+}
+
+#[test]
+fn what_is_impossible_is_said() {
+    let line = vertices(&circle([9.0, 9.0], 5.0, 8));
+    let mut places = [Vertex::default(); 8];
+    let mut out = List::new(&mut places);
+    let short = simplify(&line, &round(0.1), |_| false, &mut [false; 7], &mut out);
+    assert!(matches!(short, Err(AidError::Memory { needed: 8, .. })));
+    let wrong = simplify(
+        &line,
+        &round(f64::NAN),
+        |_| false,
+        &mut [false; 8],
+        &mut out,
+    );
+    assert!(matches!(wrong, Err(AidError::Setting { .. })));
+    let nothing = simplify(&[], &round(1.0), |_| false, &mut [], &mut out);
+    assert_eq!(nothing, Ok(ShapeError::default()));
+}

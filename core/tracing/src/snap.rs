@@ -1,0 +1,281 @@
+//! A rough line pulled onto the edges of a film.
+//!
+//! Along the normal of each of the line's samples the slope of the grey value is read at places half a pixel apart.
+//! Which place each sample goes to is decided for all of them together, by dynamic programming: strong slopes attract,
+//! near ones more than far ones, and neighbours keep together (after Amini, Weymouth and Jain, *Using dynamic
+//! programming for solving variational problems in vision*, IEEE PAMI 12, 1990). So no single point jumps to a speck, and
+//! where there is no edge the line stays.
+
+mod profile;
+mod track;
+
+use profile::Reader;
+use track::{STATES, track};
+
+use super::list::List;
+use super::noise::noise;
+use super::polyline::{check, subdivide, subdivided_count, twice_area};
+use super::simplify::{Simplify, simplify};
+use super::threshold::Inside;
+use super::wire::Hand;
+use super::{AidError, ShapeError, Vertex, check_length, check_setting};
+use fluoropose::image::contour::Point;
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::math::sqrt;
+
+/// The greatest reach, pixels.
+pub const MOST_REACH: f64 = 16.0;
+/// Between samples along the line, pixels at most.
+const SPACING: f64 = 2.0;
+/// The direction of the line at a sample is that between its points so far before and behind it, pixels.
+const TANGENT: f64 = 3.0;
+/// Points of the given line that did not move stay where a side beside them is longer than this, pixels: lines of
+/// points closer together are simplified like what moved.
+const LONG: f64 = 3.0;
+/// What moved by less has not moved, pixels.
+const STILL: f64 = 1e-9;
+
+/// Which line, and how far it may go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snap {
+    /// Whether the last point is joined to the first.
+    pub closed: bool,
+    /// On which hand of the line the implant is. Of a closed line it is inside, whatever is said here.
+    pub hand: Hand,
+    /// Whether the implant is darker or brighter than what surrounds it.
+    pub inside: Inside,
+    /// How far edges are looked for to both sides, pixels.
+    pub reach: f64,
+    /// The new line is simplified by at most so many pixels.
+    pub tolerance: f64,
+}
+
+/// A sample of a line. Opaque: only a length to be lent.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sample {
+    vertex: Vertex,
+    /// Unit vector that edges brighten along.
+    normal: [f64; 2],
+    /// From the sample before, pixels.
+    step: f64,
+    /// Where along the normal it goes, pixels.
+    offset: f64,
+    /// Whether there is an edge.
+    on_edge: bool,
+}
+
+/// Working memory of [`snap`]: each slice at least as long as [`snap_needed`] says.
+#[derive(Debug)]
+pub struct SnapMemory<'a> {
+    /// Samples along the line.
+    pub samples: &'a mut [Sample],
+    /// Slopes, place by place of each sample, and what the best way to each is worth.
+    pub slopes: &'a mut [f32],
+    /// From which place the best way comes.
+    pub ways: &'a mut [u8],
+    /// The line before it is simplified.
+    pub line: &'a mut [Vertex],
+    /// One for each of its points.
+    pub marks: &'a mut [bool],
+}
+
+/// Lengths of a [`SnapMemory`]'s slices: of samples, line and marks; and of slopes and ways.
+#[must_use]
+pub fn snap_needed(points: &[Point], closed: bool) -> (usize, usize) {
+    let samples = subdivided_count(points, closed, SPACING);
+    (samples, samples * STATES)
+}
+
+/// Pulls a line to edges of `frame` and writes it to `out`. The ends of an open line stay. Gives how far the given
+/// line's samples were moved.
+///
+/// An edge is a slope (the derivative of a Gaussian of 1 pixel) that noise alone does not make; the noise is measured
+/// in the frame. Its place is that of the greatest slope, to a part of a pixel.
+///
+/// # Errors
+/// [`AidError`] about the line, the settings or the memory.
+pub fn snap<P: Pixel>(
+    frame: &Frame<'_, P>,
+    points: &[Point],
+    settings: &Snap,
+    memory: SnapMemory<'_>,
+    out: &mut List<'_, Vertex>,
+) -> Result<ShapeError, AidError> {
+    check(points, if settings.closed { 3 } else { 2 })?;
+    check_setting("the reach", settings.reach, 0.5, MOST_REACH)?;
+    let (count, cells) = snap_needed(points, settings.closed);
+    check_length("samples", count, memory.samples.len())?;
+    check_length("slopes", cells, memory.slopes.len())?;
+    check_length("ways", cells, memory.ways.len())?;
+    let samples = memory.samples.get_mut(..count).unwrap_or_default();
+    lay_out(points, settings, samples)?;
+    let reader = Reader::new(frame, noise(frame), settings);
+    for (sample, slopes) in samples.iter().zip(memory.slopes.chunks_exact_mut(STATES)) {
+        reader.slopes(sample, slopes);
+    }
+    track(
+        samples,
+        memory.slopes,
+        memory.ways,
+        settings,
+        reader.least(),
+    );
+    let error = moved(samples);
+    let mut line = List::new(memory.line);
+    place(samples, settings.closed, &mut line)?;
+    let keep = |vertex: &Vertex| stays(points, settings.closed, vertex);
+    let simple = Simplify {
+        closed: settings.closed,
+        tolerance: settings.tolerance,
+        balanced: true,
+    };
+    let simplified = simplify(line.as_slice(), &simple, keep, memory.marks, out)?;
+    Ok(ShapeError {
+        max: error.max + simplified.max,
+        rms: sqrt(error.rms * error.rms + simplified.rms * simplified.rms),
+    })
+}
+
+/// Whether an untouched point must not be left out.
+fn stays(points: &[Point], closed: bool, vertex: &Vertex) -> bool {
+    let Some(number) = vertex.kept_number() else {
+        return false;
+    };
+    let count = points.len();
+    if !closed && (number == 0 || number + 1 == count) {
+        return true;
+    }
+    let before = super::polyline::side(points, (number + count - 1) % count);
+    let after = super::polyline::side(points, number);
+    [before, after]
+        .iter()
+        .any(|ends| super::polyline::distance(ends.0, ends.1) > LONG)
+}
+
+/// Samples along the line with their normals.
+fn lay_out(points: &[Point], settings: &Snap, samples: &mut [Sample]) -> Result<(), AidError> {
+    let mut at = 0;
+    subdivide(points, settings.closed, SPACING, |vertex| {
+        let most = samples.len();
+        let sample = samples.get_mut(at).ok_or(AidError::TooLong(most))?;
+        *sample = Sample {
+            vertex,
+            ..Sample::default()
+        };
+        at += 1;
+        Ok(())
+    })?;
+    let count = samples.len();
+    for number in 0..count {
+        let before = samples[(number + count - 1) % count].vertex.at;
+        samples[number].step = super::polyline::distance(before, samples[number].vertex.at);
+    }
+    let brighter_left = brighter_left(points, settings);
+    for number in 0..count {
+        let [right, down] = direction(samples, number, settings.closed);
+        // The left hand of (right, down) is (down, -right).
+        samples[number].normal = [brighter_left * down, -brighter_left * right];
+    }
+    Ok(())
+}
+
+/// 1 where it gets brighter towards the left hand of the line, -1 where towards the right.
+fn brighter_left(points: &[Point], settings: &Snap) -> f64 {
+    let implant_right = if settings.closed {
+        twice_area(points) > 0.0
+    } else {
+        settings.hand != Hand::Left
+    };
+    if implant_right == (settings.inside == Inside::Dark) {
+        1.0
+    } else {
+        -1.0
+    }
+}
+
+/// The direction of the line at a sample.
+fn direction(samples: &[Sample], number: usize, closed: bool) -> [f64; 2] {
+    let behind = walk(samples, number, closed, false);
+    let ahead = walk(samples, number, closed, true);
+    let (right, down) = (ahead.column - behind.column, ahead.row - behind.row);
+    let long = sqrt(right * right + down * down);
+    // A line that turns back on itself has no direction there, and is not moved.
+    if long > 1e-6 {
+        [right / long, down / long]
+    } else {
+        [0.0, 0.0]
+    }
+}
+
+/// The sample [`TANGENT`] or the next more ahead of or behind one; the end of an open line where that is nearer.
+fn walk(samples: &[Sample], number: usize, closed: bool, ahead: bool) -> Point {
+    let count = samples.len();
+    let (mut at, mut passed) = (number, 0.0);
+    for _ in 0..count {
+        let end = if ahead { count - 1 } else { 0 };
+        if passed >= TANGENT || (!closed && at == end) {
+            break;
+        }
+        if ahead {
+            at = (at + 1) % count;
+            passed += samples[at].step;
+        } else {
+            passed += samples[at].step;
+            at = (at + count - 1) % count;
+        }
+    }
+    samples[at].vertex.at
+}
+
+/// How far samples were moved.
+fn moved(samples: &[Sample]) -> ShapeError {
+    let squares = samples.iter().map(|sample| sample.offset * sample.offset);
+    let greatest = squares.clone().fold(0.0, f64::max);
+    ShapeError {
+        max: sqrt(greatest),
+        rms: sqrt(squares.sum::<f64>() / samples.len().max(1) as f64),
+    }
+}
+
+/// Writes the samples where they go. Those that would run against the line's direction are left out: on the inner side
+/// of a sharp bend normals cross.
+fn place(samples: &[Sample], closed: bool, line: &mut List<'_, Vertex>) -> Result<(), AidError> {
+    let count = samples.len();
+    let mut last: Option<(Point, Point)> = None;
+    for (number, sample) in samples.iter().enumerate() {
+        let Sample {
+            vertex,
+            normal,
+            offset,
+            ..
+        } = *sample;
+        let still = offset.abs() < STILL;
+        let at = Point::new(
+            vertex.at.column + offset * normal[0],
+            vertex.at.row + offset * normal[1],
+        );
+        if let Some((given, made)) = last {
+            let along = (vertex.at.column - given.column) * (at.column - made.column)
+                + (vertex.at.row - given.row) * (at.row - made.row);
+            let end = !closed && number + 1 == count;
+            if along <= 0.0 && !end && !still {
+                continue;
+            }
+        }
+        last = Some((vertex.at, at));
+        line.push(if still {
+            vertex
+        } else {
+            vertex_moved(&vertex, at)
+        })?;
+    }
+    Ok(())
+}
+
+fn vertex_moved(vertex: &Vertex, at: Point) -> Vertex {
+    let number = fluoropose::math::floor(vertex.from);
+    Vertex::from_side(number as usize, vertex.from - number, at)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,252 @@
+use super::*;
+use crate::costs::tests::edges_of;
+use crate::films::{Film, Random, circle};
+use crate::polyline::distance;
+use crate::threshold::Inside;
+use std::vec::Vec;
+
+struct Memory {
+    nodes: Vec<Node>,
+    waiting: Vec<Waiting>,
+}
+
+impl Memory {
+    fn new(pixels: usize) -> Self {
+        Self {
+            nodes: std::vec![Node::default(); pixels],
+            waiting: std::vec![Waiting::default(); pixels],
+        }
+    }
+
+    fn lend(&mut self) -> WireMemory<'_> {
+        WireMemory {
+            nodes: &mut self.nodes,
+            waiting: &mut self.waiting,
+        }
+    }
+}
+
+fn random_edges(count: usize, seed: u32) -> Vec<Edge> {
+    let mut random = Random(seed);
+    let mut byte = || (256.0 * random.share()) as u8;
+    let edge = |_| Edge {
+        strength: byte(),
+        outwards: byte(),
+    };
+    (0..count).map(edge).collect()
+}
+
+/// Oracle: costs relaxed until nothing changes (Bellman and Ford).
+fn naive(costs: &Costs<'_>, seed: usize, hand: Hand) -> Vec<u32> {
+    let prices = Prices::new(hand);
+    let (width, height) = (costs.width(), costs.height());
+    let mut least = std::vec![u32::MAX; width * height];
+    least[seed] = 0;
+    let mut changed = true;
+    while changed {
+        changed = false;
+        for from in 0..least.len() {
+            for (heading, (right, down)) in STEPS.iter().enumerate() {
+                let (Some(column), Some(row)) = (
+                    (from % width)
+                        .checked_add_signed(*right)
+                        .filter(|&c| c < width),
+                    (from / width)
+                        .checked_add_signed(*down)
+                        .filter(|&r| r < height),
+                ) else {
+                    continue;
+                };
+                let to = row * width + column;
+                let cost = least[from].saturating_add(prices.of(heading, costs.number(to)));
+                if cost < least[to] {
+                    least[to] = cost;
+                    changed = true;
+                }
+            }
+        }
+    }
+    least
+}
+
+#[test]
+fn every_pixel_has_the_cost_of_the_definition() {
+    for (number, hand) in [Hand::Left, Hand::Either, Hand::Right]
+        .into_iter()
+        .enumerate()
+    {
+        let (width, height) = (23, 17);
+        let edges = random_edges(width * height, 5 + number as u32);
+        let costs = Costs::new(&edges, width, height).expect("fits");
+        let mut memory = Memory::new(width * height);
+        let seed = Point::new(11.5, 3.5);
+        let mut wire = Wire::start(&costs, seed, hand, &mut memory.lend()).expect("fits");
+        // In slices, and with the places put in order between them: neither may change anything.
+        while !wire
+            .expand(&costs, &mut memory.lend(), 9, None)
+            .expect("fits")
+        {
+            wire.sweep(&mut memory.lend());
+        }
+        assert_eq!(wire.settled(), width * height);
+        let wanted = naive(&costs, 3 * width + 11, hand);
+        for (pixel, &cost) in wanted.iter().enumerate() {
+            assert_eq!(wire.cost_of(&memory.nodes, pixel), cost);
+        }
+        check_paths(&wire, &costs, &memory.nodes, &wanted);
+    }
+}
+
+/// Each path begins at the seed, takes single steps, and costs what is said.
+fn check_paths(wire: &Wire, costs: &Costs<'_>, nodes: &[Node], wanted: &[u32]) {
+    let mut places = std::vec![0; wanted.len()];
+    for (pixel, &cost) in wanted.iter().enumerate() {
+        let mut path = List::new(&mut places);
+        wire.path_to(nodes, pixel, &mut path).expect("fits");
+        let path = path.as_slice();
+        assert_eq!(
+            (wanted[path[0] as usize], path[path.len() - 1] as usize),
+            (0, pixel)
+        );
+        let steps = path.windows(2);
+        let sum: u32 = steps
+            .map(|pair| wire.straight(costs, pair[0] as usize, pair[1] as usize, |_| ()))
+            .sum();
+        assert_eq!(sum, cost);
+    }
+}
+
+#[test]
+fn a_straight_way_takes_single_steps_to_its_end() {
+    let edges = random_edges(40 * 30, 1);
+    let costs = Costs::new(&edges, 40, 30).expect("fits");
+    let wire = Wire::start(
+        &costs,
+        Point::new(0.0, 0.0),
+        Hand::Either,
+        &mut Memory::new(1200).lend(),
+    );
+    let wire = wire.expect("fits");
+    for (from, to) in [
+        (0, 1199),
+        (1199, 0),
+        (39, 1160),
+        (45, 45),
+        (50, 58),
+        (600, 1),
+        (803, 40),
+    ] {
+        let mut way = std::vec![from];
+        wire.straight(&costs, from, to, |pixel| way.push(pixel));
+        assert_eq!(way[way.len() - 1], to);
+        for pair in way.windows(2) {
+            let [a, b] = [pair[0], pair[1]].map(|pixel| wire.centre(pixel as u32));
+            assert!(distance(a, b) > 0.9 && distance(a, b) < 1.5);
+        }
+        let [a, b] = [from, to].map(|pixel| wire.centre(pixel as u32));
+        let off = |&pixel: &usize| {
+            let at = wire.centre(pixel as u32);
+            crate::polyline::squared_distance(at, (a, b)).sqrt()
+        };
+        assert!(way.iter().map(off).fold(0.0, f64::max) < 0.75);
+    }
+}
+
+fn path(costs: &Costs<'_>, from: Point, to: Point, hand: Hand) -> Vec<Point> {
+    let mut memory = Memory::new(costs.width() * costs.height());
+    let mut wire = Wire::start(costs, from, hand, &mut memory.lend()).expect("fits");
+    assert!(
+        wire.expand(costs, &mut memory.lend(), usize::MAX, Some(to))
+            .expect("fits")
+    );
+    let mut places = std::vec![0; 5000];
+    let mut path = List::new(&mut places);
+    wire.path(&memory.nodes, to, &mut path).expect("fits");
+    path.as_slice()
+        .iter()
+        .map(|&pixel| wire.centre(pixel))
+        .collect()
+}
+
+#[test]
+fn a_path_goes_round_with_the_implant_on_its_hand() {
+    let mut film = Film::new(120, 110, 190.0);
+    film.disc([60.0, 55.0], 35.0, 80.0);
+    film.add_noise(8.0, 6);
+    let edges = edges_of(&film, Inside::Dark, 64);
+    let costs = Costs::new(&edges, 120, 110).expect("fits");
+    let (left, right) = (Point::new(25.0, 55.0), Point::new(95.0, 55.0));
+    for (hand, above, sign) in [(Hand::Right, true, 1.0), (Hand::Left, false, -1.0)] {
+        let path = path(&costs, left, right, hand);
+        assert!(
+            path.iter()
+                .all(|p| (p.row < 57.0) == above || (p.row > 53.0) != above)
+        );
+        let off = |p: &Point| ((p.column - 60.0).hypot(p.row - 55.0) - 35.0).abs();
+        let mean = path.iter().map(off).sum::<f64>() / path.len() as f64;
+        assert!(mean < 0.7, "{mean}");
+        assert!(sign * hand_of(&costs, &path) > 0.9);
+    }
+    let clockwise = circle([60.0, 55.0], 35.0, 40);
+    assert!(hand_of(&costs, &clockwise) > 0.95);
+    assert_eq!(hand_of(&costs, &clockwise[..1]), 0.0);
+}
+
+#[test]
+fn on_a_thin_plate_a_path_keeps_to_its_own_edge() {
+    let mut film = Film::new(160, 60, 150.0);
+    // Below it is brighter: the lower edge is much the stronger.
+    film.draw(230.0, |_, row| 30.0 - row);
+    film.plate([80.0, 30.0], [60.0, 3.5], 0.0, 90.0);
+    film.add_noise(4.0, 2);
+    let edges = edges_of(&film, Inside::Dark, 64);
+    let costs = Costs::new(&edges, 160, 60).expect("fits");
+    // To the right along the upper edge: the plate is on the right hand.
+    let path = path(
+        &costs,
+        Point::new(25.0, 26.5),
+        Point::new(135.0, 26.5),
+        Hand::Right,
+    );
+    assert!(path.iter().all(|p| (p.row - 26.5).abs() <= 1.5), "{path:?}");
+}
+
+#[test]
+fn a_target_stops_the_search_and_what_is_not_reached_has_no_path() {
+    let edges = std::vec![Edge::default(); 10_000];
+    let costs = Costs::new(&edges, 100, 100).expect("fits");
+    let mut memory = Memory::new(10_000);
+    let seed = Point::new(50.0, 50.0);
+    let mut wire = Wire::start(&costs, seed, Hand::Either, &mut memory.lend()).expect("fits");
+    let near = Point::new(53.0, 50.0);
+    assert!(
+        !wire
+            .expand(&costs, &mut memory.lend(), 3, Some(near))
+            .expect("fits")
+    );
+    assert!(
+        wire.expand(&costs, &mut memory.lend(), 9999, Some(near))
+            .expect("fits")
+    );
+    assert!(wire.settled() < 100 && wire.is_reached(&memory.nodes, near));
+    let far = Point::new(99.0, f64::INFINITY);
+    assert!(!wire.is_reached(&memory.nodes, far));
+    let mut places = [0; 200];
+    let mut path = List::new(&mut places);
+    wire.path(&memory.nodes, far, &mut path).expect("fits");
+    assert!(path.is_empty());
+    assert!(
+        wire.expand(&costs, &mut memory.lend(), 9999, None)
+            .expect("fits")
+    );
+    wire.path(&memory.nodes, far, &mut path).expect("fits");
+    assert_eq!(path.len(), 50);
+    let mut short = [0; 20];
+    let long = wire.path(&memory.nodes, far, &mut List::new(&mut short));
+    assert_eq!(long, Err(AidError::TooLong(20)));
+    let other = Costs::new(&edges, 50, 100).expect("fits");
+    assert_eq!(
+        wire.expand(&other, &mut memory.lend(), 1, None),
+        Err(AidError::OtherFrame)
+    );
+}
