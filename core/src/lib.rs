@@ -8,6 +8,8 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
@@ -18,8 +20,10 @@ pub mod image;
 pub mod library;
 pub mod locate;
 pub mod math;
+pub mod memory;
 pub mod mesh;
 pub mod pose;
 pub mod refine;
 pub mod render;
 pub mod search;
+pub mod shortlist;

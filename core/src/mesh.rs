@@ -2,7 +2,13 @@
 
 pub mod edges;
 pub mod mirror;
+mod model;
+#[cfg(feature = "alloc")]
+mod owned;
 mod surface;
 pub mod symmetry;
 
+pub use model::Model;
+#[cfg(feature = "alloc")]
+pub use owned::OwnedModel;
 pub use surface::*;

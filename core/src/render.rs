@@ -1,7 +1,11 @@
 //! A component's silhouette as a camera sees it.
 
-mod raster;
+mod draw;
+mod facing;
+mod project;
 mod winding;
 
-pub use raster::*;
-pub(crate) use raster::{Images, contour, for_each_span, project};
+pub(crate) use draw::{contour, for_each_span};
+pub use draw::{render, scratch_needed};
+pub(crate) use project::project;
+pub use project::{Projected, RenderError};

@@ -5,6 +5,7 @@ mod exact;
 pub mod exhaustive;
 pub mod kernels;
 mod query;
+mod scores;
 
 pub use catalogue::{
     Catalogue, CatalogueError, CatalogueMemory, CatalogueNeeds, Identified, Leaf, catalogue_needed,
@@ -12,3 +13,4 @@ pub use catalogue::{
 };
 pub use exact::*;
 pub use query::{Query, query_bytes_needed};
+pub use scores::{Candidate, MatchError, Scores, scores_needed};

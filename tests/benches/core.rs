@@ -11,7 +11,7 @@ use fluoropose::canonical::{CanonicalSpec, canonicalise};
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::math::radians;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{
     OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
@@ -30,7 +30,7 @@ static SURFACE: LazyLock<Surface> = LazyLock::new(|| {
     Surface::try_from(model).expect("the built-in femur has a surface")
 });
 
-fn mesh() -> Mesh<'static> {
+fn mesh() -> Model<'static> {
     SURFACE.mesh().expect("the built-in femur is a mesh")
 }
 

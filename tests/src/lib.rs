@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use xtask::implant::{self, Parameters, Triangles};
 use xtask::pipeline::files::Surface;
 
@@ -67,8 +67,9 @@ pub fn surface(triangles: Triangles) -> Surface {
 }
 
 /// A mesh of the core over a built-in implant, without edges.
-pub fn mesh(triangles: &Triangles) -> Mesh<'_> {
-    Mesh::new(&triangles.vertices, &triangles.triangles).expect("built-in implants are valid")
+pub fn mesh(triangles: &Triangles) -> Model<'_> {
+    Model::from_triangles(&triangles.vertices, &triangles.triangles)
+        .expect("built-in implants are valid")
 }
 
 /// The camera of a usual single-plane study: 1200 mm, 0.373 mm a pixel, 1024 x 1024.

@@ -1,7 +1,7 @@
 //! Refinement with its options: numbers that are locked stay, and the others do what they can; swiftness costs little.
 
 use fluoropose::image::mask::{MaskMut, words_needed};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{
     BorderPixel, Effort, Locks, RefineMemory, RefineOptions, Refined, View, refine,
@@ -39,7 +39,7 @@ fn refined(start: EulerPose, locks: Locks) -> Refined {
 
 fn refined_with(start: EulerPose, options: RefineOptions) -> Refined {
     let (camera, triangles) = (camera(), femur());
-    let mesh: Mesh<'_> = mesh(&triangles);
+    let mesh: Model<'_> = mesh(&triangles);
     let (width, height) = (camera.width(), camera.height());
     let mut projected = vec![Projected::default(); scratch_needed(&mesh)];
     let mut words = vec![0; words_needed(width, height)];

@@ -10,7 +10,7 @@ use fluoropose::locate::partial::{
 };
 use fluoropose::locate::rerank::Verified;
 use fluoropose::math::apply;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{RefineOptions, View};
 use fluoropose::render::{Projected, render, scratch_needed};
@@ -28,7 +28,7 @@ const KEPT: usize = 6;
 
 /// A pose within the protocol of `synthetic`, evenly spread: each number is a sequence of
 /// multiples of an irrational number, modulo 1.
-fn pose(number: u64, mesh: &Mesh<'_>) -> Pose {
+fn pose(number: u64, mesh: &Model<'_>) -> Pose {
     let draw = |irrational: f64, reach: f64| {
         reach * (2.0 * (irrational * (number + 1) as f64).fract() - 1.0)
     };
@@ -51,7 +51,7 @@ fn locate(
     silhouette: &Silhouette<'_>,
     camera: &Camera,
     library: &Library<'_>,
-    mesh: &Mesh<'_>,
+    mesh: &Model<'_>,
 ) -> Vec<Verified> {
     let needs = partial_needed(library, camera, mesh);
     let memory = PartialMemory {
@@ -70,7 +70,7 @@ fn locate(
 
 /// Whether a refinement from `found` would lead to `pose`: within 8 degrees, 10 mm, and 60 mm
 /// along the view.
-fn is_start(found: &Verified, pose: &Pose, mesh: &Mesh<'_>) -> bool {
+fn is_start(found: &Verified, pose: &Pose, mesh: &Model<'_>) -> bool {
     let centre = mesh.bounds().centre;
     let (a, b) = (
         found.located.pose.transform(&centre),
@@ -86,7 +86,7 @@ fn assert_found(
     silhouette: Silhouette<'_>,
     camera: &Camera,
     library: &Library<'_>,
-    mesh: &Mesh<'_>,
+    mesh: &Model<'_>,
     pose: &Pose,
     what: &str,
 ) {
@@ -118,7 +118,7 @@ fn assert_found(
 }
 
 /// Calls `check` with a part's name, mesh and library.
-fn for_parts(check: impl Fn(&str, &Mesh<'_>, &Library<'_>)) {
+fn for_parts(check: impl Fn(&str, &Model<'_>, &Library<'_>)) {
     let parts = [("femur", surface(femur())), ("tibia", surface(tibia()))];
     for (name, model) in &parts {
         let mesh = model.mesh().expect("a mesh");
@@ -128,7 +128,7 @@ fn for_parts(check: impl Fn(&str, &Mesh<'_>, &Library<'_>)) {
     }
 }
 
-fn drawn(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> MaskBuffer {
+fn drawn(mesh: &Model<'_>, camera: &Camera, pose: &Pose) -> MaskBuffer {
     let mut mask = MaskBuffer::new(camera.width(), camera.height()).expect("possible");
     let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
     mask.draw(|mask| render(mesh, camera, pose, &mut scratch, mask))
@@ -180,7 +180,7 @@ fn cutting(camera: &Camera, mask: &MaskBuffer, border: u64, cut: f64) -> Camera 
 
 /// The first camera and mask of which the border hides as much of the outline as is wanted; `None`
 /// where it hides too little or, by the next row or column, too much.
-fn cut(mesh: &Mesh<'_>, pose: &Pose, border: u64) -> Option<(Camera, MaskBuffer)> {
+fn cut(mesh: &Model<'_>, pose: &Pose, border: u64) -> Option<(Camera, MaskBuffer)> {
     let whole = drawn(mesh, &camera(), pose);
     let sides = known_share(&Silhouette::from(&whole.mask())).sides as f64;
     (1..40).find_map(|step| {

@@ -18,7 +18,7 @@ type Sides = [Pose; 2];
 /// Reference poses of a component and their mirror images in its plane of symmetry.
 fn both_sides(component: &Component) -> Vec<Sides> {
     let model = read_model(&component.model).expect("a model");
-    let planes = symmetry_planes(&model.mesh().expect("a mesh"));
+    let planes = symmetry_planes(model.mesh().expect("a mesh").mesh());
     let plane = planes.first().expect("a plane of symmetry");
     let path = component.reference.as_deref().expect("reference poses");
     let poses = read_poses(path).expect("poses").into_iter().map(Pose::from);

@@ -37,8 +37,8 @@ fn built_in_implants_have_their_mediolateral_plane_alone() {
         (Side::Right, 4, 2.0),
     ] {
         let (femur, tibia) = built_in(side, size, resolution);
-        assert_mediolateral(&symmetry_planes(&mesh(&femur)), 2.0, 2.0);
-        assert_mediolateral(&symmetry_planes(&mesh(&tibia)), 1.0, 0.15);
+        assert_mediolateral(&symmetry_planes(mesh(&femur).mesh()), 2.0, 2.0);
+        assert_mediolateral(&symmetry_planes(mesh(&tibia).mesh()), 1.0, 0.15);
     }
 }
 
@@ -48,7 +48,7 @@ fn real_implants_have_their_mediolateral_plane_alone() {
     let study = Study::read(&path).expect("a study");
     for component in &study.components {
         let model = read_model(&component.model).expect("a model");
-        let planes = symmetry_planes(&model.mesh().expect("a mesh"));
+        let planes = symmetry_planes(model.mesh().expect("a mesh").mesh());
         println!("{}: {planes:?}", component.name);
         match component.name.as_str() {
             "tibia" => assert_mediolateral(&planes, 0.1, 0.01),

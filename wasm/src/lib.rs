@@ -32,8 +32,6 @@ mod grid;
 mod jts;
 mod kinematics;
 #[cfg(feature = "workers")]
-mod lent_model;
-#[cfg(feature = "workers")]
 mod library;
 mod library_check;
 mod looks;
@@ -41,12 +39,11 @@ mod looks;
 mod matcher;
 mod model;
 mod paint;
-#[cfg(feature = "workers")]
-mod pieces;
 mod pose_numbers;
-mod surface;
 mod traced;
 mod unmatched;
+#[cfg(feature = "workers")]
+mod working_model;
 
 pub use aids::{
     Cooling, LiveWire, Reshaped, ThresholdAid, brush_outline, simplify_outline, smooth_outline,

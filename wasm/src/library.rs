@@ -3,18 +3,18 @@
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::mask::Word;
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::mesh::OwnedModel;
 use fluoropose::render::Projected;
 use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::calibration_of;
 use crate::error::sentence;
-use crate::surface::Surface;
 
 self_cell::self_cell!(
     /// A builder with the mesh that it draws.
     struct Plan {
-        owner: Surface,
+        owner: OwnedModel,
         #[covariant]
         dependent: Builder,
     }
@@ -115,9 +115,9 @@ impl LibraryBuilder {
         let distance = views.distance.or(usual).ok_or_else(|| {
             JsError::new("A camera matrix does not tell how far the object is: give the library's distance in mm")
         })?;
-        let surface = Surface::new(vertices, triangles)?;
-        let plan = Plan::try_new(surface, |surface| {
-            Builder::new(surface.mesh()?, camera, canonical, grid, distance).map_err(sentence)
+        let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
+        let plan = Plan::try_new(owned, |owned| {
+            Builder::new(owned.model(), camera, canonical, grid, distance).map_err(sentence)
         })?;
         let builder = plan.borrow_dependent();
         Ok(Self {

@@ -25,9 +25,9 @@ use wasm_bindgen::prelude::*;
 use crate::choice::{Chosen, Surroundings};
 use crate::error::sentence;
 use crate::found::{Candidate, Match, deviation_numbers};
-use crate::lent_model::{LentModel, Ranked};
 use crate::pose_numbers::{from_numbers, to_numbers};
 use crate::traced::Traced;
+use crate::working_model::{Ranked, WorkingModel};
 
 self_cell::self_cell!(
     /// A library with its bytes, checked once.
@@ -54,7 +54,7 @@ const DOUBTFUL_SHARE: f64 = 0.06;
 #[wasm_bindgen]
 pub struct Matcher {
     library: OpenLibrary,
-    model: Option<LentModel>,
+    model: Option<WorkingModel>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
@@ -87,8 +87,8 @@ impl Matcher {
     /// A sentence when the library was made from another model.
     #[wasm_bindgen(js_name = lendModel)]
     pub fn lend_model(&mut self, vertices: Vec<f32>, triangles: Vec<u32>) -> Result<(), JsError> {
-        let model = LentModel::new(vertices, triangles)?;
-        if model.mesh()?.digest() != self.library.borrow_dependent().info().model {
+        let model = WorkingModel::new(vertices, triangles)?;
+        if model.model().digest() != self.library.borrow_dependent().info().model {
             return Err(JsError::new(
                 "The library was made from another model: open the model that belongs to it, or build it again",
             ));

@@ -5,6 +5,7 @@ use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
+use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::prelude::*;
@@ -15,7 +16,6 @@ use crate::error::sentence;
 use crate::grid::Straightener;
 use crate::paint::{Rgba, opaque, put};
 use crate::pose_numbers::from_numbers;
-use crate::surface::Surface;
 
 /// Corners of a silhouette's border that the page draws.
 const BORDER_CORNERS: usize = 16_384;
@@ -23,7 +23,7 @@ const BORDER_CORNERS: usize = 16_384;
 /// A mesh with the working memory to draw it.
 #[wasm_bindgen]
 pub struct Model {
-    surface: Surface,
+    owned: OwnedModel,
     projected: Vec<Projected>,
     /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
     masks: [Vec<Word>; 4],
@@ -42,10 +42,10 @@ impl Model {
     /// The core's sentence about the vertex or triangle at fault.
     #[wasm_bindgen(constructor)]
     pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Model, JsError> {
-        let surface = Surface::new(vertices, triangles)?;
+        let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         Ok(Self {
-            projected: vec![Projected::default(); scratch_needed(&surface.mesh()?)],
-            surface,
+            projected: vec![Projected::default(); scratch_needed(&owned.model())],
+            owned,
             masks: Default::default(),
             border: Box::default(),
             corners: Vec::new(),
@@ -56,7 +56,7 @@ impl Model {
     /// Number of triangles.
     #[wasm_bindgen(getter, js_name = triangleCount)]
     pub fn triangle_count(&self) -> usize {
-        self.surface.triangles()
+        self.owned.model().triangles().len()
     }
 
     /// Draws the silhouette at a pose (x, y, z in mm, z, x, y rotation in degrees) as `calibration` projects it; what is
@@ -169,10 +169,10 @@ impl Model {
         for mask in &mut self.masks {
             mask.resize(words, 0);
         }
-        let mesh = self.surface.mesh()?;
+        let model = self.owned.model();
         let mut mask =
             MaskMut::new(&mut self.masks[0], camera.width(), camera.height()).map_err(sentence)?;
-        render(&mesh, camera, pose, &mut self.projected, &mut mask).map_err(sentence)
+        render(&model, camera, pose, &mut self.projected, &mut mask).map_err(sentence)
     }
 }
 

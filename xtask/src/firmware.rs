@@ -10,7 +10,7 @@ use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
 
@@ -44,7 +44,7 @@ pub const TRUTH: EulerPose = EulerPose {
 /// Writes `femur.library` and `femur.outline` into `folder`, unless they are there already with these contents.
 pub fn write_inputs(folder: &Path) -> Result<()> {
     let femur = implant::femur(&implant::Parameters::default())?;
-    let mesh = Mesh::new(&femur.vertices, &femur.triangles)?;
+    let mesh = Model::from_triangles(&femur.vertices, &femur.triangles)?;
     let camera = Camera::from_principal_distance(
         FRAME_SIDE,
         FRAME_SIDE,
@@ -58,7 +58,7 @@ pub fn write_inputs(folder: &Path) -> Result<()> {
 }
 
 /// 7 x 9 views, a degree apart: 63 x 8 KiB of flash.
-fn library(mesh: Mesh<'_>, camera: Camera) -> Result<Vec<u8>> {
+fn library(mesh: Model<'_>, camera: Camera) -> Result<Vec<u8>> {
     let axis = |nominal: f64, count: usize| GridAxis {
         first: nominal - (count / 2) as f64,
         step: 1.0,
@@ -81,7 +81,7 @@ fn library(mesh: Mesh<'_>, camera: Camera) -> Result<Vec<u8>> {
 }
 
 /// The silhouette at [`TRUTH`] as a polygon through the middles of its border's sides.
-fn outline(mesh: &Mesh<'_>, camera: &Camera) -> Result<Vec<u8>> {
+fn outline(mesh: &Model<'_>, camera: &Camera) -> Result<Vec<u8>> {
     let mut words = vec![0; words_needed(FRAME_SIDE, FRAME_SIDE)];
     let mut mask = MaskMut::new(&mut words, FRAME_SIDE, FRAME_SIDE)?;
     let mut scratch = vec![Projected::default(); scratch_needed(mesh)];

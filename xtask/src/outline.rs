@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Mask;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::Polarity;
 use fluoropose::render::{Projected, render, scratch_needed};
@@ -153,7 +153,7 @@ struct Trial<'t> {
     clicker: Clicker<'t>,
     references: Vec<Option<Pose>>,
     source: &'t Source,
-    mesh: Mesh<'t>,
+    mesh: Model<'t>,
     args: &'t Args,
 }
 
@@ -269,7 +269,7 @@ impl Trial<'_> {
 }
 
 /// The silhouette of a pose.
-fn draw(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
+fn draw(mesh: &Model<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
     let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
     let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
     buffer.draw(|mask| render(mesh, camera, pose, &mut scratch, mask))?;

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::library::{Grid, GridAxis};
 use fluoropose::math::{Vector3, add, apply, multiply, norm, rotation_by, scale};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
@@ -254,7 +254,7 @@ fn print(accuracy: &Accuracy) {
 /// Those of the core's builder and rasteriser, and for an impossible disturbance. A mask of which
 /// no pose is found is counted, and named on standard error.
 pub fn measure(
-    mesh: Mesh<'_>,
+    mesh: Model<'_>,
     camera: Camera,
     views: &ViewOptions,
     protocol: &Protocol,
@@ -268,7 +268,7 @@ pub fn measure(
 /// # Errors
 /// Those of [`measure`].
 pub fn measure_as(
-    mesh: Mesh<'_>,
+    mesh: Model<'_>,
     camera: Camera,
     views: &ViewOptions,
     protocol: &Protocol,
@@ -287,7 +287,7 @@ pub fn measure_as(
     let mut outlines = Outlines::new(mesh, camera);
     let mut random = ChaCha8Rng::seed_from_u64(protocol.seed);
     let bar = progress(protocol.poses, "poses");
-    let planes = symmetry_planes(&mesh);
+    let planes = symmetry_planes(mesh.mesh());
     let (mut tries, mut limits) = (Vec::new(), Vec::new());
     for frame in 0..protocol.poses {
         let pose = random_pose(&mut random, &views.grid(), &mesh, distance);
@@ -383,7 +383,7 @@ impl Search<'_> {
 }
 
 /// A pose inside the library's range, with the middle of the model's box near the axis.
-fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Mesh<'_>, distance: f64) -> Pose {
+fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Model<'_>, distance: f64) -> Pose {
     let inside = |axis: &GridAxis| {
         let last = axis.at(axis.count as f64 - 1.0);
         let middle = (axis.first + last) / 2.0;

@@ -1,7 +1,7 @@
 //! Reading a silhouette at the centres of canonical pixels.
 
-use super::CanonicalForm;
 use super::cells::ones;
+use super::form::CanonicalForm;
 use super::marks::Inverse;
 use crate::image::contour::Point;
 use crate::image::mask::{Mask, MaskMut, WORD_BITS, Word};

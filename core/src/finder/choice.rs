@@ -28,6 +28,7 @@ use heapless::Vec;
 use crate::math::round;
 use crate::pose::kinematics::coronal_tilt_deg;
 use crate::pose::{Pose, geodesic_deg};
+use crate::shortlist::smallest;
 
 /// A residual this many times the best one rules a pose out. Of network masks and grey images the
 /// ratio of the two mirror poses was 0.9 to 1.1, and the wrong one often the smaller.
@@ -299,15 +300,7 @@ impl<'a> Contenders<'a> {
 
     /// The best few; of equal ones the first stays first.
     fn sort(&mut self) {
-        for index in 0..self.candidates.len() {
-            let residual = self.residual(index);
-            let place = self.open.partition_point(|&k| self.residual(k) <= residual);
-            if self.open.is_full() && place < CONTENDERS {
-                self.open.pop();
-            }
-            // Where it is full still, the newcomer is no better than all of them.
-            let _ = self.open.insert(place, index);
-        }
+        self.open = smallest(0..self.candidates.len(), |&index| self.residual(index));
     }
 
     fn rule_by_residual(&mut self) {

@@ -14,10 +14,11 @@ use crate::locate::rerank::unmatched_at;
 use crate::math::{
     Vector3, add, apply, atan2, multiply, norm, radians, rotation_by, scale, sqrt, subtract, wrap,
 };
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::refine::RefineMemory;
 use crate::render::{Projected, render};
+use crate::shortlist::keep;
 
 /// Starts that are given at most: the pose itself and the best of those round it.
 pub const NEARBY: usize = 5;
@@ -39,7 +40,7 @@ const WIDE_STEP_DEG: f64 = 2.0;
 /// Area and centroid must be those of the whole part: for a silhouette with unknown pixels `start` alone
 /// is given ([`crate::locate::partial`] finds poses of such).
 pub fn nearby(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     start: &Pose,
@@ -52,11 +53,11 @@ pub fn nearby(
     let drawn = MaskMut::new(words.unwrap_or_default(), width, height);
     if let (Ok(drawn), None) = (drawn, silhouette.unknown()) {
         let mut search = Search {
-            mesh,
+            model,
             camera,
             silhouette,
             wanted: silhouette.mask().moments(),
-            middle: mesh.bounds().centre,
+            middle: model.bounds().centre,
             moves: if step_deg > WIDE_STEP_DEG { MOVES } else { 1 },
             scratch: memory.projected,
             drawn,
@@ -67,14 +68,7 @@ pub fn nearby(
                 let Some((unmatched, pose)) = search.moved([turn[0], turn[1], 0.0], start) else {
                     continue;
                 };
-                let place = found.partition_point(|&(other, _)| other <= unmatched);
-                if found.len() == NEARBY - 1 && place < found.len() {
-                    found.pop();
-                }
-                if found.len() < NEARBY - 1 {
-                    // There is room now.
-                    let _ = found.insert(place, (unmatched, pose));
-                }
+                keep(&mut found, (unmatched, pose), |&(unmatched, _)| unmatched);
             }
         }
     }
@@ -85,7 +79,7 @@ pub fn nearby(
 }
 
 struct Search<'s> {
-    mesh: &'s Mesh<'s>,
+    model: &'s Model<'s>,
     camera: &'s Camera,
     silhouette: &'s Silhouette<'s>,
     wanted: Moments,
@@ -102,9 +96,9 @@ impl Search<'_> {
         for _ in 0..self.moves {
             pose = self.onto_silhouette(&pose)?;
         }
-        let (mesh, camera) = (self.mesh, self.camera);
+        let (model, camera) = (self.model, self.camera);
         let (scratch, drawn) = (&mut *self.scratch, &mut self.drawn);
-        let unmatched = unmatched_at(mesh, camera, &pose, self.silhouette, scratch, drawn).ok()?;
+        let unmatched = unmatched_at(model, camera, &pose, self.silhouette, scratch, drawn).ok()?;
         Some((unmatched, pose))
     }
 
@@ -133,7 +127,7 @@ impl Search<'_> {
 
     fn moments_at(&mut self, pose: &Pose) -> Option<Moments> {
         self.drawn.clear();
-        render(self.mesh, self.camera, pose, self.scratch, &mut self.drawn).ok()?;
+        render(self.model, self.camera, pose, self.scratch, &mut self.drawn).ok()?;
         Some(self.drawn.as_mask().moments())
     }
 

@@ -5,13 +5,14 @@ use heapless::Vec;
 use crate::finder::nearby::nearby;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::locate::rerank::{Verified, unmatched_at};
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     Effort, RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine,
 };
+use crate::shortlist::keep;
 
 /// Poses to start from that are refined at most.
 pub const STARTS: usize = 6;
@@ -76,7 +77,7 @@ pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
 /// # Errors
 /// That of [`refine`] for the last start, when none can be refined.
 pub fn refine_rivals(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     views: &[View<'_>],
     starts: &[Pose],
     planes: &[SymmetryPlane],
@@ -84,7 +85,7 @@ pub fn refine_rivals(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
     let mut search = Search {
-        mesh,
+        model,
         views,
         planes,
         options,
@@ -107,7 +108,7 @@ pub fn refine_rivals(
 
 /// Refinement from ever more poses.
 struct Search<'s, 'm> {
-    mesh: &'s Mesh<'s>,
+    model: &'s Model<'s>,
     views: &'s [View<'s>],
     planes: &'s [SymmetryPlane],
     options: RefineOptions,
@@ -118,21 +119,13 @@ struct Search<'s, 'm> {
 
 impl Search<'_, '_> {
     fn refine(&mut self, pose: &Pose, start: usize, mirrored: bool) -> Result<(), RefineError> {
-        let refined = refine(self.mesh, self.views, pose, self.options, self.memory)?;
-        let answers = &mut self.answers;
-        let place = answers.partition_point(|other| other.refined.loss <= refined.loss);
-        if answers.is_full() && place < ANSWERS {
-            answers.pop();
-        }
-        // Of more answers than are kept the worst is lost.
-        let _ = answers.insert(
-            place,
-            RefinedRival {
-                start,
-                mirrored,
-                refined,
-            },
-        );
+        let refined = refine(self.model, self.views, pose, self.options, self.memory)?;
+        let answer = RefinedRival {
+            start,
+            mirrored,
+            refined,
+        };
+        keep(&mut self.answers, answer, |other| other.refined.loss);
         Ok(())
     }
 
@@ -144,7 +137,7 @@ impl Search<'_, '_> {
                 let near = self
                     .views
                     .iter()
-                    .all(|view| is_near(self.mesh, view, &mirrored, &refined.pose, self.memory));
+                    .all(|view| is_near(self.model, view, &mirrored, &refined.pose, self.memory));
                 if near {
                     // A mirror image that leads nowhere is no rival.
                     let _ = self.refine(&mirrored, start, true);
@@ -165,8 +158,8 @@ impl Search<'_, '_> {
         if !is_split(&best.refined) || view.placement != Pose::IDENTITY {
             return;
         }
-        let (mesh, camera, pose) = (self.mesh, view.camera, &best.refined.pose);
-        let starts = nearby(mesh, camera, silhouette, pose, CLOSE_DEG, self.memory);
+        let (model, camera, pose) = (self.model, view.camera, &best.refined.pose);
+        let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
         let turned =
             |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(turned) {
@@ -184,7 +177,7 @@ impl Search<'_, '_> {
             edge_offset: false,
             ..self.options
         };
-        let found = refine(self.mesh, self.views, start, options, self.memory).ok()?;
+        let found = refine(self.model, self.views, start, options, self.memory).ok()?;
         let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
         (apart > BACK_DEG && found.loss < ALIKE * best.loss).then_some(found.pose)
     }
@@ -201,7 +194,7 @@ fn is_split(refined: &Refined) -> bool {
 /// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,
 /// or well by itself. A grey frame cannot say.
 fn is_near(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     view: &View<'_>,
     mirrored: &Pose,
     own: &Pose,
@@ -216,7 +209,7 @@ fn is_near(
         let mut drawn = MaskMut::new(words, width, height).ok()?;
         let pose = view.placement.compose(pose);
         let scratch = &mut *memory.projected;
-        unmatched_at(mesh, view.camera, &pose, silhouette, scratch, &mut drawn).ok()
+        unmatched_at(model, view.camera, &pose, silhouette, scratch, &mut drawn).ok()
     };
     let Some(there) = unmatched(mirrored) else {
         return false;

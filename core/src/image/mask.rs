@@ -7,6 +7,8 @@ pub use fill::MaskMut;
 use bitvec::{order::Lsb0, slice::BitSlice};
 use thiserror::Error;
 
+use crate::memory::TooLittleMemory;
+
 /// The unit of storage. Bit 0 is the leftmost pixel of its word.
 pub type Word = u32;
 /// Pixels in a word.
@@ -27,12 +29,15 @@ pub enum MaskError {
         /// Rows.
         height: usize,
     },
-    /// The buffer has the wrong number of words.
-    #[error("the mask needs exactly {needed} words but {given} were lent")]
+    /// Working memory is too short.
+    #[error(transparent)]
+    Memory(#[from] TooLittleMemory),
+    /// A mask's bits have the wrong number of words.
+    #[error("a mask of this shape has exactly {needed} words but {given} were given")]
     Words {
         /// Words that the shape takes.
         needed: usize,
-        /// Words that were lent.
+        /// Words that were given.
         given: usize,
     },
     /// Bits are set beyond a row's last pixel.
@@ -66,15 +71,12 @@ pub struct Mask<'a> {
     height: usize,
 }
 
-fn check_shape(given: usize, width: usize, height: usize) -> Result<(), MaskError> {
+/// The words of a mask of a possible shape.
+fn checked_words(width: usize, height: usize) -> Result<usize, MaskError> {
     if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
         return Err(MaskError::Shape { width, height });
     }
-    let needed = words_needed(width, height);
-    if given != needed {
-        return Err(MaskError::Words { needed, given });
-    }
-    Ok(())
+    Ok(words_needed(width, height))
 }
 
 impl<'a> Mask<'a> {
@@ -83,7 +85,10 @@ impl<'a> Mask<'a> {
     /// # Errors
     /// [`MaskError`] for an impossible shape, a wrong length, or bits beyond the last column.
     pub fn new(words: &'a [Word], width: usize, height: usize) -> Result<Self, MaskError> {
-        check_shape(words.len(), width, height)?;
+        let (needed, given) = (checked_words(width, height)?, words.len());
+        if given != needed {
+            return Err(MaskError::Words { needed, given });
+        }
         let tail = tail_mask(width);
         let padded = words
             .chunks_exact(row_words(width))

@@ -3,6 +3,8 @@
 use heapless::Vec;
 
 use super::compact::stride;
+use super::error::BuildError;
+use super::info::{LibraryInfo, ViewRecord};
 use super::open::{library_bytes, view_bytes};
 use super::pack::Packed;
 use super::runs::draw_runs;
@@ -11,8 +13,8 @@ use super::wire::{
     Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, Reader, SHORT_RECORD_BYTES, VERSION, Writer,
     checksum, read_short_record, write_header, write_record,
 };
-use super::{BuildError, LibraryInfo, ViewRecord};
 use crate::image::mask::{MaskMut, Word};
+use crate::memory::{TooLittleMemory, first};
 
 /// The packed views of a library, checked: a file to be written.
 #[derive(Clone, Debug)]
@@ -28,11 +30,7 @@ impl<'p> Assembly<'p> {
     pub(super) fn new(info: &LibraryInfo, packed: &'p [&'p [u8]]) -> Result<Self, BuildError> {
         let (needed, given) = (info.grid.views(), packed.len());
         if needed != given {
-            return Err(BuildError::Memory {
-                what: "packed views",
-                needed,
-                given,
-            });
+            return Err(BuildError::Views { needed, given });
         }
         let mut runs_bytes = 0;
         for (view, bytes) in packed.iter().enumerate() {
@@ -76,7 +74,7 @@ impl<'p> Assembly<'p> {
     /// Writes the file. `words` is working memory for one view ([`crate::canonical::CanonicalSpec::words_needed`]).
     ///
     /// # Errors
-    /// [`BuildError::Memory`] unless `out` has exactly [`Self::bytes_needed`] bytes, [`BuildError::Mask`] where `words`
+    /// [`BuildError::Memory`] unless `out` has [`Self::bytes_needed`] bytes, [`BuildError::Mask`] where `words`
     /// has the wrong length.
     pub fn write(&self, words: &mut [Word], out: &mut [u8]) -> Result<(), BuildError> {
         if self.compact_bytes() < self.plain_bytes() {
@@ -215,11 +213,11 @@ fn header_and_body(
     out: &mut [u8],
     needed: usize,
 ) -> Result<(&mut [u8; HEADER_BYTES], &mut [u8]), BuildError> {
-    let given = out.len();
-    let parts = out.split_first_chunk_mut().filter(|_| given == needed);
-    parts.ok_or(BuildError::Memory {
+    let short = TooLittleMemory {
         what: "bytes",
-        needed,
-        given,
-    })
+        needed: needed.max(HEADER_BYTES),
+        given: out.len(),
+    };
+    let parts = first("bytes", needed, out)?.split_first_chunk_mut();
+    parts.ok_or(BuildError::Memory(short))
 }

@@ -1,61 +1,21 @@
 //! Rendering a library into bytes that the caller lends, view by view.
 
-use thiserror::Error;
-
 use super::assemble::{Assembly, write_bits, write_plain};
+use super::error::BuildError;
+use super::info::{Grid, LibraryInfo, ViewRecord};
 use super::open::{check_info, library_bytes};
 use super::pack::{pack, packed_most};
-use super::{Grid, LibraryError, LibraryInfo, ViewRecord};
-use crate::camera::{Camera, CameraError};
-use crate::canonical::{CanonicalError, CanonicalSpec, canonicalise};
-use crate::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use crate::camera::Camera;
+use crate::canonical::{CanonicalSpec, canonicalise};
+use crate::image::mask::{Mask, MaskMut, Word, words_needed};
 use crate::math::{apply, scale, sqrt};
-use crate::mesh::Mesh;
+use crate::memory::{TooLittleMemory, first};
+use crate::mesh::Model;
 use crate::pose::{Pose, rotation_zxy};
-use crate::render::{Projected, RenderError, render, scratch_needed};
+use crate::render::{Projected, render, scratch_needed};
 
-/// Why a library cannot be built.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum BuildError {
-    /// A parameter is impossible.
-    #[error("{0}")]
-    Parameter(LibraryError),
-    /// The model would touch the focus.
-    #[error(
-        "the distance of {distance} mm is shorter than the model's radius of {radius:.1} mm; are the model's lengths in mm?"
-    )]
-    TooNear {
-        /// Distance asked for, mm.
-        distance: f64,
-        /// Of the model, mm.
-        radius: f64,
-    },
-    /// Lent bytes or words have the wrong length.
-    #[error("building needs {needed} {what} but {given} were lent")]
-    Memory {
-        /// Which memory.
-        what: &'static str,
-        /// Length needed.
-        needed: usize,
-        /// Length lent.
-        given: usize,
-    },
-    /// What was lent for a packed view is none.
-    #[error("view {0} was not packed, or not whole: pack it again")]
-    Packed(usize),
-    /// A view has no canonical form.
-    #[error(transparent)]
-    Canonical(#[from] CanonicalError),
-    /// A mask could not be made.
-    #[error(transparent)]
-    Mask(#[from] MaskError),
-    /// A view could not be drawn.
-    #[error(transparent)]
-    Render(#[from] RenderError),
-    /// The views' camera is impossible.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-}
+/// What [`ViewScratch::canonical`] holds.
+const WORDS: &str = "words of canonical mask";
 
 /// Working memory for one view; each thread lends its own.
 #[derive(Debug)]
@@ -71,7 +31,7 @@ pub struct ViewScratch<'a> {
 /// A library being built: a plan that renders any view into its place, in any order.
 #[derive(Clone, Copy, Debug)]
 pub struct Builder<'m> {
-    mesh: Mesh<'m>,
+    model: Model<'m>,
     info: LibraryInfo,
     view_camera: Camera,
 }
@@ -82,19 +42,19 @@ pub struct Builder<'m> {
 const VIEW_SIDE_EIGHTHS: usize = 10;
 
 impl<'m> Builder<'m> {
-    /// A plan for the views of `mesh` at `distance` mm. `camera` is recorded; the views
+    /// A plan for the views of `model` at `distance` mm. `camera` is recorded; the views
     /// themselves are drawn by a camera of their own that just holds the model.
     ///
     /// # Errors
     /// [`BuildError`] for an impossible grid, distance or camera.
     pub fn new(
-        mesh: Mesh<'m>,
+        model: Model<'m>,
         camera: Camera,
         canonical: CanonicalSpec,
         grid: Grid,
         distance: f64,
     ) -> Result<Self, BuildError> {
-        let bounds = mesh.bounds();
+        let bounds = model.bounds();
         let radius = bounds.radius;
         if distance.is_nan() || distance <= 1.01 * radius {
             return Err(BuildError::TooNear { distance, radius });
@@ -111,11 +71,11 @@ impl<'m> Builder<'m> {
             reference: bounds.centre,
             focal,
             camera,
-            model: mesh.digest(),
+            model: model.digest(),
         };
         check_info(&info).map_err(BuildError::Parameter)?;
         Ok(Self {
-            mesh,
+            model,
             info,
             view_camera: Camera::new(side, side, [focal; 2], [middle; 2])?,
         })
@@ -143,7 +103,7 @@ impl<'m> Builder<'m> {
     /// Projected vertices of a [`ViewScratch`].
     #[must_use]
     pub fn projected_needed(&self) -> usize {
-        scratch_needed(&self.mesh)
+        scratch_needed(&self.model)
     }
 
     /// Words of the rendering in a [`ViewScratch`].
@@ -171,13 +131,14 @@ impl<'m> Builder<'m> {
     ) -> Result<usize, BuildError> {
         let record = self.draw_view(view, scratch)?;
         let size = self.info.canonical.size();
-        let canonical = Mask::new(scratch.canonical, size, size)?;
-        let given = out.len();
-        pack(&record, &canonical, out).ok_or(BuildError::Memory {
+        let words = first(WORDS, self.info.canonical.words_needed(), scratch.canonical)?;
+        let canonical = Mask::new(words, size, size)?;
+        let short = TooLittleMemory {
             what: "bytes for a packed view",
             needed: self.packed_most(),
-            given,
-        })
+            given: out.len(),
+        };
+        pack(&record, &canonical, out).ok_or(BuildError::Memory(short))
     }
 
     /// The file of all views, packed, in their order: first asked how long it is, then written.
@@ -200,7 +161,7 @@ impl<'m> Builder<'m> {
         let mut mask = MaskMut::new(scratch.render, side, side)?;
         let pose = self.view_pose(x_deg, y_deg);
         render(
-            &self.mesh,
+            &self.model,
             &self.view_camera,
             &pose,
             scratch.projected,
@@ -234,11 +195,12 @@ impl<'m> Builder<'m> {
     /// Builds the whole library, in the plain layout, with one thread's working memory.
     ///
     /// # Errors
-    /// [`BuildError::Memory`] unless `bytes` has exactly [`Self::bytes_needed`] bytes, and as [`Self::pack_view`].
+    /// [`BuildError::Memory`] unless `bytes` has [`Self::bytes_needed`] bytes, and as [`Self::pack_view`].
     pub fn build(&self, bytes: &mut [u8], scratch: &mut ViewScratch<'_>) -> Result<(), BuildError> {
         write_plain(&self.info, bytes, |view, bits| {
             let record = self.draw_view(view, scratch)?;
-            write_bits(scratch.canonical, bits);
+            let words = self.info.canonical.words_needed();
+            write_bits(first(WORDS, words, scratch.canonical)?, bits);
             Ok(record)
         })
     }

@@ -13,7 +13,7 @@
 use core::ops::Range;
 
 use super::LibraryInfo;
-use super::open::LibraryError;
+use super::error::LibraryError;
 use super::runs::are_runs;
 use super::sketch::{BLOCK, STRIDE, at_most_255, block_row_of_runs, blocks};
 use super::wire::{Reader, SHORT_RECORD_BYTES};

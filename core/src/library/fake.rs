@@ -102,7 +102,8 @@ mod tests {
     use crate::library::compact::Sketches;
     use crate::library::sketch::BLOCK;
     use crate::library::{BuildError, VERSION};
-    use crate::search::exhaustive::{score, scores_needed};
+    use crate::search::exhaustive::score;
+    use crate::search::scores_needed;
 
     /// Set pixels of each block of a view, by its sketch and by its pixels.
     fn said(sketches: &Sketches<'_>, view: usize) -> Vec<u8> {

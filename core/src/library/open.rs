@@ -1,50 +1,16 @@
 //! Opening a library: everything is checked once, afterwards nothing can fail.
 
-use thiserror::Error;
-
 use super::compact::{self, Compact, Sketches};
+use super::error::LibraryError;
+use super::info::{Grid, LibraryInfo, ViewRecord};
 use super::runs::{bands, draw_runs, overlap, spans};
 use super::wire::{
     Body, HEADER_BYTES, HEADER_CRC_AT, MAGIC, PLAIN_VERSION, RECORD_BYTES, Reader, VERSION,
     checksum, read_grid, read_record,
 };
-use super::{Grid, LibraryInfo, ViewRecord};
-use crate::camera::{Camera, CameraError};
-use crate::canonical::{CanonicalError, CanonicalSpec};
+use crate::camera::Camera;
+use crate::canonical::CanonicalSpec;
 use crate::image::mask::{MaskMut, WORD_BITS, Word};
-
-/// Why bytes are not a library.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum LibraryError {
-    /// The first bytes are others.
-    #[error("this is not a library file: it does not begin with FLUOROPL")]
-    Magic,
-    /// The layout is unknown.
-    #[error(
-        "the library has version {0}; this program reads versions {PLAIN_VERSION} and {VERSION}. Build it again"
-    )]
-    Version(u16),
-    /// The file is shorter or longer than its header says.
-    #[error("the library has {given} bytes but should have {needed}: the file is cut or padded")]
-    Length {
-        /// By the header.
-        needed: u64,
-        /// In fact.
-        given: u64,
-    },
-    /// A checksum is wrong.
-    #[error("the library's {0} is damaged: its checksum does not fit. Build or fetch it again")]
-    Checksum(&'static str),
-    /// A number in it is impossible although the checksum fits.
-    #[error("the library's {0} is not possible; the file was written wrongly. Build it again")]
-    Value(&'static str),
-    /// The canonical frame is impossible.
-    #[error(transparent)]
-    Canonical(#[from] CanonicalError),
-    /// The camera is impossible.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
-}
 
 /// A library read in place.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use crate::library::{Grid, Library, ViewRecord};
 use crate::locate::bands::{self, lagrange, window};
 use crate::math::{solve_spd, wrap};
+use crate::search::Candidate;
 use crate::search::Search;
-use crate::search::exhaustive::Candidate;
 
 /// A view between the views of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,9 +10,10 @@ use crate::camera::Camera;
 use crate::image::mask::MaskMut;
 use crate::image::silhouette::Silhouette;
 use crate::locate::whole::Located;
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::{Projected, RenderError, render};
+use crate::shortlist::keep;
 
 /// A located pose and how well the model drawn at it covers the silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +30,7 @@ pub struct Verified {
 /// # Errors
 /// Those of [`render`]; [`RenderError::Size`] also where `silhouette` has another size.
 pub fn unmatched_at(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     camera: &Camera,
     pose: &Pose,
     silhouette: &Silhouette<'_>,
@@ -37,7 +38,7 @@ pub fn unmatched_at(
     drawn: &mut MaskMut<'_>,
 ) -> Result<u64, RenderError> {
     drawn.clear();
-    render(mesh, camera, pose, scratch, drawn)?;
+    render(model, camera, pose, scratch, drawn)?;
     silhouette
         .unmatched(&drawn.as_mask())
         .ok_or(RenderError::Size)
@@ -50,7 +51,7 @@ pub fn unmatched_at(
 /// Those of [`unmatched_at`].
 pub fn verify<const K: usize>(
     poses: &[Located],
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     scratch: &mut [Projected],
@@ -58,16 +59,11 @@ pub fn verify<const K: usize>(
 ) -> Result<Vec<Verified, K>, RenderError> {
     let mut verified: Vec<Verified, K> = Vec::new();
     for located in poses.iter().take(K) {
-        let unmatched = unmatched_at(mesh, camera, &located.pose, silhouette, scratch, drawn)?;
-        let place = verified.partition_point(|other| other.unmatched <= unmatched);
-        // At most K poses are looked at, so there is room.
-        let _ = verified.insert(
-            place,
-            Verified {
-                located: *located,
-                unmatched,
-            },
-        );
+        let unmatched = unmatched_at(model, camera, &located.pose, silhouette, scratch, drawn)?;
+        let located = *located;
+        keep(&mut verified, Verified { located, unmatched }, |other| {
+            other.unmatched
+        });
     }
     Ok(verified)
 }

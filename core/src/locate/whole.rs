@@ -9,9 +9,10 @@ use crate::image::mask::{Mask, Word};
 use crate::library::Library;
 use crate::locate::estimate::pose_from_view;
 use crate::locate::interpolate::{FineView, interpolate};
+use crate::memory::first;
 use crate::pose::Pose;
-use crate::search::exhaustive::{MatchError, Scores, scores_needed};
 use crate::search::kernels::Kernels;
+use crate::search::{MatchError, Scores, scores_needed};
 use crate::search::{Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed};
 
 /// Why no pose was found.
@@ -113,10 +114,10 @@ pub fn locate<const K: usize>(
     work: Workspace<'_>,
 ) -> Result<Found<K>, LocateError> {
     let info = library.info();
-    let form = canonicalise(mask, &info.canonical, camera.aspect(), work.canonical)?;
-    reverse(work.canonical, work.turned);
+    let (form, [straight, rotated]) =
+        both_directions(mask, camera, &info.canonical, work.canonical, work.turned)?;
     let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
-    let query = Query::new(&info.canonical, work.canonical, work.turned, None, prepared)?;
+    let query = Query::new(&info.canonical, straight, rotated, None, prepared)?;
     let memory = SearchMemory {
         bounds: work.scores,
         sketches,
@@ -149,14 +150,31 @@ pub fn score_views<'w>(
     work: Workspace<'w>,
 ) -> Result<(CanonicalForm, Scores<'w>), LocateError> {
     let spec = &library.info().canonical;
-    let form = canonicalise(mask, spec, camera.aspect(), work.canonical)?;
-    reverse(work.canonical, work.turned);
+    let (form, [straight, rotated]) =
+        both_directions(mask, camera, spec, work.canonical, work.turned)?;
     let (prepared, _) = split_bytes(work.bytes, spec)?;
-    let query = Query::new(spec, work.canonical, work.turned, None, prepared)?;
+    let query = Query::new(spec, straight, rotated, None, prepared)?;
     let scores = Scores::fill(library, work.scores, |view, reversed| {
         query.unmatched(library, view, reversed, &work.kernels)
     })?;
     Ok((form, scores))
+}
+
+/// The canonical form of a mask, as it is and rotated by 180 degrees.
+fn both_directions<'w>(
+    mask: &Mask<'_>,
+    camera: &Camera,
+    spec: &CanonicalSpec,
+    straight: &'w mut [Word],
+    rotated: &'w mut [Word],
+) -> Result<(CanonicalForm, [&'w [Word]; 2]), LocateError> {
+    const WORDS: &str = "words of canonical mask";
+    let words = spec.words_needed();
+    let straight = first(WORDS, words, straight).map_err(MatchError::Memory)?;
+    let rotated = first(WORDS, words, rotated).map_err(MatchError::Memory)?;
+    let form = canonicalise(mask, spec, camera.aspect(), straight)?;
+    reverse(straight, rotated);
+    Ok((form, [straight, rotated]))
 }
 
 /// The query's bytes and the sketches'.
@@ -164,12 +182,6 @@ fn split_bytes<'a>(
     bytes: &'a mut [u8],
     spec: &CanonicalSpec,
 ) -> Result<(&'a mut [u8], &'a mut [u8]), MatchError> {
-    let memory = MatchError::Memory {
-        what: "bytes",
-        needed: workspace_bytes_needed(spec),
-        given: bytes.len(),
-    };
-    bytes
-        .split_at_mut_checked(query_bytes_needed(spec, false))
-        .ok_or(memory)
+    let bytes = first("bytes", workspace_bytes_needed(spec), bytes)?;
+    Ok(bytes.split_at_mut(query_bytes_needed(spec, false)))
 }

@@ -4,7 +4,6 @@ use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
 use crate::math::Vector3;
-use crate::mesh::edges::Edges;
 
 /// Why vertices and triangles are not a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -28,7 +27,6 @@ pub enum MeshError {
 pub struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
-    edges: Option<Edges<'a>>,
     bounds: Bounds,
 }
 
@@ -91,9 +89,22 @@ impl<'a> Mesh<'a> {
         Ok(Self {
             vertices,
             triangles,
-            edges: None,
             bounds,
         })
+    }
+
+    /// What [`Mesh::new`] has checked before, of the same vertices and triangles.
+    #[cfg(feature = "alloc")]
+    pub(crate) fn checked(
+        vertices: &'a [[f32; 3]],
+        triangles: &'a [[u32; 3]],
+        bounds: Bounds,
+    ) -> Self {
+        Self {
+            vertices,
+            triangles,
+            bounds,
+        }
     }
 
     /// Vertices, mm.
@@ -106,20 +117,6 @@ impl<'a> Mesh<'a> {
     #[must_use]
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         self.triangles
-    }
-
-    /// The same mesh with the edges that [`crate::mesh::edges::link`] found for these triangles: its
-    /// silhouettes are the same, and are drawn several times as fast.
-    #[must_use]
-    pub fn with_edges(self, edges: Edges<'a>) -> Self {
-        Self {
-            edges: Some(edges),
-            ..self
-        }
-    }
-
-    pub(crate) fn edges(&self) -> Option<Edges<'a>> {
-        self.edges
     }
 
     /// Centre of the bounding box and the radius of the sphere round it that holds the model.

@@ -12,11 +12,12 @@ mod nearest;
 mod sample;
 #[cfg(test)]
 mod tests;
+mod triangle;
 
 use heapless::Vec;
 
 use crate::math::{Vector3, add, dot, norm, scale, sin_cos, sqrt};
-use crate::mesh::Mesh;
+use crate::mesh::surface::Mesh;
 use fit::{Fitted, Plane, Target};
 use sample::Samples;
 

@@ -9,7 +9,8 @@
 
 use core::ops::Range;
 
-use super::outline::{BorderPixel, Depth, Outliner};
+use super::border::BorderPixel;
+use super::outline::{Depth, Outliner};
 use crate::image::scan::pixel_box;
 use crate::math::dot;
 use crate::render::{Projected, contour, for_each_span, project};
@@ -22,7 +23,7 @@ impl Outliner<'_> {
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        if let (Depth::Edges, Some(edges)) = (self.depth, contour(self.mesh, scratch)) {
+        if let (Depth::Edges, Some(edges)) = (self.depth, contour(self.model, scratch)) {
             for (vertices, images) in edges {
                 let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
                 self.lay_edge(depths, images.map(Projected::place), places, border);
@@ -76,7 +77,7 @@ impl Outliner<'_> {
     }
 
     fn depth_of_vertex(&self, vertex: u32) -> f32 {
-        let vertex = self.mesh.vertices().get(vertex as usize);
+        let vertex = self.model.vertices().get(vertex as usize);
         let vertex = vertex.copied().unwrap_or_default().map(f64::from);
         (-dot(&self.pose.rotation[2], &vertex) - self.pose.translation[2]) as f32
     }
@@ -87,7 +88,7 @@ impl Outliner<'_> {
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        let Ok(projected) = project(self.mesh, self.camera, self.pose, scratch) else {
+        let Ok(projected) = project(self.model.mesh(), self.camera, self.pose, scratch) else {
             // What was drawn has images: it is not reached.
             return;
         };
@@ -108,12 +109,12 @@ impl Outliner<'_> {
                 }
             }
         };
-        for_each_span(self.mesh, projected, height, wanted, visit);
+        for_each_span(self.model, projected, height, wanted, visit);
     }
 
     /// Mean distance of a triangle's corners from the camera plane, mm.
     fn depth_of(&self, triangle: &[u32; 3]) -> f32 {
-        let vertices = self.mesh.vertices();
+        let vertices = self.model.vertices();
         let sum: f64 = triangle
             .iter()
             .filter_map(|&index| vertices.get(index as usize))
@@ -205,7 +206,7 @@ mod tests {
     use super::*;
     use crate::camera::Camera;
     use crate::image::mask::{MaskMut, words_needed};
-    use crate::mesh::Mesh;
+    use crate::mesh::Model;
     use crate::mesh::edges::fake::Linked;
     use crate::pose::Pose;
     use crate::render::{render, scratch_needed};
@@ -243,19 +244,19 @@ mod tests {
         (vertices, triangles)
     }
 
-    fn depths(mesh: &Mesh<'_>) -> Vec<([u16; 2], f64)> {
+    fn depths(model: &Model<'_>) -> Vec<([u16; 2], f64)> {
         let camera = Camera::new(SIDE, SIDE, [1500.0; 2], [127.3, 129.1]).expect("valid");
         let pose = Pose {
             translation: [0.0, 0.0, -DISTANCE],
             ..Pose::IDENTITY
         };
-        let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
+        let mut scratch = vec![Projected::default(); scratch_needed(model)];
         let mut words = vec![0; words_needed(SIDE, SIDE)];
         let mut drawn = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-        render(mesh, &camera, &pose, &mut scratch, &mut drawn).expect("in front");
+        render(model, &camera, &pose, &mut scratch, &mut drawn).expect("in front");
         let drawn = drawn.into_mask();
         let outliner = Outliner {
-            mesh,
+            model,
             camera: &camera,
             pose: &pose,
             drawn: &drawn,
@@ -275,9 +276,12 @@ mod tests {
     #[test]
     fn edges_and_triangles_agree_on_the_depth_of_a_spheres_contour() {
         let (vertices, triangles) = sphere();
-        let plain = Mesh::new(&vertices, &triangles).expect("valid");
-        let linked = Linked::new(&plain);
-        let (by_edges, by_triangles) = (depths(&plain.with_edges(linked.edges())), depths(&plain));
+        let plain = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let linked = Linked::new(plain.mesh());
+        let (by_edges, by_triangles) = (
+            depths(&Model::with_edges(*plain.mesh(), linked.edges())),
+            depths(&plain),
+        );
         // Where rays touch the sphere.
         let truth = DISTANCE - RADIUS * RADIUS / DISTANCE;
         assert_eq!(by_edges.len(), by_triangles.len());

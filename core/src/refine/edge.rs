@@ -4,8 +4,7 @@
 //! differentiated by the derivative of a Gaussian (Canny, IEEE PAMI 8, 1986). Of its maxima of
 //! the right sign the one is taken that is strongest after a Gaussian prior on the distance.
 
-use super::outline::BorderPixel;
-use super::probe::Found;
+use super::border::{BorderPixel, Found};
 use super::view::{ImageTarget, Polarity};
 use crate::math::exp;
 

@@ -34,7 +34,7 @@ impl Effort {
         }
     }
 
-    /// The size of a step ([`super::solve::Step::size`]) that polishing ends at, on silhouettes; `None`
+    /// The size of a step ([`super::step::Step::size`]) that polishing ends at, on silhouettes; `None`
     /// where nothing is polished.
     pub(super) fn polished(self) -> Option<f64> {
         match self {

@@ -1,6 +1,6 @@
 //! Numbers of a pose that refinement leaves as they are.
 
-use super::solve::Step;
+use super::step::Step;
 use crate::math::Vector3;
 use crate::pose::covariance::numbers_per_step;
 use crate::pose::{EulerPose, Pose};

@@ -3,109 +3,14 @@
 //!
 //! Border pixels and normals are read from what was drawn, so holes and mixed winding do not matter.
 
-use super::probe::Found;
-use super::solve::Equations;
-use super::stages::Stage;
+use super::border::{BorderPixel, Residual};
 use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, WORD_BITS, Word};
 use crate::math::sqrt;
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::Projected;
-
-/// A sample of the model's outline.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct BorderPixel {
-    pub(super) column: u16,
-    pub(super) row: u16,
-    /// Outward unit normal: to the right and downwards.
-    pub(super) normal: [f32; 2],
-    /// Arc length of the outline in this pixel, pixels.
-    pub(super) weight: f32,
-    /// Least and greatest distance of the surface from the camera plane, mm.
-    near: f32,
-    far: f32,
-    pub(super) residual: Residual,
-    /// How fast the outline moves along the normal with each parameter of a step.
-    pub(super) jacobian: [f32; 6],
-}
-
-/// How far a target's outline is beyond the model's.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Residual {
-    /// It was not looked for: the model's own outline or the depth behind it is not known.
-    #[default]
-    None,
-    /// The target does not tell.
-    Unknown,
-    /// There is none within reach.
-    Missing,
-    /// Pixels.
-    Px(f32),
-}
-
-impl Residual {
-    /// What was found where `expected` would be none at all.
-    pub(super) fn of(found: Found, expected: f64) -> Self {
-        match found {
-            Found::Unknown => Self::Unknown,
-            Found::Nothing => Self::Missing,
-            Found::At(place) => Self::Px((place - expected) as f32),
-        }
-    }
-}
-
-impl BorderPixel {
-    /// The residual where there is one, pixels.
-    pub(super) fn residual_px(&self) -> Option<f64> {
-        match self.residual {
-            Residual::Px(residual) => Some(f64::from(residual)),
-            _ => None,
-        }
-    }
-
-    /// Adds what was found to the equations of a stage.
-    pub(super) fn add_to(&self, equations: &mut Equations, stage: &Stage) {
-        let length = f64::from(self.weight);
-        match self.residual {
-            Residual::None => {}
-            Residual::Unknown => equations.add_unknown(length),
-            Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
-                let jacobian = self.jacobian.map(f64::from);
-                equations.add(stage.loss, &jacobian, f64::from(residual), length);
-            }
-            Residual::Px(_) | Residual::Missing => {
-                equations.add_missing(stage.loss, stage.range, length);
-            }
-        }
-    }
-
-    /// Continuous image coordinates of the pixel's centre.
-    pub(super) fn place(&self) -> [f64; 2] {
-        [f64::from(self.column) + 0.5, f64::from(self.row) + 0.5]
-    }
-
-    /// Whether the depth behind the pixel is known.
-    pub(super) fn is_on_surface(&self) -> bool {
-        self.far > 0.0
-    }
-
-    pub(super) fn is_at(&self, column: usize, row: usize) -> bool {
-        (usize::from(self.column), usize::from(self.row)) == (column, row)
-    }
-
-    /// A piece of the surface or of the contour that covers the pixel.
-    pub(super) fn cover(&mut self, depth: f32) {
-        self.near = self.near.min(depth);
-        self.far = self.far.max(depth);
-    }
-
-    /// Distance of the contour from the camera plane, mm.
-    pub(super) fn depth(&self) -> f64 {
-        f64::from(self.near + self.far) / 2.0
-    }
-}
 
 /// Where the depth of the contour is taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,7 +35,7 @@ impl Depth {
 
 /// A model as drawn at a pose.
 pub(super) struct Outliner<'a> {
-    pub(super) mesh: &'a Mesh<'a>,
+    pub(super) model: &'a Model<'a>,
     pub(super) camera: &'a Camera,
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,

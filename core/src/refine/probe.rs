@@ -1,23 +1,11 @@
 //! Where a silhouette's outline crosses a normal.
 
-use super::outline::BorderPixel;
+use super::border::{BorderPixel, Found};
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
 
 /// Distance between readings along a normal, pixels.
 const STEP: f64 = 0.5;
-
-/// What a reading along a normal found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Found {
-    /// The outline, at this distance in pixels along the outward normal from the middle of the
-    /// sample's pixel; negative inwards.
-    At(f64),
-    /// No outline within the range.
-    Nothing,
-    /// An unknown pixel, or the frame's border, before any outline.
-    Unknown,
-}
 
 /// Where the outline of `silhouette` crosses the normal of a sample, within `range` pixels.
 ///
@@ -84,3 +72,6 @@ fn coverage(silhouette: &Silhouette<'_>, column: f64, row: f64) -> Option<f64> {
     let lower = pixel(2) * (1.0 - right) + pixel(3) * right;
     Some(upper * (1.0 - down) + lower * down)
 }
+
+/// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
+pub(super) const OWN_RANGE: f64 = 3.0;

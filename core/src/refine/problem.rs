@@ -1,28 +1,30 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
+use super::border::{BorderPixel, Found, Residual};
 use super::edge;
+use super::effort::Effort;
+use super::equations::Equations;
+use super::error::RefineError;
 use super::locks::{Hold, Locks};
-use super::outline::{BorderPixel, Depth, Outliner, Residual};
-use super::probe::{self, Found};
-use super::solve::{Equations, Step};
-use super::stages::{POLISHING, Stage};
+use super::memory::{RefineMemory, check_memory};
+use super::outline::{Depth, Outliner};
+use super::probe::{self, OWN_RANGE};
+use super::result::{Iterate, Refined};
+use super::stages::{POLISHING, Pass, Stage};
+use super::step::Step;
 use super::view::{Target, View};
-use super::{Effort, Iterate, RefineError, RefineMemory, Refined, check_memory};
 use crate::image::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::{EulerPose, Pose};
 use crate::render::{RenderError, render};
 
 /// Part of a loss that is not known, because the model is drawn in whole pixels.
 const GRAIN: f64 = 0.02;
 
-/// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
-pub(super) const OWN_RANGE: f64 = 3.0;
-
 /// A model and what was seen of it.
 pub(super) struct Problem<'a> {
-    pub(super) mesh: &'a Mesh<'a>,
+    pub(super) model: &'a Model<'a>,
     pub(super) views: &'a [View<'a>],
     /// Middle of the model: turns about it hardly move the image.
     pub(super) middle: Vector3,
@@ -46,21 +48,11 @@ pub(super) struct Seen {
     samples: Option<usize>,
 }
 
-/// One stage as it applies to all views.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Pass {
-    pub(super) index: usize,
-    /// Standard deviation of the residuals before, pixels.
-    pub(super) spread: f64,
-    /// Whether the offset is estimated.
-    pub(super) free: bool,
-}
-
 impl<'a> Problem<'a> {
     /// # Errors
     /// Where views, frames and memory do not belong together, or a mask is empty.
     pub(super) fn new(
-        mesh: &'a Mesh<'a>,
+        model: &'a Model<'a>,
         views: &'a [View<'a>],
         memory: &mut RefineMemory<'_>,
     ) -> Result<Self, RefineError> {
@@ -79,9 +71,9 @@ impl<'a> Problem<'a> {
             }
         }
         Ok(Self {
-            mesh,
+            model,
             views,
-            middle: mesh.bounds().centre,
+            middle: model.bounds().centre,
             hold: None,
             effort: Effort::Full,
         })
@@ -259,7 +251,7 @@ impl<'a> Problem<'a> {
         let stage = Stage::of(target, pass.index, pass.spread);
         let mut equations = Equations::new();
         for sample in memory.border.get(..before.samples?)? {
-            sample.add_to(&mut equations, &stage);
+            equations.add_sample(sample, &stage);
         }
         Some(Seen {
             equations,
@@ -294,10 +286,10 @@ impl<'a> Problem<'a> {
         let (width, height) = view.target.size();
         let words = memory.drawn.get_mut(..words_needed(width, height));
         let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-        render(self.mesh, view.camera, &pose, memory.projected, &mut drawn)?;
+        render(self.model, view.camera, &pose, memory.projected, &mut drawn)?;
         let drawn = drawn.into_mask();
         let outliner = Outliner {
-            mesh: self.mesh,
+            model: self.model,
             camera: view.camera,
             pose: &pose,
             drawn: &drawn,
@@ -315,11 +307,13 @@ impl<'a> Problem<'a> {
             let found = find(&view.target, sample, own + offset, stage.range);
             sample.residual = Residual::of(found, own + offset);
             if let Residual::Px(_) = sample.residual {
-                let jacobian = Step::jacobian(view.camera, &centre, sample);
+                let normal = sample.normal.map(f64::from);
+                let (place, depth) = (sample.place(), sample.depth());
+                let jacobian = Step::jacobian(view.camera, &centre, place, depth, normal);
                 let jacobian = Step::in_world(jacobian, &view.placement);
                 sample.jacobian = jacobian.map(|value| value as f32);
             }
-            sample.add_to(equations, stage);
+            equations.add_sample(sample, stage);
         }
         Ok(count)
     }

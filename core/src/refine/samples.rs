@@ -1,13 +1,14 @@
 //! The occluding contour as samples: what bounds and tests need of it.
 
+use super::border::Found;
+use super::error::RefineError;
+use super::memory::{RefineMemory, check_memory};
 use super::outline::{Depth, Outliner};
-use super::probe::{self, Found};
-use super::problem::OWN_RANGE;
-use super::solve::Step;
-use super::{RefineError, RefineMemory, check_memory};
+use super::probe::{self, OWN_RANGE};
+use super::step::Step;
 use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::render;
 
@@ -27,13 +28,13 @@ pub struct OutlineSample {
     pub jacobian: [f64; 6],
 }
 
-/// Samples the occluding contour of `mesh` at `pose` (`camera_from_model`), one sample for each
+/// Samples the occluding contour of `model` at `pose` (`camera_from_model`), one sample for each
 /// border pixel of its silhouette; what the frame's border cuts off is left out.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn or memory is too short.
 pub fn outline_samples(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     camera: &Camera,
     pose: &Pose,
     memory: &mut RefineMemory<'_>,
@@ -43,10 +44,10 @@ pub fn outline_samples(
     let (width, height) = (camera.width(), camera.height());
     let words = memory.drawn.get_mut(..words_needed(width, height));
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    render(mesh, camera, pose, memory.projected, &mut drawn)?;
+    render(model, camera, pose, memory.projected, &mut drawn)?;
     let drawn = drawn.into_mask();
     let outliner = Outliner {
-        mesh,
+        model,
         camera,
         pose,
         drawn: &drawn,
@@ -55,7 +56,7 @@ pub fn outline_samples(
     };
     let places = memory.places.get_mut(..width * height);
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
-    let centre = pose.transform(&mesh.bounds().centre);
+    let centre = pose.transform(&model.bounds().centre);
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
         let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
             continue;
@@ -67,7 +68,7 @@ pub fn outline_samples(
             row: row + own * normal[1],
             normal,
             length: f64::from(sample.weight),
-            jacobian: Step::jacobian(camera, &centre, sample),
+            jacobian: Step::jacobian(camera, &centre, sample.place(), sample.depth(), normal),
         });
     }
     Ok(())

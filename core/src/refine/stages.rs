@@ -1,6 +1,6 @@
 //! From coarse to fine: how far a target's outline is looked for and how the loss flattens.
 
-use super::solve::Loss;
+use super::loss::Loss;
 use super::view::Target;
 
 /// Number of stages of any target.
@@ -42,4 +42,14 @@ impl Stage {
             (Target::Image(_), _) => stage(4.0, Loss::Tukey(2.5)),
         }
     }
+}
+
+/// One stage as it applies to all views.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pass {
+    pub(super) index: usize,
+    /// Standard deviation of the residuals before, pixels.
+    pub(super) spread: f64,
+    /// Whether the offset is estimated.
+    pub(super) free: bool,
 }

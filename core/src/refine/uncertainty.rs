@@ -8,13 +8,16 @@
 //! length, and `g` the covariance of `psi` over the distance `d` between samples, estimated from
 //! the residuals themselves.
 
-use super::outline::BorderPixel;
-use super::problem::{Pass, Problem};
-use super::solve::{Equations, Loss};
-use super::stages::{STAGES, Stage};
+use super::border::BorderPixel;
+use super::equations::Equations;
+use super::error::RefineError;
+use super::loss::Loss;
+use super::memory::RefineMemory;
+use super::problem::Problem;
+use super::result::Refined;
+use super::stages::{Pass, STAGES, Stage};
 use super::view::View;
-use super::{RefineError, RefineMemory, Refined};
-use crate::mesh::Mesh;
+use crate::mesh::Model;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
 /// Width of a bin of distance, pixels, and number of bins.
@@ -44,12 +47,12 @@ const LEAST_FREEDOM: f64 = 4.0;
 /// # Errors
 /// [`RefineError`] as of [`super::refine`].
 pub fn uncertainty(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     views: &[View<'_>],
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Option<PoseCovariance>, RefineError> {
-    let problem = Problem::new(mesh, views, memory)?;
+    let problem = Problem::new(model, views, memory)?;
     let pass = Pass {
         index: STAGES - 1,
         spread: refined.spread_px,

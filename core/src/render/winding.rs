@@ -10,8 +10,9 @@
 
 use crate::image::mask::MaskMut;
 use crate::image::scan::{Edge, FixedPoint};
-use crate::mesh::edges::{Edges, Eye};
-use crate::render::Images;
+use crate::mesh::edges::Edges;
+use crate::render::facing::FacingTest;
+use crate::render::project::Images;
 
 /// Room for rows of the frame, silhouette edges and their crossings with rows.
 const PLACES: usize = 16_384;
@@ -27,7 +28,7 @@ pub(crate) const fn room_needed() -> usize {
 /// Adds the silhouette of a closed surface to `out`. Gives `false`, and has drawn nothing, where
 /// the room does not hold all crossings. Afterwards [`contour`] tells the edges from `room`.
 pub(crate) fn fill(
-    eye: &Eye<'_>,
+    facing: &FacingTest<'_>,
     edges: &Edges<'_>,
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
@@ -40,7 +41,7 @@ pub(crate) fn fill(
     let Some((rows, room)) = room.split_at_mut_checked(out.height()) else {
         return false;
     };
-    let Some(count) = find_contour(eye, edges, images, room) else {
+    let Some(count) = find_contour(facing, edges, images, room) else {
         return false;
     };
     let (crossings, contour) = room.split_at_mut(room.len() - count);
@@ -73,7 +74,7 @@ pub(crate) fn contour(room: &[FixedPoint]) -> Option<impl Iterator<Item = [u32; 
 /// Keeps the silhouette edges at the end of `room`: their number, or nothing where there is no
 /// room for all.
 fn find_contour(
-    eye: &Eye<'_>,
+    facing: &FacingTest<'_>,
     edges: &Edges<'_>,
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
@@ -81,7 +82,7 @@ fn find_contour(
     let mut free = room.iter_mut().rev();
     let (mut count, mut fits) = (0, true);
     for (bounds, group) in edges.groups() {
-        eye.contour(bounds, group, images, |[from, to]| {
+        facing.contour(bounds, group, images, |[from, to]| {
             match free.next() {
                 Some(place) => *place = (u64::from(from) << 32 | u64::from(to)).into(),
                 None => fits = false,
@@ -178,7 +179,7 @@ mod tests {
     use super::*;
     use crate::camera::Camera;
     use crate::image::mask::{Word, words_needed};
-    use crate::mesh::Mesh;
+    use crate::mesh::Model;
     use crate::mesh::edges::fake::{self, Linked};
     use crate::pose::{EulerPose, Pose};
     use crate::render::{Projected, render, scratch_needed};
@@ -196,12 +197,12 @@ mod tests {
         ..Pose::IDENTITY
     };
 
-    fn draw(mesh: &Mesh<'_>, pose: &Pose) -> Vec<Word> {
+    fn draw(model: &Model<'_>, pose: &Pose) -> Vec<Word> {
         let camera = camera();
         let mut words = vec![0; words_needed(SIDE, SIDE)];
         let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-        let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
-        render(mesh, &camera, pose, &mut scratch, &mut out).expect("in front");
+        let mut scratch = vec![Projected::default(); scratch_needed(model)];
+        render(model, &camera, pose, &mut scratch, &mut out).expect("in front");
         words
     }
 
@@ -213,32 +214,32 @@ mod tests {
             place in proptest::array::uniform3(-40.0..40.0f64),
         ) {
             let (vertices, triangles) = fake::torus(&dents);
-            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-            let linked = Linked::new(&mesh);
+            let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+            let linked = Linked::new(model.mesh());
             let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
             let [x_mm, y_mm, nearer] = place;
             let pose = Pose::from(EulerPose {
                 x_mm, y_mm, z_mm: nearer - 500.0, z_rot_deg, x_rot_deg, y_rot_deg
             });
-            prop_assert_eq!(draw(&mesh, &pose), draw(&mesh.with_edges(linked.edges()), &pose));
+            prop_assert_eq!(draw(&model, &pose), draw(&Model::with_edges(*model.mesh(), linked.edges()), &pose));
         }
     }
 
     #[test]
     fn without_room_for_the_crossings_triangles_are_drawn() {
         let (vertices, triangles) = fake::torus(&[0.0]);
-        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-        let linked = Linked::new(&mesh);
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let linked = Linked::new(model.mesh());
         let edges = linked.edges();
         let camera = camera();
-        let eye = Eye::new(&mesh, &camera, &FAR);
+        let facing = FacingTest::new(model.mesh(), &camera, &FAR);
         let mut words = vec![0; words_needed(SIDE, SIDE)];
         let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
         let mut slots = vec![FixedPoint::default(); vertices.len()];
-        let mut images = Images::new(&mesh, &camera, &FAR, &mut slots);
+        let mut images = Images::new(model.mesh(), &camera, &FAR, &mut slots);
         let mut fits = |room: usize| {
             let mut room = vec![FixedPoint::default(); room];
-            fill(&eye, &edges, &mut images, &mut room, &mut out)
+            fill(&facing, &edges, &mut images, &mut room, &mut out)
         };
         for room in [0, 1, SIDE, SIDE + 1, SIDE + 40, 200] {
             assert!(!fits(room), "{room}");

@@ -9,9 +9,11 @@ use heapless::Vec;
 
 use crate::canonical::CanonicalSpec;
 use crate::library::Library;
-use crate::search::exhaustive::{Candidate, MatchError, check, neighbours, scores_needed};
+use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, longest_sketch};
+use crate::search::scores::{Candidate, MatchError, neighbours, scores_needed};
+use crate::shortlist::keep;
 
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
@@ -31,7 +33,7 @@ pub enum Directions {
 /// Working memory of a [`Search`].
 #[derive(Debug)]
 pub struct SearchMemory<'m> {
-    /// [`crate::search::exhaustive::scores_needed`] numbers.
+    /// [`crate::search::scores_needed`] numbers.
     pub bounds: &'m mut [u32],
     /// [`search_bytes_needed`] bytes.
     pub sketches: &'m mut [u8],
@@ -69,20 +71,19 @@ impl<'s, 'm> Search<'s, 'm> {
         if *query.spec() != spec {
             return Err(MatchError::Canonical);
         }
-        check(
-            "scores",
-            scores_needed(library.views()),
-            memory.bounds.len(),
+        let bounds = first("scores", scores_needed(library.views()), memory.bounds)?;
+        let sketches = first(
+            "bytes of sketches",
+            search_bytes_needed(&spec),
+            memory.sketches,
         )?;
-        let needed = search_bytes_needed(&spec);
-        check("bytes of sketches", needed, memory.sketches.len())?;
         let mut search = Self {
             library,
             query,
             kernels: *kernels,
-            bounds: memory.bounds,
+            bounds,
         };
-        search.bound(memory.sketches);
+        search.bound(sketches);
         Ok(search)
     }
 
@@ -330,19 +331,9 @@ impl<const K: usize> Shortlist<K> {
     /// Takes a candidate in its place, once.
     fn offer(&mut self, candidate: Candidate) {
         let key = |one: &Candidate| (one.unmatched, one.reversed, one.view);
-        let new = key(&candidate);
-        if candidate.unmatched > self.most {
-            return;
+        if candidate.unmatched <= self.most && !self.candidates.contains(&candidate) {
+            keep(&mut self.candidates, candidate, key);
         }
-        let place = self.candidates.partition_point(|other| key(other) < new);
-        if place == K || self.candidates.get(place) == Some(&candidate) {
-            return;
-        }
-        if self.candidates.is_full() {
-            self.candidates.pop();
-        }
-        // There is room now, so the insertion cannot fail.
-        let _ = self.candidates.insert(place, candidate);
     }
 }
 

@@ -2,58 +2,11 @@
 //!
 //! This is the plain way, view by view and bit by bit: what [`crate::search`] is held against.
 
-use heapless::Vec;
-use thiserror::Error;
-
 use crate::canonical::reverse;
 use crate::image::mask::Word;
-use crate::library::{Grid, Library};
-
-/// Why nothing was matched.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum MatchError {
-    /// Lent memory has the wrong length.
-    #[error("matching needs {needed} {what} but {given} were lent")]
-    Memory {
-        /// Which memory.
-        what: &'static str,
-        /// Length needed.
-        needed: usize,
-        /// Length lent.
-        given: usize,
-    },
-    /// Silhouette and library differ in their canonical frames.
-    #[error(
-        "the silhouette was brought to another canonical frame than the library's views: size and area must be the library's"
-    )]
-    Canonical,
-}
-
-/// Unmatched pixels of every view in both directions of the principal axis, over memory that
-/// the caller lends: the score surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Scores<'a> {
-    grid: Grid,
-    straight: &'a [u32],
-    reversed: &'a [u32],
-}
-
-/// A view that fits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Candidate {
-    /// Number of the view.
-    pub view: usize,
-    /// Whether the silhouette fits when turned by 180 degrees.
-    pub reversed: bool,
-    /// Canonical pixels set in one of the two and not in the other.
-    pub unmatched: u32,
-}
-
-/// Numbers that [`score`] needs to be lent for a library of `views` views.
-#[must_use]
-pub const fn scores_needed(views: usize) -> usize {
-    2 * views
-}
+use crate::library::Library;
+use crate::memory::{check_length, first};
+use crate::search::scores::{MatchError, Scores};
 
 /// Compares a canonical silhouette with every view, straight and turned by 180 degrees.
 ///
@@ -70,162 +23,13 @@ pub fn score<'s>(
     scores: &'s mut [u32],
 ) -> Result<Scores<'s>, MatchError> {
     let words = library.info().canonical.words_needed();
-    check("words of canonical mask", words, canonical.len())?;
-    check("words of working memory", words, turned.len())?;
+    check_length("words of canonical mask", words, canonical.len())?;
+    let canonical = canonical.get(..words).unwrap_or_default();
+    let turned = first("words of working memory", words, turned)?;
     reverse(canonical, turned);
     let area: u32 = canonical.iter().map(|word| word.count_ones()).sum();
     Scores::fill(library, scores, |view, reversed| {
         let ours = if reversed { &*turned } else { canonical };
         area + library.pixels(view) - 2 * library.covered(view, ours)
     })
-}
-
-/// Refuses memory of a wrong length.
-pub(crate) fn check(what: &'static str, needed: usize, given: usize) -> Result<(), MatchError> {
-    if needed == given {
-        return Ok(());
-    }
-    Err(MatchError::Memory {
-        what,
-        needed,
-        given,
-    })
-}
-
-/// The eight views round a view of a grid, or as many as there are, in view order.
-pub(crate) fn neighbours(grid: &Grid, view: usize) -> impl Iterator<Item = usize> + use<> {
-    let grid = *grid;
-    let (x, y) = grid.place(view);
-    let columns = x.saturating_sub(1)..=(x + 1).min(grid.x.count - 1);
-    let rows = y.saturating_sub(1)..=(y + 1).min(grid.y.count - 1);
-    rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
-        .filter(move |&neighbour| neighbour != view)
-}
-
-impl<'a> Scores<'a> {
-    /// Asks for the score of every view in both directions.
-    pub(crate) fn fill(
-        library: &Library<'_>,
-        scores: &'a mut [u32],
-        score: impl Fn(usize, bool) -> u32,
-    ) -> Result<Self, MatchError> {
-        check("scores", scores_needed(library.views()), scores.len())?;
-        let (straight, reversed) = scores.split_at_mut(library.views());
-        for (view, (a, b)) in straight.iter_mut().zip(&mut *reversed).enumerate() {
-            (*a, *b) = (score(view, false), score(view, true));
-        }
-        Ok(Self {
-            grid: library.info().grid,
-            straight,
-            reversed,
-        })
-    }
-
-    /// The grid of views behind the scores.
-    #[must_use]
-    pub fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    /// Unmatched pixels of all views for one direction of the axis, in view order.
-    #[must_use]
-    pub fn surface(&self, reversed: bool) -> &[u32] {
-        if reversed {
-            self.reversed
-        } else {
-            self.straight
-        }
-    }
-
-    fn all(&self) -> impl Iterator<Item = Candidate> + '_ {
-        [false, true].into_iter().flat_map(|reversed| {
-            let surface = self.surface(reversed).iter().enumerate();
-            surface.map(move |(view, &unmatched)| Candidate {
-                view,
-                reversed,
-                unmatched,
-            })
-        })
-    }
-
-    /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
-    /// straight direction first.
-    #[must_use]
-    pub fn best<const K: usize>(&self) -> Vec<Candidate, K> {
-        smallest(self.all())
-    }
-
-    /// The best `K` local minima of the score surfaces: views that none of their eight
-    /// neighbours beats. These are the rival poses; the views beside a minimum are not.
-    #[must_use]
-    pub fn minima<const K: usize>(&self) -> Vec<Candidate, K> {
-        smallest(self.all().filter(|candidate| self.is_minimum(candidate)))
-    }
-
-    fn is_minimum(&self, candidate: &Candidate) -> bool {
-        let surface = self.surface(candidate.reversed);
-        neighbours(&self.grid, candidate.view).all(|neighbour| match surface.get(neighbour) {
-            // Of equal neighbours the first counts.
-            Some(&score) if neighbour < candidate.view => candidate.unmatched < score,
-            Some(&score) => candidate.unmatched <= score,
-            None => true,
-        })
-    }
-}
-
-/// The `K` candidates with the smallest scores, by insertion into a sorted list.
-fn smallest<const K: usize>(candidates: impl Iterator<Item = Candidate>) -> Vec<Candidate, K> {
-    let mut best: Vec<Candidate, K> = Vec::new();
-    for candidate in candidates {
-        let place = best.partition_point(|other| other.unmatched <= candidate.unmatched);
-        if place == K {
-            continue;
-        }
-        if best.is_full() {
-            best.pop();
-        }
-        // There is room now, so the insertion cannot fail.
-        let _ = best.insert(place, candidate);
-    }
-    best
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::library::GridAxis;
-    use proptest::prelude::*;
-
-    fn axis(count: usize) -> GridAxis {
-        GridAxis {
-            first: 0.0,
-            step: 1.0,
-            count,
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_best_are_the_head_of_the_sorted_list(
-            scores in proptest::collection::vec(0u32..40, 48)
-        ) {
-            let (straight, reversed) = scores.split_at(24);
-            let surface = Scores { grid: Grid { x: axis(4), y: axis(6) }, straight, reversed };
-            let mut sorted: std::vec::Vec<Candidate> = surface.all().collect();
-            sorted.sort_by_key(|candidate| candidate.unmatched);
-            prop_assert_eq!(&surface.best::<7>()[..], &sorted[..7]);
-            // Every minimum is at most its neighbours, and the best view is one.
-            let minima = surface.minima::<48>();
-            prop_assert_eq!(minima.first().map(|m| m.unmatched), Some(sorted[0].unmatched));
-            for minimum in &minima {
-                let (x, y) = surface.grid.place(minimum.view);
-                for (other, &score) in surface.surface(minimum.reversed).iter().enumerate() {
-                    let (ox, oy) = surface.grid.place(other);
-                    if ox.abs_diff(x) <= 1 && oy.abs_diff(y) <= 1 {
-                        prop_assert!(score >= minimum.unmatched);
-                    }
-                }
-            }
-        }
-    }
 }

@@ -5,8 +5,9 @@ use crate::image::mask::{WORD_BITS, Word};
 use crate::library::runs::bands;
 use crate::library::sketch::{BLOCK, STRIDE, at_most_255, blocks};
 use crate::library::{Library, Sketches};
-use crate::search::exhaustive::{MatchError, check};
+use crate::memory::{TooLittleMemory, check_length, first};
 use crate::search::kernels::Kernels;
+use crate::search::scores::MatchError;
 
 /// Blocks of a silhouette, set pixels of each: at least, and at most where some are unknown.
 #[derive(Clone, Copy, Debug)]
@@ -60,15 +61,12 @@ impl<'m> Query<'m> {
         bytes: &'m mut [u8],
     ) -> Result<Self, MatchError> {
         let words = spec.words_needed();
-        check("words of canonical mask", words, straight.len())?;
-        check("words of the mask turned", words, turned.len())?;
-        check(
-            "words of unknown pixels",
-            words,
-            unknown.map_or(words, <[Word]>::len),
-        )?;
+        let (straight, turned) = (first_of(words, straight)?, first_of(words, turned)?);
+        let unknown = unknown
+            .map(|unknown| first_of(words, unknown))
+            .transpose()?;
         let needed = query_bytes_needed(spec, unknown.is_some());
-        check("bytes of working memory", needed, bytes.len())?;
+        let bytes = first("bytes of working memory", needed, bytes)?;
         let (tables, sketches) = bytes.split_at_mut(needed - 4 * blocks(spec));
         let (before, known_before) = tables.split_at_mut(spec.size() * spec.size() + 1);
         let seen = |at: usize| {
@@ -302,6 +300,12 @@ impl Covered {
             self.common += u32::from(set);
         }
     }
+}
+
+/// The words of one canonical mask.
+fn first_of(words: usize, mask: &[Word]) -> Result<&[Word], TooLittleMemory> {
+    check_length("words of canonical mask", words, mask.len())?;
+    Ok(mask.get(..words).unwrap_or_default())
 }
 
 /// Writes how many bits are set before each bit, modulo 256, and once more for all.

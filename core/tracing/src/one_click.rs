@@ -42,7 +42,7 @@ use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{Mask, MaskError, Word, words_needed};
 use fluoropose::library::Library;
 use fluoropose::locate::{LocateError, Workspace};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::SymmetryPlane;
 use fluoropose::refine::{Polarity, RefineError, RefineMemory};
 use fluoropose::render::RenderError;
@@ -84,7 +84,7 @@ pub struct Part<'a> {
     /// Its library.
     pub library: &'a Library<'a>,
     /// Its model.
-    pub mesh: &'a Mesh<'a>,
+    pub model: &'a Model<'a>,
     /// The model's planes of near-symmetry ([`fluoropose::mesh::symmetry::symmetry_planes`]).
     pub planes: &'a [SymmetryPlane],
 }

@@ -4,7 +4,7 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::contour::Contour;
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::workspace_bytes_needed;
-use fluoropose::search::exhaustive::scores_needed;
+use fluoropose::search::scores_needed;
 
 /// Columns and rows of the frame, pixels.
 pub const FRAME_SIDE: usize = 512;

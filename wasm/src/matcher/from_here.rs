@@ -11,9 +11,9 @@ use crate::calibration::camera;
 use crate::error::sentence;
 use crate::film::Film;
 use crate::found::deviation_numbers;
-use crate::lent_model::LentModel;
 use crate::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
 use crate::traced::Traced;
+use crate::working_model::WorkingModel;
 
 /// What refinement made of a pose.
 #[wasm_bindgen]
@@ -173,7 +173,7 @@ impl Matcher {
 }
 
 fn fitted(
-    model: &mut LentModel,
+    model: &mut WorkingModel,
     start: &Pose,
     view: View<'_>,
     options: RefineOptions,
@@ -211,7 +211,7 @@ fn begin(start: &[f64], locked: &[u8]) -> Result<(Pose, RefineOptions), JsError>
     Ok((from_numbers(start)?.into(), options))
 }
 
-pub(super) fn model_of(model: &mut Option<LentModel>) -> Result<&mut LentModel, JsError> {
+pub(super) fn model_of(model: &mut Option<WorkingModel>) -> Result<&mut WorkingModel, JsError> {
     model.as_mut().ok_or_else(|| {
         JsError::new("Refining a pose needs the model, not only its library: open it too")
     })

@@ -8,7 +8,7 @@ use fluoropose::locate::interpolate::FineView;
 use fluoropose::locate::partial::known_share;
 use fluoropose::locate::{Found, Workspace, locate, score_views};
 use fluoropose::pose::EulerPose;
-use fluoropose::search::exhaustive::Scores;
+use fluoropose::search::Scores;
 use fluoropose::search::kernels::Kernels;
 use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;

@@ -360,7 +360,7 @@ impl Matcher {
         model_of(&mut self.model)?.lend(camera, |mesh, planes, refine| {
             let part = Part {
                 library,
-                mesh,
+                model: mesh,
                 planes,
             };
             with(&part, workspace, refine)

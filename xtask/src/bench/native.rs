@@ -11,10 +11,10 @@ use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose::search::exhaustive::scores_needed;
+use fluoropose::search::scores_needed;
 use fluoropose::search::{
     Directions, Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed,
 };
@@ -145,7 +145,7 @@ impl<'p> Peer<'p> {
 }
 
 struct Bench<'b> {
-    mesh: Mesh<'b>,
+    mesh: Model<'b>,
     library: Library<'b>,
     camera: Camera,
     /// Of one silhouette.
@@ -160,7 +160,7 @@ struct Bench<'b> {
 }
 
 impl<'b> Bench<'b> {
-    fn new(mesh: Mesh<'b>, library: Library<'b>, camera: Camera) -> Result<Self> {
+    fn new(mesh: Model<'b>, library: Library<'b>, camera: Camera) -> Result<Self> {
         let spec = library.info().canonical;
         let radius = mesh.bounds().radius;
         // The model's sphere just fits.
@@ -387,7 +387,7 @@ fn read_once(words: &[Word]) -> u64 {
 }
 
 /// The model's silhouette.
-fn draw(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
+fn draw(mesh: &Model<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
     let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;
     let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
     drawn.draw(|mask| render(mesh, camera, pose, &mut scratch, mask))?;
@@ -395,7 +395,7 @@ fn draw(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
 }
 
 /// Poses within the library's range, the middle of the model on the optical axis.
-fn pose(case: usize, mesh: &Mesh<'_>) -> Pose {
+fn pose(case: usize, mesh: &Model<'_>) -> Pose {
     // Steps of irrational length spread over the range without order.
     let spread = |step: f64, range: f64| range * (2.0 * (case as f64 * step).fract() - 1.0);
     let turned = Pose::from(EulerPose {

@@ -1,7 +1,7 @@
 //! What a component's poses are compared with.
 
 use anyhow::{Context, Result, bail};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 
@@ -28,7 +28,7 @@ impl Reference {
         let model = read_model(&component.model)?;
         Ok(Some(Self {
             poses: read_poses(path)?.iter().map(known_pose).collect(),
-            planes: symmetry_planes(&model.mesh()?).to_vec(),
+            planes: symmetry_planes(model.mesh()?.mesh()).to_vec(),
         }))
     }
 
@@ -74,7 +74,7 @@ impl Reference {
     /// The limits at the reference poses of frames with a pose, and errors against them.
     pub(super) fn limits(
         &self,
-        mesh: Mesh<'_>,
+        mesh: Model<'_>,
         found: &Found,
         noise: Noise,
         rms: &Errors,

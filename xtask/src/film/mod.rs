@@ -21,7 +21,7 @@ use crate::implant::{Side, Triangles};
 use crate::pipeline::files::MaskBuffer;
 use anyhow::{Result, anyhow};
 use fluoropose::camera::Camera;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use plane::Plane;
@@ -72,7 +72,7 @@ pub fn expose(scene: &Scene<'_>, seed: u64, frame: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// When the implant lies behind the focus, or is not a usable mesh.
 pub fn silhouette(camera: &Camera, placed: &Placed<'_>) -> Result<MaskBuffer> {
-    let mesh = Mesh::new(&placed.mesh.vertices, &placed.mesh.triangles)?;
+    let mesh = Model::from_triangles(&placed.mesh.vertices, &placed.mesh.triangles)?;
     let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
     let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
     buffer

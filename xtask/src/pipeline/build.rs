@@ -8,7 +8,7 @@ use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{BuildError, Builder, Grid, GridAxis, ViewScratch};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::render::Projected;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -159,7 +159,7 @@ pub fn progress(length: usize, what: &str) -> ProgressBar {
 /// # Errors
 /// Those of the core's builder.
 pub fn build_library(
-    mesh: Mesh<'_>,
+    mesh: Model<'_>,
     camera: Camera,
     options: &ViewOptions,
     distance: f64,

@@ -8,7 +8,7 @@ use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, workspace_needed};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
 use fluoropose::render::{Projected, scratch_needed};
@@ -34,7 +34,7 @@ pub struct Clicked {
 /// A component and the camera that saw it, ready for prompts.
 pub struct Clicker<'l> {
     library: Library<'l>,
-    mesh: Mesh<'l>,
+    mesh: Model<'l>,
     planes: Vec<SymmetryPlane>,
     camera: Camera,
     buffers: Buffers,
@@ -60,7 +60,7 @@ struct Buffers {
 }
 
 impl Buffers {
-    fn new(library: &Library<'_>, mesh: &Mesh<'_>, camera: &Camera) -> Self {
+    fn new(library: &Library<'_>, mesh: &Model<'_>, camera: &Camera) -> Self {
         let needs = workspace_needed(library);
         Self {
             canonical: vec![0; needs.words],
@@ -113,10 +113,10 @@ impl<'l> Clicker<'l> {
     ///
     /// # Errors
     /// Those of [`Library::open`].
-    pub fn open(bytes: &'l [u8], mesh: Mesh<'l>, camera: Camera) -> Result<Self> {
+    pub fn open(bytes: &'l [u8], mesh: Model<'l>, camera: Camera) -> Result<Self> {
         let library = Library::open(bytes)?;
         Ok(Self {
-            planes: symmetry_planes(&mesh).to_vec(),
+            planes: symmetry_planes(mesh.mesh()).to_vec(),
             buffers: Buffers::new(&library, &mesh, &camera),
             library,
             mesh,
@@ -148,7 +148,7 @@ impl<'l> Clicker<'l> {
         };
         let part = Part {
             library: &self.library,
-            mesh: &self.mesh,
+            model: &self.mesh,
             planes: &self.planes,
         };
         let mut work = OneClick::new(prompt, &self.camera, Some(&part))?;

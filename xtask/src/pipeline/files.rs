@@ -8,10 +8,10 @@ use anyhow::{Context, Result, bail};
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
-use fluoropose::mesh::Mesh;
 use fluoropose::mesh::edges::{
     EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link,
 };
+use fluoropose::mesh::{Mesh, Model};
 use fluoropose::pose::jts;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_decode::{decode_mask, decode_model};
@@ -68,11 +68,11 @@ impl Surface {
     ///
     /// # Errors
     /// Those of [`Mesh::new`].
-    pub fn mesh(&self) -> Result<Mesh<'_>> {
+    pub fn mesh(&self) -> Result<Model<'_>> {
         let mesh = Mesh::new(&self.vertices, &self.triangles)?;
         let edges = self.edges.as_ref();
         let edges = edges.and_then(|(boxes, groups)| Edges::new(boxes, groups));
-        Ok(edges.map_or(mesh, |edges| mesh.with_edges(edges)))
+        Ok(edges.map_or(mesh.into(), |edges| Model::with_edges(mesh, edges)))
     }
 }
 

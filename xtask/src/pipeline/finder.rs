@@ -6,7 +6,7 @@ use fluoropose::finder::rivals::{RefinedRival, worth_refining};
 use fluoropose::image::frame::Grey;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::rerank::Verified;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, View};
@@ -126,7 +126,7 @@ impl<'l> Finder<'l> {
     ///
     /// # Errors
     /// Those of [`Locator::open`].
-    pub fn open(bytes: &'l [u8], mesh: Mesh<'l>, camera: Camera, method: Method) -> Result<Self> {
+    pub fn open(bytes: &'l [u8], mesh: Model<'l>, camera: Camera, method: Method) -> Result<Self> {
         Ok(Self {
             locator: Locator::open(bytes, mesh, &camera)?,
             refiner: Refiner::new(mesh, &[camera], RefineOptions::default()),

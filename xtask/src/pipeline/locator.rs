@@ -11,7 +11,7 @@ use fluoropose::locate::partial::{
 };
 use fluoropose::locate::rerank::{Verified, verify};
 use fluoropose::locate::{Workspace, locate, workspace_needed};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::render::{Projected, scratch_needed};
 
 use super::files::MaskBuffer;
@@ -28,7 +28,7 @@ pub type Rivals = Vec<Verified>;
 /// An opened library, its model, and memory lent to the core for each silhouette.
 pub struct Locator<'l> {
     library: Library<'l>,
-    mesh: Mesh<'l>,
+    mesh: Model<'l>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
     scores: Vec<u32>,
@@ -42,7 +42,7 @@ impl<'l> Locator<'l> {
     ///
     /// # Errors
     /// Those of [`Library::open`], and when the library was made from another model.
-    pub fn open(bytes: &'l [u8], mesh: Mesh<'l>, camera: &Camera) -> Result<Self> {
+    pub fn open(bytes: &'l [u8], mesh: Model<'l>, camera: &Camera) -> Result<Self> {
         let library = Library::open(bytes)?;
         if library.info().model != mesh.digest() {
             bail!("the library was made from another model: build it again");

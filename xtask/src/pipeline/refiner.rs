@@ -5,7 +5,7 @@ use fluoropose::finder::nearby::{WIDE_DEG, nearby};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -19,7 +19,7 @@ const BORDER: usize = 16_384;
 
 /// A model to be refined, with working memory.
 pub struct Refiner<'m> {
-    mesh: Mesh<'m>,
+    mesh: Model<'m>,
     planes: Vec<SymmetryPlane>,
     options: RefineOptions,
     projected: Vec<Projected>,
@@ -30,14 +30,14 @@ pub struct Refiner<'m> {
 
 impl<'m> Refiner<'m> {
     /// Working memory for a model and frames as large as those of `cameras`.
-    pub fn new(mesh: Mesh<'m>, cameras: &[Camera], options: RefineOptions) -> Self {
+    pub fn new(mesh: Model<'m>, cameras: &[Camera], options: RefineOptions) -> Self {
         let largest = |size: fn(usize, usize) -> usize| {
             let sizes = cameras.iter().map(|c| size(c.width(), c.height()));
             sizes.max().unwrap_or(0)
         };
         Self {
             mesh,
-            planes: symmetry_planes(&mesh).to_vec(),
+            planes: symmetry_planes(mesh.mesh()).to_vec(),
             options,
             projected: vec![Projected::default(); scratch_needed(&mesh)],
             drawn: vec![0; largest(words_needed)],

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use rand::RngExt;
@@ -14,7 +14,7 @@ use super::files::MaskBuffer;
 
 /// A model, a camera, and how what it sees is disturbed.
 pub struct Scene<'m> {
-    mesh: Mesh<'m>,
+    mesh: Model<'m>,
     camera: Camera,
     fine: Camera,
     factor: usize,
@@ -38,7 +38,7 @@ impl<'m> Scene<'m> {
     ///
     /// # Errors
     /// For impossible options and frames.
-    pub fn new(mesh: Mesh<'m>, camera: Camera, options: DisturbanceOptions) -> Result<Self> {
+    pub fn new(mesh: Model<'m>, camera: Camera, options: DisturbanceOptions) -> Result<Self> {
         options.check()?;
         let factor = options.fineness(camera.width(), camera.height());
         let fine = camera.supersampled(factor)?;
@@ -107,7 +107,7 @@ mod tests {
 
     fn seen(options: DisturbanceOptions, check: impl Fn(&Camera, &Pose, &Pose, &Disturbed)) {
         let model = femur(&Parameters::default()).unwrap();
-        let mesh = Mesh::new(&model.vertices, &model.triangles).unwrap();
+        let mesh = Model::from_triangles(&model.vertices, &model.triangles).unwrap();
         let camera = Camera::from_principal_distance(1024, 1024, 1198.0, 0.373, [0.0, 0.0]);
         let camera = camera.unwrap();
         let mut scene = Scene::new(mesh, camera, options).unwrap();
@@ -148,7 +148,7 @@ mod tests {
             |camera, pose, drawn, disturbed| {
                 assert_eq!(pose, drawn);
                 assert!(disturbed.unknown.is_none() && disturbed.hidden.is_none());
-                let mesh = Mesh::new(&model.vertices, &model.triangles).unwrap();
+                let mesh = Model::from_triangles(&model.vertices, &model.triangles).unwrap();
                 let mut plain = MaskBuffer::new(1024, 1024).unwrap();
                 let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
                 plain
@@ -175,7 +175,7 @@ mod tests {
             cuts.set(cuts.get() + 1);
             // The same rays in a frame that is large enough, by the same focal length.
             let whole = Camera::new(3072, 3072, camera.focal(), [1536.0, 1536.0]).unwrap();
-            let mesh = Mesh::new(&model.vertices, &model.triangles).unwrap();
+            let mesh = Model::from_triangles(&model.vertices, &model.triangles).unwrap();
             let mut scratch = vec![Projected::default(); scratch_needed(&mesh)];
             let mut all = MaskBuffer::new(3072, 3072).unwrap();
             all.draw(|mask| render(&mesh, &whole, drawn, &mut scratch, mask))

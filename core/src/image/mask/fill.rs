@@ -3,9 +3,10 @@
 use core::hint::black_box;
 use core::ops::Range;
 
-use super::{Mask, MaskError, WORD_BITS, Word, check_shape, row_words, tail_mask};
+use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_words, tail_mask};
 use crate::image::contour::Outline;
 use crate::image::scan::{Edge, FixedPoint};
+use crate::memory::first;
 
 /// A silhouette being drawn into memory that the caller lends.
 #[derive(Debug)]
@@ -19,9 +20,10 @@ impl<'a> MaskMut<'a> {
     /// An empty mask over `words`, which are cleared.
     ///
     /// # Errors
-    /// [`MaskError`] for an impossible shape or a wrong length.
+    /// [`MaskError`] for an impossible shape or too few words.
     pub fn new(words: &'a mut [Word], width: usize, height: usize) -> Result<Self, MaskError> {
-        check_shape(words.len(), width, height)?;
+        let needed = checked_words(width, height)?;
+        let words = first("words", needed, words)?;
         words.fill(0);
         Ok(Self {
             words,

@@ -10,6 +10,7 @@ use crate::locate::estimate::pose_from_view;
 use crate::locate::interpolate::FineView;
 use crate::locate::whole::Located;
 use crate::math::{sin_cos, sqrt, wrap};
+use crate::shortlist;
 
 /// A view of the library, the similarity that takes its canonical pixels to the frame, and how
 /// badly it fits.
@@ -99,15 +100,7 @@ pub(super) fn keep<const K: usize>(
         }
         list.remove(place);
     }
-    let place = list.partition_point(|other| other.score <= new.score);
-    if place == K {
-        return;
-    }
-    if list.is_full() {
-        list.pop();
-    }
-    // There is room now.
-    let _ = list.insert(place, new);
+    shortlist::keep(list, new, |other| other.score);
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Memory lent to the search for a first pose.
 
-use super::PartialError;
 use super::field::FIELD_CELLS;
 use super::hypothesis::Hypothesis;
 use super::ladder::LADDER_NUMBERS;
@@ -10,7 +9,8 @@ use super::trace::Side;
 use crate::camera::Camera;
 use crate::image::mask::{Word, words_needed};
 use crate::library::Library;
-use crate::mesh::Mesh;
+use crate::memory::{TooLittleMemory, check_length};
+use crate::mesh::Model;
 use crate::render::{Projected, scratch_needed};
 
 /// Working memory of [`super::locate_partial`]: each slice at least as long as [`partial_needed`] says.
@@ -59,7 +59,7 @@ const SIDES_PER_LINE: usize = 8;
 /// How much working memory a library, a camera and a model take: for 1271 views, a frame of
 /// 1024 x 1024 pixels and 6000 vertices some 600 KB.
 #[must_use]
-pub fn partial_needed(library: &Library<'_>, camera: &Camera, mesh: &Mesh<'_>) -> PartialNeeds {
+pub fn partial_needed(library: &Library<'_>, camera: &Camera, model: &Model<'_>) -> PartialNeeds {
     let size = library.info().canonical.size();
     let lines = (camera.width() + camera.height()).max(2 * size);
     PartialNeeds {
@@ -69,14 +69,14 @@ pub fn partial_needed(library: &Library<'_>, camera: &Camera, mesh: &Mesh<'_>) -
         cells: FIELD_CELLS,
         numbers: LADDER_NUMBERS + VIEW_NUMBERS,
         hypotheses: PER_VIEW * coarse_views(library),
-        projected: scratch_needed(mesh),
+        projected: scratch_needed(model),
     }
 }
 
 impl PartialMemory<'_> {
     /// # Errors
-    /// [`PartialError::Memory`] names the first slice that is too short.
-    pub(super) fn check(&self, needs: &PartialNeeds) -> Result<(), PartialError> {
+    /// [`TooLittleMemory`] names the first slice that is too short.
+    pub(super) fn check(&self, needs: &PartialNeeds) -> Result<(), TooLittleMemory> {
         let lengths = [
             ("words", needs.words, self.words.len()),
             ("sides", needs.sides, self.sides.len()),
@@ -86,16 +86,9 @@ impl PartialMemory<'_> {
             ("hypotheses", needs.hypotheses, self.hypotheses.len()),
             ("projected vertices", needs.projected, self.projected.len()),
         ];
-        let short = lengths
-            .into_iter()
-            .find(|(_, needed, given)| given < needed);
-        match short {
-            Some((what, needed, given)) => Err(PartialError::Memory {
-                what,
-                needed,
-                given,
-            }),
-            None => Ok(()),
+        for (what, needed, given) in lengths {
+            check_length(what, needed, given)?;
         }
+        Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! A window of the known outline slid along a closed or open outline of a view: the similarity that
 //! fits best at each place, in closed form.
 
+use crate::shortlist::keep;
 use heapless::Vec;
 
 use super::similarity::{Similarity, times};
@@ -208,15 +209,7 @@ fn insert<const K: usize>(best: &mut Vec<Fit, K>, fit: Fit, apart: usize) {
         }
         best.remove(near);
     }
-    let place = best.partition_point(|other| other.residual <= fit.residual);
-    if place == K {
-        return;
-    }
-    if best.is_full() {
-        best.pop();
-    }
-    // There is room now.
-    let _ = best.insert(place, fit);
+    keep(best, fit, |other| other.residual);
 }
 
 #[cfg(test)]

@@ -1,9 +1,18 @@
 use super::*;
+use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Mask, Word};
+use crate::image::mask::{MaskMut, words_needed};
+use crate::image::silhouette::Silhouette;
+use crate::library::Library;
 use crate::library::{Builder, Grid, GridAxis, ViewScratch};
+use crate::locate::rerank::Verified;
+use crate::memory::TooLittleMemory;
+use crate::mesh::Model;
 use crate::pose::{EulerPose, Pose, geodesic_deg};
+use crate::render::RenderError;
 use crate::render::{Projected, render};
+use heapless::Vec;
 
 const SIDE: usize = 512;
 
@@ -47,14 +56,14 @@ fn camera() -> Camera {
     Camera::new(SIDE, SIDE, [1800.0, 1800.0], [256.0, 256.0]).expect("valid")
 }
 
-fn library(mesh: Mesh<'_>) -> std::vec::Vec<u8> {
+fn library(model: Model<'_>) -> std::vec::Vec<u8> {
     let axis = GridAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
     let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
-    let builder = Builder::new(mesh, camera(), canonical, grid, 1000.0).expect("possible");
+    let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
         projected: &mut std::vec![Projected::default(); builder.projected_needed()],
@@ -65,11 +74,11 @@ fn library(mesh: Mesh<'_>) -> std::vec::Vec<u8> {
     bytes
 }
 
-fn draw(mesh: &Mesh<'_>, pose: &Pose) -> std::vec::Vec<Word> {
+fn draw(model: &Model<'_>, pose: &Pose) -> std::vec::Vec<Word> {
     let mut words = std::vec![0; words_needed(SIDE, SIDE)];
     let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-    let mut scratch = std::vec![Projected::default(); mesh.vertices().len()];
-    render(mesh, &camera(), pose, &mut scratch, &mut mask).expect("in front");
+    let mut scratch = std::vec![Projected::default(); model.vertices().len()];
+    render(model, &camera(), pose, &mut scratch, &mut mask).expect("in front");
     words
 }
 
@@ -88,10 +97,10 @@ fn locate(
     silhouette: &Silhouette<'_>,
     camera: &Camera,
     library: &Library<'_>,
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     short: &str,
 ) -> Result<Vec<Verified, 4>, PartialError> {
-    let needs = partial_needed(library, camera, mesh);
+    let needs = partial_needed(library, camera, model);
     let less = |what: &str, needed: usize| needed - usize::from(what == short);
     let memory = PartialMemory {
         words: &mut std::vec![0; less("words", needs.words)],
@@ -102,7 +111,7 @@ fn locate(
         hypotheses: &mut std::vec![Hypothesis::default(); less("hypotheses", needs.hypotheses)],
         projected: &mut std::vec![Projected::default(); less("projected vertices", needs.projected)],
     };
-    locate_partial(silhouette, camera, library, mesh, memory)
+    locate_partial(silhouette, camera, library, model, memory)
 }
 
 fn pose() -> Pose {
@@ -128,10 +137,10 @@ fn assert_found(found: &Verified, pose: &Pose, what: &str) {
 #[test]
 fn a_pose_is_found_from_what_an_occluder_leaves() {
     let (vertices, triangles) = crank();
-    let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-    let bytes = library(mesh);
+    let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+    let bytes = library(model);
     let library = Library::open(&bytes).expect("valid");
-    let words = draw(&mesh, &pose());
+    let words = draw(&model, &pose());
     let hidden = band(250, 330);
     for solid in [false, true] {
         let seen: std::vec::Vec<Word> = words
@@ -143,38 +152,38 @@ fn a_pose_is_found_from_what_an_occluder_leaves() {
         let unknown = Mask::new(&hidden, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::new(&mask, &unknown).expect("one size");
         assert!(known_share(&silhouette).is_partial());
-        let found = locate(&silhouette, &camera(), &library, &mesh, "").expect("found");
+        let found = locate(&silhouette, &camera(), &library, &model, "").expect("found");
         assert_found(&found[0], &pose(), if solid { "solid" } else { "clear" });
     }
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let whole = Silhouette::from(&mask);
-    let found = locate(&whole, &camera(), &library, &mesh, "").expect("found");
+    let found = locate(&whole, &camera(), &library, &model, "").expect("found");
     assert_found(&found[0], &pose(), "whole");
 }
 
 #[test]
 fn a_pose_is_found_where_the_frame_cuts_the_object_off() {
     let (vertices, triangles) = crank();
-    let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-    let bytes = library(mesh);
+    let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+    let bytes = library(model);
     let library = Library::open(&bytes).expect("valid");
     let mut cut = pose();
     cut.translation[0] = 117.0;
-    let words = draw(&mesh, &cut);
+    let words = draw(&model, &cut);
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let silhouette = Silhouette::from(&mask);
     assert!(known_share(&silhouette).cut > 20);
-    let found = locate(&silhouette, &camera(), &library, &mesh, "").expect("found");
+    let found = locate(&silhouette, &camera(), &library, &model, "").expect("found");
     assert_found(&found[0], &cut, "cut");
 }
 
 #[test]
 fn what_cannot_be_done_is_said() {
     let (vertices, triangles) = crank();
-    let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-    let bytes = library(mesh);
+    let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+    let bytes = library(model);
     let library = Library::open(&bytes).expect("valid");
-    let words = draw(&mesh, &pose());
+    let words = draw(&model, &pose());
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let whole = Silhouette::from(&mask);
     for what in [
@@ -186,19 +195,19 @@ fn what_cannot_be_done_is_said() {
         "hypotheses",
         "projected vertices",
     ] {
-        let error = locate(&whole, &camera(), &library, &mesh, what).expect_err("short");
-        let named = matches!(error, PartialError::Memory { what: named, needed, given }
+        let error = locate(&whole, &camera(), &library, &model, what).expect_err("short");
+        let named = matches!(error, PartialError::Memory(TooLittleMemory { what: named, needed, given })
             if named == what && given + 1 == needed);
         assert!(named, "{what}: {error}");
     }
     let other = Camera::new(SIDE, 400, [1800.0; 2], [256.0; 2]).expect("valid");
-    let error = locate(&whole, &other, &library, &mesh, "");
+    let error = locate(&whole, &other, &library, &model, "");
     assert_eq!(error, Err(PartialError::Render(RenderError::Size)));
     for (from, to) in [(0, SIDE as i64), (0, 340)] {
         let hidden = band(from, to);
         let unknown = Mask::new(&hidden, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::new(&mask, &unknown).expect("one size");
-        let error = locate(&silhouette, &camera(), &library, &mesh, "").expect_err("unknown");
+        let error = locate(&silhouette, &camera(), &library, &model, "").expect_err("unknown");
         let expected = match (from, to) {
             (0, 340) => matches!(error, PartialError::TooShort { known, needed } if known < needed),
             _ => matches!(error, PartialError::NothingKnown { .. }),
@@ -217,10 +226,10 @@ fn what_cannot_be_done_is_said() {
         .collect();
     let mask = Mask::new(&squares, SIDE, SIDE).expect("valid");
     // Each square alone is no piece; diagonals that touch are kept apart.
-    let error = locate(&Silhouette::from(&mask), &camera(), &library, &mesh, "");
+    let error = locate(&Silhouette::from(&mask), &camera(), &library, &model, "");
     assert!(matches!(error, Err(PartialError::NothingKnown { .. })));
     let bars: std::vec::Vec<Word> = std::vec![0x5555_5555; words.len()];
     let mask = Mask::new(&bars, SIDE, SIDE).expect("valid");
-    let error = locate(&Silhouette::from(&mask), &camera(), &library, &mesh, "");
+    let error = locate(&Silhouette::from(&mask), &camera(), &library, &model, "");
     assert!(matches!(error, Err(PartialError::TooRough(_))));
 }

@@ -5,12 +5,12 @@
 //! Smooth Surfaces*, SIGGRAPH 2000). Edges whose triangles are near each other there are kept
 //! together: where a box round their points lies on one side, none of them is on the contour.
 
-use super::MeshEdge;
+use super::edge::MeshEdge;
 use crate::math::{Vector3, cross, dot, norm, scale, sqrt, subtract};
 use crate::mesh::Mesh;
 
 /// Edges in a box.
-pub(super) const IN_BOX: usize = 16;
+pub(crate) const IN_BOX: usize = 16;
 
 /// Normals of the triangles beside an edge that differ by more are far apart, as the cosine.
 const SHARP: f64 = 0.9;
@@ -21,18 +21,18 @@ const SLIVER_MM: f64 = 0.01;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeBox {
     /// Of unit normals, and of distances of planes from the model's origin, mm: the middle, and how far they are from it.
-    pub(super) middle: [f32; 4],
-    pub(super) reach: [f32; 4],
+    pub(crate) middle: [f32; 4],
+    pub(crate) reach: [f32; 4],
     /// Greatest reciprocal of a triangle's least height, 1/mm, and of its doubled area, 1/mm^2.
-    pub(super) thin: f32,
-    pub(super) small: f32,
+    pub(crate) thin: f32,
+    pub(crate) small: f32,
 }
 
 /// The edges in a box. Made by [`super::link`] alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeGroup {
     /// Of the triangle forth of each edge, then of that back: the four numbers of its dual.
-    pub(super) duals: [[[f32; IN_BOX]; 4]; 2],
+    pub(crate) duals: [[[f32; IN_BOX]; 4]; 2],
     /// The last of a surface may be fewer; the others have triangles without area.
     edges: [MeshEdge; IN_BOX],
 }
@@ -44,7 +44,7 @@ impl EdgeGroup {
 
     /// Those that there are.
     #[cfg(test)]
-    pub(super) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<> {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<> {
         let there = |edge: &MeshEdge| edge.from != edge.to;
         self.edges.into_iter().filter(there)
     }
@@ -83,14 +83,14 @@ impl Dual {
     }
 }
 
-pub(super) fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
+pub(crate) fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
     // Indices were checked when the mesh was made.
     let vertex = vertices.get(vertex as usize).copied().unwrap_or_default();
     vertex.map(f64::from)
 }
 
 /// Brings edges together that are near each other in dual space, and writes their groups.
-pub(super) fn gather(
+pub(crate) fn gather(
     mesh: &Mesh<'_>,
     edges: &mut [MeshEdge],
     boxes: &mut [EdgeBox],

@@ -3,7 +3,7 @@
 use super::nearest::{Foot, feet, feet_on_tangents};
 use super::sample::{SAMPLES, Samples};
 use crate::math::{Matrix3, Vector3, add, cross, dot, norm, scale, solve_spd};
-use crate::mesh::Mesh;
+use crate::mesh::surface::Mesh;
 
 /// A plane relative to the samples' origin: `normal . x = offset`.
 #[derive(Clone, Copy, Debug)]

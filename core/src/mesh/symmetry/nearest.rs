@@ -1,8 +1,9 @@
 //! Nearest points of a surface to a few hundred points at once, without an index of the surface.
 
 use super::sample::{BLOCK, GROUP, SAMPLES, Samples};
-use crate::math::{Vector3, add, cross, dot, norm, scale, sqrt, subtract};
-use crate::mesh::Mesh;
+use super::triangle::{corners, normal};
+use crate::math::{Vector3, add, dot, scale, sqrt, subtract};
+use crate::mesh::surface::Mesh;
 
 /// Points nearer to a triangle than this lie on it, mm: the direction to it is its normal.
 const TINY: f64 = 1e-12;
@@ -97,16 +98,6 @@ impl Cluster {
 
 fn farthest(squares: impl Iterator<Item = f64>) -> f64 {
     squares.fold(0.0, larger)
-}
-
-/// The corners of a triangle relative to `origin`.
-pub(super) fn corners(mesh: &Mesh<'_>, triangle: &[u32; 3], origin: &Vector3) -> [Vector3; 3] {
-    triangle.map(|index| {
-        // Indices were checked when the mesh was made.
-        let vertex = mesh.vertices().get(index as usize).copied();
-        let vertex = vertex.unwrap_or_default();
-        core::array::from_fn(|k| f64::from(vertex[k]) - origin[k])
-    })
 }
 
 /// Finds the feet of `points` on the surface, exactly. Neighbours in the list of points must be
@@ -235,17 +226,6 @@ fn approach(point: &Vector3, triangle: &[Vector3; 3], foot: &mut Foot) -> bool {
     nearer
 }
 
-/// Unit normal, or zero for a triangle without area.
-pub(super) fn normal(&[a, b, c]: &[Vector3; 3]) -> Vector3 {
-    let product = cross(&subtract(&b, &a), &subtract(&c, &a));
-    let length = norm(&product);
-    if length > 0.0 {
-        scale(&product, 1.0 / length)
-    } else {
-        [0.0; 3]
-    }
-}
-
 /// The point of a triangle that is nearest to `p`, and whether it lies off its edges.
 ///
 /// By the Voronoi regions of corners and edges: Ericson, *Real-Time Collision Detection*,
@@ -290,6 +270,7 @@ fn closest(p: &Vector3, &[a, b, c]: &[Vector3; 3]) -> (Vector3, bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::norm;
     use proptest::prelude::*;
 
     fn point() -> impl Strategy<Value = Vector3> {

@@ -1,49 +1,12 @@
 //! Building the tree over a catalogue's libraries.
 
-use core::ops::Range;
-
-use super::{Catalogue, CatalogueError, Node, PATCH, STRIDE, Tree, blocks};
+use super::error::CatalogueError;
+use super::tree::{Catalogue, Leaf, Node, Tree, corners};
 use crate::canonical::CanonicalSpec;
-use crate::library::{Grid, Library};
+use crate::library::Library;
+use crate::library::sketch::{STRIDE, blocks};
+use crate::memory::check_length;
 use crate::search::kernels::gap;
-
-/// A patch of neighbouring views of one library.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Leaf {
-    pub(super) library: u32,
-    /// The view at the corner with the smallest rotations.
-    corner: u32,
-    /// Where its middle view's blocks stand while the tree is built.
-    centre: u32,
-}
-
-impl Leaf {
-    /// The views of the patch, row by row: at most [`PATCH`] that follow one another.
-    pub(super) fn rows(&self, grid: &Grid) -> impl Iterator<Item = Range<usize>> + use<> {
-        let grid = *grid;
-        let (x, y) = grid.place(self.corner as usize);
-        let count = PATCH.min(grid.x.count - x);
-        let rows = y..(y + PATCH).min(grid.y.count);
-        rows.map(move |y| grid.view(x, y)..grid.view(x, y) + count)
-    }
-
-    fn middle(&self, grid: &Grid) -> usize {
-        let (x, y) = grid.place(self.corner as usize);
-        let within = |first: usize, count: usize| (first + PATCH / 2).min(count - 1);
-        grid.view(within(x, grid.x.count), within(y, grid.y.count))
-    }
-}
-
-/// The corners of a library's patches.
-fn corners(grid: &Grid) -> impl Iterator<Item = usize> + use<> {
-    let grid = *grid;
-    let rows = (0..grid.y.count).step_by(PATCH);
-    rows.flat_map(move |y| {
-        (0..grid.x.count)
-            .step_by(PATCH)
-            .map(move |x| grid.view(x, y))
-    })
-}
 
 /// Lengths of the memory of a [`Catalogue`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,19 +72,15 @@ impl<'c> Catalogue<'c> {
             ("bytes of scratch", needs.scratch, memory.scratch.len()),
         ];
         for (what, needed, given) in lengths {
-            if needed != given {
-                return Err(CatalogueError::Memory {
-                    what,
-                    needed,
-                    given,
-                });
-            }
+            check_length(what, needed, given)?;
         }
-        let (extremes, centres) = memory.scratch.split_at_mut(2 * blocks(&spec));
-        let (ground, boxes) = memory.boxes.split_at_mut(blocks(&spec));
+        let leaves = &mut memory.leaves[..needs.leaves];
+        let scratch = &mut memory.scratch[..needs.scratch];
+        let (extremes, centres) = scratch.split_at_mut(2 * blocks(&spec));
+        let (ground, boxes) = memory.boxes[..needs.boxes].split_at_mut(blocks(&spec));
         let moving = find_ground(libraries, extremes, ground, memory.places);
         let places = &memory.places[..moving];
-        plant(libraries, memory.leaves);
+        plant(libraries, leaves);
         let (view, _) = extremes.split_at_mut(blocks(&spec));
         let mut builder = Builder {
             libraries,
@@ -130,17 +89,17 @@ impl<'c> Catalogue<'c> {
             centres,
             view,
         };
-        builder.write_centres(memory.leaves);
+        builder.write_centres(leaves);
         let root = Node {
             number: 0,
             first: 0,
-            end: memory.leaves.len(),
+            end: leaves.len(),
         };
-        builder.grow(&root, memory.leaves);
+        builder.grow(&root, leaves);
         Ok(Self {
             libraries,
             tree: Tree {
-                leaves: memory.leaves,
+                leaves: leaves,
                 boxes: builder.boxes,
                 places,
                 ground,

@@ -1,11 +1,15 @@
 //! The catalogue against searching every library.
 
 use super::*;
+use crate::canonical::CanonicalSpec;
 use crate::canonical::reverse;
 use crate::image::mask::Word;
+use crate::library::Library;
 use crate::library::fake::{compact_library, plain_library, spots};
-use crate::search::exhaustive::{score, scores_needed};
-use crate::search::query_bytes_needed;
+use crate::search::exhaustive::score;
+use crate::search::kernels::Kernels;
+use crate::search::query::{Query, query_bytes_needed};
+use crate::search::scores::scores_needed;
 use proptest::prelude::*;
 
 const SIZE: usize = 64;

@@ -4,8 +4,10 @@ use super::*;
 use crate::canonical::reverse;
 use crate::image::mask::Word;
 use crate::library::fake::{compact_library, plain_library, spots};
-use crate::search::exhaustive::{Scores, score};
+use crate::memory::TooLittleMemory;
+use crate::search::exhaustive::score;
 use crate::search::query::query_bytes_needed;
+use crate::search::scores::Scores;
 use proptest::prelude::*;
 
 const SIZE: usize = 64;
@@ -199,6 +201,6 @@ fn memory_of_a_wrong_length_is_refused() {
     let short = Search::new(&library, &query, &Kernels::PORTABLE, memory).err();
     assert!(matches!(
         short,
-        Some(MatchError::Memory { what: "scores", .. })
+        Some(MatchError::Memory(TooLittleMemory { what: "scores", .. }))
     ));
 }

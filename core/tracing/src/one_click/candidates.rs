@@ -3,9 +3,10 @@
 use heapless::Vec;
 
 use fluoropose::math::norm;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::Refined;
+use fluoropose::shortlist;
 
 use super::support::Support;
 
@@ -101,8 +102,8 @@ pub(super) struct Nearness {
 
 impl Nearness {
     /// Whether two poses of a model are one.
-    pub(super) fn holds(&self, a: &Pose, b: &Pose, mesh: &Mesh<'_>) -> bool {
-        let middle = mesh.bounds().centre;
+    pub(super) fn holds(&self, a: &Pose, b: &Pose, model: &Model<'_>) -> bool {
+        let middle = model.bounds().centre;
         let (here, there) = (a.transform(&middle), b.transform(&middle));
         let apart = norm(&core::array::from_fn(|k| here[k] - there[k]));
         geodesic_deg(&a.rotation, &b.rotation) < self.degrees && apart < self.place * here[2].abs()
@@ -115,9 +116,9 @@ pub(super) fn keep<T: Ranked, const N: usize>(
     list: &mut Vec<T, N>,
     item: T,
     near: Nearness,
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
 ) {
-    let twin = |other: &T| near.holds(other.pose(), item.pose(), mesh);
+    let twin = |other: &T| near.holds(other.pose(), item.pose(), model);
     if list
         .iter()
         .any(|other| twin(other) && other.rank() >= item.rank())
@@ -125,12 +126,7 @@ pub(super) fn keep<T: Ranked, const N: usize>(
         return;
     }
     list.retain(|other| !twin(other));
-    let place = list.partition_point(|other| other.rank() >= item.rank());
-    if list.is_full() && place < list.len() {
-        list.pop();
-    }
-    // Where it is still full the item is the worst.
-    let _ = list.insert(place, item);
+    shortlist::keep(list, item, |other| -other.rank());
 }
 
 #[cfg(test)]
@@ -165,7 +161,7 @@ mod tests {
     #[test]
     fn the_best_of_each_kind_stay_in_order() {
         let vertices = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
-        let mesh = Mesh::new(&vertices, &[[0, 1, 2]]).expect("valid");
+        let model = Model::from_triangles(&vertices, &[[0, 1, 2]]).expect("valid");
         let mut list: Vec<Find, 3> = Vec::new();
         let given = [
             find(0.0, 0.0, 0.3),
@@ -179,7 +175,7 @@ mod tests {
             find(0.0, -90.0, 0.6),
         ];
         for item in given {
-            keep(&mut list, item, NEAR, &mesh);
+            keep(&mut list, item, NEAR, &model);
         }
         let kept: std::vec::Vec<_> = list.iter().map(|find| find.mismatch).collect();
         assert_eq!(kept, [0.05, 0.1, 0.2]);

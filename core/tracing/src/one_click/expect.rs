@@ -41,7 +41,7 @@ impl Expected {
                 REGION[1] * most / (near * near),
             ],
             size: fluoropose::math::sqrt((least + most) / 2.0),
-            extent: 2.0 * part.mesh.bounds().radius * fx.max(fy) / depths[0],
+            extent: 2.0 * part.model.bounds().radius * fx.max(fy) / depths[0],
             depths,
         }
     }

@@ -71,7 +71,7 @@ impl Eye<'_> {
 
     /// Whether the part stands where it can be.
     fn is_possible(&self, pose: &Pose) -> bool {
-        let [_, _, z] = pose.transform(&self.part.mesh.bounds().centre);
+        let [_, _, z] = pose.transform(&self.part.model.bounds().centre);
         let [near, far] = self.expected.depths;
         (near..=far).contains(&-z)
     }
@@ -85,8 +85,8 @@ impl Eye<'_> {
     ) -> Result<Option<Start>, OneClickError> {
         let [shape, _] = self.masks(memory.words)?;
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
-        let (scene, mesh) = (self.scene, self.part.mesh);
-        let Ok(support) = support(scene, mesh, &find.pose, how, &mut memory.refine) else {
+        let (scene, model) = (self.scene, self.part.model);
+        let Ok(support) = support(scene, model, &find.pose, how, &mut memory.refine) else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
@@ -119,8 +119,8 @@ impl Eye<'_> {
             let [shape, doubt] = self.masks(memory.words)?;
             let silhouette = Silhouette::new(&shape, &doubt)?;
             let view = View::only(self.scene.camera, silhouette);
-            let (mesh, options) = (self.part.mesh, RefineOptions::default());
-            let onto = refine(mesh, &[view], &start.pose, options, &mut memory.refine);
+            let (model, options) = (self.part.model, RefineOptions::default());
+            let onto = refine(model, &[view], &start.pose, options, &mut memory.refine);
             if let Ok(onto) = onto
                 && let Some(better) = self.judge(&find_of(&onto.pose, start), memory)?
                 && better.score > start.score
@@ -143,13 +143,13 @@ impl Eye<'_> {
             polarity: self.scene.polarity,
         };
         let view = View::only(self.scene.camera, target);
-        let (mesh, options) = (self.part.mesh, RefineOptions::default());
-        let refined = refine(mesh, &[view], pose, options, &mut memory.refine);
+        let (model, options) = (self.part.model, RefineOptions::default());
+        let refined = refine(model, &[view], pose, options, &mut memory.refine);
         let Some(refined) = refined.ok().filter(|found| self.is_possible(&found.pose)) else {
             return Ok(None);
         };
         let how = (CLOSE, self.slope);
-        let Ok(support) = support(self.scene, mesh, &refined.pose, how, &mut memory.refine) else {
+        let Ok(support) = support(self.scene, model, &refined.pose, how, &mut memory.refine) else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
@@ -166,7 +166,7 @@ impl Eye<'_> {
     /// Part of the model's outline at a pose that lies on edges, strongly.
     pub(super) fn strength(&self, pose: &Pose, memory: &mut OneClickMemory<'_>) -> f64 {
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
-        let found = support(self.scene, self.part.mesh, pose, how, &mut memory.refine);
+        let found = support(self.scene, self.part.model, pose, how, &mut memory.refine);
         found.map_or(0.0, |support| support.strength)
     }
 }

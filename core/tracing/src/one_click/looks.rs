@@ -115,7 +115,7 @@ impl OneClick {
         }
         let Some(part) = part else { return Ok(()) };
         for find in self.eye(scene, part).find(region, memory)? {
-            keep(&mut self.finds, find, SAME_START, part.mesh);
+            keep(&mut self.finds, find, SAME_START, part.model);
         }
         Ok(())
     }

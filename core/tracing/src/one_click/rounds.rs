@@ -110,7 +110,7 @@ impl OneClick {
         let number = number % (side * side);
         let steps = [number % side - TURNS, number / side - TURNS];
         let [x, y] = steps.map(|steps| radians(TURN_DEG * f64::from(steps)));
-        let (pose, middle) = (&best.refined.pose, part.mesh.bounds().centre);
+        let (pose, middle) = (&best.refined.pose, part.model.bounds().centre);
         let rotation = multiply(&rotation_by(&[x, y, 0.0]), &pose.rotation);
         let moved = apply(&rotation, &middle);
         let centre = pose.transform(&middle);
@@ -146,7 +146,7 @@ impl OneClick {
             self.draw(&region, scene, memory)?;
         }
         if let Some(start) = self.eye(scene, part).judge(find, memory)? {
-            keep(&mut self.starts, start, SAME_START, part.mesh);
+            keep(&mut self.starts, start, SAME_START, part.model);
         }
         Ok(())
     }
@@ -163,7 +163,7 @@ impl OneClick {
             self.draw(&region, scene, memory)?;
         }
         if let Some(answer) = self.eye(scene, part).refine(start, memory)? {
-            keep(&mut self.answers, answer, SAME_ANSWER, part.mesh);
+            keep(&mut self.answers, answer, SAME_ANSWER, part.model);
         }
         Ok(())
     }
@@ -192,7 +192,7 @@ impl OneClick {
                 mirrored: true,
                 ..answer
             };
-            keep(&mut self.answers, mirrored, SAME_ANSWER, part.mesh);
+            keep(&mut self.answers, mirrored, SAME_ANSWER, part.model);
         }
         Ok(true)
     }
@@ -209,7 +209,7 @@ fn sides_of(
     let words = memory.refine.drawn.get_mut(..words_needed(width, height))?;
     let mut drawn = MaskMut::new(words, width, height).ok()?;
     let projected = &mut *memory.refine.projected;
-    render(part.mesh, scene.camera, pose, projected, &mut drawn).ok()?;
+    render(part.model, scene.camera, pose, projected, &mut drawn).ok()?;
     let (columns, rows) = drawn.as_mask().bounds();
     let margin = MARGIN * columns.len().max(rows.len()) as f64;
     let [low, high] = [-margin, margin];

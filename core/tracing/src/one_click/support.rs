@@ -1,7 +1,7 @@
 //! How much of the model's outline at a pose lies on edges of the frame.
 
 use super::Scene;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{OutlineSample, Polarity, RefineError, RefineMemory, outline_samples};
 
@@ -35,13 +35,13 @@ pub struct Support {
 /// Where the model cannot be drawn at the pose.
 pub(super) fn support(
     scene: &Scene<'_>,
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     pose: &Pose,
     (reach, expected): (f64, f64),
     memory: &mut RefineMemory<'_>,
 ) -> Result<Support, RefineError> {
     let mut sum = Support::default();
-    outline_samples(mesh, scene.camera, pose, memory, |sample| {
+    outline_samples(model, scene.camera, pose, memory, |sample| {
         let Some(slope) = slope(scene, sample, reach) else {
             return;
         };

@@ -5,6 +5,7 @@ use heapless::Vec;
 
 use super::grow::NEVER;
 use super::window::{LEVELS, Window};
+use fluoropose::shortlist;
 
 /// Numbers of working memory.
 pub(super) const TALLIES: usize = 3 * LEVELS;
@@ -138,12 +139,7 @@ impl<'m> Tally<'m> {
             }
             let stretch = (from..level).filter(|&l| (sizes[0]..=sizes[1]).contains(&self.area(l)));
             if let Some(best) = self.sharpest(stretch) {
-                let place = rest.partition_point(|&l| self.sharpness(l) >= self.sharpness(best));
-                if rest.is_full() && place < rest.len() {
-                    rest.pop();
-                }
-                // Of more stretches than are looked at the sharpest stay.
-                let _ = rest.insert(place, best);
+                shortlist::keep(&mut rest, best, |&level| -self.sharpness(level));
             }
             from = level;
         }

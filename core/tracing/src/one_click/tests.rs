@@ -46,14 +46,14 @@ fn camera() -> Camera {
     Camera::new(SIDE, SIDE, [1800.0, 1800.0], [192.0, 192.0]).expect("valid")
 }
 
-fn library(mesh: Mesh<'_>) -> Vec<u8> {
+fn library(model: Model<'_>) -> Vec<u8> {
     let axis = GridAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
     let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
-    let builder = Builder::new(mesh, camera(), canonical, grid, 1000.0).expect("possible");
+    let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
         projected: &mut std::vec![Projected::default(); builder.projected_needed()],
@@ -76,18 +76,18 @@ fn pose() -> Pose {
 }
 
 /// The silhouette of a model at a pose.
-fn silhouette(mesh: &Mesh<'_>, pose: &Pose) -> Vec<Word> {
+fn silhouette(model: &Model<'_>, pose: &Pose) -> Vec<Word> {
     let mut words = std::vec![0; words_needed(SIDE, SIDE)];
     let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-    let mut scratch = std::vec![Projected::default(); mesh.vertices().len()];
-    render(mesh, &camera(), pose, &mut scratch, &mut mask).expect("in front");
+    let mut scratch = std::vec![Projected::default(); model.vertices().len()];
+    render(model, &camera(), pose, &mut scratch, &mut mask).expect("in front");
     words
 }
 
 /// A noisy, blurred film of the implant on tissue that grows darker to one side. `cluttered`: a
 /// line that crosses it, as of a sheet, leads to another implant that is as dark.
-fn film(mesh: &Mesh<'_>, cluttered: bool) -> Vec<u16> {
-    let words = silhouette(mesh, &pose());
+fn film(model: &Model<'_>, cluttered: bool) -> Vec<u16> {
+    let words = silhouette(model, &pose());
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let dark = |column: usize, row: usize| {
         let other = (300..360).contains(&column) && (60..260).contains(&row);
@@ -131,8 +131,8 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let (vertices, triangles) = model();
-        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-        let library = library(mesh);
+        let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+        let library = library(model);
         Self {
             vertices,
             triangles,
@@ -140,8 +140,8 @@ impl Bench {
         }
     }
 
-    fn mesh(&self) -> Mesh<'_> {
-        Mesh::new(&self.vertices, &self.triangles).expect("valid")
+    fn model(&self) -> Model<'_> {
+        Model::from_triangles(&self.vertices, &self.triangles).expect("valid")
     }
 
     /// What comes of a prompt, with the region that is left to say without a component.
@@ -152,7 +152,7 @@ impl Bench {
         polarity: Polarity,
         with_part: bool,
     ) -> Result<(OneClick, Vec<Word>), OneClickError> {
-        let (mesh, camera) = (self.mesh(), camera());
+        let (model, camera) = (self.model(), camera());
         let library = Library::open(&self.library).expect("valid");
         let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
         let scene = Scene {
@@ -163,7 +163,7 @@ impl Bench {
         };
         let part = Part {
             library: &library,
-            mesh: &mesh,
+            model: &model,
             planes: &[],
         };
         let part = with_part.then_some(&part);
@@ -185,7 +185,7 @@ impl Bench {
                 kernels: Kernels::PORTABLE,
             },
             refine: RefineMemory {
-                projected: &mut std::vec![Projected::default(); mesh.vertices().len()],
+                projected: &mut std::vec![Projected::default(); model.vertices().len()],
                 drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
                 places: &mut std::vec![0; SIDE * SIDE],
                 border: &mut std::vec![BorderPixel::default(); 4096],
@@ -234,16 +234,16 @@ fn prompts() -> [Prompt; 3] {
 #[test]
 fn a_click_or_a_box_leads_to_outline_and_pose() {
     let bench = Bench::new();
-    let mesh = bench.mesh();
-    let truth = silhouette(&mesh, &pose());
+    let model = bench.model();
+    let truth = silhouette(&model, &pose());
     for cluttered in [false, true] {
-        let pixels = film(&mesh, cluttered);
+        let pixels = film(&model, cluttered);
         for prompt in prompts() {
             let found = bench.work(&pixels, prompt, Polarity::DarkImplant, true);
             let (work, _) = found.expect("an answer");
             let best = &work.answers()[0];
             let turn = geodesic_deg(&best.refined.pose.rotation, &pose().rotation);
-            let iou = overlap(&silhouette(&mesh, &best.refined.pose), &truth);
+            let iou = overlap(&silhouette(&model, &best.refined.pose), &truth);
             let what = std::format!("{prompt:?}, cluttered {cluttered}");
             assert!(turn < 0.7 && iou > 0.97, "{what}: {turn} deg, {iou}");
             assert!(best.support.share > 0.8, "{what}: {:?}", best.support);
@@ -254,8 +254,8 @@ fn a_click_or_a_box_leads_to_outline_and_pose() {
 #[test]
 fn a_film_with_its_greys_turned_round_gives_the_same() {
     let bench = Bench::new();
-    let mesh = bench.mesh();
-    let bright: Vec<u16> = film(&mesh, true).iter().map(|grey| 4095 - grey).collect();
+    let model = bench.model();
+    let bright: Vec<u16> = film(&model, true).iter().map(|grey| 4095 - grey).collect();
     let found = bench.work(&bright, prompts()[1], Polarity::BrightImplant, true);
     let (work, _) = found.expect("an answer");
     let rotation = &work.answers()[0].refined.pose.rotation;
@@ -265,13 +265,13 @@ fn a_film_with_its_greys_turned_round_gives_the_same() {
 #[test]
 fn without_a_component_the_region_is_the_outline() {
     let bench = Bench::new();
-    let mesh = bench.mesh();
-    let pixels = film(&mesh, false);
+    let model = bench.model();
+    let pixels = film(&model, false);
     for prompt in prompts() {
         let found = bench.work(&pixels, prompt, Polarity::DarkImplant, false);
         let (work, region) = found.expect("a region");
         assert!(work.answers().is_empty());
-        let iou = overlap(&region, &silhouette(&mesh, &pose()));
+        let iou = overlap(&region, &silhouette(&model, &pose()));
         assert!(iou > 0.95, "{prompt:?}: {iou}");
     }
 }
@@ -279,7 +279,7 @@ fn without_a_component_the_region_is_the_outline() {
 #[test]
 fn where_there_is_no_implant_a_sentence_says_so() {
     let bench = Bench::new();
-    let pixels = film(&bench.mesh(), true);
+    let pixels = film(&bench.model(), true);
     let click = |column, row| {
         let prompt = Prompt::Click(Point::new(column, row));
         bench
@@ -298,7 +298,7 @@ fn where_there_is_no_implant_a_sentence_says_so() {
 #[test]
 fn the_window_holds_the_component_and_no_more() {
     let bench = Bench::new();
-    let (mesh, camera) = (bench.mesh(), camera());
+    let (model, camera) = (bench.model(), camera());
     let needs = OneClick::new(prompts()[0], &camera, None)
         .expect("inside")
         .needs(&camera);
@@ -306,7 +306,7 @@ fn the_window_holds_the_component_and_no_more() {
     let library = Library::open(&bench.library).expect("valid");
     let part = Part {
         library: &library,
-        mesh: &mesh,
+        model: &model,
         planes: &[],
     };
     // The window round a click holds the component at its nearest, and no more.
@@ -314,6 +314,6 @@ fn the_window_holds_the_component_and_no_more() {
     let needs = OneClick::new(click, &camera, Some(&part))
         .expect("inside")
         .needs(&camera);
-    let extent = 2.0 * mesh.bounds().radius * 1800.0 / 750.0;
+    let extent = 2.0 * model.bounds().radius * 1800.0 / 750.0;
     assert_eq!(needs.pixels, (extent as usize + 1).pow(2).min(SIDE * SIDE));
 }

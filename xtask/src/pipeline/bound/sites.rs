@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{OutlineSample, RefineOptions, outline_samples};
 use fluoropose::render::render;
@@ -35,7 +35,7 @@ pub struct Site {
 
 /// A model in frames of one camera, with working memory to sample its outline.
 pub struct Outlines<'m> {
-    mesh: Mesh<'m>,
+    mesh: Model<'m>,
     camera: Camera,
     refiner: Refiner<'m>,
     middle: Vector3,
@@ -43,7 +43,7 @@ pub struct Outlines<'m> {
 
 impl<'m> Outlines<'m> {
     /// Working memory for a model and a camera.
-    pub fn new(mesh: Mesh<'m>, camera: Camera) -> Self {
+    pub fn new(mesh: Model<'m>, camera: Camera) -> Self {
         Self {
             mesh,
             camera,

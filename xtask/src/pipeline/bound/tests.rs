@@ -6,7 +6,7 @@ use crate::pipeline::disturb::jitter::Waves;
 use crate::pipeline::refiner::Refiner;
 use fluoropose::camera::Camera;
 use fluoropose::math::{Matrix3, add, apply, multiply, scale};
-use fluoropose::mesh::Mesh;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, Quaternion};
 use fluoropose::refine::{OutlineSample, outline_samples};
 use fluoropose::render::{render, scratch_needed};
@@ -171,7 +171,7 @@ fn moved(pose: &Pose, middle: &[f64; 3], step: [f64; 6]) -> Pose {
 }
 
 /// How far the outline of the model drawn at `pose` lies beyond each sample along its normal.
-fn distances(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose, at: &[OutlineSample]) -> Vec<f64> {
+fn distances(mesh: &Model<'_>, camera: &Camera, pose: &Pose, at: &[OutlineSample]) -> Vec<f64> {
     const FINE: usize = 4;
     let fine = camera.supersampled(FINE).unwrap();
     let mut drawn = crate::pipeline::files::MaskBuffer::new(fine.width(), fine.height()).unwrap();
@@ -202,7 +202,7 @@ fn distances(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose, at: &[OutlineSample]
 #[test]
 fn the_information_is_that_of_outlines_drawn_at_neighbouring_poses() {
     let model = femur(&Parameters::default()).unwrap();
-    let mesh = Mesh::new(&model.vertices, &model.triangles).unwrap();
+    let mesh = Model::from_triangles(&model.vertices, &model.triangles).unwrap();
     let camera = Camera::from_principal_distance(1024, 1024, 1198.0, 0.373, [0.0, 0.0]).unwrap();
     let pose = Pose::from(EulerPose {
         x_mm: 8.0,

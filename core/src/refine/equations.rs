@@ -1,163 +1,24 @@
-//! One step of damped Gauss-Newton in the six parameters of a pose.
+//! Normal equations of robust least squares in the six parameters of a pose.
 
-use super::outline::BorderPixel;
-use super::problem::Pass;
-use super::{Iterate, Refined};
-use crate::camera::Camera;
-use crate::math::{
-    Vector3, add, apply, cross, degrees, inverse_spd, multiply, norm, rotation_by, scale,
-    solve_spd, sqrt, subtract, transpose,
-};
-use crate::pose::Pose;
-
-/// A small motion: turn about the middle of the model (radians, camera axes), then shift (mm).
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
-    turn: Vector3,
-    shift: Vector3,
-}
-
-impl Step {
-    /// The step of a solution, and the change of the offset.
-    fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Self, f64) {
-        (Self::of([a, b, c, x, y, z]), offset)
-    }
-
-    /// Three turns, then three shifts.
-    pub(super) fn of([a, b, c, x, y, z]: [f64; 6]) -> Self {
-        Self {
-            turn: [a, b, c],
-            shift: [x, y, z],
-        }
-    }
-
-    /// A Jacobian in the camera's axes, turned into those of the world that the camera stands in.
-    pub(super) fn in_world(jacobian: [f64; 6], placement: &Pose) -> [f64; 6] {
-        let [a, b, c, x, y, z] = jacobian;
-        let back = transpose(&placement.rotation);
-        let ([a, b, c], [x, y, z]) = (apply(&back, &[a, b, c]), apply(&back, &[x, y, z]));
-        [a, b, c, x, y, z]
-    }
-
-    /// How fast the image of the contour behind `sample` moves along the sample's normal
-    /// (pixels) for each parameter: three turns about `centre`, the middle of the model in camera
-    /// coordinates (per radian), three shifts (per mm).
-    ///
-    /// With `u = fx X / D`, `v = -fy Y / D`, `D = -Z`:
-    /// `du = fx (dX / D + X dZ / D^2)`, `dv = -fy (dY / D + Y dZ / D^2)`, and a turn `w` moves the
-    /// point by `w x (X - c)`.
-    pub(super) fn jacobian(camera: &Camera, centre: &Vector3, sample: &BorderPixel) -> [f64; 6] {
-        let depth = sample.depth();
-        let [fx, fy] = camera.focal();
-        let [cx, cy] = camera.principal_point();
-        let x = (f64::from(sample.column) + 0.5 - cx) / fx;
-        let y = -(f64::from(sample.row) + 0.5 - cy) / fy;
-        let point = [x * depth, y * depth, -depth];
-        let arm = subtract(&point, centre);
-        let [right, down] = sample.normal.map(f64::from);
-        let (a, b) = (right * fx / depth, -down * fy / depth);
-        // Image motion along the normal per mm of motion of the point.
-        let push = [a, b, a * x + b * y];
-        // push . (w x arm) = w . (arm x push)
-        let twist = cross(&arm, &push);
-        [twist[0], twist[1], twist[2], push[0], push[1], push[2]]
-    }
-
-    /// The pose after the step; `middle` is the point of the model that the turn leaves in place.
-    pub(super) fn apply(&self, pose: &Pose, middle: &Vector3) -> Pose {
-        let centre = add(&pose.transform(middle), &self.shift);
-        let rotation = multiply(&rotation_by(&self.turn), &pose.rotation);
-        let translation = subtract(&centre, &apply(&rotation, middle));
-        Pose {
-            rotation,
-            translation,
-        }
-    }
-
-    pub(super) fn scaled(&self, factor: f64) -> Self {
-        Self {
-            turn: scale(&self.turn, factor),
-            shift: scale(&self.shift, factor),
-        }
-    }
-
-    /// Degrees and mm in one number, as much as they move an outline.
-    pub(super) fn size(&self) -> f64 {
-        degrees(norm(&self.turn)) + norm(&self.shift) / 5.0
-    }
-}
+use super::border::{BorderPixel, Residual};
+use super::loss::Loss;
+use super::result::{Iterate, Refined};
+use super::stages::{Pass, Stage};
+use super::step::Step;
+use crate::math::{inverse_spd, solve_spd, sqrt};
 
 /// Parameters of a step, and the offset of the target's edges from the model's outline.
 const UNKNOWNS: usize = 7;
 const OFFSET: usize = 6;
 
+/// The step of a solution, and the change of the offset.
+fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Step, f64) {
+    (Step::of([a, b, c, x, y, z]), offset)
+}
+
 /// Histogram of absolute residuals: bins of this many pixels.
 const BIN: f64 = 1.0 / 32.0;
 const BINS: usize = 128;
-
-/// How the pull of a residual fades with its size. Both are scaled in pixels.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Loss {
-    /// `c^2 / 2 ln(1 + (r / c)^2)`
-    Cauchy(f64),
-    /// `c^2 / 6 (1 - (1 - (r / c)^2)^3)`, constant beyond `c` (Beaton and Tukey, Technometrics
-    /// 16, 1974)
-    Tukey(f64),
-}
-
-impl Loss {
-    /// Loss (square pixels) and weight of a residual: the weight is that of the least squares
-    /// that the loss is to first order.
-    pub(super) fn at(self, residual: f64) -> (f64, f64) {
-        let (c, weight) = (self.scale(), self.weight(residual));
-        let cost = match self {
-            Self::Cauchy(_) => 0.5 * c * c * libm::log1p((residual / c) * (residual / c)),
-            Self::Tukey(_) => c * c / 6.0 * (1.0 - weight * sqrt(weight)),
-        };
-        (cost, weight)
-    }
-}
-
-impl Loss {
-    /// Derivative of the loss.
-    pub(super) fn pull(self, residual: f64) -> f64 {
-        residual * self.weight(residual)
-    }
-
-    fn weight(self, residual: f64) -> f64 {
-        let ratio = residual / self.scale();
-        match self {
-            Self::Cauchy(_) => 1.0 / (1.0 + ratio * ratio),
-            Self::Tukey(_) => {
-                let rest = (1.0 - ratio * ratio).max(0.0);
-                rest * rest
-            }
-        }
-    }
-
-    fn scale(self) -> f64 {
-        let (Self::Cauchy(c) | Self::Tukey(c)) = self;
-        c
-    }
-
-    /// Second derivative of the loss.
-    pub(super) fn curvature(self, residual: f64) -> f64 {
-        match self {
-            Self::Cauchy(c) => {
-                let ratio = (residual / c) * (residual / c);
-                (1.0 - ratio) / ((1.0 + ratio) * (1.0 + ratio))
-            }
-            Self::Tukey(c) => {
-                let ratio = (residual / c) * (residual / c);
-                if ratio < 1.0 {
-                    (1.0 - ratio) * (1.0 - 5.0 * ratio)
-                } else {
-                    0.0
-                }
-            }
-        }
-    }
-}
 
 type Normal = [[f64; UNKNOWNS]; UNKNOWNS];
 
@@ -198,20 +59,36 @@ impl Equations {
         }
     }
 
+    /// Adds what was found along the normal of a sample, weighed as a stage does.
+    pub(super) fn add_sample(&mut self, sample: &BorderPixel, stage: &Stage) {
+        let length = f64::from(sample.weight);
+        match sample.residual {
+            Residual::None => {}
+            Residual::Unknown => self.add_unknown(length),
+            Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
+                let jacobian = sample.jacobian.map(f64::from);
+                self.add(stage.loss, &jacobian, f64::from(residual), length);
+            }
+            Residual::Px(_) | Residual::Missing => {
+                self.add_missing(stage.loss, stage.range, length);
+            }
+        }
+    }
+
     /// A sample of which the target says nothing: only its length counts.
-    pub(super) fn add_unknown(&mut self, length: f64) {
+    fn add_unknown(&mut self, length: f64) {
         self.length += length;
     }
 
     /// A sample without a counterpart within `range`, which costs as much as one there.
-    pub(super) fn add_missing(&mut self, loss: Loss, range: f64, length: f64) {
+    fn add_missing(&mut self, loss: Loss, range: f64, length: f64) {
         self.length += length;
         self.known += length;
         self.loss += length * loss.at(range).0;
     }
 
     /// Adds a sample: how far the target's outline is beyond the model's (pixels).
-    pub(super) fn add(&mut self, loss: Loss, jacobian: &[f64; 6], residual: f64, length: f64) {
+    fn add(&mut self, loss: Loss, jacobian: &[f64; 6], residual: f64, length: f64) {
         let (cost, weight) = loss.at(residual);
         self.length += length;
         self.known += length;
@@ -241,7 +118,7 @@ impl Equations {
     /// `None` where too little of the outline was found or it does not determine the pose.
     pub(super) fn step(&self, damping: f64, free: bool) -> Option<(Step, f64)> {
         let (normal, right) = self.damped(damping, free)?;
-        Some(Step::with_offset(solve_spd(normal, right)?))
+        Some(with_offset(solve_spd(normal, right)?))
     }
 
     /// The same where some combinations of the six parameters stay zero: the solution conditioned
@@ -271,7 +148,7 @@ impl Equations {
                 }
             }
         }
-        Some(Step::with_offset(solution))
+        Some(with_offset(solution))
     }
 
     /// Damped normal equations; `None` where too little of the outline was found.

@@ -1,57 +1,31 @@
-//! The only rasteriser: a mesh in perspective to a mask.
-
-use thiserror::Error;
+//! The only rasteriser: a model in perspective to a mask.
 
 use crate::camera::Camera;
-use crate::image::contour::Point;
 use crate::image::mask::MaskMut;
-use crate::image::scan::{FixedPoint, triangle_spans};
-use crate::math::{Vector3, dot};
-use crate::mesh::Mesh;
-use crate::mesh::edges::Eye;
+use crate::image::scan::triangle_spans;
+use crate::memory::first;
+use crate::mesh::Model;
 use crate::pose::Pose;
+use crate::render::facing::FacingTest;
+use crate::render::project::{Images, Projected, RenderError, VERTICES, project};
 use crate::render::winding;
 
-/// Why a mesh cannot be drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-pub enum RenderError {
-    /// A vertex is on or behind the focus, or so near it that its image has no bounds.
-    #[error(
-        "vertex {0} of the model lies at or behind the X-ray focus, or its image is more than 131 072 pixels away; check the pose's z (negative, mm)"
-    )]
-    BehindCamera(usize),
-    /// The working memory is too short.
-    #[error("drawing needs room for {needed} projected vertices but {given} were lent")]
-    Scratch {
-        /// Vertices of the mesh.
-        needed: usize,
-        /// Room that was lent.
-        given: usize,
-    },
-    /// The mask has another size than the camera's frame.
-    #[error("the mask and the camera's frame differ in size")]
-    Size,
-}
-
-/// Working memory of [`render`]: room for one projected vertex.
-pub type Projected = FixedPoint;
-
-/// How many [`Projected`] [`render`] needs for `mesh`: one a vertex, and more to draw it from its
+/// How many [`Projected`] [`render`] needs for `model`: one a vertex, and more to draw it from its
 /// edges.
 #[must_use]
-pub fn scratch_needed(mesh: &Mesh<'_>) -> usize {
-    let edges = mesh.edges().map_or(0, |_| winding::room_needed());
-    mesh.vertices().len() + edges
+pub fn scratch_needed(model: &Model<'_>) -> usize {
+    let edges = model.edges().map_or(0, |_| winding::room_needed());
+    model.vertices().len() + edges
 }
 
-/// Adds the silhouette of `mesh` at `pose` to `out`: every pixel whose centre lies in the
-/// projection of any triangle, whatever the winding. What is beyond the frame is cut off. A mesh
+/// Adds the silhouette of `model` at `pose` to `out`: every pixel whose centre lies in the
+/// projection of any triangle, whatever the winding. What is beyond the frame is cut off. A model
 /// with edges gives the same pixels sooner.
 ///
 /// # Errors
 /// [`RenderError`]; nothing has been drawn then.
 pub fn render(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     camera: &Camera,
     pose: &Pose,
     scratch: &mut [Projected],
@@ -60,26 +34,23 @@ pub fn render(
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
-    let (needed, given) = (scratch_needed(mesh), scratch.len());
-    let scratch = scratch
-        .get_mut(..needed)
-        .ok_or(RenderError::Scratch { needed, given })?;
-    if let Some(edges) = mesh.edges() {
-        let eye = Eye::new(mesh, camera, pose);
-        if !eye.sees_all() {
+    let scratch = first(VERTICES, scratch_needed(model), scratch)?;
+    if let Some(edges) = model.edges() {
+        let facing = FacingTest::new(model.mesh(), camera, pose);
+        if !facing.sees_all() {
             // Errors where a vertex has no image.
-            project(mesh, camera, pose, scratch)?;
+            project(model.mesh(), camera, pose, scratch)?;
         }
-        let (slots, room) = scratch.split_at_mut(mesh.vertices().len());
-        let mut images = Images::new(mesh, camera, pose, slots);
-        if winding::fill(&eye, &edges, &mut images, room, out) {
+        let (slots, room) = scratch.split_at_mut(model.vertices().len());
+        let mut images = Images::new(model.mesh(), camera, pose, slots);
+        if winding::fill(&facing, &edges, &mut images, room, out) {
             return Ok(());
         }
     }
-    let projected = project(mesh, camera, pose, scratch)?;
+    let projected = project(model.mesh(), camera, pose, scratch)?;
     let height = out.height();
     for_each_span(
-        mesh,
+        model,
         projected,
         height,
         |_| true,
@@ -94,14 +65,14 @@ pub fn render(
 /// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `projected` holds
 /// the vertices as [`project`] gives them.
 pub(crate) fn for_each_span(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     projected: &[Projected],
     height: usize,
     wanted: impl Fn([Projected; 3]) -> bool,
     mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
 ) {
-    for triangle in mesh.triangles() {
-        // Indices were checked when the mesh was made.
+    for triangle in model.triangles() {
+        // Indices were checked when the model was made.
         let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
         if !wanted(corners) {
             continue;
@@ -112,104 +83,23 @@ pub(crate) fn for_each_span(
     }
 }
 
-/// The silhouette edges of `mesh` as [`render`] left them in its working memory, run along as the
+/// The silhouette edges of `model` as [`render`] left them in its working memory, run along as the
 /// triangles that face the camera do, with the images of their ends; nothing where it was drawn triangle by triangle.
 pub(crate) fn contour<'s>(
-    mesh: &Mesh<'_>,
+    model: &Model<'_>,
     scratch: &'s [Projected],
 ) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])> + use<'s>> {
-    mesh.edges()?;
-    let scratch = scratch.get(..scratch_needed(mesh))?;
-    let (images, room) = scratch.split_at(mesh.vertices().len());
+    model.edges()?;
+    let scratch = scratch.get(..scratch_needed(model))?;
+    let (images, room) = scratch.split_at(model.vertices().len());
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
     Some(winding::contour(room)?.map(move |ends| (ends, ends.map(image))))
-}
-
-/// The images of those vertices that are asked for, each made once.
-pub(crate) struct Images<'i> {
-    camera: &'i Camera,
-    pose: &'i Pose,
-    vertices: &'i [[f32; 3]],
-    slots: &'i mut [Projected],
-}
-
-impl<'i> Images<'i> {
-    /// In lent memory, a slot a vertex. All vertices must have images.
-    pub(crate) fn new(
-        mesh: &Mesh<'i>,
-        camera: &'i Camera,
-        pose: &'i Pose,
-        slots: &'i mut [Projected],
-    ) -> Self {
-        slots.fill(FixedPoint::NONE);
-        Self {
-            camera,
-            pose,
-            vertices: mesh.vertices(),
-            slots,
-        }
-    }
-
-    pub(crate) fn of(&mut self, vertex: u32) -> Projected {
-        // Indices were checked when the mesh was made.
-        let vertex = vertex as usize;
-        let (Some(slot), Some(place)) = (self.slots.get_mut(vertex), self.vertices.get(vertex))
-        else {
-            return FixedPoint::NONE;
-        };
-        if *slot == FixedPoint::NONE {
-            *slot = image_of(self.camera, self.pose, place).0;
-        }
-        *slot
-    }
-}
-
-/// Projects all vertices into lent memory and gives them.
-///
-/// # Errors
-/// [`RenderError::Scratch`] and [`RenderError::BehindCamera`].
-pub(crate) fn project<'s>(
-    mesh: &Mesh<'_>,
-    camera: &Camera,
-    pose: &Pose,
-    scratch: &'s mut [Projected],
-) -> Result<&'s [Projected], RenderError> {
-    let (needed, given) = (mesh.vertices().len(), scratch.len());
-    let images = scratch
-        .get_mut(..needed)
-        .ok_or(RenderError::Scratch { needed, given })?;
-    let mut all = true;
-    for (vertex, image) in mesh.vertices().iter().zip(&mut *images) {
-        let (point, inside) = image_of(camera, pose, vertex);
-        *image = point;
-        all &= inside;
-    }
-    if all {
-        return Ok(images);
-    }
-    let beyond = |vertex| !image_of(camera, pose, vertex).1;
-    let first = mesh.vertices().iter().position(beyond);
-    Err(RenderError::BehindCamera(first.unwrap_or_default()))
-}
-
-/// The image of a vertex, and whether it has one. Without a branch: several at once.
-#[inline(always)]
-fn image_of(camera: &Camera, pose: &Pose, vertex: &[f32; 3]) -> (FixedPoint, bool) {
-    let model: Vector3 = vertex.map(f64::from);
-    let [x, y, z]: Vector3 =
-        core::array::from_fn(|k| dot(&pose.rotation[k], &model) + pose.translation[k]);
-    let ([fx, fy], [cx, cy]) = (camera.focal(), camera.principal_point());
-    let nearness = -1.0 / z;
-    let (point, inside) = FixedPoint::rounded(Point {
-        column: cx + fx * x * nearness,
-        row: cy - fy * y * nearness,
-    });
-    (point, inside & (z < 0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::contour::Point;
     use crate::image::mask::words_needed;
     use crate::pose::EulerPose;
     use proptest::prelude::*;
@@ -239,13 +129,13 @@ mod tests {
             z_rot in -180.0..180.0f64
         ) {
             let vertices = corners.map(|(x, y, z)| [x, y, z]);
-            let Ok(mesh) = Mesh::new(&vertices, &[[0, 1, 2]]) else { return Ok(()) };
+            let Ok(model) = Model::from_triangles(&vertices, &[[0, 1, 2]]) else { return Ok(()) };
             let pose = Pose::from(EulerPose {
                 z_mm: -600.0, z_rot_deg: z_rot, ..EulerPose::default()
             });
             let mut words = [0; words_needed(SIDE, SIDE)];
             let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-            render(&mesh, &camera(), &pose, &mut [Projected::default(); 3], &mut mask)
+            render(&model, &camera(), &pose, &mut [Projected::default(); 3], &mut mask)
                 .expect("in front");
             let images = vertices.map(|v| {
                 camera().project(&pose.transform(&v.map(f64::from))).expect("in front")
@@ -264,11 +154,11 @@ mod tests {
             let vertices = [[-20.0, -20.0, 5.0], [30.0, -10.0, 0.0], [5.0, 25.0, -9.0], [-30.0, 20.0, 3.0]];
             let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
             let draw = |triangles: &[[u32; 3]]| {
-                let mesh = Mesh::new(&vertices, triangles).expect("valid");
+                let model = Model::from_triangles(&vertices, triangles).expect("valid");
                 let mut words = [0; words_needed(SIDE, SIDE)];
                 let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
                 let pose = Pose { translation: [0.0, 0.0, -500.0], ..Pose::IDENTITY };
-                render(&mesh, &camera(), &pose, &mut [Projected::default(); 4], &mut mask)
+                render(&model, &camera(), &pose, &mut [Projected::default(); 4], &mut mask)
                     .expect("in front");
                 words
             };
@@ -293,11 +183,11 @@ mod tests {
             ..Pose::IDENTITY
         };
         let area = |triangles: &[[u32; 3]]| {
-            let mesh = Mesh::new(&vertices, triangles).expect("valid");
+            let model = Model::from_triangles(&vertices, triangles).expect("valid");
             let mut words = [0; words_needed(SIDE, SIDE)];
             let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
             render(
-                &mesh,
+                &model,
                 &camera(),
                 &pose,
                 &mut [Projected::default(); 8],
@@ -316,7 +206,7 @@ mod tests {
     #[test]
     fn behind_the_camera_is_an_error() {
         let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        let mesh = Mesh::new(&vertices, &[[0, 1, 2]]).expect("valid");
+        let model = Model::from_triangles(&vertices, &[[0, 1, 2]]).expect("valid");
         let mut words = [0; words_needed(SIDE, SIDE)];
         let mut mask = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
         let mut scratch = [Projected::default(); 3];
@@ -325,7 +215,7 @@ mod tests {
                 translation: [0.0, 0.0, z],
                 ..Pose::IDENTITY
             };
-            let result = render(&mesh, &camera(), &pose, &mut scratch, &mut mask);
+            let result = render(&model, &camera(), &pose, &mut scratch, &mut mask);
             assert!(matches!(result, Err(RenderError::BehindCamera(_))), "{z}");
         }
     }

@@ -7,25 +7,24 @@ use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
+use fluoropose::locate::partial::{PartialBuffers, locate_partial};
 use fluoropose::locate::rerank::{Verified, unmatched_at};
-use fluoropose::mesh::Mesh;
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{
-    BorderPixel, Iterate, Polarity, RefineMemory, RefineOptions, Refined, View, outline_samples,
+    Iterate, Polarity, RefineBuffers, RefineMemory, RefineOptions, Refined, View, outline_samples,
     refine, refine_traced, uncertainty,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::JsError;
 
 use crate::error::sentence;
-use crate::pieces::Pieces;
-use crate::surface::Surface;
 
-/// Border pixels that are lent: the outline of an implant in a large frame has some thousands.
-const BORDER: usize = 16_384;
+/// Poses that are looked for from a part of an outline.
+const RIVALS: usize = 6;
 
 /// So far from the outline a pixel is surely inside or outside of an implant that was set by hand, px.
 const ASIDE: f64 = 5.0;
@@ -76,63 +75,38 @@ impl Ranked {
 }
 
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
-pub(crate) struct LentModel {
-    surface: Surface,
-    buffers: Buffers,
-    pieces: Pieces,
+pub(crate) struct WorkingModel {
+    owned: OwnedModel,
+    buffers: RefineBuffers,
+    partial: PartialBuffers,
+    /// The model as drawn, where nothing is refined.
+    drawn: Vec<Word>,
+    projected: Vec<Projected>,
     /// Found with the first refinement: it takes some tens of milliseconds.
     planes: Option<Vec<SymmetryPlane>>,
 }
 
-struct Buffers {
-    projected: Vec<Projected>,
-    drawn: Vec<Word>,
-    places: Vec<u16>,
-    border: Vec<BorderPixel>,
-}
-
-impl Buffers {
-    fn lend(&mut self, camera: &Camera) -> RefineMemory<'_> {
-        let (width, height) = (camera.width(), camera.height());
-        self.drawn.resize(words_needed(width, height), 0);
-        self.places.resize(width * height, 0);
-        self.border.resize(BORDER, BorderPixel::default());
-        RefineMemory {
-            projected: &mut self.projected,
-            drawn: &mut self.drawn,
-            places: &mut self.places,
-            border: &mut self.border,
-        }
-    }
-}
-
-impl LentModel {
+impl WorkingModel {
     /// Takes vertices (x, y, z by turns, mm) and triangles (three vertex indices each).
     ///
     /// # Errors
     /// The core's sentence about the vertex or triangle at fault.
     pub(crate) fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, JsError> {
-        let surface = Surface::new(vertices, triangles)?;
-        let projected = scratch_needed(&surface.mesh()?);
+        let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
+        let projected = scratch_needed(&owned.model());
         Ok(Self {
-            surface,
-            buffers: Buffers {
-                projected: vec![Projected::default(); projected],
-                drawn: Vec::new(),
-                places: Vec::new(),
-                border: Vec::new(),
-            },
-            pieces: Pieces::default(),
+            owned,
+            buffers: RefineBuffers::default(),
+            partial: PartialBuffers::default(),
+            drawn: Vec::new(),
+            projected: vec![Projected::default(); projected],
             planes: None,
         })
     }
 
     /// The core's view of the model.
-    ///
-    /// # Errors
-    /// The core's sentence about the vertex or triangle at fault.
-    pub(crate) fn mesh(&self) -> Result<Mesh<'_>, JsError> {
-        self.surface.mesh()
+    pub(crate) fn model(&self) -> Model<'_> {
+        self.owned.model()
     }
 
     /// Poses from pieces of the outline, best first.
@@ -145,8 +119,10 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
-        let mesh = self.surface.mesh()?;
-        let found = self.pieces.locate(silhouette, camera, library, &mesh)?;
+        let model = self.owned.model();
+        let memory = self.partial.borrow(library, camera, &model);
+        let found = locate_partial::<RIVALS>(silhouette, camera, library, &model, memory);
+        let found = found.map_err(sentence)?;
         Ok(found.into_iter().map(Ranked::by_pieces).collect())
     }
 
@@ -187,15 +163,15 @@ impl LentModel {
         let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let mesh = self.surface.mesh()?;
+        let model = self.owned.model();
         let planes = self
             .planes
-            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec())
+            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec())
             .clone();
         let view = View::only(camera, *silhouette);
-        let mut memory = self.buffers.lend(camera);
+        let mut memory = self.buffers.borrow(&model, camera);
         let options = RefineOptions::default();
-        let answers = refine_rivals(&mesh, &[view], &starts, &planes, options, &mut memory)
+        let answers = refine_rivals(&model, &[view], &starts, &planes, options, &mut memory)
             .map_err(sentence)?;
         let mut refined = Vec::with_capacity(answers.len());
         for answer in &answers {
@@ -213,20 +189,20 @@ impl LentModel {
         Ok(refined)
     }
 
-    /// Calls `with` with the mesh, its planes of near-symmetry and memory to refine it.
+    /// Calls `with` with the model, its planes of near-symmetry and memory to refine it.
     ///
     /// # Errors
     /// The core's sentence about the model, and that of `with`.
     pub(crate) fn lend<T>(
         &mut self,
         camera: &Camera,
-        with: impl FnOnce(&Mesh<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
+        with: impl FnOnce(&Model<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
-        let mesh = self.surface.mesh()?;
+        let model = self.owned.model();
         let planes = self
             .planes
-            .get_or_insert_with(|| symmetry_planes(&mesh).to_vec());
-        with(&mesh, planes, self.buffers.lend(camera))
+            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
+        with(&model, planes, self.buffers.borrow(&model, camera))
     }
 
     /// Standard deviations of a refined pose's numbers; nothing where the outline does not determine it.
@@ -251,10 +227,10 @@ impl LentModel {
         refined: &Refined,
         view: View<'_>,
     ) -> Result<Option<Deviations>, JsError> {
-        let mesh = self.surface.mesh()?;
-        let mut memory = self.buffers.lend(view.camera);
-        let covariance = uncertainty(&mesh, &[view], refined, &mut memory).map_err(sentence)?;
-        let middle = mesh.bounds().centre;
+        let model = self.owned.model();
+        let mut memory = self.buffers.borrow(&model, view.camera);
+        let covariance = uncertainty(&model, &[view], refined, &mut memory).map_err(sentence)?;
+        let middle = model.bounds().centre;
         Ok(covariance.map(|covariance| covariance.deviations(&refined.pose, &middle)))
     }
 
@@ -268,9 +244,9 @@ impl LentModel {
         view: View<'_>,
         options: RefineOptions,
     ) -> Result<Refined, JsError> {
-        let mesh = self.surface.mesh()?;
-        let mut memory = self.buffers.lend(view.camera);
-        refine(&mesh, &[view], start, options, &mut memory).map_err(sentence)
+        let model = self.owned.model();
+        let mut memory = self.buffers.borrow(&model, view.camera);
+        refine(&model, &[view], start, options, &mut memory).map_err(sentence)
     }
 
     /// Whether the implant is darker or brighter than what surrounds it, by the pixels on both sides of its outline.
@@ -283,10 +259,10 @@ impl LentModel {
         camera: &Camera,
         frame: &dyn Grey,
     ) -> Result<Polarity, JsError> {
-        let mesh = self.surface.mesh()?;
-        let mut memory = self.buffers.lend(camera);
+        let model = self.owned.model();
+        let mut memory = self.buffers.borrow(&model, camera);
         let mut darker_inside = 0.0;
-        outline_samples(&mesh, camera, pose, &mut memory, |sample| {
+        outline_samples(&model, camera, pose, &mut memory, |sample| {
             let [right, down] = sample.normal;
             let grey = |away: f64| frame.at(sample.column + away * right, sample.row + away * down);
             if let (Some(inside), Some(outside)) = (grey(-ASIDE), grey(ASIDE)) {
@@ -307,14 +283,11 @@ impl LentModel {
     /// The core's sentence about a pose at which the model cannot be drawn.
     pub(crate) fn drawn_at(&mut self, pose: &Pose, camera: &Camera) -> Result<&[Word], JsError> {
         let (width, height) = (camera.width(), camera.height());
-        let Buffers {
-            projected, drawn, ..
-        } = &mut self.buffers;
-        drawn.resize(words_needed(width, height), 0);
-        let mesh = self.surface.mesh()?;
-        let mut mask = MaskMut::new(drawn, width, height).map_err(sentence)?;
-        render(&mesh, camera, pose, projected, &mut mask).map_err(sentence)?;
-        Ok(drawn)
+        self.drawn.resize(words_needed(width, height), 0);
+        let model = self.owned.model();
+        let mut mask = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
+        render(&model, camera, pose, &mut self.projected, &mut mask).map_err(sentence)?;
+        Ok(&self.drawn)
     }
 
     /// The poses by which refinement goes from `start`.
@@ -327,13 +300,13 @@ impl LentModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Iterate>, JsError> {
-        let mesh = self.surface.mesh()?;
+        let model = self.owned.model();
         let view = View::only(camera, *silhouette);
-        let mut memory = self.buffers.lend(camera);
+        let mut memory = self.buffers.borrow(&model, camera);
         let mut steps = Vec::new();
         let mut note = |step: &Iterate| steps.push(*step);
         let options = RefineOptions::default();
-        refine_traced(&mesh, &[view], start, options, &mut memory, &mut note).map_err(sentence)?;
+        refine_traced(&model, &[view], start, options, &mut memory, &mut note).map_err(sentence)?;
         Ok(steps)
     }
 
@@ -346,13 +319,18 @@ impl LentModel {
         silhouette: &Silhouette<'_>,
     ) -> Result<Option<u64>, JsError> {
         let (width, height) = (camera.width(), camera.height());
-        let Buffers {
-            projected, drawn, ..
-        } = &mut self.buffers;
-        drawn.resize(words_needed(width, height), 0);
-        let mesh = self.surface.mesh()?;
-        let mut drawn = MaskMut::new(drawn, width, height).map_err(sentence)?;
-        Ok(unmatched_at(&mesh, camera, pose, silhouette, projected, &mut drawn).ok())
+        self.drawn.resize(words_needed(width, height), 0);
+        let model = self.owned.model();
+        let mut drawn = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
+        Ok(unmatched_at(
+            &model,
+            camera,
+            pose,
+            silhouette,
+            &mut self.projected,
+            &mut drawn,
+        )
+        .ok())
     }
 }
 

@@ -7,14 +7,13 @@
 //! `2 h (a + b) + 8 h^2` at most, with `a` and `b` two sides of it, columns and rows added. What is
 //! nearer to edge-on than that is rounded and measured.
 
-use super::MeshEdge;
-use super::boxes::{EdgeBox, EdgeGroup, IN_BOX, place};
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
 use crate::math::{Vector3, cross, dot, norm, sqrt, subtract};
+use crate::mesh::edges::{EdgeBox, EdgeGroup, IN_BOX, MeshEdge, place};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
-use crate::render::Images;
+use crate::render::project::Images;
 
 /// Part of a distance that rounding to 32 bits changes at most, with some to spare.
 const SINGLE: f32 = 4e-6;
@@ -32,12 +31,12 @@ struct Sides {
 }
 
 /// A camera as the model's triangles see it.
-pub(crate) struct Eye<'a> {
+pub(crate) struct FacingTest<'a> {
     vertices: &'a [[f32; 3]],
-    /// In model coordinates, mm.
+    /// In mesh coordinates, mm.
     place: Vector3,
     single: [f32; 3],
-    /// Distance from the origin of the model and farthest distance of its parts, mm.
+    /// Distance from the origin of the mesh and farthest distance of its parts, mm.
     distance: f64,
     /// How far edge-on must be, as doubled area times distance from the plane, mm^3: for each mm of
     /// the longest side, and beside that.
@@ -49,7 +48,7 @@ pub(crate) struct Eye<'a> {
     sees_all: bool,
 }
 
-impl<'a> Eye<'a> {
+impl<'a> FacingTest<'a> {
     pub(crate) fn new(mesh: &Mesh<'a>, camera: &Camera, pose: &Pose) -> Self {
         let Bounds { centre, radius } = mesh.bounds();
         let middle = pose.transform(&centre);
@@ -191,7 +190,7 @@ mod tests {
     use crate::math::{add, scale};
     use crate::mesh::edges::fake::{self, Linked};
     use crate::pose::EulerPose;
-    use crate::render::{Projected, project};
+    use crate::render::project::{Projected, project};
     use proptest::prelude::*;
     use std::vec;
     use std::vec::Vec;
@@ -202,10 +201,10 @@ mod tests {
         let linked = Linked::new(mesh);
         let mut slots = vec![Projected::default(); mesh.vertices().len()];
         let mut images = Images::new(mesh, &camera, pose, &mut slots);
-        let eye = Eye::new(mesh, &camera, pose);
+        let facing = FacingTest::new(mesh, &camera, pose);
         let mut found = Vec::new();
         for (bounds, group) in linked.edges().groups() {
-            eye.contour(bounds, group, &mut images, |ends| found.push(ends));
+            facing.contour(bounds, group, &mut images, |ends| found.push(ends));
         }
         let images = project(mesh, &camera, pose, &mut slots).expect("in front");
         let faces = |corners: [u32; 3]| {

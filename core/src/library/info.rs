@@ -1,0 +1,127 @@
+//! What a library is of: its grid of views, its camera, and what is kept of each view.
+
+use crate::camera::Camera;
+use crate::canonical::CanonicalSpec;
+use crate::math::Vector3;
+use crate::mesh::ModelDigest;
+
+/// One axis of the grid of views: `first`, `first + step`, ... degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridAxis {
+    /// First rotation, degrees.
+    pub first: f64,
+    /// Between neighbours, degrees; positive.
+    pub step: f64,
+    /// Number of rotations.
+    pub count: usize,
+}
+
+impl GridAxis {
+    /// The rotation at a place on the axis, degrees; between whole places too.
+    #[must_use]
+    pub fn at(&self, place: f64) -> f64 {
+        self.first + place * self.step
+    }
+
+    /// The axis moved by `degrees`.
+    #[must_use]
+    pub fn shifted(self, degrees: f64) -> Self {
+        Self {
+            first: self.first + degrees,
+            ..self
+        }
+    }
+}
+
+/// The grid of views: rotations about x and about y, `R = Rz Rx Ry`. View number
+/// `y * x_axis.count + x`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Rotations about x.
+    pub x: GridAxis,
+    /// Rotations about y.
+    pub y: GridAxis,
+}
+
+impl Default for Grid {
+    /// The source's 31 x 41 = 1271 views: x from -15 to 15, y from -20 to 20 degrees.
+    fn default() -> Self {
+        let axis = |reach: i32| GridAxis {
+            first: f64::from(-reach),
+            step: 1.0,
+            count: 2 * reach as usize + 1,
+        };
+        Self {
+            x: axis(15),
+            y: axis(20),
+        }
+    }
+}
+
+impl Grid {
+    /// Number of views.
+    #[must_use]
+    pub fn views(&self) -> usize {
+        self.x.count * self.y.count
+    }
+
+    /// Place of a view on both axes.
+    #[must_use]
+    pub fn place(&self, view: usize) -> (usize, usize) {
+        (view % self.x.count, view / self.x.count)
+    }
+
+    /// Rotations of a view about x and y, degrees.
+    #[must_use]
+    pub fn rotations(&self, view: usize) -> [f64; 2] {
+        let (x, y) = self.place(view);
+        [self.x.at(x as f64), self.y.at(y as f64)]
+    }
+
+    /// The view at a place on both axes.
+    #[must_use]
+    pub fn view(&self, x: usize, y: usize) -> usize {
+        y * self.x.count + x
+    }
+}
+
+/// What a library was made from and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LibraryInfo {
+    /// Canonical frame of every view.
+    pub canonical: CanonicalSpec,
+    /// Rotations of the views, degrees.
+    pub grid: Grid,
+    /// Distance from the focus to the reference point in every view, mm.
+    pub distance: f64,
+    /// The point of the model that stands on the optical axis in every view, model
+    /// coordinates, mm: the middle of its bounding box.
+    pub reference: Vector3,
+    /// Focal length of the views before canonical form, pixels.
+    pub focal: f64,
+    /// The camera that the library was made for. Poses from another one remain right; the
+    /// perspective of the views is then that of [`Self::distance`] all the same.
+    pub camera: Camera,
+    /// Digest of the model.
+    pub model: ModelDigest,
+}
+
+/// One view's record: what was taken away to reach canonical form, in pixels of a camera of
+/// focal length [`LibraryInfo::focal`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ViewRecord {
+    /// Rotation about x, degrees.
+    pub x_deg: f64,
+    /// Rotation about y, degrees.
+    pub y_deg: f64,
+    /// Canonical pixels per view pixel.
+    pub scale: f64,
+    /// Direction of the principal axis, radians, y up.
+    pub angle: f64,
+    /// From the projected reference point to the centroid, pixels to the right and upwards.
+    pub offset: [f64; 2],
+    /// Pixels of the silhouette.
+    pub area: u32,
+    /// See [`crate::canonical::CanonicalForm::elongation`].
+    pub elongation: f32,
+}

@@ -1,0 +1,49 @@
+//! Why no pose was found from a part of an outline.
+
+use thiserror::Error;
+
+use crate::image::mask::MaskError;
+use crate::memory::TooLittleMemory;
+use crate::render::RenderError;
+
+/// Why no pose was found from a part of an outline.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum PartialError {
+    /// No side of the mask has two known pixels, in pieces long enough to use.
+    #[error(
+        "nothing of the outline is known: all of it lies in unknown pixels, beyond the frame's border, or in pieces shorter than {least} pixel sides"
+    )]
+    NothingKnown {
+        /// Sides of the shortest piece that is used.
+        least: usize,
+    },
+    /// Too little is known.
+    #[error(
+        "{known:.0} pixels of the outline are known, but a first pose needs {needed:.0}; trace more of it"
+    )]
+    TooShort {
+        /// Length known, pixel widths.
+        known: f64,
+        /// Length needed, pixel widths.
+        needed: f64,
+    },
+    /// The outline is no implant's.
+    #[error(
+        "the mask's outline has more than {0} pixel sides; drop the specks and fill the holes of the mask"
+    )]
+    TooRough(usize),
+    /// No view of the library is like the known part.
+    #[error(
+        "no view of the library fits the known part of the outline; is it the right model, side and nominal view?"
+    )]
+    NoFit,
+    /// Working memory is too short.
+    #[error(transparent)]
+    Memory(#[from] TooLittleMemory),
+    /// A mask is not possible.
+    #[error(transparent)]
+    Mask(#[from] MaskError),
+    /// The model cannot be drawn, or mask and camera differ in size.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+}

@@ -1,0 +1,75 @@
+//! Working memory: what callers lend, and the one error for too little of it.
+
+use thiserror::Error;
+
+/// A borrowed slice is too short. Longer ones are welcome everywhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("{needed} {what} are needed as working memory but {given} were given")]
+pub struct TooLittleMemory {
+    /// What the slice holds, in the plural.
+    pub what: &'static str,
+    /// Its least length.
+    pub needed: usize,
+    /// Its length.
+    pub given: usize,
+}
+
+/// Refuses a length that is too short.
+///
+/// # Errors
+/// [`TooLittleMemory`] with these numbers.
+pub fn check_length(
+    what: &'static str,
+    needed: usize,
+    given: usize,
+) -> Result<(), TooLittleMemory> {
+    if given >= needed {
+        return Ok(());
+    }
+    Err(TooLittleMemory {
+        what,
+        needed,
+        given,
+    })
+}
+
+/// The first `needed` of a slice.
+///
+/// # Errors
+/// [`TooLittleMemory`] where there are fewer.
+pub fn first<'m, T>(
+    what: &'static str,
+    needed: usize,
+    memory: &'m mut [T],
+) -> Result<&'m mut [T], TooLittleMemory> {
+    let given = memory.len();
+    memory.get_mut(..needed).ok_or(TooLittleMemory {
+        what,
+        needed,
+        given,
+    })
+}
+
+/// Makes room for `needed` values; memory that is there already stays.
+#[cfg(feature = "alloc")]
+pub(crate) fn grow<T: Clone + Default>(room: &mut alloc::vec::Vec<T>, needed: usize) {
+    room.resize(needed.max(room.len()), T::default());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_too_short_is_named() {
+        let short = check_length("words", 8, 7).expect_err("too short");
+        assert_eq!(
+            std::format!("{short}"),
+            "8 words are needed as working memory but 7 were given"
+        );
+        assert_eq!(check_length("words", 8, 9), Ok(()));
+        let mut room = [1, 2, 3];
+        assert_eq!(first("words", 2, &mut room), Ok(&mut [1, 2][..]));
+        assert!(first("words", 4, &mut room).is_err());
+    }
+}

@@ -1,0 +1,14 @@
+//! One edge of a surface and the triangles on its two sides.
+
+/// An edge along which two triangles run in opposite directions. Made by [`link`] alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MeshEdge {
+    pub(crate) from: u32,
+    pub(crate) to: u32,
+    /// Third vertex of the triangle that runs `from` -> `to`.
+    pub(crate) forth: u32,
+    /// Third vertex of the triangle that runs `to` -> `from`.
+    pub(crate) back: u32,
+    /// Where it comes among the edges.
+    pub(crate) order: u32,
+}

@@ -1,0 +1,93 @@
+//! What is drawn: a mesh and, of a closed one, its edges.
+
+use crate::math::Vector3;
+use crate::mesh::edges::Edges;
+use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest};
+
+/// A component's CAD model, ready to be drawn. It borrows; a copy costs nothing.
+///
+/// Without edges every triangle is drawn. With edges the same pixels come sooner: see
+/// [`crate::mesh::edges::link`], which finds those of a closed surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Model<'a> {
+    mesh: Mesh<'a>,
+    edges: Option<Edges<'a>>,
+}
+
+impl<'a> Model<'a> {
+    /// A model that is drawn triangle by triangle.
+    #[must_use]
+    pub fn new(mesh: Mesh<'a>) -> Self {
+        Self { mesh, edges: None }
+    }
+
+    /// The same from its parts: vertices in mm, three of them for each triangle.
+    ///
+    /// # Errors
+    /// [`MeshError`] names the vertex or triangle at fault.
+    pub fn from_triangles(
+        vertices: &'a [[f32; 3]],
+        triangles: &'a [[u32; 3]],
+    ) -> Result<Self, MeshError> {
+        Mesh::new(vertices, triangles).map(Self::new)
+    }
+
+    /// A model that is drawn from the edges of its mesh.
+    ///
+    /// `edges` must be those of `mesh`, as [`crate::mesh::edges::link`] found them.
+    #[must_use]
+    pub fn with_edges(mesh: Mesh<'a>, edges: Edges<'a>) -> Self {
+        Self {
+            mesh,
+            edges: Some(edges),
+        }
+    }
+
+    /// The surface.
+    #[must_use]
+    pub fn mesh(&self) -> &Mesh<'a> {
+        &self.mesh
+    }
+
+    /// The surface's edges; none where it is drawn triangle by triangle.
+    #[must_use]
+    pub fn edges(&self) -> Option<Edges<'a>> {
+        self.edges
+    }
+
+    /// Vertices, mm.
+    #[must_use]
+    pub fn vertices(&self) -> &'a [[f32; 3]] {
+        self.mesh.vertices()
+    }
+
+    /// Three vertices each.
+    #[must_use]
+    pub fn triangles(&self) -> &'a [[u32; 3]] {
+        self.mesh.triangles()
+    }
+
+    /// Where the model lies in its own coordinates.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.mesh.bounds()
+    }
+
+    /// Middle of the model's box, model coordinates, mm: rotations about it hardly move the image.
+    #[must_use]
+    pub fn centre(&self) -> Vector3 {
+        self.mesh.bounds().centre
+    }
+
+    /// See [`Mesh::digest`].
+    #[must_use]
+    pub fn digest(&self) -> ModelDigest {
+        self.mesh.digest()
+    }
+}
+
+impl<'a> From<Mesh<'a>> for Model<'a> {
+    fn from(mesh: Mesh<'a>) -> Self {
+        Self::new(mesh)
+    }
+}

@@ -1,0 +1,29 @@
+//! Why a pose cannot be refined.
+
+use thiserror::Error;
+
+use crate::image::mask::MaskError;
+use crate::memory::TooLittleMemory;
+use crate::render::RenderError;
+
+/// Why a pose cannot be refined.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum RefineError {
+    /// The model cannot be drawn at the pose to start from.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The mask is empty or lent memory has the wrong length.
+    #[error(transparent)]
+    Mask(#[from] MaskError),
+    /// There is nothing to refine against.
+    #[error("refinement needs at least one view")]
+    NoView,
+    /// Working memory is too short.
+    #[error(transparent)]
+    Memory(#[from] TooLittleMemory),
+    /// Too little of the model's outline is near the target's to say where the model is.
+    #[error(
+        "the model's outline and the target's are too far apart, or too little of it is known, to be brought together; trace again or start nearer"
+    )]
+    TooFar,
+}

@@ -1,0 +1,35 @@
+//! Working memory of refinement.
+
+use super::border::BorderPixel;
+use super::error::RefineError;
+use crate::camera::Camera;
+use crate::image::mask::{Word, words_needed};
+use crate::memory::check_length;
+use crate::render::Projected;
+
+/// Working memory of [`refine`], for the largest of its views.
+#[derive(Debug)]
+pub struct RefineMemory<'a> {
+    /// [`crate::render::scratch_needed`] vertices.
+    pub projected: &'a mut [Projected],
+    /// [`crate::image::mask::words_needed`] words of the frame's size: the model as drawn.
+    pub drawn: &'a mut [Word],
+    /// One number a pixel of the frame.
+    pub places: &'a mut [u16],
+    /// Samples of the outline. One for each border pixel is wanted; of more, the first are
+    /// taken. 65 535 at most are used.
+    pub border: &'a mut [BorderPixel],
+}
+
+pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
+    let (width, height) = (camera.width(), camera.height());
+    let needed = [
+        ("words", words_needed(width, height), memory.drawn.len()),
+        ("places", width * height, memory.places.len()),
+        ("border pixels (at least)", 64, memory.border.len()),
+    ];
+    for (what, needed, given) in needed {
+        check_length(what, needed, given)?;
+    }
+    Ok(())
+}

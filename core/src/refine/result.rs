@@ -1,0 +1,41 @@
+//! What refinement gives: a pose, and the poses on the way to it.
+
+use crate::pose::Pose;
+
+/// A refined pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refined {
+    /// `world_from_model`; of a single camera, `camera_from_model`.
+    pub pose: Pose,
+    /// Distance of the target's edges beyond the model's outline that was estimated with the
+    /// pose, pixels; zero where it was not asked for or the data do not support it.
+    pub offset_px: f64,
+    /// Root mean square of what remains between the outlines, weighted by arc length as the
+    /// robust loss does, pixels.
+    pub residual_px: f64,
+    /// Standard deviation of the residuals as if they were normal, from their median: what lies
+    /// far out does not count. Pixels.
+    pub spread_px: f64,
+    /// Robust loss by which rival poses are compared, square pixels.
+    pub loss: f64,
+    /// Times the model was drawn.
+    pub renders: usize,
+    /// Whether the last step was below 0.001 degrees or 0.005 mm, or both together; on a grey frame,
+    /// a fiftieth of that; where it was to be swift, twenty times as much.
+    pub converged: bool,
+}
+
+/// A pose on the way, for who wants to see how refinement converges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iterate {
+    /// Stage, from 0; the range and the scale of the loss shrink from one to the next.
+    pub stage: usize,
+    /// Times the model was drawn so far.
+    pub renders: usize,
+    /// The pose.
+    pub pose: Pose,
+    /// Its robust loss in this stage, square pixels: stages differ in scale.
+    pub loss: f64,
+    /// Its residual, pixels.
+    pub residual_px: f64,
+}

@@ -1,0 +1,76 @@
+//! All stages, one after the other.
+
+use super::error::RefineError;
+use super::memory::RefineMemory;
+use super::options::RefineOptions;
+use super::problem::Problem;
+use super::result::{Iterate, Refined};
+use super::stages::{Pass, STAGES};
+use super::view::View;
+use crate::mesh::Model;
+use crate::pose::Pose;
+
+/// Refines `start` until the model's outline lies on those of `views`.
+///
+/// Draws the model at most 130 times in each view, usually 8 to 20 times. Never worse than
+/// `start` by the loss of its last stage but for what drawing in whole pixels leaves unknown.
+///
+/// # Errors
+/// [`RefineError`].
+pub fn refine(
+    model: &Model<'_>,
+    views: &[View<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Refined, RefineError> {
+    refine_traced(model, views, start, options, memory, &mut |_| ())
+}
+
+/// The same, telling the start and every pose that is accepted on the way.
+///
+/// # Errors
+/// [`RefineError`].
+pub fn refine_traced(
+    model: &Model<'_>,
+    views: &[View<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+    trace: &mut dyn FnMut(&Iterate),
+) -> Result<Refined, RefineError> {
+    let mut problem = Problem::new(model, views, memory)?;
+    problem.hold(options.locks, start);
+    problem.effort = options.effort;
+    let mut state = Refined {
+        pose: *start,
+        offset_px: 0.0,
+        residual_px: 0.0,
+        spread_px: 0.0,
+        loss: 0.0,
+        renders: 0,
+        converged: false,
+    };
+    let mut pass = Pass::default();
+    let mut seen = problem.run(&pass, &mut state, None, memory, trace)?;
+    for index in 1..STAGES {
+        pass = Pass {
+            index,
+            spread: state.spread_px,
+            free: false,
+        };
+        seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
+    }
+    problem.polish(&pass, &mut state, seen, memory, trace)?;
+    if options.edge_offset {
+        pass.free = true;
+        let mut with_offset = state;
+        let seen = problem.run(&pass, &mut with_offset, None, memory, trace)?;
+        problem.polish(&pass, &mut with_offset, seen, memory, trace)?;
+        if problem.supports_offset(&pass, &with_offset, memory)? {
+            return Ok(with_offset);
+        }
+        state.renders = with_offset.renders;
+    }
+    Ok(state)
+}
