@@ -7,6 +7,8 @@ pub mod graph;
 pub mod layers;
 pub mod print;
 pub mod rust;
+pub mod scripts;
+pub mod typescript;
 
 use std::fs;
 use std::path::Path;
@@ -62,7 +64,9 @@ pub fn graph_text(root: &Path, wanted: &str) -> Result<String> {
 fn graphs(root: &Path) -> Result<Vec<Graph>> {
     let files = files::list(root)?;
     let sources = crates::sources(root, &files)?;
-    crates::graphs(root, &files, &sources)
+    let mut graphs = crates::graphs(root, &files, &sources)?;
+    graphs.extend(scripts::graphs(root, &files)?);
+    Ok(graphs)
 }
 
 /// The rooms of a source folder, when a `layers.txt` beside it names them.
