@@ -1,36 +1,44 @@
 //! `cargo xtask tidy`: what the layout of the sources promises, checked from their text.
+//!
+//! No file uses another in a circle ([`graph`]); no room uses one above it ([`layers`]); nothing stands at the top of
+//! the repository that has no place there ([`top`]); no test is switched off ([`code`]), no work left to come
+//! ([`texts`]), and no word comes back that was replaced ([`words`]).
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod code;
 pub mod crates;
+pub mod facts;
 pub mod files;
+pub mod findings;
 pub mod graph;
 pub mod layers;
 pub mod print;
 pub mod rust;
 pub mod scripts;
+pub mod texts;
+pub mod top;
 pub mod typescript;
+pub mod words;
 
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
+pub use findings::Findings;
 use graph::Graph;
 use layers::Layers;
-
-/// What is wrong with the sources.
-#[derive(Debug, Default)]
-pub struct Findings {
-    /// What must not stay.
-    pub errors: Vec<String>,
-}
+use words::Words;
 
 /// Checks the repository at `root`.
 ///
 /// Errors when a file cannot be read or parsed.
 pub fn check(root: &Path) -> Result<Findings> {
+    let files = files::list(root)?;
     let mut findings = Findings::default();
-    for graph in graphs(root)? {
+    findings.errors.extend(top::errors(root)?);
+    findings.errors.extend(texts::errors(root, &files)?);
+    for graph in graphs(root, &files, &mut findings)? {
         findings.errors.extend(graph.cycles());
         if let Some(layers) = layers_of(root, &graph)? {
             findings.errors.extend(layers.errors(&graph));
@@ -39,13 +47,13 @@ pub fn check(root: &Path) -> Result<Findings> {
     Ok(findings)
 }
 
-/// Which file uses which, for the folders that `wanted` names or lies in, room by room.
+/// Which file uses which in the source folder that `wanted` names or lies in, room by room.
 ///
 /// Errors when `wanted` is neither a folder with sources nor one inside it.
 pub fn graph_text(root: &Path, wanted: &str) -> Result<String> {
     let wanted = wanted.trim_end_matches('/');
     let mut text = String::new();
-    for graph in graphs(root)? {
+    for graph in graphs(root, &files::list(root)?, &mut Findings::default())? {
         if let Some(below) = print::asked_for(&graph, wanted) {
             text.push_str(&print::graph(
                 &graph,
@@ -54,19 +62,28 @@ pub fn graph_text(root: &Path, wanted: &str) -> Result<String> {
             ));
         }
     }
-    anyhow::ensure!(
+    ensure!(
         !text.is_empty(),
         "`{wanted}` is no folder with sources of the repository"
     );
     Ok(text)
 }
 
-fn graphs(root: &Path) -> Result<Vec<Graph>> {
-    let files = files::list(root)?;
-    let sources = crates::sources(root, &files)?;
-    let mut graphs = crates::graphs(root, &files, &sources)?;
-    graphs.extend(scripts::graphs(root, &files)?);
+/// The graphs of all source folders; what is wrong with single files goes to the findings.
+fn graphs(root: &Path, files: &[String], findings: &mut Findings) -> Result<Vec<Graph>> {
+    let words = words(root)?;
+    let mut graphs = crates::read(root, files, &words, findings)?;
+    graphs.extend(scripts::read(root, files, &words, findings)?);
     Ok(graphs)
+}
+
+/// The words that are gone, as far as the repository lists any.
+fn words(root: &Path) -> Result<Words> {
+    let path = root.join("xtask/tidy/words.txt");
+    if !path.is_file() {
+        return Ok(Words::default());
+    }
+    Words::parse(&fs::read_to_string(&path)?).context("in xtask/tidy/words.txt")
 }
 
 /// The rooms of a source folder, when a `layers.txt` beside it names them.

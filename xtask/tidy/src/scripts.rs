@@ -1,42 +1,62 @@
-//! The folders of TypeScript in the repository and the graphs of their files.
+//! TypeScript and JavaScript in the repository: the graphs of source folders, and each file by itself.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 
+use crate::code;
+use crate::findings::Findings;
 use crate::graph::Graph;
-use crate::typescript;
 use crate::typescript::module::Module;
+use crate::typescript::{self, tokens};
+use crate::words::Words;
 
-/// The graph of every folder `src` of TypeScript that stands beside a `package.json`.
-pub fn graphs(root: &Path, files: &[String]) -> Result<Vec<Graph>> {
-    let mut graphs = Vec::new();
-    for package in files
+/// Looks at each file, and gives the graph of every folder `src` that stands beside a `package.json`.
+pub fn read(
+    root: &Path,
+    files: &[String],
+    words: &Words,
+    findings: &mut Findings,
+) -> Result<Vec<Graph>> {
+    let packages = files
         .iter()
-        .filter_map(|file| file.strip_suffix("/package.json"))
-    {
-        let src = format!("{package}/src");
-        let modules = modules(root, &src, files)?;
-        if !modules.is_empty() {
-            graphs.push(typescript::graph(&src, &modules));
+        .filter_map(|file| file.strip_suffix("package.json"));
+    let mut folders: BTreeMap<String, BTreeMap<String, Module>> = packages
+        .map(|package| (format!("{package}src"), BTreeMap::new()))
+        .collect();
+    for file in files.iter().filter(|file| is_script(file)) {
+        let text = std::fs::read_to_string(root.join(file))
+            .with_context(|| format!("cannot read {file}"))?;
+        let tokens = tokens::tokens(&text);
+        code::check(
+            file,
+            &typescript::facts::facts(&text, &tokens),
+            words,
+            findings,
+        );
+        for (src, modules) in &mut folders {
+            let below = file
+                .strip_prefix(src.as_str())
+                .and_then(|rest| rest.strip_prefix('/'));
+            if let Some(below) = below.filter(|below| is_module(below)) {
+                modules.insert(below.to_string(), Module::from_tokens(&tokens));
+            }
         }
     }
-    Ok(graphs)
+    let filled = folders.iter().filter(|(_, modules)| !modules.is_empty());
+    Ok(filled
+        .map(|(src, modules)| typescript::graph(src, modules))
+        .collect())
 }
 
-/// The files below a folder, declarations of types and tests aside.
-fn modules(root: &Path, src: &str, files: &[String]) -> Result<BTreeMap<String, Module>> {
-    let below = files
+fn is_script(file: &str) -> bool {
+    [".ts", ".tsx", ".mjs"]
         .iter()
-        .filter_map(|file| file.strip_prefix(src)?.strip_prefix('/'));
-    let code = below.filter(|file| file.ends_with(".ts") || file.ends_with(".tsx"));
-    let own = code.filter(|file| !file.ends_with(".d.ts") && !file.contains(".test."));
-    own.map(|file| {
-        let path = root.join(src).join(file);
-        let text = std::fs::read_to_string(&path)
-            .with_context(|| format!("cannot read {}", path.display()))?;
-        Ok((file.to_string(), Module::parse(&text)))
-    })
-    .collect()
+        .any(|ending| file.ends_with(ending))
+}
+
+/// Whether a file is part of a program: no declaration of types, no test.
+fn is_module(file: &str) -> bool {
+    !(file.ends_with(".d.ts") || file.contains(".test."))
 }

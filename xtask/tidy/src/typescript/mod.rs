@@ -4,6 +4,7 @@
 //! `export .. from` is no edge where it passes on what lies in the own folder. `import * as x` is an edge to the file
 //! itself. A worker's address, `new URL('./worker.ts', import.meta.url)`, is none: it starts another program.
 
+pub mod facts;
 pub mod module;
 pub mod tokens;
 
