@@ -68,7 +68,7 @@ fn scan(tokens: TokenStream, facts: &mut Facts) {
             }
             TokenTree::Ident(name) => facts.note_name(&name.to_string(), name.span().start().line),
             TokenTree::Punct(sign) => {
-                if sign.as_char() == '!' && is_name(before.as_ref(), TODO) {
+                if sign.as_char() == '!' && is_name(before.as_ref(), "todo") {
                     facts.unfinished.push((sign.span().start().line, "todo!"));
                 }
             }
@@ -77,8 +77,6 @@ fn scan(tokens: TokenStream, facts: &mut Facts) {
         before = Some(token);
     }
 }
-
-const TODO: &str = "todo";
 
 fn is_sign(token: Option<&TokenTree>, wanted: char) -> bool {
     matches!(token, Some(TokenTree::Punct(sign)) if sign.as_char() == wanted)

@@ -63,7 +63,7 @@ fn function_of<'a>(
     const STATEMENTS: [&str; 6] = ["catch", "for", "if", "switch", "while", "with"];
     let before = |steps: usize| brace.checked_sub(steps).map(|at| &tokens[at]);
     if before(1)?.is_sign('>') && before(2).is_some_and(|token| token.is_sign('=')) {
-        return Some(("", tokens[brace].line));
+        return (!is_suite(&tokens[..brace])).then_some(("", tokens[brace].line));
     }
     let in_type = |token: &Token| match token.kind {
         Kind::Sign(sign) => "<>[]|&.,".contains(sign),
@@ -84,6 +84,18 @@ fn function_of<'a>(
     (!STATEMENTS.contains(&name)).then_some((name, tokens[open].line))
 }
 
+/// Whether these tokens end in `describe('..', () =>`: a list of tests is no function to be read at once.
+fn is_suite(before: &[Token]) -> bool {
+    match before {
+        [.., call, open, text, comma, first, second, _, _] => {
+            let no_parameters = first.is_sign('(') && second.is_sign(')');
+            let after_text = text.text().is_some() && comma.is_sign(',');
+            call.is_word("describe") && open.is_sign('(') && after_text && no_parameters
+        }
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::tokens::tokens;
@@ -97,7 +109,8 @@ mod tests {
     fn functions_are_measured_with_their_parameters() {
         let text = "export function one(\n  a: { b: number },\n): Promise<readonly A[]> {\n  if (a) {\n  }\n}\n\
                     class X {\n  get two(): void {\n  }\n}\nconst three = (a) => {\n  return { a };\n};\n\
-                    const four = c ? f(x) : {\n};";
+                    const four = c ? f(x) : {\n};\n\
+                    describe('five', () => {\n});";
         let told = facts_of(text).functions;
         let told: Vec<_> = told
             .iter()
