@@ -27,5 +27,6 @@ pub mod stl;
 pub mod suite;
 pub mod synthetic;
 pub mod test;
+pub mod tidy;
 pub mod undistort;
 pub mod workspace;

@@ -46,6 +46,8 @@ enum Verb {
     Bench(xtask::bench::Args),
     /// Set up what is missing and run the tests
     Test(xtask::test::Args),
+    /// Check the layout of the sources: layers, cycles between files, words
+    Tidy(xtask::tidy::Args),
     /// What continuous integration runs
     Ci(xtask::ci::Args),
 }
@@ -80,6 +82,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Package(args) => xtask::package::run(args),
         Verb::Bench(args) => xtask::bench::run(args),
         Verb::Test(args) => xtask::test::run(args),
+        Verb::Tidy(args) => xtask::tidy::run(args),
         Verb::Ci(args) => xtask::ci::run(args),
     }
 }

@@ -1,4 +1,4 @@
-//! Formatting, lints and the Rust tests on this machine.
+//! Layout, formatting, lints and the Rust tests on this machine.
 
 use std::process::Command;
 
@@ -9,6 +9,7 @@ use super::report::Report;
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
+use crate::tidy;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
@@ -22,6 +23,7 @@ pub const CHECKED: [&str; 5] = [
 
 /// Runs the suite.
 pub fn run(report: &mut Report) {
+    report.step("native: layers and cycles", || quiet(&mut tidy::program()));
     report.step("native: formatting", || {
         components::ensure("fmt")?;
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
