@@ -17,9 +17,9 @@ use fluoropose::refine::{
     OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
 };
 use fluoropose::silhouette::Silhouette;
-use xtask::implant::{self, Parameters};
-use xtask::pipeline::files::{MaskBuffer, Surface};
-use xtask::pipeline::refiner::Refiner;
+use fluoropose_laboratory::files::{MaskBuffer, Surface};
+use fluoropose_laboratory::finding::Refiner;
+use fluoropose_phantom::implant::{self, Parameters};
 
 fn main() {
     divan::main();

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Mesh;
-use xtask::implant::{self, Parameters, Triangles};
-use xtask::pipeline::files::Surface;
+use fluoropose_laboratory::files::Surface;
+use fluoropose_phantom::implant::{self, Parameters, Triangles};
 
 /// Set to 1 to rewrite golden masks and snapshots instead of comparing with them.
 pub const REGENERATE: &str = "FLUOROPOSE_REGENERATE";

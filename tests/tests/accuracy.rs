@@ -3,13 +3,12 @@
 
 use std::fmt::Write as _;
 
+use fluoropose_laboratory::files::Surface;
+use fluoropose_laboratory::finding::{Method, ViewOptions};
+use fluoropose_laboratory::noise::DisturbanceOptions;
+use fluoropose_laboratory::verbs::evaluate::{Request, Row, evaluate};
+use fluoropose_laboratory::verbs::synthetic::{Accuracy, Protocol, measure};
 use fluoropose_tests::{assert_snapshot, camera, femur, study, surface, tibia};
-use xtask::evaluate::{Request, Row, evaluate};
-use xtask::pipeline::build::ViewOptions;
-use xtask::pipeline::disturb::DisturbanceOptions;
-use xtask::pipeline::files::Surface;
-use xtask::pipeline::finder::Method;
-use xtask::synthetic::{Accuracy, Protocol, measure};
 
 const SEED: u64 = 7;
 

@@ -14,11 +14,10 @@ use fluoropose::refine::{RefineOptions, View};
 use fluoropose::rivals::worth_refining;
 use fluoropose::silhouette::Silhouette;
 use fluoropose::verify::Verified;
+use fluoropose_laboratory::files::MaskBuffer;
+use fluoropose_laboratory::finding::{Refiner, ViewOptions, build_library};
+use fluoropose_laboratory::noise::DisturbanceOptions;
 use fluoropose_tests::{camera, femur, surface, tibia};
-use xtask::pipeline::build::{ViewOptions, build_library};
-use xtask::pipeline::disturb::DisturbanceOptions;
-use xtask::pipeline::files::MaskBuffer;
-use xtask::pipeline::refiner::Refiner;
 
 const DISTANCE: f64 = 1084.0;
 /// Poses of each test and part.

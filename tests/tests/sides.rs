@@ -8,9 +8,8 @@ use fluoropose::kinematics::coronal_tilt_deg;
 use fluoropose::mirror::mirror_pose;
 use fluoropose::pose::Pose;
 use fluoropose::symmetry::symmetry_planes;
+use fluoropose_laboratory::files::{Component, Study, read_model, read_poses};
 use fluoropose_tests::study;
-use xtask::pipeline::files::{read_model, read_poses};
-use xtask::pipeline::study::{Component, Study};
 
 /// A reference pose and its mirror image.
 type Sides = [Pose; 2];

@@ -1,10 +1,9 @@
 //! Planes of near-symmetry of the built-in implants and of a real pair.
 
 use fluoropose::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose_laboratory::files::{Study, read_model};
+use fluoropose_phantom::implant::{self, Parameters, Side, Size, Triangles};
 use fluoropose_tests::{mesh, study};
-use xtask::implant::{self, Parameters, Side, Size, Triangles};
-use xtask::pipeline::files::read_model;
-use xtask::pipeline::study::Study;
 
 /// Asserts that the planes are one, the mediolateral: its normal within `off_deg` of z.
 fn assert_mediolateral(planes: &[SymmetryPlane], off_deg: f64, most_mm: f64) {

@@ -1,94 +1,161 @@
 //! Serves a folder over HTTP on this machine alone.
 
+use std::fs;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use anyhow::{Context, Result, anyhow};
-use axum::Router;
-use axum::http::HeaderValue;
-use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, HeaderName, X_CONTENT_TYPE_OPTIONS,
-};
-use tower_http::services::ServeDir;
-use tower_http::set_header::SetResponseHeaderLayer;
+use tiny_http::{Header, Method, Request, Response};
 
 /// What a page may load and run, a directive a line. The built page says the same of itself for hosts without headers,
 /// but its workers only know what comes with them.
 const POLICY: &str = include_str!("../../web/content_security_policy.txt");
 
+/// Requests answered at once: a browser opens six connections to one host.
+const THREADS: usize = 6;
+
+/// Kinds of files that a page consists of, by the ends of their names.
+const TYPES: [(&str, &str); 15] = [
+    ("css", "text/css; charset=utf-8"),
+    ("html", "text/html; charset=utf-8"),
+    ("ico", "image/x-icon"),
+    ("jpg", "image/jpeg"),
+    ("js", "text/javascript; charset=utf-8"),
+    ("json", "application/json"),
+    ("map", "application/json"),
+    ("mjs", "text/javascript; charset=utf-8"),
+    ("png", "image/png"),
+    ("stl", "model/stl"),
+    ("svg", "image/svg+xml"),
+    ("txt", "text/plain; charset=utf-8"),
+    ("wasm", "application/wasm"),
+    ("webmanifest", "application/manifest+json"),
+    ("woff2", "font/woff2"),
+];
+
 /// A running server; it lives until the process ends.
-pub struct Server {
+pub(crate) struct Server {
     address: SocketAddr,
-    thread: JoinHandle<Result<()>>,
+    threads: Vec<JoinHandle<()>>,
 }
 
 impl Server {
-    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one) from a thread of its own.
+    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one) from threads of its own.
     ///
     /// Errors when the port is taken.
-    pub fn start(folder: &Path, port: u16) -> Result<Self> {
+    pub(crate) fn start(folder: &Path, port: u16) -> Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).with_context(|| {
             format!("cannot listen on port {port} of 127.0.0.1; choose another with --port (0: any free one)")
         })?;
-        listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
-        let app = router(folder)?;
-        let thread = std::thread::spawn(move || serve(listener, app));
-        Ok(Self { address, thread })
+        let server = tiny_http::Server::from_listener(listener, None)
+            .map_err(|error| anyhow!("cannot serve: {error}"))?;
+        let shared = Arc::new((server, folder.to_path_buf()));
+        let threads = (0..THREADS).map(|_| {
+            let shared = Arc::clone(&shared);
+            std::thread::spawn(move || {
+                for request in shared.0.incoming_requests() {
+                    answer(request, &shared.1);
+                }
+            })
+        });
+        Ok(Self {
+            address,
+            threads: threads.collect(),
+        })
     }
 
     /// Where the folder is served, such as `http://127.0.0.1:8080/`.
-    pub fn url(&self) -> String {
+    pub(crate) fn url(&self) -> String {
         format!("http://{}/", self.address)
     }
 
     /// Waits until the server fails, which it normally does not.
-    pub fn wait(self) -> Result<()> {
-        self.thread
-            .join()
-            .map_err(|_| anyhow!("the server's thread ended in a panic"))?
+    pub(crate) fn wait(self) -> Result<()> {
+        for thread in self.threads {
+            let ended = thread.join();
+            ended.map_err(|_| anyhow!("a thread of the server ended in a panic"))?;
+        }
+        Ok(())
     }
 }
 
+/// Answers one request. Who asked may have gone meanwhile, which is no failure of ours.
+fn answer(request: Request, folder: &Path) {
+    if !matches!(request.method(), Method::Get | Method::Head) {
+        let refusal = Response::empty(405).with_header(header("Allow", "GET, HEAD"));
+        let _ = request.respond(refusal);
+        return;
+    }
+    let found = file_of(request.url(), folder).and_then(|file| Some((fs::read(&file).ok()?, file)));
+    let Some((bytes, file)) = found else {
+        let _ = request.respond(Response::from_string("not found").with_status_code(404));
+        return;
+    };
+    // A length that is told beforehand, whatever the size.
+    let mut response = Response::from_data(bytes).with_chunked_threshold(usize::MAX);
+    for header in headers(&file, folder) {
+        response.add_header(header);
+    }
+    let _ = request.respond(response);
+}
+
+/// The file that a request means: inside the folder, and a folder's `index.html`.
+fn file_of(url: &str, folder: &Path) -> Option<PathBuf> {
+    let path = url.split(['?', '#']).next()?.strip_prefix('/')?;
+    let path = PathBuf::from(decoded(path)?);
+    let inside = |part| matches!(part, Component::Normal(_));
+    if !path.components().all(inside) {
+        return None;
+    }
+    let mut file = folder.join(path);
+    if file.is_dir() {
+        file.push("index.html");
+    }
+    file.is_file().then_some(file)
+}
+
+/// Text whose `%41` are letters again.
+fn decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, others @ ..] = rest {
+        rest = others;
+        if *first != b'%' {
+            bytes.push(*first);
+            continue;
+        }
+        let hex = std::str::from_utf8(others.get(..2)?).ok()?;
+        bytes.push(u8::from_str_radix(hex, 16).ok()?);
+        rest = &others[2..];
+    }
+    String::from_utf8(bytes).ok()
+}
+
 /// Files the bundler names by a hash of their content never change; everything else is asked for again.
-fn router(folder: &Path) -> Result<Router> {
-    let hashed = Router::new()
-        .fallback_service(ServeDir::new(folder.join("assets")))
-        .layer(header(CACHE_CONTROL, "public, max-age=31536000, immutable"));
-    let rest = Router::new()
-        .fallback_service(ServeDir::new(folder))
-        .layer(header(CACHE_CONTROL, "no-cache"));
-    Ok(Router::new()
-        .nest("/assets", hashed)
-        .fallback_service(rest)
-        .layer(SetResponseHeaderLayer::overriding(
-            CONTENT_SECURITY_POLICY,
-            policy()?,
-        ))
-        .layer(header(X_CONTENT_TYPE_OPTIONS, "nosniff")))
-}
-
-fn policy() -> Result<HeaderValue> {
+fn headers(file: &Path, folder: &Path) -> [Header; 4] {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    let kind = TYPES.iter().find(|(known, _)| Some(*known) == ending);
+    let kind = kind.map_or("application/octet-stream", |(_, kind)| kind);
+    let lasting = if file.starts_with(folder.join("assets")) {
+        "public, max-age=31536000, immutable"
+    } else {
+        "no-cache"
+    };
     // That no other page may frame this one can be said in a header alone.
-    let directives: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
-    Ok(HeaderValue::from_str(&directives.join("; "))?)
+    let policy: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
+    [
+        header("Content-Type", kind),
+        header("Cache-Control", lasting),
+        header("Content-Security-Policy", &policy.join("; ")),
+        header("X-Content-Type-Options", "nosniff"),
+    ]
 }
 
-fn header(name: HeaderName, value: &'static str) -> SetResponseHeaderLayer<HeaderValue> {
-    SetResponseHeaderLayer::overriding(name, HeaderValue::from_static(value))
-}
-
-fn serve(listener: TcpListener, app: Router) -> Result<()> {
-    let runtime = tokio::runtime::Builder::new_current_thread()
-        .enable_io()
-        .enable_time()
-        .build()?;
-    runtime.block_on(async {
-        let listener = tokio::net::TcpListener::from_std(listener)?;
-        axum::serve(listener, app).await?;
-        Ok(())
-    })
+fn header(name: &str, value: &str) -> Header {
+    Header::from_bytes(name, value).expect("names and values are ASCII")
 }
 
 #[cfg(test)]
@@ -113,10 +180,14 @@ mod tests {
         }
 
         fn get(&self, server: &Server, path: &str) -> String {
+            self.ask(server, "GET", path)
+        }
+
+        fn ask(&self, server: &Server, method: &str, path: &str) -> String {
             let mut stream = TcpStream::connect(server.address).unwrap();
             write!(
                 stream,
-                "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+                "{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
             )
             .unwrap();
             let mut answer = Vec::new();
@@ -179,5 +250,55 @@ mod tests {
             .err()
             .unwrap();
         assert!(error.to_string().contains("--port"), "{error}");
+    }
+
+    #[test]
+    fn a_head_has_the_length_and_no_body_and_nothing_else_is_answered() {
+        let site = Site::new("head");
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let head = site.ask(&server, "HEAD", "/index.html").to_lowercase();
+        assert!(
+            head.starts_with("http/1.1 200") && head.contains("content-length: 7"),
+            "{head}"
+        );
+        assert!(head.ends_with("\r\n\r\n"), "{head}");
+        let post = site.ask(&server, "POST", "/");
+        assert!(post.starts_with("HTTP/1.1 405"), "{post}");
+    }
+
+    #[test]
+    fn a_long_file_comes_whole_with_its_length() {
+        let site = Site::new("long");
+        std::fs::write(site.0.join("site/long.bin"), vec![b'x'; 200_000]).unwrap();
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let answer = site.get(&server, "/long.bin");
+        assert!(answer.to_lowercase().contains("content-length: 200000"));
+        assert_eq!(answer.split("\r\n\r\n").nth(1).unwrap().len(), 200_000);
+    }
+
+    #[test]
+    fn connections_are_kept_and_several_are_served_at_once() {
+        let site = Site::new("kept");
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let connect = || TcpStream::connect(server.address).unwrap();
+        let mut streams: Vec<TcpStream> = (0..8).map(|_| connect()).collect();
+        for _ in 0..3 {
+            for stream in &mut streams {
+                write!(
+                    stream,
+                    "GET /a%73sets/core.wasm?x HTTP/1.1\r\nHost: localhost\r\n\r\n"
+                )
+                .unwrap();
+            }
+            for stream in &mut streams {
+                let mut answer = Vec::new();
+                while !answer.ends_with(b"\0asm") {
+                    let mut bytes = [0; 256];
+                    let count = stream.read(&mut bytes).unwrap();
+                    assert!(count > 0, "the connection was closed");
+                    answer.extend(&bytes[..count]);
+                }
+            }
+        }
     }
 }

@@ -12,7 +12,7 @@ use crate::setup::rust_target::own_cargo;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
-pub const CHECKED: [&str; 5] = [
+pub(crate) const CHECKED: [&str; 5] = [
     "--release",
     "--config",
     "profile.release.package.fluoropose.overflow-checks=true",
@@ -21,7 +21,7 @@ pub const CHECKED: [&str; 5] = [
 ];
 
 /// Runs the suite.
-pub fn run(report: &mut Report) {
+pub(crate) fn run(report: &mut Report) {
     report.step("native: formatting", || {
         components::ensure("fmt")?;
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
@@ -53,7 +53,7 @@ fn quiet(command: &mut Command) -> Result<String> {
 }
 
 /// Runs `cargo test` and counts what it ran.
-pub fn tests(cargo: &mut Command) -> Result<String> {
+pub(crate) fn tests(cargo: &mut Command) -> Result<String> {
     let (success, output) = command::tee(cargo)?;
     ensure!(success, "`cargo test` failed; its output above says where");
     counts::of_cargo(&output)
