@@ -1,20 +1,22 @@
 //! Serves a folder over HTTP on this machine alone.
 
 use std::fs;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::io::{self, BufRead, BufReader, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
-use anyhow::{Context, Result, anyhow};
-use tiny_http::{Header, Method, Request, Response};
+use anyhow::{Context, Result, anyhow, bail};
 
 /// What a page may load and run, a directive a line. The built page says the same of itself for hosts without headers,
 /// but its workers only know what comes with them.
 const POLICY: &str = include_str!("../../web/content_security_policy.txt");
 
-/// Requests answered at once: a browser opens six connections to one host.
-const THREADS: usize = 6;
+/// The longest head of a request that is read.
+const LONGEST_HEAD: usize = 64 * 1024;
+/// Most header fields of a request; browsers send some twenty.
+const MOST_FIELDS: usize = 100;
 
 /// Kinds of files that a page consists of, by the ends of their names.
 const TYPES: [(&str, &str); 15] = [
@@ -38,11 +40,11 @@ const TYPES: [(&str, &str); 15] = [
 /// A running server; it lives until the process ends.
 pub(crate) struct Server {
     address: SocketAddr,
-    threads: Vec<JoinHandle<()>>,
+    thread: JoinHandle<io::Result<()>>,
 }
 
 impl Server {
-    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one) from threads of its own.
+    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one), with a thread for each connection: a browser keeps six.
     ///
     /// Errors when the port is taken.
     pub(crate) fn start(folder: &Path, port: u16) -> Result<Self> {
@@ -50,21 +52,16 @@ impl Server {
             format!("cannot listen on port {port} of 127.0.0.1; choose another with --port (0: any free one)")
         })?;
         let address = listener.local_addr()?;
-        let server = tiny_http::Server::from_listener(listener, None)
-            .map_err(|error| anyhow!("cannot serve: {error}"))?;
-        let shared = Arc::new((server, folder.to_path_buf()));
-        let threads = (0..THREADS).map(|_| {
-            let shared = Arc::clone(&shared);
-            std::thread::spawn(move || {
-                for request in shared.0.incoming_requests() {
-                    answer(request, &shared.1);
-                }
-            })
+        let folder: Arc<Path> = folder.into();
+        let thread = std::thread::spawn(move || {
+            for stream in listener.incoming() {
+                let (stream, folder) = (stream?, Arc::clone(&folder));
+                // Who asked may go at any time, which is no failure of ours.
+                std::thread::spawn(move || converse(stream, &folder));
+            }
+            Ok(())
         });
-        Ok(Self {
-            address,
-            threads: threads.collect(),
-        })
+        Ok(Self { address, thread })
     }
 
     /// Where the folder is served, such as `http://127.0.0.1:8080/`.
@@ -74,32 +71,123 @@ impl Server {
 
     /// Waits until the server fails, which it normally does not.
     pub(crate) fn wait(self) -> Result<()> {
-        for thread in self.threads {
-            let ended = thread.join();
-            ended.map_err(|_| anyhow!("a thread of the server ended in a panic"))?;
-        }
-        Ok(())
+        let ended = self.thread.join();
+        Ok(ended.map_err(|_| anyhow!("the server's thread ended in a panic"))??)
     }
 }
 
-/// Answers one request. Who asked may have gone meanwhile, which is no failure of ours.
-fn answer(request: Request, folder: &Path) {
-    if !matches!(request.method(), Method::Get | Method::Head) {
-        let refusal = Response::empty(405).with_header(header("Allow", "GET, HEAD"));
-        let _ = request.respond(refusal);
-        return;
+/// Answers the requests of one connection until either side has had enough.
+fn converse(stream: TcpStream, folder: &Path) -> Result<()> {
+    stream.set_nodelay(true)?;
+    let mut from = BufReader::new(stream.try_clone()?);
+    let mut to = stream;
+    loop {
+        let head = match read_head(&mut from)? {
+            Some(head) => head,
+            None => return Ok(()),
+        };
+        let Ok(request) = Request::parse(&head) else {
+            Answer::refusal("400 Bad Request").send(&mut to, true, true)?;
+            bail!("not a request");
+        };
+        // A body that is not read would be taken for the next request.
+        let last = request.wants_close || !request.may_be_answered();
+        let answer = request.answer(folder);
+        answer.send(&mut to, request.method != "HEAD", last)?;
+        if last {
+            return Ok(());
+        }
     }
-    let found = file_of(request.url(), folder).and_then(|file| Some((fs::read(&file).ok()?, file)));
-    let Some((bytes, file)) = found else {
-        let _ = request.respond(Response::from_string("not found").with_status_code(404));
-        return;
-    };
-    // A length that is told beforehand, whatever the size.
-    let mut response = Response::from_data(bytes).with_chunked_threshold(usize::MAX);
-    for header in headers(&file, folder) {
-        response.add_header(header);
+}
+
+/// The lines up to the empty one; nothing where the other side has gone.
+fn read_head(from: &mut impl BufRead) -> Result<Option<Vec<u8>>> {
+    let mut head = Vec::new();
+    while !head.ends_with(b"\r\n\r\n") {
+        if from.read_until(b'\n', &mut head)? == 0 {
+            return Ok(None);
+        }
+        if head.len() > LONGEST_HEAD {
+            bail!("the head of a request is too long");
+        }
     }
-    let _ = request.respond(response);
+    Ok(Some(head))
+}
+
+/// What is asked for.
+struct Request {
+    method: String,
+    path: String,
+    wants_close: bool,
+}
+
+impl Request {
+    fn parse(head: &[u8]) -> Result<Self> {
+        let mut fields = [httparse::EMPTY_HEADER; MOST_FIELDS];
+        let mut request = httparse::Request::new(&mut fields);
+        if request.parse(head)?.is_partial() {
+            bail!("the request is not complete");
+        }
+        let wants_close = request.headers.iter().any(|field| {
+            field.name.eq_ignore_ascii_case("connection")
+                && field.value.eq_ignore_ascii_case(b"close")
+        });
+        Ok(Self {
+            method: request.method.context("no method")?.to_owned(),
+            path: request.path.context("no path")?.to_owned(),
+            wants_close: wants_close || request.version == Some(0),
+        })
+    }
+
+    fn may_be_answered(&self) -> bool {
+        matches!(self.method.as_str(), "GET" | "HEAD")
+    }
+
+    fn answer(&self, folder: &Path) -> Answer {
+        if !self.may_be_answered() {
+            return Answer::refusal("405 Method Not Allowed");
+        }
+        let file = file_of(&self.path, folder);
+        let found = file.and_then(|file| Some((fs::read(&file).ok()?, file)));
+        found.map_or(Answer::refusal("404 Not Found"), |(body, file)| Answer {
+            status: "200 OK",
+            fields: fields(&file, folder),
+            body,
+        })
+    }
+}
+
+/// What is answered.
+struct Answer {
+    status: &'static str,
+    fields: Vec<(&'static str, String)>,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn refusal(status: &'static str) -> Self {
+        Self {
+            status,
+            fields: vec![("Content-Type", "text/plain; charset=utf-8".to_owned())],
+            body: status.into(),
+        }
+    }
+
+    fn send(&self, to: &mut impl Write, with_body: bool, last: bool) -> io::Result<()> {
+        let mut head = format!("HTTP/1.1 {}\r\n", self.status);
+        for (name, value) in &self.fields {
+            head += &format!("{name}: {value}\r\n");
+        }
+        if last {
+            head += "Connection: close\r\n";
+        }
+        head += &format!("Content-Length: {}\r\n\r\n", self.body.len());
+        let mut bytes = head.into_bytes();
+        if with_body {
+            bytes.extend(&self.body);
+        }
+        to.write_all(&bytes)
+    }
 }
 
 /// The file that a request means: inside the folder, and a folder's `index.html`.
@@ -135,7 +223,7 @@ fn decoded(text: &str) -> Option<String> {
 }
 
 /// Files the bundler names by a hash of their content never change; everything else is asked for again.
-fn headers(file: &Path, folder: &Path) -> [Header; 4] {
+fn fields(file: &Path, folder: &Path) -> Vec<(&'static str, String)> {
     let ending = file.extension().and_then(|ending| ending.to_str());
     let kind = TYPES.iter().find(|(known, _)| Some(*known) == ending);
     let kind = kind.map_or("application/octet-stream", |(_, kind)| kind);
@@ -146,24 +234,18 @@ fn headers(file: &Path, folder: &Path) -> [Header; 4] {
     };
     // That no other page may frame this one can be said in a header alone.
     let policy: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
-    [
-        header("Content-Type", kind),
-        header("Cache-Control", lasting),
-        header("Content-Security-Policy", &policy.join("; ")),
-        header("X-Content-Type-Options", "nosniff"),
+    vec![
+        ("Content-Type", kind.to_owned()),
+        ("Cache-Control", lasting.to_owned()),
+        ("Content-Security-Policy", policy.join("; ")),
+        ("X-Content-Type-Options", "nosniff".to_owned()),
     ]
-}
-
-fn header(name: &str, value: &str) -> Header {
-    Header::from_bytes(name, value).expect("names and values are ASCII")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::{Read, Write};
-    use std::net::TcpStream;
-    use std::path::PathBuf;
+    use std::io::Read;
 
     /// A folder to serve inside a folder with a secret, removed at the end.
     struct Site(PathBuf);
@@ -262,6 +344,8 @@ mod tests {
             "{head}"
         );
         assert!(head.ends_with("\r\n\r\n"), "{head}");
+        let nonsense = site.ask(&server, "G E T", "/");
+        assert!(nonsense.starts_with("HTTP/1.1 400"), "{nonsense}");
         let post = site.ask(&server, "POST", "/");
         assert!(post.starts_with("HTTP/1.1 405"), "{post}");
     }
@@ -280,7 +364,12 @@ mod tests {
     fn connections_are_kept_and_several_are_served_at_once() {
         let site = Site::new("kept");
         let server = Server::start(&site.0.join("site"), 0).unwrap();
-        let connect = || TcpStream::connect(server.address).unwrap();
+        let connect = || {
+            let stream = TcpStream::connect(server.address).unwrap();
+            let limit = std::time::Duration::from_secs(20);
+            stream.set_read_timeout(Some(limit)).unwrap();
+            stream
+        };
         let mut streams: Vec<TcpStream> = (0..8).map(|_| connect()).collect();
         for _ in 0..3 {
             for stream in &mut streams {
