@@ -12,26 +12,27 @@ use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::math::radians;
 use fluoropose::mesh::Model;
+use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{
     OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
-use xtask::implant::{self, Parameters};
-use xtask::pipeline::files::{MaskBuffer, Surface};
-use xtask::pipeline::refiner::Refiner;
+use fluoropose_laboratory::files::{MaskBuffer, owned};
+use fluoropose_laboratory::finding::Refiner;
+use fluoropose_phantom::implant::{self, Parameters};
 
 fn main() {
     divan::main();
 }
 
-static SURFACE: LazyLock<Surface> = LazyLock::new(|| {
+static SURFACE: LazyLock<OwnedModel> = LazyLock::new(|| {
     let model = implant::femur(&Parameters::default()).expect("the built-in femur is valid");
-    Surface::try_from(model).expect("the built-in femur has a surface")
+    owned(model).expect("the built-in femur has a surface")
 });
 
 fn mesh() -> Model<'static> {
-    SURFACE.mesh().expect("the built-in femur is a mesh")
+    SURFACE.as_model()
 }
 
 fn camera(side: usize) -> Camera {
@@ -113,12 +114,18 @@ fn canonical_form(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn samples_of_the_outline(bencher: Bencher<'_, '_>) {
     let (mesh, camera) = (mesh(), camera(1024));
-    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let mut refiner = Refiner::new(mesh, RefineOptions::default());
     let pose = pose();
     bencher.bench_local(|| {
         let mut length = 0.0;
         let add = |sample: &OutlineSample| length += sample.length;
-        outline_samples(&mesh, &camera, black_box(&pose), &mut refiner.memory(), add)?;
+        outline_samples(
+            &mesh,
+            &camera,
+            black_box(&pose),
+            &mut refiner.memory(&camera),
+            add,
+        )?;
         Ok::<f64, fluoropose::refine::RefineError>(length)
     });
 }
@@ -128,14 +135,14 @@ fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
     let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
     let mask = drawn.mask();
     let views = [View::only(&camera, Silhouette::from(&mask))];
-    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let mut refiner = Refiner::new(mesh, RefineOptions::default());
     let start = start();
     let found = refine(
         &mesh,
         &views,
         &start,
         RefineOptions::default(),
-        &mut refiner.memory(),
+        &mut refiner.memory(&camera),
     );
     println!("{found:?}");
     bencher.bench_local(|| {
@@ -145,7 +152,7 @@ fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
             &views,
             black_box(&start),
             options,
-            &mut refiner.memory(),
+            &mut refiner.memory(&camera),
         )
     });
 }
@@ -155,8 +162,22 @@ fn region_of_95_percent(bencher: Bencher<'_, '_>) {
     let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
     let mask = drawn.mask();
     let views = [View::only(&camera, Silhouette::from(&mask))];
-    let mut refiner = Refiner::new(mesh, &[camera], RefineOptions::default());
+    let mut refiner = Refiner::new(mesh, RefineOptions::default());
     let options = RefineOptions::default();
-    let refined = refine(&mesh, &views, &start(), options, &mut refiner.memory()).expect("near");
-    bencher.bench_local(|| uncertainty(&mesh, &views, black_box(&refined), &mut refiner.memory()));
+    let refined = refine(
+        &mesh,
+        &views,
+        &start(),
+        options,
+        &mut refiner.memory(&camera),
+    )
+    .expect("near");
+    bencher.bench_local(|| {
+        uncertainty(
+            &mesh,
+            &views,
+            black_box(&refined),
+            &mut refiner.memory(&camera),
+        )
+    });
 }

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
 use fluoropose::mesh::Model;
-use xtask::implant::{self, Parameters, Triangles};
-use xtask::pipeline::files::Surface;
+use fluoropose::mesh::OwnedModel;
+use fluoropose_laboratory::files::owned;
+use fluoropose_phantom::implant::{self, Parameters, Triangles};
 
 /// Set to 1 to rewrite golden masks and snapshots instead of comparing with them.
 pub const REGENERATE: &str = "FLUOROPOSE_REGENERATE";
@@ -62,8 +63,8 @@ pub fn tibia() -> Triangles {
 }
 
 /// A built-in implant with its edges, as it is drawn wherever poses are found.
-pub fn surface(triangles: Triangles) -> Surface {
-    Surface::try_from(triangles).expect("built-in implants are valid")
+pub fn surface(triangles: Triangles) -> OwnedModel {
+    owned(triangles).expect("built-in implants are valid")
 }
 
 /// A mesh of the core over a built-in implant, without edges.

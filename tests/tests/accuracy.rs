@@ -3,13 +3,13 @@
 
 use std::fmt::Write as _;
 
+use fluoropose::mesh::OwnedModel;
+use fluoropose_laboratory::files::owned;
+use fluoropose_laboratory::finding::{Method, ViewOptions};
+use fluoropose_laboratory::noise::DisturbanceOptions;
+use fluoropose_laboratory::verbs::evaluate::{Request, Row, evaluate};
+use fluoropose_laboratory::verbs::synthetic::{Accuracy, Protocol, measure};
 use fluoropose_tests::{assert_snapshot, camera, femur, study, surface, tibia};
-use xtask::evaluate::{Request, Row, evaluate};
-use xtask::pipeline::build::ViewOptions;
-use xtask::pipeline::disturb::DisturbanceOptions;
-use xtask::pipeline::files::Surface;
-use xtask::pipeline::finder::Method;
-use xtask::synthetic::{Accuracy, Protocol, measure};
 
 const SEED: u64 = 7;
 
@@ -48,7 +48,7 @@ fn noises() -> [Noise; 3] {
     ]
 }
 
-fn accuracy_of(model: &Surface, method: Method, noise: &Noise) -> Accuracy {
+fn accuracy_of(model: &OwnedModel, method: Method, noise: &Noise) -> Accuracy {
     let protocol = Protocol {
         method,
         distance: 1084.0,
@@ -57,14 +57,14 @@ fn accuracy_of(model: &Surface, method: Method, noise: &Noise) -> Accuracy {
         disturbance: noise.disturbance,
     };
     let views = ViewOptions::default();
-    let mesh = model.mesh().expect("a mesh");
+    let mesh = model.as_model();
     measure(mesh, camera(), &views, &protocol).expect("poses are found")
 }
 
 /// A part and what is asked of it.
 struct Part {
     name: &'static str,
-    model: Surface,
+    model: OwnedModel,
     /// Method library, no noise, mean absolute errors: rotation in and out of plane (degrees),
     /// translation in and out of plane (mm).
     library: [f64; 4],

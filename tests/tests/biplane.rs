@@ -1,10 +1,9 @@
 //! Two cameras see one implant: depth is known as well as what lies in the plane.
 
+use fluoropose_laboratory::finding::{Method, ViewOptions};
+use fluoropose_laboratory::noise::DisturbanceOptions;
+use fluoropose_laboratory::verbs::synthetic::{Protocol, Variant, measure_as};
 use fluoropose_tests::{camera, surface, tibia};
-use xtask::pipeline::build::ViewOptions;
-use xtask::pipeline::disturb::DisturbanceOptions;
-use xtask::pipeline::finder::Method;
-use xtask::synthetic::{Protocol, Variant, measure_as};
 
 /// A tibia is the hard case: one camera leaves its depth the weakest number.
 #[test]
@@ -17,7 +16,7 @@ fn depth_is_as_good_as_the_plane() {
         disturbance: DisturbanceOptions::default(),
     };
     let model = surface(tibia());
-    let mesh = model.mesh().expect("a mesh");
+    let mesh = model.as_model();
     let measure = |biplane| {
         let variant = Variant {
             biplane,

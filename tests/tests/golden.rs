@@ -7,19 +7,17 @@ use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::mask::Mask;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose_laboratory::files::{MaskBuffer, read_mask};
+use fluoropose_phantom::implant::Triangles;
+use fluoropose_phantom::picture::write_mask;
 use fluoropose_tests::{femur, home, mesh, regenerating, tibia};
-use xtask::implant::Triangles;
-use xtask::pipeline::files::{MaskBuffer, read_mask};
 
 const SIDE: usize = 256;
 
 fn assert_golden(name: &str, mask: &Mask<'_>) {
     let path = home().join("golden").join(format!("{name}.png"));
     if regenerating() {
-        let picture = image::GrayImage::from_fn(SIDE as u32, SIDE as u32, |column, row| {
-            image::Luma([255 * u8::from(mask.get(column as usize, row as usize))])
-        });
-        picture.save(&path).expect("the picture can be written");
+        write_mask(&path, mask).expect("the picture can be written");
     }
     let golden = read_mask(&path).expect("a golden mask");
     assert_eq!(golden.mask().unmatched(mask), Some(0), "{name} changed");

@@ -110,15 +110,16 @@ fn what_was_built_is_read_back() {
 #[test]
 fn views_rendered_in_any_order_make_the_same_file() {
     let model = femur();
-    let options = xtask::pipeline::build::ViewOptions {
+    let options = fluoropose_laboratory::finding::ViewOptions {
         x: "-4:4:4".parse().expect("a range"),
         y: "-4:0:4".parse().expect("a range"),
         area: 900,
         size: 64,
         ..Default::default()
     };
-    let built = xtask::pipeline::build::build_library(mesh(&model), camera(), &options, 1080.0)
-        .expect("renders");
+    let built =
+        fluoropose_laboratory::finding::build_library(mesh(&model), camera(), &options, 1080.0)
+            .expect("renders");
     assert!(built.bytes == small_library());
 }
 

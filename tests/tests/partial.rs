@@ -14,11 +14,10 @@ use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{RefineOptions, View};
 use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose_laboratory::files::MaskBuffer;
+use fluoropose_laboratory::finding::{Refiner, ViewOptions, build_library};
+use fluoropose_laboratory::noise::DisturbanceOptions;
 use fluoropose_tests::{camera, femur, surface, tibia};
-use xtask::pipeline::build::{ViewOptions, build_library};
-use xtask::pipeline::disturb::DisturbanceOptions;
-use xtask::pipeline::files::MaskBuffer;
-use xtask::pipeline::refiner::Refiner;
 
 const DISTANCE: f64 = 1084.0;
 /// Poses of each test and part.
@@ -98,7 +97,7 @@ fn assert_found(
         .iter()
         .map(|found| found.located.pose)
         .collect();
-    let mut refiner = Refiner::new(*mesh, &[*camera], RefineOptions::default());
+    let mut refiner = Refiner::new(*mesh, RefineOptions::default());
     let refined = refiner
         .refine(&[View::only(camera, silhouette)], &starts)
         .expect("a start is near");
@@ -121,7 +120,7 @@ fn assert_found(
 fn for_parts(check: impl Fn(&str, &Model<'_>, &Library<'_>)) {
     let parts = [("femur", surface(femur())), ("tibia", surface(tibia()))];
     for (name, model) in &parts {
-        let mesh = model.mesh().expect("a mesh");
+        let mesh = model.as_model();
         let built = build_library(mesh, camera(), &ViewOptions::default(), DISTANCE);
         let bytes = built.expect("renders").bytes;
         check(name, &mesh, &Library::open(&bytes).expect("valid"));

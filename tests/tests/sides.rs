@@ -8,9 +8,8 @@ use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 use fluoropose::pose::kinematics::coronal_tilt_deg;
+use fluoropose_laboratory::files::{Component, Study, read_model, read_poses};
 use fluoropose_tests::study;
-use xtask::pipeline::files::{read_model, read_poses};
-use xtask::pipeline::study::{Component, Study};
 
 /// A reference pose and its mirror image.
 type Sides = [Pose; 2];
@@ -18,7 +17,7 @@ type Sides = [Pose; 2];
 /// Reference poses of a component and their mirror images in its plane of symmetry.
 fn both_sides(component: &Component) -> Vec<Sides> {
     let model = read_model(&component.model).expect("a model");
-    let planes = symmetry_planes(model.mesh().expect("a mesh").mesh());
+    let planes = symmetry_planes(model.as_model().mesh());
     let plane = planes.first().expect("a plane of symmetry");
     let path = component.reference.as_deref().expect("reference poses");
     let poses = read_poses(path).expect("poses").into_iter().map(Pose::from);

@@ -1,10 +1,9 @@
 //! Planes of near-symmetry of the built-in implants and of a real pair.
 
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose_laboratory::files::{Study, read_model};
+use fluoropose_phantom::implant::{self, Parameters, Side, Size, Triangles};
 use fluoropose_tests::{mesh, study};
-use xtask::implant::{self, Parameters, Side, Size, Triangles};
-use xtask::pipeline::files::read_model;
-use xtask::pipeline::study::Study;
 
 /// Asserts that the planes are one, the mediolateral: its normal within `off_deg` of z.
 fn assert_mediolateral(planes: &[SymmetryPlane], off_deg: f64, most_mm: f64) {
@@ -48,7 +47,7 @@ fn real_implants_have_their_mediolateral_plane_alone() {
     let study = Study::read(&path).expect("a study");
     for component in &study.components {
         let model = read_model(&component.model).expect("a model");
-        let planes = symmetry_planes(model.mesh().expect("a mesh").mesh());
+        let planes = symmetry_planes(model.as_model().mesh());
         println!("{}: {planes:?}", component.name);
         match component.name.as_str() {
             "tibia" => assert_mediolateral(&planes, 0.1, 0.01),

@@ -117,7 +117,7 @@ impl LibraryBuilder {
         })?;
         let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         let plan = Plan::try_new(owned, |owned| {
-            Builder::new(owned.model(), camera, canonical, grid, distance).map_err(sentence)
+            Builder::new(owned.as_model(), camera, canonical, grid, distance).map_err(sentence)
         })?;
         let builder = plan.borrow_dependent();
         Ok(Self {

@@ -44,7 +44,7 @@ impl Model {
     pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Model, JsError> {
         let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
         Ok(Self {
-            projected: vec![Projected::default(); scratch_needed(&owned.model())],
+            projected: vec![Projected::default(); scratch_needed(&owned.as_model())],
             owned,
             masks: Default::default(),
             border: Box::default(),
@@ -56,7 +56,7 @@ impl Model {
     /// Number of triangles.
     #[wasm_bindgen(getter, js_name = triangleCount)]
     pub fn triangle_count(&self) -> usize {
-        self.owned.model().triangles().len()
+        self.owned.as_model().triangles().len()
     }
 
     /// Draws the silhouette at a pose (x, y, z in mm, z, x, y rotation in degrees) as `calibration` projects it; what is
@@ -169,7 +169,7 @@ impl Model {
         for mask in &mut self.masks {
             mask.resize(words, 0);
         }
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut mask =
             MaskMut::new(&mut self.masks[0], camera.width(), camera.height()).map_err(sentence)?;
         render(&model, camera, pose, &mut self.projected, &mut mask).map_err(sentence)

@@ -93,7 +93,7 @@ impl WorkingModel {
     /// The core's sentence about the vertex or triangle at fault.
     pub(crate) fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, JsError> {
         let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
-        let projected = scratch_needed(&owned.model());
+        let projected = scratch_needed(&owned.as_model());
         Ok(Self {
             owned,
             buffers: RefineBuffers::default(),
@@ -106,7 +106,7 @@ impl WorkingModel {
 
     /// The core's view of the model.
     pub(crate) fn model(&self) -> Model<'_> {
-        self.owned.model()
+        self.owned.as_model()
     }
 
     /// Poses from pieces of the outline, best first.
@@ -119,7 +119,7 @@ impl WorkingModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Ranked>, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let memory = self.partial.borrow(library, camera, &model);
         let found = locate_partial::<RIVALS>(silhouette, camera, library, &model, memory);
         let found = found.map_err(sentence)?;
@@ -163,7 +163,7 @@ impl WorkingModel {
         let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec())
@@ -198,7 +198,7 @@ impl WorkingModel {
         camera: &Camera,
         with: impl FnOnce(&Model<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
@@ -227,7 +227,7 @@ impl WorkingModel {
         refined: &Refined,
         view: View<'_>,
     ) -> Result<Option<Deviations>, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut memory = self.buffers.borrow(&model, view.camera);
         let covariance = uncertainty(&model, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = model.bounds().centre;
@@ -244,7 +244,7 @@ impl WorkingModel {
         view: View<'_>,
         options: RefineOptions,
     ) -> Result<Refined, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut memory = self.buffers.borrow(&model, view.camera);
         refine(&model, &[view], start, options, &mut memory).map_err(sentence)
     }
@@ -259,7 +259,7 @@ impl WorkingModel {
         camera: &Camera,
         frame: &dyn Grey,
     ) -> Result<Polarity, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut memory = self.buffers.borrow(&model, camera);
         let mut darker_inside = 0.0;
         outline_samples(&model, camera, pose, &mut memory, |sample| {
@@ -284,7 +284,7 @@ impl WorkingModel {
     pub(crate) fn drawn_at(&mut self, pose: &Pose, camera: &Camera) -> Result<&[Word], JsError> {
         let (width, height) = (camera.width(), camera.height());
         self.drawn.resize(words_needed(width, height), 0);
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut mask = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
         render(&model, camera, pose, &mut self.projected, &mut mask).map_err(sentence)?;
         Ok(&self.drawn)
@@ -300,7 +300,7 @@ impl WorkingModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Iterate>, JsError> {
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let view = View::only(camera, *silhouette);
         let mut memory = self.buffers.borrow(&model, camera);
         let mut steps = Vec::new();
@@ -320,7 +320,7 @@ impl WorkingModel {
     ) -> Result<Option<u64>, JsError> {
         let (width, height) = (camera.width(), camera.height());
         self.drawn.resize(words_needed(width, height), 0);
-        let model = self.owned.model();
+        let model = self.owned.as_model();
         let mut drawn = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
         Ok(unmatched_at(
             &model,

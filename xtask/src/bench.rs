@@ -1,15 +1,16 @@
 //! Verb `bench`: figures of speed and size, printed and written as JSON.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, ensure};
-use serde::{Deserialize, Serialize};
+use anyhow::{Context, Result};
 
 mod browser;
-mod catalogue;
-mod native;
-mod peers;
+mod figures;
+
+use crate::{laboratory, workspace};
+use figures::{Figures, Row};
 
 /// Options of `bench`.
 #[derive(clap::Args)]
@@ -17,7 +18,7 @@ mod peers;
     after_help = "Without --browser: this machine's speed beside FAISS, USearch, OpenCV, NumPy and VTK, which are installed with pip into a folder of \
 their own under target/. All work on the same data by turns; medians are printed, and whether the answers are the same."
 )]
-pub struct Args {
+pub(crate) struct Args {
     /// The page in headless Chromium: frame times, clicks and seconds to a pose, bytes of the first load
     #[arg(long)]
     browser: bool,
@@ -30,60 +31,33 @@ pub struct Args {
     json: Option<PathBuf>,
 }
 
-/// Figures in the order in which they were taken.
-#[derive(Debug, Default, Serialize, Deserialize)]
-pub struct Figures {
-    /// One for each piece of work.
-    pub rows: Vec<Row>,
-}
-
-/// One figure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// What was measured, in words.
-    pub work: String,
-    /// How much.
-    pub value: f64,
-    /// Of what: "ms", "s", "bytes", "clicks".
-    pub unit: String,
-}
-
 /// Runs the verb.
 ///
 /// # Errors
 /// For what cannot be built, driven or written. A peer that cannot be had is left out and said.
-pub fn run(args: Args) -> Result<()> {
-    let text = if args.browser {
-        let figures = browser::measure()?;
-        print(&figures);
-        serde_json::to_string_pretty(&figures)?
-    } else {
-        ensure!(args.implants > 0, "a catalogue has at least one implant");
-        let rows = native::measure(args.implants)?;
-        print_rows(&rows);
-        serde_json::to_string_pretty(&serde_json::json!({ "rows": rows }))?
-    };
+pub(crate) fn run(args: Args) -> Result<()> {
+    if !args.browser {
+        return laboratory::run("bench", &args.for_the_laboratory());
+    }
+    let figures = browser::measure()?;
+    print(&figures);
     if let Some(file) = args.json {
-        fs::write(&file, text + "\n")
-            .with_context(|| format!("cannot write {}", file.display()))?;
+        let text = serde_json::to_string_pretty(&figures)? + "\n";
+        fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
     }
     Ok(())
 }
 
-fn print_rows(rows: &[native::Row]) {
-    for row in rows {
-        let peer = match (row.peer_ms, row.ratio, row.same_answer) {
-            (Some(ms), Some(ratio), Some(same)) => {
-                let same = if same {
-                    "same answer"
-                } else {
-                    "ANOTHER ANSWER"
-                };
-                format!("{} {ms:.3} ms: {ratio:.1} x, {same}", row.peer)
-            }
-            _ => row.peer.clone(),
-        };
-        println!("{}: {:.4} ms; {peer}", row.work, row.ours_ms);
+impl Args {
+    /// What the laboratory's verb of the same name is asked for.
+    fn for_the_laboratory(&self) -> Vec<OsString> {
+        let work = workspace::target_dir().join("bench");
+        let mut words: Vec<OsString> = vec!["--implants".into(), self.implants.to_string().into()];
+        words.extend(["--work".into(), work.into()]);
+        if let Some(file) = &self.json {
+            words.extend(["--json".into(), file.into()]);
+        }
+        words
     }
 }
 

@@ -12,10 +12,10 @@ use crate::{test, workspace};
 /// Runs every suite of `test`, then checks that building and testing left the working tree as it was: lock
 /// files up to date, generated files ignored.
 #[derive(clap::Args)]
-pub struct Args {}
+pub(crate) struct Args {}
 
 /// Runs the verb.
-pub fn run(_args: Args) -> Result<()> {
+pub(crate) fn run(_args: Args) -> Result<()> {
     let before = working_tree()?;
     test::run(test::Args::everything())?;
     let after = working_tree()?;

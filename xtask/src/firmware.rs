@@ -14,7 +14,7 @@ use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
 
-use crate::implant;
+use fluoropose_phantom::implant;
 
 /// Columns and rows of the firmware's frame, pixels.
 const FRAME_SIDE: usize = 512;
@@ -32,7 +32,7 @@ const LIBRARY_DISTANCE_MM: f64 = 900.0;
 const NOMINAL_DEG: [f64; 2] = [3.0, -4.0];
 
 /// The pose whose silhouette the outline is: off the axis, nearer than the views, between them.
-pub const TRUTH: EulerPose = EulerPose {
+pub(crate) const TRUTH: EulerPose = EulerPose {
     x_mm: 12.0,
     y_mm: -9.0,
     z_mm: -870.0,
@@ -42,7 +42,7 @@ pub const TRUTH: EulerPose = EulerPose {
 };
 
 /// Writes `femur.library` and `femur.outline` into `folder`, unless they are there already with these contents.
-pub fn write_inputs(folder: &Path) -> Result<()> {
+pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
     let femur = implant::femur(&implant::Parameters::default())?;
     let mesh = Model::from_triangles(&femur.vertices, &femur.triangles)?;
     let camera = Camera::from_principal_distance(
@@ -109,7 +109,7 @@ fn write_if_changed(file: &Path, bytes: &[u8]) -> Result<()> {
 
 /// What the proof found, read back from its lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Proof {
+pub(crate) struct Proof {
     /// The first pose.
     pub pose: Pose,
 }
@@ -118,7 +118,7 @@ impl Proof {
     /// Reads the first pose, with every bit, from the lines that the firmware writes.
     ///
     /// Errors when one of its six numbers is missing.
-    pub fn read(lines: &str) -> Result<Self> {
+    pub(crate) fn read(lines: &str) -> Result<Self> {
         let number = |name: &str| {
             let value = lines.lines().find_map(|line| bits(line, name));
             value.with_context(|| format!("the proof has no line `{name}`"))

@@ -1,8 +1,27 @@
 //! `cargo xtask`: every job of the project, one file a verb.
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
+
+mod bench;
+mod ci;
+mod demo;
+mod firmware;
+mod laboratory;
+mod models;
+mod options;
+mod package;
+mod page;
+mod serve;
+mod setup;
+mod static_server;
+mod suite;
+mod test;
+mod tidy;
+mod workspace;
 
 use clap::{Parser, Subcommand};
+use laboratory::Words;
 
-/// Offline jobs of fluoropose: models, libraries, poses, measurements, the page and its tests.
+/// Jobs of fluoropose: the page and its tests, models and synthetic films, and the laboratory's verbs.
 #[derive(Parser)]
 #[command(name = "cargo xtask", version, about)]
 struct Cli {
@@ -12,44 +31,44 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Write the built-in implants as STL files
-    Models(xtask::models::Args),
-    /// Render the views of a model into a library file
-    Library(xtask::library::Args),
-    /// Write a synthetic fluoroscopy sequence with known poses
-    Demo(xtask::demo::Args),
-    /// Find the pose of an implant in each mask of a folder
-    Pose(xtask::pose::Args),
-    /// Find one pose in the masks of two calibrated cameras
-    Biplane(xtask::biplane::Args),
-    /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
-    Synthetic(xtask::synthetic::Args),
-    /// Tell which implant of a catalogue each mask of a folder is of
-    Identify(xtask::identify::Args),
-    /// Compare poses from a study's masks with its reference poses
-    Evaluate(xtask::evaluate::Args),
-    /// Measure one-click outlines on a study's grey frames against its masks
-    Outline(xtask::outline::Args),
-    /// How well a pose can be known from a noisy outline (Cramer and Rao)
-    Bound(xtask::bound::Args),
-    /// Find camera and distortion in a picture of a bead grid
-    Calibrate(xtask::calibrate::Args),
-    /// Write frames without their distortion
-    Undistort(xtask::undistort::Args),
-    /// Turn femoral and tibial poses into joint kinematics
-    Kinematics(xtask::kinematics::Args),
     /// Build the page and serve it on this machine
-    Serve(xtask::serve::Args),
-    /// Package the page for hosts and as one file, and the npm module
-    Package(xtask::package::Args),
-    /// Measure the page in headless Chromium
-    Bench(xtask::bench::Args),
+    Serve(serve::Args),
     /// Set up what is missing and run the tests
-    Test(xtask::test::Args),
+    Test(test::Args),
+    /// Package the page for hosts and as one file, and the npm module
+    Package(package::Args),
+    /// Measure this machine at the core's work, or the page in headless Chromium
+    Bench(bench::Args),
     /// Check the layout of the sources: layers, cycles between files, words
-    Tidy(xtask::tidy::Args),
+    Tidy(tidy::Args),
     /// What continuous integration runs
-    Ci(xtask::ci::Args),
+    Ci(ci::Args),
+    /// Write the built-in implants as STL files
+    Models(models::Args),
+    /// Write a synthetic fluoroscopy sequence with known poses
+    Demo(demo::Args),
+    /// Render the views of a model into a library file
+    Library(Words),
+    /// Find the pose of an implant in each mask of a folder
+    Pose(Words),
+    /// Find one pose in the masks of two calibrated cameras
+    Biplane(Words),
+    /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
+    Synthetic(Words),
+    /// Tell which implant of a catalogue each mask of a folder is of
+    Identify(Words),
+    /// Compare poses from a study's masks with its reference poses
+    Evaluate(Words),
+    /// Measure one-click outlines on a study's grey frames against its masks
+    Outline(Words),
+    /// How well a pose can be known from a noisy outline (Cramer and Rao)
+    Bound(Words),
+    /// Find camera and distortion in a picture of a bead grid
+    Calibrate(Words),
+    /// Write frames without their distortion
+    Undistort(Words),
+    /// Turn femoral and tibial poses into joint kinematics
+    Kinematics(Words),
 }
 
 fn main() -> std::process::ExitCode {
@@ -65,24 +84,59 @@ fn main() -> std::process::ExitCode {
 
 fn run(verb: Verb) -> anyhow::Result<()> {
     match verb {
-        Verb::Models(args) => xtask::models::run(args),
-        Verb::Library(args) => xtask::library::run(args),
-        Verb::Demo(args) => xtask::demo::run(args),
-        Verb::Pose(args) => xtask::pose::run(args),
-        Verb::Biplane(args) => xtask::biplane::run(args),
-        Verb::Synthetic(args) => xtask::synthetic::run(args),
-        Verb::Identify(args) => xtask::identify::run(args),
-        Verb::Evaluate(args) => xtask::evaluate::run(args),
-        Verb::Outline(args) => xtask::outline::run(args),
-        Verb::Bound(args) => xtask::bound::run(args),
-        Verb::Calibrate(args) => xtask::calibrate::run(args),
-        Verb::Undistort(args) => xtask::undistort::run(args),
-        Verb::Kinematics(args) => xtask::kinematics::run(args),
-        Verb::Serve(args) => xtask::serve::run(args),
-        Verb::Package(args) => xtask::package::run(args),
-        Verb::Bench(args) => xtask::bench::run(args),
-        Verb::Test(args) => xtask::test::run(args),
-        Verb::Tidy(args) => xtask::tidy::run(args),
-        Verb::Ci(args) => xtask::ci::run(args),
+        Verb::Serve(args) => serve::run(args),
+        Verb::Test(args) => test::run(args),
+        Verb::Package(args) => package::run(args),
+        Verb::Bench(args) => bench::run(args),
+        Verb::Tidy(args) => tidy::run(args),
+        Verb::Ci(args) => ci::run(args),
+        Verb::Models(args) => models::run(args),
+        Verb::Demo(args) => demo::run(args),
+        Verb::Library(words) => laboratory::run("library", &words),
+        Verb::Pose(words) => laboratory::run("pose", &words),
+        Verb::Biplane(words) => laboratory::run("biplane", &words),
+        Verb::Synthetic(words) => laboratory::run("synthetic", &words),
+        Verb::Identify(words) => laboratory::run("identify", &words),
+        Verb::Evaluate(words) => laboratory::run("evaluate", &words),
+        Verb::Outline(words) => laboratory::run("outline", &words),
+        Verb::Bound(words) => laboratory::run("bound", &words),
+        Verb::Calibrate(words) => laboratory::run("calibrate", &words),
+        Verb::Undistort(words) => laboratory::run("undistort", &words),
+        Verb::Kinematics(words) => laboratory::run("kinematics", &words),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    /// The laboratory's program has the same verbs, told in the same words.
+    #[test]
+    fn the_laboratorys_verbs_are_told_as_it_tells_them() {
+        const ITS: &str = include_str!("../laboratory/src/main.rs");
+        let ours = Cli::command();
+        let its = ITS
+            .lines()
+            .filter_map(|line| line.trim().strip_prefix("/// "));
+        let its: Vec<&str> = its
+            .skip(1)
+            .filter(|about| !about.contains("this machine"))
+            .collect();
+        assert_eq!(its.len(), 11);
+        for about in its {
+            let told =
+                |verb: &clap::Command| verb.get_about().is_some_and(|a| a.to_string() == about);
+            assert!(ours.get_subcommands().any(told), "{about}");
+        }
+    }
+
+    #[test]
+    fn what_follows_a_laboratorys_verb_is_left_to_it() {
+        let words = ["cargo xtask", "pose", "--help", "--masks", "-1", "--", "x"];
+        match Cli::try_parse_from(words).ok().unwrap().verb {
+            Verb::Pose(found) => assert_eq!(found.len(), 5),
+            _ => panic!("another verb"),
+        }
     }
 }

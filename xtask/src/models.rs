@@ -1,11 +1,11 @@
 //! Verb `models`: writes the built-in implants as STL.
 
-use crate::implant::{self, Parameters, SIZES_MM, Side, Size, Triangles, check};
-use crate::stl;
+use crate::options::sides;
 use anyhow::{Context, Result};
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use fluoropose_phantom::implant::{self, Parameters, SIZES_MM, Side, Size, check};
+use fluoropose_phantom::stl;
+use std::fs;
+use std::path::PathBuf;
 
 /// Options of `models`.
 #[derive(clap::Args)]
@@ -15,9 +15,9 @@ z to the patient's right (medial), so that an unturned model shows a lateral vie
 Examples:\n  cargo xtask models\n  cargo xtask models --side right --size 3 --out implants\n  \
 cargo xtask models --width 72.5 --resolution 2"
 )]
-pub struct Args {
+pub(crate) struct Args {
     /// Left or right knee
-    #[arg(long, value_enum, default_value = "left")]
+    #[arg(long, value_parser = sides(), default_value = "left")]
     side: Side,
     /// Size number, 1 (58 mm wide) to 8 (81 mm wide)
     #[arg(long, default_value_t = 5, conflicts_with = "width")]
@@ -34,7 +34,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: Args) -> Result<()> {
+pub(crate) fn run(args: Args) -> Result<()> {
     let size = match args.width {
         Some(width) => Size::from_width_mm(width)?,
         None => Size::numbered(args.size)?,
@@ -53,7 +53,7 @@ pub fn run(args: Args) -> Result<()> {
         let volume = check::closed_volume(&mesh)
             .with_context(|| format!("the {name} cannot be used at this size"))?;
         let path = args.out.join(format!("{name}.stl"));
-        write_stl(&mesh, &path)?;
+        stl::write_file(&mesh, &path)?;
         println!(
             "{}: {} {name}, {} mm wide, {} triangles, {:.1} cm^3",
             path.display(),
@@ -68,13 +68,4 @@ pub fn run(args: Args) -> Result<()> {
         SIZES_MM.map(|width| width.to_string()).join(", ")
     );
     Ok(())
-}
-
-/// Writes a mesh to a file as binary STL.
-pub fn write_stl(mesh: &Triangles, path: &Path) -> Result<()> {
-    let file = File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
-    let mut out = BufWriter::new(file);
-    stl::write(mesh, &mut out)
-        .and_then(|()| out.flush())
-        .with_context(|| format!("cannot write {}", path.display()))
 }

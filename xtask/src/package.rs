@@ -14,14 +14,14 @@ use crate::{page, workspace};
 /// `site`, to be copied to any static host, into any folder of it; `fluoropose.html`, the same page in one file,
 /// which a browser opens from the disk; `npm`, the module for other programs (see its README.md).
 #[derive(clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Folder to write to [default: package in cargo's target folder]
     #[arg(long)]
     out: Option<PathBuf>,
 }
 
 /// Runs the verb.
-pub fn run(args: Args) -> Result<()> {
+pub(crate) fn run(args: Args) -> Result<()> {
     let dist = page::build()?;
     let package = make(&dist, &args.out.unwrap_or_else(usual_folder))?;
     let size = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
@@ -37,12 +37,12 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// Where packages go unless somebody says otherwise.
-pub fn usual_folder() -> PathBuf {
+pub(crate) fn usual_folder() -> PathBuf {
     workspace::target_dir().join("package")
 }
 
 /// What was written.
-pub struct Package {
+pub(crate) struct Package {
     /// Folder for a static host.
     pub site: PathBuf,
     /// The page in one file.
@@ -54,7 +54,7 @@ pub struct Package {
 /// Writes all three into `out`; `dist` is the page as [`page::build`] left it.
 ///
 /// Errors name the part that could not be made.
-pub fn make(dist: &Path, out: &Path) -> Result<Package> {
+pub(crate) fn make(dist: &Path, out: &Path) -> Result<Package> {
     Ok(Package {
         site: site(dist, &out.join("site")).context("cannot package the page's folder")?,
         single: single(&out.join("fluoropose.html"))

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, ensure};
+use fluoropose_phantom::sequence;
 use wasm_bindgen_cli_support::Bindgen;
 
-use crate::demo;
 use crate::setup::rust_target::{self, Toolchain};
 use crate::setup::{announce, command, node};
 use crate::workspace::{self, Stamp};
@@ -45,7 +45,7 @@ const MODULES: [Module; 3] = [
 ];
 
 /// Sets up what is missing, builds everything and returns the folder to serve (`web/dist`).
-pub fn build() -> Result<PathBuf> {
+pub(crate) fn build() -> Result<PathBuf> {
     // Said now rather than after a minute of building.
     node::npm()?;
     let web = workspace::root().join("web");
@@ -63,7 +63,7 @@ pub fn build() -> Result<PathBuf> {
 }
 
 /// Builds the WASM modules and writes their JavaScript and TypeScript into `web/src/pkg`.
-pub fn build_wasm(web: &Path) -> Result<()> {
+pub(crate) fn build_wasm(web: &Path) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
     for module in &MODULES {
         let folder = web.join("src/pkg").join(module.folder);
@@ -142,14 +142,13 @@ fn write_demonstration(web: &Path) -> Result<()> {
         let cannot = || format!("cannot empty {}", folder.display());
         std::fs::remove_dir_all(&folder).with_context(cannot)?;
     }
-    demo::write(&demo::Options::default(), &folder)?;
+    sequence::write(&sequence::Options::default(), &folder)?;
     stamp.write()
 }
 
 /// The code that decides what is in the demonstration.
 fn demonstration_sources() -> Vec<PathBuf> {
-    let ours = ["demo.rs", "film", "implant", "models.rs", "stl.rs"];
-    let root = workspace::root();
-    let ours = ours.map(|name| root.join("xtask/src").join(name));
-    ours.into_iter().chain([root.join("core/src")]).collect()
+    ["core/src", "xtask/phantom/src"]
+        .map(|folder| workspace::root().join(folder))
+        .into()
 }

@@ -15,7 +15,7 @@ const USUAL_PORT: u16 = 8080;
 /// Gets what is missing (the WASM target, npm packages), builds the page with the demonstration data, serves
 /// it on 127.0.0.1 and opens the browser where there is a display. Ctrl-C ends it.
 #[derive(clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Port to listen on; 0 takes a free one [default: 8080, or a free one where that is taken]
     #[arg(long)]
     port: Option<u16>,
@@ -25,7 +25,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: Args) -> Result<()> {
+pub(crate) fn run(args: Args) -> Result<()> {
     let dist = page::build()?;
     if args.build_only {
         println!("The page is in {}", dist.display());

@@ -1,102 +1,251 @@
 //! Serves a folder over HTTP on this machine alone.
 
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
-use std::path::Path;
+use std::fs;
+use std::io::{self, BufRead, BufReader, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
-use anyhow::{Context, Result, anyhow};
-use axum::Router;
-use axum::http::HeaderValue;
-use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, HeaderName, X_CONTENT_TYPE_OPTIONS,
-};
-use tower_http::services::ServeDir;
-use tower_http::set_header::SetResponseHeaderLayer;
+use anyhow::{Context, Result, anyhow, bail};
 
 /// What a page may load and run, a directive a line. The built page says the same of itself for hosts without headers,
 /// but its workers only know what comes with them.
 const POLICY: &str = include_str!("../../web/content_security_policy.txt");
 
+/// The longest head of a request that is read.
+const LONGEST_HEAD: usize = 64 * 1024;
+/// Most header fields of a request; browsers send some twenty.
+const MOST_FIELDS: usize = 100;
+
+/// Kinds of files that a page consists of, by the ends of their names.
+const TYPES: [(&str, &str); 15] = [
+    ("css", "text/css; charset=utf-8"),
+    ("html", "text/html; charset=utf-8"),
+    ("ico", "image/x-icon"),
+    ("jpg", "image/jpeg"),
+    ("js", "text/javascript; charset=utf-8"),
+    ("json", "application/json"),
+    ("map", "application/json"),
+    ("mjs", "text/javascript; charset=utf-8"),
+    ("png", "image/png"),
+    ("stl", "model/stl"),
+    ("svg", "image/svg+xml"),
+    ("txt", "text/plain; charset=utf-8"),
+    ("wasm", "application/wasm"),
+    ("webmanifest", "application/manifest+json"),
+    ("woff2", "font/woff2"),
+];
+
 /// A running server; it lives until the process ends.
-pub struct Server {
+pub(crate) struct Server {
     address: SocketAddr,
-    thread: JoinHandle<Result<()>>,
+    thread: JoinHandle<io::Result<()>>,
 }
 
 impl Server {
-    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one) from a thread of its own.
+    /// Serves `folder` on 127.0.0.1 at `port` (0: a free one), with a thread for each connection: a browser keeps six.
     ///
     /// Errors when the port is taken.
-    pub fn start(folder: &Path, port: u16) -> Result<Self> {
+    pub(crate) fn start(folder: &Path, port: u16) -> Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).with_context(|| {
             format!("cannot listen on port {port} of 127.0.0.1; choose another with --port (0: any free one)")
         })?;
-        listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
-        let app = router(folder)?;
-        let thread = std::thread::spawn(move || serve(listener, app));
+        let folder: Arc<Path> = folder.into();
+        let thread = std::thread::spawn(move || {
+            for stream in listener.incoming() {
+                let (stream, folder) = (stream?, Arc::clone(&folder));
+                // Who asked may go at any time, which is no failure of ours.
+                std::thread::spawn(move || converse(stream, &folder));
+            }
+            Ok(())
+        });
         Ok(Self { address, thread })
     }
 
     /// Where the folder is served, such as `http://127.0.0.1:8080/`.
-    pub fn url(&self) -> String {
+    pub(crate) fn url(&self) -> String {
         format!("http://{}/", self.address)
     }
 
     /// Waits until the server fails, which it normally does not.
-    pub fn wait(self) -> Result<()> {
-        self.thread
-            .join()
-            .map_err(|_| anyhow!("the server's thread ended in a panic"))?
+    pub(crate) fn wait(self) -> Result<()> {
+        let ended = self.thread.join();
+        Ok(ended.map_err(|_| anyhow!("the server's thread ended in a panic"))??)
     }
 }
 
+/// Answers the requests of one connection until either side has had enough.
+fn converse(stream: TcpStream, folder: &Path) -> Result<()> {
+    stream.set_nodelay(true)?;
+    let mut from = BufReader::new(stream.try_clone()?);
+    let mut to = stream;
+    loop {
+        let head = match read_head(&mut from)? {
+            Some(head) => head,
+            None => return Ok(()),
+        };
+        let Ok(request) = Request::parse(&head) else {
+            Answer::refusal("400 Bad Request").send(&mut to, true, true)?;
+            bail!("not a request");
+        };
+        // A body that is not read would be taken for the next request.
+        let last = request.wants_close || !request.may_be_answered();
+        let answer = request.answer(folder);
+        answer.send(&mut to, request.method != "HEAD", last)?;
+        if last {
+            return Ok(());
+        }
+    }
+}
+
+/// The lines up to the empty one; nothing where the other side has gone.
+fn read_head(from: &mut impl BufRead) -> Result<Option<Vec<u8>>> {
+    let mut head = Vec::new();
+    while !head.ends_with(b"\r\n\r\n") {
+        if from.read_until(b'\n', &mut head)? == 0 {
+            return Ok(None);
+        }
+        if head.len() > LONGEST_HEAD {
+            bail!("the head of a request is too long");
+        }
+    }
+    Ok(Some(head))
+}
+
+/// What is asked for.
+struct Request {
+    method: String,
+    path: String,
+    wants_close: bool,
+}
+
+impl Request {
+    fn parse(head: &[u8]) -> Result<Self> {
+        let mut fields = [httparse::EMPTY_HEADER; MOST_FIELDS];
+        let mut request = httparse::Request::new(&mut fields);
+        if request.parse(head)?.is_partial() {
+            bail!("the request is not complete");
+        }
+        let wants_close = request.headers.iter().any(|field| {
+            field.name.eq_ignore_ascii_case("connection")
+                && field.value.eq_ignore_ascii_case(b"close")
+        });
+        Ok(Self {
+            method: request.method.context("no method")?.to_owned(),
+            path: request.path.context("no path")?.to_owned(),
+            wants_close: wants_close || request.version == Some(0),
+        })
+    }
+
+    fn may_be_answered(&self) -> bool {
+        matches!(self.method.as_str(), "GET" | "HEAD")
+    }
+
+    fn answer(&self, folder: &Path) -> Answer {
+        if !self.may_be_answered() {
+            return Answer::refusal("405 Method Not Allowed");
+        }
+        let file = file_of(&self.path, folder);
+        let found = file.and_then(|file| Some((fs::read(&file).ok()?, file)));
+        found.map_or(Answer::refusal("404 Not Found"), |(body, file)| Answer {
+            status: "200 OK",
+            fields: fields(&file, folder),
+            body,
+        })
+    }
+}
+
+/// What is answered.
+struct Answer {
+    status: &'static str,
+    fields: Vec<(&'static str, String)>,
+    body: Vec<u8>,
+}
+
+impl Answer {
+    fn refusal(status: &'static str) -> Self {
+        Self {
+            status,
+            fields: vec![("Content-Type", "text/plain; charset=utf-8".to_owned())],
+            body: status.into(),
+        }
+    }
+
+    fn send(&self, to: &mut impl Write, with_body: bool, last: bool) -> io::Result<()> {
+        let mut head = format!("HTTP/1.1 {}\r\n", self.status);
+        for (name, value) in &self.fields {
+            head += &format!("{name}: {value}\r\n");
+        }
+        if last {
+            head += "Connection: close\r\n";
+        }
+        head += &format!("Content-Length: {}\r\n\r\n", self.body.len());
+        let mut bytes = head.into_bytes();
+        if with_body {
+            bytes.extend(&self.body);
+        }
+        to.write_all(&bytes)
+    }
+}
+
+/// The file that a request means: inside the folder, and a folder's `index.html`.
+fn file_of(url: &str, folder: &Path) -> Option<PathBuf> {
+    let path = url.split(['?', '#']).next()?.strip_prefix('/')?;
+    let path = PathBuf::from(decoded(path)?);
+    let inside = |part| matches!(part, Component::Normal(_));
+    if !path.components().all(inside) {
+        return None;
+    }
+    let mut file = folder.join(path);
+    if file.is_dir() {
+        file.push("index.html");
+    }
+    file.is_file().then_some(file)
+}
+
+/// Text whose `%41` are letters again.
+fn decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, others @ ..] = rest {
+        rest = others;
+        if *first != b'%' {
+            bytes.push(*first);
+            continue;
+        }
+        let hex = std::str::from_utf8(others.get(..2)?).ok()?;
+        bytes.push(u8::from_str_radix(hex, 16).ok()?);
+        rest = &others[2..];
+    }
+    String::from_utf8(bytes).ok()
+}
+
 /// Files the bundler names by a hash of their content never change; everything else is asked for again.
-fn router(folder: &Path) -> Result<Router> {
-    let hashed = Router::new()
-        .fallback_service(ServeDir::new(folder.join("assets")))
-        .layer(header(CACHE_CONTROL, "public, max-age=31536000, immutable"));
-    let rest = Router::new()
-        .fallback_service(ServeDir::new(folder))
-        .layer(header(CACHE_CONTROL, "no-cache"));
-    Ok(Router::new()
-        .nest("/assets", hashed)
-        .fallback_service(rest)
-        .layer(SetResponseHeaderLayer::overriding(
-            CONTENT_SECURITY_POLICY,
-            policy()?,
-        ))
-        .layer(header(X_CONTENT_TYPE_OPTIONS, "nosniff")))
-}
-
-fn policy() -> Result<HeaderValue> {
+fn fields(file: &Path, folder: &Path) -> Vec<(&'static str, String)> {
+    let ending = file.extension().and_then(|ending| ending.to_str());
+    let kind = TYPES.iter().find(|(known, _)| Some(*known) == ending);
+    let kind = kind.map_or("application/octet-stream", |(_, kind)| kind);
+    let lasting = if file.starts_with(folder.join("assets")) {
+        "public, max-age=31536000, immutable"
+    } else {
+        "no-cache"
+    };
     // That no other page may frame this one can be said in a header alone.
-    let directives: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
-    Ok(HeaderValue::from_str(&directives.join("; "))?)
-}
-
-fn header(name: HeaderName, value: &'static str) -> SetResponseHeaderLayer<HeaderValue> {
-    SetResponseHeaderLayer::overriding(name, HeaderValue::from_static(value))
-}
-
-fn serve(listener: TcpListener, app: Router) -> Result<()> {
-    let runtime = tokio::runtime::Builder::new_current_thread()
-        .enable_io()
-        .enable_time()
-        .build()?;
-    runtime.block_on(async {
-        let listener = tokio::net::TcpListener::from_std(listener)?;
-        axum::serve(listener, app).await?;
-        Ok(())
-    })
+    let policy: Vec<&str> = POLICY.lines().chain(["frame-ancestors 'none'"]).collect();
+    vec![
+        ("Content-Type", kind.to_owned()),
+        ("Cache-Control", lasting.to_owned()),
+        ("Content-Security-Policy", policy.join("; ")),
+        ("X-Content-Type-Options", "nosniff".to_owned()),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::{Read, Write};
-    use std::net::TcpStream;
-    use std::path::PathBuf;
+    use std::io::Read;
 
     /// A folder to serve inside a folder with a secret, removed at the end.
     struct Site(PathBuf);
@@ -113,10 +262,14 @@ mod tests {
         }
 
         fn get(&self, server: &Server, path: &str) -> String {
+            self.ask(server, "GET", path)
+        }
+
+        fn ask(&self, server: &Server, method: &str, path: &str) -> String {
             let mut stream = TcpStream::connect(server.address).unwrap();
             write!(
                 stream,
-                "GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+                "{method} {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
             )
             .unwrap();
             let mut answer = Vec::new();
@@ -179,5 +332,62 @@ mod tests {
             .err()
             .unwrap();
         assert!(error.to_string().contains("--port"), "{error}");
+    }
+
+    #[test]
+    fn a_head_has_the_length_and_no_body_and_nothing_else_is_answered() {
+        let site = Site::new("head");
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let head = site.ask(&server, "HEAD", "/index.html").to_lowercase();
+        assert!(
+            head.starts_with("http/1.1 200") && head.contains("content-length: 7"),
+            "{head}"
+        );
+        assert!(head.ends_with("\r\n\r\n"), "{head}");
+        let nonsense = site.ask(&server, "G E T", "/");
+        assert!(nonsense.starts_with("HTTP/1.1 400"), "{nonsense}");
+        let post = site.ask(&server, "POST", "/");
+        assert!(post.starts_with("HTTP/1.1 405"), "{post}");
+    }
+
+    #[test]
+    fn a_long_file_comes_whole_with_its_length() {
+        let site = Site::new("long");
+        std::fs::write(site.0.join("site/long.bin"), vec![b'x'; 200_000]).unwrap();
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let answer = site.get(&server, "/long.bin");
+        assert!(answer.to_lowercase().contains("content-length: 200000"));
+        assert_eq!(answer.split("\r\n\r\n").nth(1).unwrap().len(), 200_000);
+    }
+
+    #[test]
+    fn connections_are_kept_and_several_are_served_at_once() {
+        let site = Site::new("kept");
+        let server = Server::start(&site.0.join("site"), 0).unwrap();
+        let connect = || {
+            let stream = TcpStream::connect(server.address).unwrap();
+            let limit = std::time::Duration::from_secs(20);
+            stream.set_read_timeout(Some(limit)).unwrap();
+            stream
+        };
+        let mut streams: Vec<TcpStream> = (0..8).map(|_| connect()).collect();
+        for _ in 0..3 {
+            for stream in &mut streams {
+                write!(
+                    stream,
+                    "GET /a%73sets/core.wasm?x HTTP/1.1\r\nHost: localhost\r\n\r\n"
+                )
+                .unwrap();
+            }
+            for stream in &mut streams {
+                let mut answer = Vec::new();
+                while !answer.ends_with(b"\0asm") {
+                    let mut bytes = [0; 256];
+                    let count = stream.read(&mut bytes).unwrap();
+                    assert!(count > 0, "the connection was closed");
+                    answer.extend(&bytes[..count]);
+                }
+            }
+        }
     }
 }

@@ -11,7 +11,7 @@ use crate::suite::{browser, firmware, native};
 /// installed where that is possible. What could not be had gives one line, and its steps count as skipped;
 /// with CI=true they count as failed, unless getting it was tried and its source did not have it.
 #[derive(clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Formatting, lints and the Rust tests on this machine
     #[arg(long)]
     native: bool,
@@ -25,7 +25,7 @@ pub struct Args {
 
 impl Args {
     /// Every suite.
-    pub fn everything() -> Self {
+    pub(crate) fn everything() -> Self {
         Self {
             native: true,
             browser: true,
@@ -35,7 +35,7 @@ impl Args {
 }
 
 /// Runs the verb.
-pub fn run(args: Args) -> Result<()> {
+pub(crate) fn run(args: Args) -> Result<()> {
     let nothing_chosen = !(args.native || args.browser || args.firmware);
     let mut report = Report::new();
     if args.native || nothing_chosen {

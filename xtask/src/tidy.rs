@@ -17,7 +17,7 @@ use crate::workspace;
 /// the repository that has no place there, no test may be switched off, no work be left to come, and no word return
 /// that `xtask/tidy/words.txt` has replaced.
 #[derive(clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Print which file uses which in a crate, in `web`, or in a folder of their sources, room by room
     #[arg(long, value_name = "FOLDER")]
     graph: Option<PathBuf>,
@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 /// Runs the verb.
-pub fn run(args: Args) -> Result<()> {
+pub(crate) fn run(args: Args) -> Result<()> {
     let mut check = program();
     if args.long {
         check.arg("--long");
@@ -39,7 +39,7 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// The program that checks this workspace.
-pub fn program() -> Command {
+pub(crate) fn program() -> Command {
     let mut cargo = own_cargo();
     cargo
         .args([

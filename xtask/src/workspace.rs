@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use sha2::{Digest, Sha256};
 
 /// The workspace's top folder: that of the running cargo, else that of the build.
-pub fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     let package = std::env::var_os("CARGO_MANIFEST_DIR")
         .map(PathBuf::from)
         .filter(|folder| folder.ends_with("xtask"))
@@ -16,7 +16,7 @@ pub fn root() -> PathBuf {
 }
 
 /// Where cargo's output goes: `target`, or as the environment says.
-pub fn target_dir() -> PathBuf {
+pub(crate) fn target_dir() -> PathBuf {
     let chosen = std::env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into());
     root().join(chosen)
 }
@@ -24,7 +24,7 @@ pub fn target_dir() -> PathBuf {
 /// SHA-256 (hex) over the names and contents of files and whole folders, independent of the order on disk.
 ///
 /// Errors when one of the paths cannot be read.
-pub fn fingerprint(paths: &[PathBuf]) -> Result<String> {
+pub(crate) fn fingerprint(paths: &[PathBuf]) -> Result<String> {
     let mut hash = Sha256::new();
     for path in paths {
         hash_path(path, &mut hash)?;
@@ -53,14 +53,14 @@ fn hash_path(path: &Path, hash: &mut Sha256) -> Result<()> {
 }
 
 /// A file that remembers what a folder was made from, so that it is made again only when that changes.
-pub struct Stamp {
+pub(crate) struct Stamp {
     file: PathBuf,
     wanted: String,
 }
 
 impl Stamp {
     /// The stamp `file` for a folder made from the given files and folders.
-    pub fn new(file: PathBuf, made_from: &[PathBuf]) -> Result<Self> {
+    pub(crate) fn new(file: PathBuf, made_from: &[PathBuf]) -> Result<Self> {
         Ok(Self {
             file,
             wanted: fingerprint(made_from)?,
@@ -68,12 +68,12 @@ impl Stamp {
     }
 
     /// Whether the folder was made from exactly these contents.
-    pub fn is_current(&self) -> bool {
+    pub(crate) fn is_current(&self) -> bool {
         fs::read_to_string(&self.file).is_ok_and(|found| found == self.wanted)
     }
 
     /// Remembers that the folder has been made.
-    pub fn write(&self) -> Result<()> {
+    pub(crate) fn write(&self) -> Result<()> {
         fs::write(&self.file, &self.wanted)
             .with_context(|| format!("cannot write {}", self.file.display()))
     }

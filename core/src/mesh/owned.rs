@@ -37,7 +37,7 @@ impl OwnedModel {
 
     /// The model, borrowed.
     #[must_use]
-    pub fn model(&self) -> Model<'_> {
+    pub fn as_model(&self) -> Model<'_> {
         let mesh = Mesh::checked(
             self.vertices.as_chunks().0,
             self.triangles.as_chunks().0,
@@ -74,7 +74,7 @@ mod tests {
         let triangles = vec![0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
         let (first, address) = (vertices[3], vertices.as_ptr());
         let owned = OwnedModel::new(vertices, triangles).expect("valid");
-        let model = owned.model();
+        let model = owned.as_model();
         assert_eq!(model.vertices().as_ptr().cast(), address);
         assert_eq!(
             (model.vertices()[1][0], model.triangles().len()),
@@ -87,6 +87,6 @@ mod tests {
     fn an_open_surface_has_no_edges() {
         let vertices = vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let owned = OwnedModel::new(vertices, vec![0, 1, 2]).expect("valid");
-        assert!(owned.model().edges().is_none());
+        assert!(owned.as_model().edges().is_none());
     }
 }

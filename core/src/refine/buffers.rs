@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::border::BorderPixel;
 use super::memory::RefineMemory;
+use super::view::View;
 use crate::camera::Camera;
 use crate::image::mask::{Word, words_needed};
 use crate::memory::grow;
@@ -25,11 +26,27 @@ pub struct RefineBuffers {
 impl RefineBuffers {
     /// Memory for a model and one camera. It never shrinks.
     pub fn borrow(&mut self, model: &Model<'_>, camera: &Camera) -> RefineMemory<'_> {
+        self.make_room(model, camera);
+        self.all()
+    }
+
+    /// Memory for a model and the cameras of several views. It never shrinks.
+    pub fn borrow_for(&mut self, model: &Model<'_>, views: &[View<'_>]) -> RefineMemory<'_> {
+        for view in views {
+            self.make_room(model, view.camera);
+        }
+        self.all()
+    }
+
+    fn make_room(&mut self, model: &Model<'_>, camera: &Camera) {
         let (width, height) = (camera.width(), camera.height());
         grow(&mut self.projected, scratch_needed(model));
         grow(&mut self.drawn, words_needed(width, height));
         grow(&mut self.places, width * height);
         grow(&mut self.border, BORDER);
+    }
+
+    fn all(&mut self) -> RefineMemory<'_> {
         RefineMemory {
             projected: &mut self.projected,
             drawn: &mut self.drawn,

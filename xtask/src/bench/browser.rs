@@ -5,7 +5,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use super::Figures;
+use super::figures::Figures;
 use crate::setup::{announce, command, node, programs};
 use crate::static_server::Server;
 use crate::{package, page, workspace};

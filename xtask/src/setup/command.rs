@@ -10,12 +10,12 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow, bail};
 
 /// The first of these names that is an executable file on the PATH.
-pub fn find(names: &[&str]) -> Option<PathBuf> {
+pub(crate) fn find(names: &[&str]) -> Option<PathBuf> {
     find_in(&std::env::var_os("PATH")?, names)
 }
 
 /// As [`find`], over a given PATH value.
-pub fn find_in(path: &std::ffi::OsStr, names: &[&str]) -> Option<PathBuf> {
+pub(crate) fn find_in(path: &std::ffi::OsStr, names: &[&str]) -> Option<PathBuf> {
     let folders: Vec<PathBuf> = std::env::split_paths(path).collect();
     names.iter().find_map(|name| {
         let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
@@ -39,7 +39,7 @@ fn is_executable(file: &Path) -> bool {
 }
 
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
-pub fn run(command: &mut Command) -> Result<()> {
+pub(crate) fn run(command: &mut Command) -> Result<()> {
     let status = command
         .stdin(Stdio::null())
         .status()
@@ -51,7 +51,7 @@ pub fn run(command: &mut Command) -> Result<()> {
 }
 
 /// Runs a command quietly and returns its standard output; an error carries the last lines of standard error.
-pub fn output(command: &mut Command) -> Result<String> {
+pub(crate) fn output(command: &mut Command) -> Result<String> {
     let output = command
         .stdin(Stdio::null())
         .output()
@@ -71,7 +71,7 @@ pub fn output(command: &mut Command) -> Result<String> {
 /// Runs a command, shows its standard output line by line and keeps it too.
 ///
 /// Returns whether it succeeded and what it wrote there.
-pub fn tee(command: &mut Command) -> Result<(bool, String)> {
+pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
     let mut child = command
         .stdin(Stdio::null())
         .stdout(Stdio::piped())
@@ -91,7 +91,7 @@ pub fn tee(command: &mut Command) -> Result<(bool, String)> {
 }
 
 /// Runs a command quietly for at most `limit` and returns its standard output; one that takes longer is ended.
-pub fn output_within(limit: Duration, command: &mut Command) -> Result<String> {
+pub(crate) fn output_within(limit: Duration, command: &mut Command) -> Result<String> {
     let mut child = command
         .stdin(Stdio::null())
         .stdout(Stdio::piped())

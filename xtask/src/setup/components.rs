@@ -6,7 +6,7 @@ use super::rust_target::own_cargo;
 use super::{Missing, announce, command};
 
 /// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
-pub fn ensure(subcommand: &str) -> Result<(), Missing> {
+pub(crate) fn ensure(subcommand: &str) -> Result<(), Missing> {
     if works(subcommand) {
         return Ok(());
     }

@@ -9,7 +9,7 @@ use super::{Missing, announce, command};
 
 /// How packages can be installed on this machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
+pub(crate) enum Access {
     /// `apt-get` is here and we are root.
     Root,
     /// `apt-get` is here, but installing wants root.
@@ -19,7 +19,7 @@ pub enum Access {
 }
 
 /// What this machine allows.
-pub fn access() -> Access {
+pub(crate) fn access() -> Access {
     if command::find(&["apt-get"]).is_none() {
         return Access::NoApt;
     }
@@ -32,7 +32,7 @@ pub fn access() -> Access {
 }
 
 /// Installs packages that together provide `what`, or says why that cannot be.
-pub fn install(what: &str, packages: &[&str]) -> Result<(), Missing> {
+pub(crate) fn install(what: &str, packages: &[&str]) -> Result<(), Missing> {
     if let Some(missing) = refusal(access(), what, packages) {
         return Err(missing);
     }

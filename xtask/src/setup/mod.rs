@@ -3,18 +3,18 @@
 //! Each part first looks whether the thing is there, then tries to get it, and else says in one line what
 //! could not be had and how to get it ([`Missing`]).
 
-pub mod command;
-pub mod components;
-pub mod debian;
-pub mod node;
-pub mod programs;
-pub mod rust_target;
+pub(crate) mod command;
+pub(crate) mod components;
+pub(crate) mod debian;
+pub(crate) mod node;
+pub(crate) mod programs;
+pub(crate) mod rust_target;
 
 use std::fmt;
 
 /// Something needed that is not on this machine and could not be got.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Missing {
+pub(crate) struct Missing {
     /// The thing, as in "no Chromium".
     pub what: String,
     /// Why it could not be got.
@@ -35,6 +35,6 @@ impl fmt::Display for Missing {
 impl std::error::Error for Missing {}
 
 /// Says on standard error what is being done now: every slow step has such a line.
-pub fn announce(what: &str) {
+pub(crate) fn announce(what: &str) {
     eprintln!("==> {what}");
 }

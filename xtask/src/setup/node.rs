@@ -10,7 +10,7 @@ use crate::workspace::Stamp;
 const OLDEST_NODE: u32 = 20;
 
 /// A Node.js that is new enough.
-pub fn node() -> Result<PathBuf, Missing> {
+pub(crate) fn node() -> Result<PathBuf, Missing> {
     let Some(node) = command::find(&["node", "nodejs"]) else {
         return Err(missing("`node` is not on the PATH".into()));
     };
@@ -22,7 +22,7 @@ pub fn node() -> Result<PathBuf, Missing> {
 }
 
 /// npm, beside a Node.js that is new enough.
-pub fn npm() -> Result<PathBuf, Missing> {
+pub(crate) fn npm() -> Result<PathBuf, Missing> {
     node()?;
     command::find(&["npm"]).ok_or_else(|| missing("`npm` is not on the PATH".into()))
 }
@@ -47,7 +47,7 @@ fn major_version(text: &str) -> Option<u32> {
 }
 
 /// Installs exactly the packages that a folder's lock file names, if that has not been done for this lock file.
-pub fn install(folder: &Path) -> Result<(), Missing> {
+pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     let npm = npm()?;
     let name = folder
         .file_name()
@@ -81,7 +81,7 @@ pub fn install(folder: &Path) -> Result<(), Missing> {
 }
 
 /// A command that runs a script of the folder's `package.json`.
-pub fn script(folder: &Path, script: &str) -> Result<Command, Missing> {
+pub(crate) fn script(folder: &Path, script: &str) -> Result<Command, Missing> {
     let mut command = Command::new(npm()?);
     command
         .args(["run", "--silent", script])

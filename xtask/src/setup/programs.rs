@@ -40,17 +40,17 @@ const QEMU_ARM: Program = Program {
 };
 
 /// A Chromium, installed if need be. `FLUOROPOSE_CHROMIUM` names another one.
-pub fn chromium() -> Result<PathBuf, Missing> {
+pub(crate) fn chromium() -> Result<PathBuf, Missing> {
     CHROMIUM.ensure()
 }
 
 /// A Firefox, installed if need be. `FLUOROPOSE_FIREFOX` names another one.
-pub fn firefox() -> Result<PathBuf, Missing> {
+pub(crate) fn firefox() -> Result<PathBuf, Missing> {
     FIREFOX.ensure()
 }
 
 /// QEMU's Arm machine emulator, installed if need be. `FLUOROPOSE_QEMU_ARM` names another one.
-pub fn qemu_arm() -> Result<PathBuf, Missing> {
+pub(crate) fn qemu_arm() -> Result<PathBuf, Missing> {
     QEMU_ARM.ensure()
 }
 

@@ -7,13 +7,13 @@ use super::{Missing, announce, command, debian};
 use crate::workspace;
 
 /// The page's target.
-pub const WASM: &str = "wasm32-unknown-unknown";
+pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 /// The firmware's target: Cortex-M4F.
-pub const CORTEX_M4F: &str = "thumbv7em-none-eabihf";
+pub(crate) const CORTEX_M4F: &str = "thumbv7em-none-eabihf";
 
 /// A compiler that has the standard (or core) library of a target, or builds it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Toolchain {
+pub(crate) enum Toolchain {
     /// The one that builds this workspace.
     Own {
         /// The target triple.
@@ -32,7 +32,7 @@ impl Toolchain {
     /// A `cargo` with this subcommand for the target; `target_dir` is where its output goes.
     ///
     /// The output of a profile `p` is then in [`Toolchain::output_dir`].
-    pub fn cargo(&self, subcommand: &str, target_dir: &Path) -> Command {
+    pub(crate) fn cargo(&self, subcommand: &str, target_dir: &Path) -> Command {
         match self {
             Self::Own { target } => {
                 let mut cargo = own_cargo();
@@ -45,7 +45,7 @@ impl Toolchain {
     }
 
     /// The folder of a profile's artifacts under `target_dir`.
-    pub fn output_dir(&self, profile: &str, target_dir: &Path) -> PathBuf {
+    pub(crate) fn output_dir(&self, profile: &str, target_dir: &Path) -> PathBuf {
         match self {
             Self::Own { target } => target_dir.join(target).join(profile),
             Self::Debian { target, .. } => debian_dir(target_dir).join(target).join(profile),
@@ -54,7 +54,7 @@ impl Toolchain {
 }
 
 /// The cargo that runs us.
-pub fn own_cargo() -> Command {
+pub(crate) fn own_cargo() -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(workspace::root());
     cargo
@@ -94,7 +94,7 @@ fn debian_cargo(subcommand: &str, target: &str, linker: &Path, target_dir: &Path
 }
 
 /// A compiler for `target`: the installed one, else with the target added by rustup, else Debian's.
-pub fn ensure(target: &'static str) -> Result<Toolchain, Missing> {
+pub(crate) fn ensure(target: &'static str) -> Result<Toolchain, Missing> {
     if is_installed(target) {
         return Ok(Toolchain::Own { target });
     }

@@ -27,7 +27,7 @@ const IN_FIREFOX: [&str; 4] = [
 ];
 
 /// Runs the suite.
-pub fn run(report: &mut Report) {
+pub(crate) fn run(report: &mut Report) {
     if !report.step("browser: page built", || {
         page::build().map(|_| String::new())
     }) {

@@ -5,7 +5,7 @@ use anyhow::{Result, ensure};
 /// Sums the `test result:` lines of `cargo test`.
 ///
 /// Errors when no test ran: a filter or a wrong folder would otherwise pass for success.
-pub fn of_cargo(output: &str) -> Result<String> {
+pub(crate) fn of_cargo(output: &str) -> Result<String> {
     let results = output
         .lines()
         .filter_map(|line| line.trim().strip_prefix("test result: "));
@@ -23,7 +23,7 @@ pub fn of_cargo(output: &str) -> Result<String> {
 }
 
 /// Reads the `Tests  12 passed (12)` line of vitest.
-pub fn of_vitest(output: &str) -> Result<String> {
+pub(crate) fn of_vitest(output: &str) -> Result<String> {
     let plain = without_colours(output);
     let line = plain
         .lines()
@@ -35,7 +35,7 @@ pub fn of_vitest(output: &str) -> Result<String> {
 }
 
 /// Reads the `pass 12` line of Node's test runner, and how many it skipped.
-pub fn of_node(output: &str) -> Result<String> {
+pub(crate) fn of_node(output: &str) -> Result<String> {
     let plain = without_colours(output);
     let count = |word: &str| {
         plain.lines().rev().find_map(|line| {

@@ -17,7 +17,7 @@ use crate::workspace;
 const QEMU_LIMIT: Duration = Duration::from_secs(120);
 
 /// Runs the suite.
-pub fn run(report: &mut Report) {
+pub(crate) fn run(report: &mut Report) {
     let inputs = || write_inputs(&inputs_folder()).map(|()| String::new());
     if !report.step("firmware: library and outline", inputs) {
         report.skip("firmware: the proof", "there is nothing to put into flash");

@@ -1,7 +1,7 @@
 //! The suites of the verb `test`.
 
-pub mod browser;
-pub mod counts;
-pub mod firmware;
-pub mod native;
-pub mod report;
+pub(crate) mod browser;
+pub(crate) mod counts;
+pub(crate) mod firmware;
+pub(crate) mod native;
+pub(crate) mod report;

@@ -13,7 +13,7 @@ use crate::tidy;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
-pub const CHECKED: [&str; 5] = [
+pub(crate) const CHECKED: [&str; 5] = [
     "--release",
     "--config",
     "profile.release.package.fluoropose.overflow-checks=true",
@@ -22,7 +22,7 @@ pub const CHECKED: [&str; 5] = [
 ];
 
 /// Runs the suite.
-pub fn run(report: &mut Report) {
+pub(crate) fn run(report: &mut Report) {
     report.step("native: layers and cycles", || quiet(&mut tidy::program()));
     report.step("native: formatting", || {
         components::ensure("fmt")?;
@@ -55,7 +55,7 @@ fn quiet(command: &mut Command) -> Result<String> {
 }
 
 /// Runs `cargo test` and counts what it ran.
-pub fn tests(cargo: &mut Command) -> Result<String> {
+pub(crate) fn tests(cargo: &mut Command) -> Result<String> {
     let (success, output) = command::tee(cargo)?;
     ensure!(success, "`cargo test` failed; its output above says where");
     counts::of_cargo(&output)

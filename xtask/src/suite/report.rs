@@ -22,14 +22,14 @@ struct Line {
 }
 
 /// The steps so far.
-pub struct Report {
+pub(crate) struct Report {
     lines: Vec<Line>,
     under_ci: bool,
 }
 
 impl Report {
     /// An empty report; the environment variable `CI` makes it strict about what is missing.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let under_ci = std::env::var("CI").is_ok_and(|value| value == "true" || value == "1");
         Self {
             lines: Vec::new(),
@@ -41,7 +41,7 @@ impl Report {
     ///
     /// The work returns what to say of it ("12 tests"). An error fails the step, except for a [`Missing`] thing,
     /// which skips it.
-    pub fn step(&mut self, name: &str, work: impl FnOnce() -> Result<String>) -> bool {
+    pub(crate) fn step(&mut self, name: &str, work: impl FnOnce() -> Result<String>) -> bool {
         announce(name);
         let start = Instant::now();
         let outcome = match work() {
@@ -61,7 +61,7 @@ impl Report {
     }
 
     /// Records a step that cannot run because an earlier one did not pass.
-    pub fn skip(&mut self, name: &str, why: &str) {
+    pub(crate) fn skip(&mut self, name: &str, why: &str) {
         let outcome = Outcome::Skipped(why.to_string());
         self.lines.push(Line {
             step: name.to_string(),
@@ -80,7 +80,7 @@ impl Report {
     }
 
     /// Whether a step failed.
-    pub fn has_failed(&self) -> bool {
+    pub(crate) fn has_failed(&self) -> bool {
         self.count(|outcome| matches!(outcome, Outcome::Failed(_))) > 0
     }
 

@@ -1,0 +1,8 @@
+//! From the poses of every frame to the one that is chosen, and what is told of it.
+
+mod decide;
+mod reasons;
+pub mod report;
+
+pub use decide::{Decision, decide};
+pub use reasons::Reasons;

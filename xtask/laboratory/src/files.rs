@@ -1,0 +1,21 @@
+//! What is read and written: models, masks, calibrations, poses, frames, corrections, studies.
+
+mod calibration;
+mod distortion;
+mod frames;
+mod mask;
+mod model;
+mod poses;
+mod role;
+mod study;
+mod text;
+
+pub use calibration::{camera_for, read_calibration};
+pub use distortion::{Straightener, read_distortion, write_distortion};
+pub use frames::{Frames, grey};
+pub use mask::{MaskBuffer, read_mask};
+pub use model::{owned, read_model};
+pub use poses::{known_pose, read_poses, write_poses};
+pub use role::Role;
+pub use study::{Component, Study};
+pub use text::{files_in, name_of, read, read_text, write_json, write_text};

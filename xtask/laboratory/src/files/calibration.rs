@@ -1,0 +1,30 @@
+//! Calibrations and the cameras that they are of.
+
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
+
+use super::text::read_text;
+use crate::options::Pair;
+
+/// Reads a `JT_INTCALIB` or camera-matrix calibration.
+///
+/// # Errors
+/// Names the file and the line.
+pub fn read_calibration(path: &Path) -> Result<Calibration> {
+    Calibration::parse(&read_text(path)?).with_context(|| format!("in {}", path.display()))
+}
+
+/// The camera of a calibration for frames of a size; a camera matrix has its own.
+///
+/// # Errors
+/// Those of [`Calibration::camera`].
+pub fn camera_for(calibration: &Calibration, Pair([width, height]): Pair) -> Result<Camera> {
+    let (width, height) = match *calibration {
+        Calibration::CameraMatrix { size, .. } => size,
+        _ => (width as usize, height as usize),
+    };
+    Ok(calibration.camera(width, height)?)
+}

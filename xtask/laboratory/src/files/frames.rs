@@ -1,0 +1,129 @@
+//! Grey frames beside the masks of a sequence.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose::image::frame::{Frame, Grey};
+use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
+
+use super::text::{files_in, name_of, read};
+
+/// The frames of a sequence in the order of their files' names. A file may hold several, as
+/// DICOM and TIFF do. They are decoded one by one when they are looked at: a film in full size
+/// may be larger than memory.
+pub struct Frames {
+    files: Vec<FrameFile<'static>>,
+    /// Of each frame, its file and its number in it.
+    places: Vec<(usize, usize)>,
+}
+
+impl Frames {
+    /// Reads a folder of `count` frames of `size` (columns, rows) pixels. What the decoder notes
+    /// about the pixels is said on standard error, once each.
+    ///
+    /// # Errors
+    /// For a folder or a file that cannot be read, and frames that differ from the masks in
+    /// number or size.
+    pub fn read(folder: &Path, count: usize, size: (usize, usize)) -> Result<Self> {
+        let paths = files_in(folder)?;
+        let open = |path: &PathBuf| -> Result<FrameFile<'static>> {
+            Ok(FrameFile::open(read(path)?, &name_of(path))?)
+        };
+        let files: Vec<_> = paths.iter().map(open).collect::<Result<_>>()?;
+        let places: Vec<(usize, usize)> = files
+            .iter()
+            .enumerate()
+            .flat_map(|(file, opened)| (0..opened.count()).map(move |index| (file, index)))
+            .collect();
+        if places.len() != count {
+            bail!(
+                "{} holds {} frames but there are {count} masks; each mask needs its own frame, in the same order of names",
+                folder.display(),
+                places.len()
+            );
+        }
+        let frames = Self { files, places };
+        let mut notes = BTreeSet::new();
+        for place in 0..count {
+            let decoded = frames.decode(place)?;
+            let found = (decoded.width as usize, decoded.height as usize);
+            if found != size {
+                bail!(
+                    "{} is {} x {} pixels but its mask {} x {}; a mask must be as large as its frame",
+                    frames.name(place),
+                    found.0,
+                    found.1,
+                    size.0,
+                    size.1
+                );
+            }
+            notes.extend(decoded.notes);
+        }
+        for note in notes {
+            eprintln!("{}: {note}", folder.display());
+        }
+        Ok(frames)
+    }
+
+    /// Decodes a frame, from 0.
+    ///
+    /// # Errors
+    /// Those of the decoder, with the file's name; and for a frame that is not there.
+    pub fn decode(&self, frame: usize) -> Result<GreyFrame> {
+        let &(file, index) = self.places.get(frame).context("there is no such frame")?;
+        Ok(self.files[file].frame(index)?)
+    }
+
+    fn name(&self, frame: usize) -> String {
+        let (file, index) = self.places[frame];
+        let opened = &self.files[file];
+        match opened.count() {
+            1 => opened.name().to_owned(),
+            _ => format!("{}, frame {}", opened.name(), index + 1),
+        }
+    }
+}
+
+/// A decoded frame as the core looks at it.
+///
+/// # Errors
+/// For a frame without pixels.
+pub fn grey(frame: &GreyFrame) -> Result<Box<dyn Grey + '_>> {
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    Ok(match &frame.pixels {
+        Pixels::U8(pixels) => Box::new(Frame::new(pixels, width, height, width)?),
+        Pixels::U16(pixels) => Box::new(Frame::new(pixels, width, height, width)?),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose_phantom::picture::{write_grey, write_grey_16};
+
+    #[test]
+    fn frames_of_both_depths_are_read_in_order_and_must_fit_the_masks() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-frames-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let eight: Vec<u8> = (0..200).map(|k| k % 20).collect();
+        let sixteen: Vec<u16> = (0..200).map(|k| 1000 * (k % 20)).collect();
+        write_grey(&folder.join("1.png"), (20, 10), &eight).unwrap();
+        write_grey_16(&folder.join("2.png"), (20, 10), &sixteen).unwrap();
+        let frames = Frames::read(&folder, 2, (20, 10)).unwrap();
+        for (frame, step) in [(0, 1.0), (1, 1000.0)] {
+            let decoded = frames.decode(frame).unwrap();
+            let grey = grey(&decoded).unwrap();
+            assert_eq!(grey.size(), (20, 10));
+            // The middle between the centres of columns 7 and 8.
+            assert_eq!(grey.at(8.0, 4.5), Some(7.5 * step));
+        }
+        let message = |count, size| {
+            let read = Frames::read(&folder, count, size);
+            read.err().unwrap().to_string()
+        };
+        assert!(message(3, (20, 10)).contains("2 frames but there are 3 masks"));
+        assert!(message(2, (20, 12)).contains("1.png is 20 x 10 pixels but its mask 20 x 12"));
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -1,0 +1,143 @@
+//! Silhouettes with their own memory.
+
+use std::path::Path;
+
+use anyhow::{Result, bail};
+use fluoropose::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
+use fluoropose_decode::decode_mask;
+
+use super::text::{name_of, read};
+
+/// Specks are at most this part of the silhouette, percent.
+const SPECK_SHARE: u64 = 10;
+
+/// A silhouette with its own memory.
+#[derive(Clone, Debug)]
+pub struct MaskBuffer {
+    words: Vec<Word>,
+    width: usize,
+    height: usize,
+}
+
+impl MaskBuffer {
+    /// An empty mask of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn new(width: usize, height: usize) -> Result<Self> {
+        let mut words = vec![0; words_needed(width, height)];
+        MaskMut::new(&mut words, width, height)?;
+        Ok(Self {
+            words,
+            width,
+            height,
+        })
+    }
+
+    /// A copy of a mask.
+    pub fn copy_of(mask: &Mask<'_>) -> Self {
+        Self {
+            words: mask.words().to_vec(),
+            width: mask.width(),
+            height: mask.height(),
+        }
+    }
+
+    /// The mask of which each pixel is `rule` of the same pixels of two masks, bit by bit; `rule`
+    /// must leave 0 where both are 0.
+    ///
+    /// # Errors
+    /// Where the two differ in size.
+    pub fn combined(&self, other: &Self, rule: impl Fn(Word, Word) -> Word) -> Result<Self> {
+        if (self.width, self.height) != (other.width, other.height) {
+            bail!(MaskError::Sizes);
+        }
+        let pairs = self.words.iter().zip(&other.words);
+        Ok(Self {
+            words: pairs.map(|(&a, &b)| rule(a, b)).collect(),
+            ..*self
+        })
+    }
+
+    /// Draws into the cleared mask.
+    pub fn draw<T>(&mut self, draw: impl FnOnce(&mut MaskMut<'_>) -> T) -> T {
+        let mut mask = MaskMut::new(&mut self.words, self.width, self.height)
+            .expect("the shape was checked when the buffer was made");
+        draw(&mut mask)
+    }
+
+    /// The mask without specks: its largest region alone where all else is at most a tenth of
+    /// it, as a network or a threshold leaves it; otherwise unchanged, because a silhouette in
+    /// two halves is no matter of specks. Returns the number of pixels dropped.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn drop_specks(&mut self) -> Result<u64> {
+        let blank = || Self::new(self.width, self.height);
+        let (mut rest, mut current, mut largest) = (blank()?, blank()?, blank()?);
+        let dropped = rest.draw(|rest| {
+            current.draw(|current| {
+                largest.draw(|out| largest_region(&self.mask(), rest, current, out))
+            })
+        });
+        if dropped > SPECK_SHARE * (self.mask().area() - dropped) / 100 {
+            return Ok(0);
+        }
+        *self = largest;
+        Ok(dropped)
+    }
+
+    /// What has been drawn.
+    pub fn mask(&self) -> Mask<'_> {
+        Mask::new(&self.words, self.width, self.height)
+            .expect("drawing keeps the bits beyond a row's end clear")
+    }
+}
+
+/// Reads a mask image.
+///
+/// # Errors
+/// Names the file and what is wrong with it.
+pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
+    let image = decode_mask(&read(path)?, &name_of(path))?;
+    let (width, height) = (image.width as usize, image.height as usize);
+    let mut buffer = MaskBuffer::new(width, height)?;
+    buffer.draw(|mask| {
+        for (row, pixels) in image.pixels.chunks_exact(width).enumerate() {
+            for (column, &pixel) in pixels.iter().enumerate() {
+                mask.set(column, row, pixel != 0);
+            }
+        }
+    });
+    Ok(buffer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn squares(sides: &[usize]) -> MaskBuffer {
+        let mut buffer = MaskBuffer::new(200, 100).unwrap();
+        buffer.draw(|mask| {
+            for (index, &side) in sides.iter().enumerate() {
+                for pixel in 0..side * side {
+                    mask.set(70 * index + pixel % side, 5 + pixel / side, true);
+                }
+            }
+        });
+        buffer
+    }
+
+    #[test]
+    fn specks_go_and_halves_stay() {
+        let mut specked = squares(&[50, 3]);
+        assert_eq!(specked.drop_specks().unwrap(), 9);
+        assert_eq!(specked.mask().area(), 2500);
+        let mut halves = squares(&[50, 40]);
+        assert_eq!(halves.drop_specks().unwrap(), 0);
+        assert_eq!(halves.mask().area(), 4100);
+        let mut empty = squares(&[]);
+        assert_eq!(empty.drop_specks().unwrap(), 0);
+    }
+}

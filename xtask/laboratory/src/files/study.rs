@@ -1,0 +1,152 @@
+//! Studies: `study.toml` and the files that it names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use serde::Deserialize;
+
+use fluoropose_phantom::implant::Side;
+
+use super::role::Role;
+use super::text::read_text;
+
+/// A sequence of frames with one or more components.
+#[derive(Debug, Deserialize)]
+pub struct Study {
+    /// What the study is called.
+    pub name: String,
+    /// Which knee.
+    pub side: Option<Side>,
+    /// Calibration of the frames, of either kind.
+    pub calibration: PathBuf,
+    /// Folder of frames; their names' order is their order in time.
+    pub frames: Option<PathBuf>,
+    /// The components.
+    #[serde(rename = "component", default)]
+    pub components: Vec<Component>,
+    #[serde(flatten)]
+    others: BTreeMap<String, toml::Value>,
+}
+
+/// One implanted component of a study.
+#[derive(Debug, Deserialize)]
+pub struct Component {
+    /// What it is called.
+    pub name: String,
+    /// Its model, mm.
+    pub model: PathBuf,
+    /// Which component of the knee it is, where its name does not say so.
+    pub role: Option<Role>,
+    /// Reference poses (.jts), a row a frame.
+    pub reference: Option<PathBuf>,
+    /// Rotations about x and y of the nominal view, degrees.
+    #[serde(default)]
+    pub nominal: [f64; 2],
+    /// Distance from the focus, mm, where it is known.
+    pub distance_mm: Option<f64>,
+    /// Folders of masks by source; a row of the table each.
+    #[serde(default)]
+    pub masks: BTreeMap<String, PathBuf>,
+    /// Folders of masks of unknown pixels, by the source whose masks they belong to.
+    #[serde(default)]
+    pub unknown: BTreeMap<String, PathBuf>,
+    /// Pose files of other methods, rows of the same table.
+    #[serde(default)]
+    pub peer: BTreeMap<String, PathBuf>,
+    #[serde(flatten)]
+    others: BTreeMap<String, toml::Value>,
+}
+
+impl Component {
+    /// Which component of the knee it is: by the key `role`, or by the names femur and tibia.
+    pub fn role(&self) -> Option<Role> {
+        self.role.or_else(|| Role::of_name(&self.name))
+    }
+}
+
+impl Study {
+    /// Reads a study and resolves the paths in it against its folder.
+    ///
+    /// # Errors
+    /// Names the file and the key at fault.
+    pub fn read(path: &Path) -> Result<Self> {
+        let mut study: Self =
+            toml::from_str(&read_text(path)?).with_context(|| format!("in {}", path.display()))?;
+        let of_components = study.components.iter().flat_map(|c| c.others.keys());
+        for key in study.others.keys().chain(of_components) {
+            // A misspelt key must not pass unseen; a later format's key must not stop the rest.
+            eprintln!(
+                "{}: the key '{key}' is not known and left out",
+                path.display()
+            );
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
+        resolve(&mut study.calibration);
+        study.frames.as_mut().map(resolve);
+        for component in &mut study.components {
+            resolve(&mut component.model);
+            component.reference.as_mut().map(resolve);
+            component.masks.values_mut().for_each(resolve);
+            component.unknown.values_mut().for_each(resolve);
+            for source in component.unknown.keys() {
+                if !component.masks.contains_key(source) {
+                    bail!(
+                        "{}: the component {} has unknown.{source} but no masks.{source}",
+                        path.display(),
+                        component.name
+                    );
+                }
+            }
+            component.peer.values_mut().for_each(resolve);
+        }
+        Ok(study)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Study> {
+        let name = format!(
+            "fluoropose-study-{}-{}.toml",
+            std::process::id(),
+            text.len()
+        );
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, text).unwrap();
+        let study = Study::read(&path);
+        std::fs::remove_file(&path).unwrap();
+        study
+    }
+
+    #[test]
+    fn unknown_pixels_belong_to_a_source_of_masks() {
+        let component = "name = 'left'\ncalibration = 'c.txt'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
+        let study = read(&format!(
+            "{component}masks.hand = 'm'\nunknown.hand = 'u'\n"
+        ));
+        let unknown = &study.unwrap().components[0].unknown["hand"];
+        assert_eq!(unknown, &std::env::temp_dir().join("u"));
+        let stray = read(&format!(
+            "{component}masks.hand = 'm'\nunknown.foot = 'u'\n"
+        ));
+        let message = stray.unwrap_err().to_string();
+        assert!(message.contains("unknown.foot"), "{message}");
+    }
+
+    #[test]
+    fn a_role_is_told_or_follows_from_the_name() {
+        let study = read(
+            "name = 'left'\ncalibration = 'c.txt'\n\
+             [[component]]\nname = 'Femur'\nmodel = 'f.stl'\n\
+             [[component]]\nname = 'tray'\nrole = 'tibia'\nmodel = 't.stl'\n\
+             [[component]]\nname = 'patella'\nmodel = 'p.stl'\n",
+        );
+        let components = study.unwrap().components;
+        let roles: Vec<Option<Role>> = components.iter().map(Component::role).collect();
+        assert_eq!(roles, [Some(Role::Femur), Some(Role::Tibia), None]);
+    }
+}

@@ -1,0 +1,67 @@
+//! Files and folders as they are: bytes, text, JSON, names.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+
+/// Reads a whole file.
+///
+/// # Errors
+/// Names the file.
+pub fn read(path: &Path) -> Result<Vec<u8>> {
+    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// Reads a text file.
+///
+/// # Errors
+/// Names the file.
+pub fn read_text(path: &Path) -> Result<String> {
+    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// The name of a file without its folder.
+pub fn name_of(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// The files of a folder in name order: the order of the frames.
+///
+/// # Errors
+/// When the folder cannot be listed or holds no file.
+pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries =
+        fs::read_dir(folder).with_context(|| format!("cannot list {}", folder.display()))?;
+    let mut files: Vec<PathBuf> = entries
+        .map(|entry| Ok(entry?.path()))
+        .collect::<Result<_>>()?;
+    files.retain(|path| path.is_file() && !name_of(path).starts_with('.'));
+    files.sort();
+    if files.is_empty() {
+        bail!("{} holds no files", folder.display());
+    }
+    Ok(files)
+}
+
+/// Writes a text file.
+///
+/// # Errors
+/// Names the file.
+pub fn write_text(path: &Path, text: &str) -> Result<()> {
+    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a table as JSON where `--json` asked for it.
+///
+/// # Errors
+/// Names the file.
+pub fn write_json(path: Option<&Path>, table: &impl serde::Serialize) -> Result<()> {
+    let Some(path) = path else { return Ok(()) };
+    let mut text = serde_json::to_string_pretty(table)?;
+    text.push('\n');
+    write_text(path, &text)
+}

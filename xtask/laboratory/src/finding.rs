@@ -1,0 +1,18 @@
+//! From what is seen to the poses that explain it, with the memory that the core borrows.
+
+pub mod biplane;
+mod build;
+mod clicker;
+mod film;
+mod finder;
+mod locator;
+mod refiner;
+mod views;
+
+pub use build::{Built, build_library};
+pub use clicker::{Clicked, Clicker};
+pub use film::{FrameFound, find_poses, misfit};
+pub use finder::{Answer, EdgeOptions, Finder, Method};
+pub use locator::Locator;
+pub use refiner::Refiner;
+pub use views::ViewOptions;

@@ -1,0 +1,7 @@
+//! From folders to what the method gets to see of each frame.
+
+mod seen;
+mod source;
+
+pub use seen::Seen;
+pub use source::{Folders, Sequence, Source};

@@ -1,0 +1,217 @@
+//! A folder of masks and the camera that saw them.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
+
+use super::seen::Seen;
+use crate::files::{Frames, MaskBuffer, files_in, grey, read_mask};
+use crate::noise::{DisturbanceOptions, Disturbed};
+
+/// Reads a mask and drops its specks ([`MaskBuffer::drop_specks`]), which is said on standard
+/// error.
+fn read_whole(path: &Path) -> Result<MaskBuffer> {
+    let mut mask = read_mask(path)?;
+    let dropped = mask.drop_specks()?;
+    if dropped > 0 {
+        eprintln!("{}: {dropped} pixels of specks left out", path.display());
+    }
+    Ok(mask)
+}
+
+/// The folders of a sequence; the order of names is that of the frames in each.
+#[derive(Clone, Copy, Debug)]
+pub struct Folders<'p> {
+    /// Masks.
+    pub masks: &'p Path,
+    /// Masks of unknown pixels, as many.
+    pub unknown: Option<&'p Path>,
+    /// Grey frames, as many.
+    pub frames: Option<&'p Path>,
+}
+
+/// The masks of a sequence, in the order of their names, all of one size.
+pub struct Source {
+    /// Each mask and the file it came from.
+    pub masks: Vec<(PathBuf, MaskBuffer)>,
+    /// The pixels of each mask that are not known, where a folder of them was given.
+    pub unknown: Option<Vec<MaskBuffer>>,
+    /// The grey frames, where a folder of them was given.
+    pub frames: Option<Frames>,
+    /// The camera for their size.
+    pub camera: Camera,
+}
+
+impl Source {
+    /// Reads the folders of a sequence.
+    ///
+    /// # Errors
+    /// For a folder or a file that cannot be read, masks and frames that differ in size or
+    /// number, and a calibration for another size.
+    pub fn read(folders: &Folders<'_>, calibration: &Calibration) -> Result<Self> {
+        let masks: Vec<_> = files_in(folders.masks)?
+            .into_iter()
+            .map(|path| read_whole(&path).map(|mask| (path, mask)))
+            .collect::<Result<_>>()?;
+        let (_, first) = masks.first().context("a folder of masks is never empty")?;
+        let size = (first.mask().width(), first.mask().height());
+        for (path, mask) in &masks {
+            check_size(path, mask, size)?;
+        }
+        let count = masks.len();
+        let unknown = folders.unknown.map(|path| read_unknown(path, count, size));
+        let frames = folders.frames.map(|path| Frames::read(path, count, size));
+        Ok(Self {
+            camera: calibration.camera(size.0, size.1)?,
+            unknown: unknown.transpose()?,
+            frames: frames.transpose()?,
+            masks,
+        })
+    }
+
+    /// The sequence as a method gets to see it: each mask, with what is not known of it, after a
+    /// disturbance.
+    ///
+    /// # Errors
+    /// Those of [`DisturbanceOptions::disturb`], with the file's name.
+    pub fn disturbed(&self, options: &DisturbanceOptions) -> Result<Sequence<'_>> {
+        let disturb = |(frame, (path, mask)): (usize, &(PathBuf, MaskBuffer))| {
+            let unknown = self.unknown.as_ref().and_then(|unknown| unknown.get(frame));
+            let unknown = unknown.map(MaskBuffer::mask);
+            options
+                .disturb(&mask.mask(), unknown.as_ref(), frame as u64)
+                .with_context(|| format!("{} cannot be disturbed", path.display()))
+        };
+        let masks = self.masks.iter().enumerate().map(disturb);
+        Ok(Sequence {
+            masks: masks.collect::<Result<_>>()?,
+            source: self,
+        })
+    }
+}
+
+/// A source after a disturbance.
+pub struct Sequence<'s> {
+    source: &'s Source,
+    masks: Vec<Disturbed>,
+}
+
+impl Sequence<'_> {
+    /// The camera.
+    pub fn camera(&self) -> Camera {
+        self.source.camera
+    }
+
+    /// Each mask's file and the mask.
+    pub fn masks(&self) -> impl ExactSizeIterator<Item = (&Path, &Disturbed)> {
+        let files = self.source.masks.iter().map(|(path, _)| path.as_path());
+        files.zip(&self.masks)
+    }
+
+    /// Calls `look` with what is known of a frame, from 0.
+    ///
+    /// # Errors
+    /// For a frame that is not there or cannot be decoded, and those of `look`.
+    pub fn look<T>(&self, frame: usize, look: impl FnOnce(&Seen<'_>) -> Result<T>) -> Result<T> {
+        let mask = self.masks.get(frame).context("there is no such frame")?;
+        let frames = self.source.frames.as_ref();
+        let decoded = frames.map(|frames| frames.decode(frame)).transpose()?;
+        let grey = decoded.as_ref().map(grey).transpose()?;
+        mask.see(|silhouette| {
+            look(&Seen {
+                silhouette,
+                frame: grey.as_deref(),
+            })
+        })
+    }
+}
+
+fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec<MaskBuffer>> {
+    let files = files_in(folder)?;
+    if files.len() != count {
+        bail!(
+            "{} holds {} masks of unknown pixels but there are {count} masks; each needs its own",
+            folder.display(),
+            files.len()
+        );
+    }
+    let read = |path: &PathBuf| {
+        let mask = read_mask(path)?;
+        check_size(path, &mask, size)?;
+        Ok(mask)
+    };
+    files.iter().map(read).collect()
+}
+
+fn check_size(path: &Path, mask: &MaskBuffer, size: (usize, usize)) -> Result<()> {
+    if (mask.mask().width(), mask.mask().height()) != size {
+        bail!("{} differs in size from the first mask", path.display());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose_phantom::picture::write_grey;
+
+    /// A folder of masks with a square each, at a column that tells the frame.
+    fn folder(name: &str, columns: &[usize], side: usize) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("fluoropose-source-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        for (frame, &column) in columns.iter().enumerate() {
+            let mut picture = vec![0; side * side];
+            for (x, y) in (0..100).map(|k| (k % 10, k / 10)) {
+                picture[(20 + y) * side + column + x] = 255;
+            }
+            write_grey(
+                &folder.join(format!("{frame:03}.png")),
+                (side, side),
+                &picture,
+            )
+            .unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn unknown_pixels_are_read_beside_the_masks() {
+        let calibration = Calibration::parse("JT_INTCALIB\n1000\n0\n0\n0.5\n").unwrap();
+        let masks = folder("masks", &[10, 30], 64);
+        let unknown = folder("unknown", &[15, 40], 64);
+        let read = |unknown: &Path| {
+            let folders = Folders {
+                masks: &masks,
+                unknown: Some(unknown),
+                // Any picture serves as a frame.
+                frames: Some(&masks),
+            };
+            Source::read(&folders, &calibration)
+        };
+        let source = read(&unknown).unwrap();
+        let sequence = source.disturbed(&DisturbanceOptions::default()).unwrap();
+        for (frame, column) in [(0, 15), (1, 40)] {
+            let original = source.masks[frame].1.mask();
+            let look = |seen: &Seen<'_>| {
+                let told = seen.silhouette.unknown().unwrap();
+                assert!(told.get(column, 20) && !told.get(column - 1, 20));
+                assert_eq!(seen.silhouette.mask().words(), original.words());
+                assert_eq!(seen.frame.unwrap().size(), (64, 64));
+                Ok(())
+            };
+            sequence.look(frame, look).unwrap();
+        }
+        assert!(sequence.look(2, |_| Ok(())).is_err());
+        let message = |unknown: &Path| format!("{:#}", read(unknown).err().unwrap());
+        let few = folder("few", &[15], 64);
+        assert!(message(&few).contains("1 masks of unknown pixels"));
+        let small = folder("small", &[15, 15], 32);
+        assert!(message(&small).contains("differs in size"));
+        for folder in [masks, unknown, few, small] {
+            std::fs::remove_dir_all(folder).unwrap();
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! One file a verb.
+
+pub mod bench;
+pub mod biplane;
+pub mod bound;
+pub mod calibrate;
+pub mod evaluate;
+pub mod identify;
+pub mod kinematics;
+pub mod library;
+pub mod outline;
+pub mod pose;
+pub mod synthetic;
+pub mod undistort;

@@ -1,0 +1,174 @@
+//! Verb `bound`: how well a pose can be known from a noisy outline.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use anyhow::{Context, Result, bail};
+use fluoropose::pose::{EulerPose, Pose};
+use serde::Serialize;
+
+use crate::files::{camera_for, read_calibration, read_mask, read_model, read_poses, write_json};
+
+use crate::measure::bound::{Limit, Outlines, PoseLimits};
+
+use crate::noise::{DisturbanceOptions, Noise};
+
+use crate::options::Pair;
+
+/// Options of `bound`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "For each pose the standard deviation that no unbiased estimator undercuts (the bound of Cramer and Rao), and the one \
+that plain least squares reaches, which weighs all of the outline alike: x, y, z of the model's origin (mm) and the angle of the rotation \
+between estimate and truth (degrees, root mean square). The outline is that of the model drawn at the pose.\n\n\
+Noise: rounding to pixels, 1/12 square pixel for each pixel of outline, white; with --jitter S also a hand's, displacement along the \
+normal with the covariance S^2 exp(-d^2 / (2 l^2)) of the way d along the outline, l given by --correlation. White noise has one limit. \
+Rounding alone is not Gaussian: an estimator that makes use of every pixel of a mask without other noise can come nearer than its \
+limit.\n\n\
+Example:\n  cargo xtask bound --model femur.stl --calibration calibration.txt --pose 0,0,-1000,20,5,-8 --jitter 1"
+)]
+pub struct Args {
+    /// The implant's model: STL (binary or ASCII), OBJ or PLY, in mm
+    #[arg(long)]
+    model: PathBuf,
+    /// Calibration: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    #[arg(long)]
+    calibration: PathBuf,
+    /// Width and height of the frames, pixels; a camera matrix has its own
+    #[arg(long, value_name = "W,H", default_value = "1024,1024")]
+    frame: Pair,
+    /// A pose: x, y, z (mm), then rotation about z, x, y (degrees)
+    #[arg(
+        long,
+        value_name = "X,Y,Z,ZR,XR,YR",
+        allow_hyphen_values = true,
+        required_unless_present = "poses"
+    )]
+    pose: Option<SixNumbers>,
+    /// Poses of a .jts file instead, and their root mean square
+    #[arg(long, value_name = "FILE", conflicts_with = "pose")]
+    poses: Option<PathBuf>,
+    /// Standard deviation of a hand's jitter, pixels
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    jitter: f64,
+    /// Correlation length of the jitter along the outline, pixels
+    #[arg(
+        long,
+        value_name = "PX",
+        default_value_t = 10.0,
+        allow_negative_numbers = true
+    )]
+    correlation: f64,
+    /// Mask image of pixels of which nothing is known
+    #[arg(long, value_name = "FILE")]
+    unknown: Option<PathBuf>,
+    /// Write the table as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// The numbers of a pose.
+#[derive(Clone, Copy, Debug)]
+struct SixNumbers(EulerPose);
+
+impl FromStr for SixNumbers {
+    type Err = anyhow::Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+        let wanted = || format!("'{text}' is not six numbers: x,y,z,z_rot,x_rot,y_rot");
+        match numbers.with_context(wanted)?.as_slice() {
+            &[x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg] => Ok(Self(EulerPose {
+                x_mm,
+                y_mm,
+                z_mm,
+                z_rot_deg,
+                x_rot_deg,
+                y_rot_deg,
+            })),
+            _ => bail!(wanted()),
+        }
+    }
+}
+
+/// The limits of all poses.
+#[derive(Serialize)]
+struct Table {
+    noise: Noise,
+    poses: Vec<PoseLimits>,
+    rms: PoseLimits,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that cannot be read, and poses at which the model cannot be drawn.
+pub fn run(args: Args) -> Result<()> {
+    let options = DisturbanceOptions {
+        jitter: args.jitter,
+        correlation: args.correlation,
+        ..DisturbanceOptions::default()
+    };
+    options.check()?;
+    let model = read_model(&args.model)?;
+    let camera = camera_for(&read_calibration(&args.calibration)?, args.frame)?;
+    let poses = match (&args.poses, args.pose) {
+        (Some(path), _) => read_poses(path)?,
+        (None, Some(SixNumbers(pose))) => vec![pose],
+        (None, None) => bail!("neither --pose nor --poses was given"),
+    };
+    let unknown = args.unknown.as_deref().map(read_mask).transpose()?;
+    let noise = Noise {
+        jitter_px: args.jitter,
+        correlation_px: args.correlation,
+        ..Noise::ROUNDING
+    };
+    let mut outlines = Outlines::new(model.as_model(), camera);
+    let limits: Result<Vec<PoseLimits>> = poses
+        .iter()
+        .map(|&pose| {
+            let unknown = unknown.as_ref().map(|unknown| unknown.mask());
+            outlines
+                .pose_limits(&Pose::from(pose), &noise, unknown.as_ref())
+                .with_context(|| format!("at {pose:?}"))
+        })
+        .collect();
+    let limits = limits?;
+    let table = Table {
+        noise,
+        rms: PoseLimits::rms(&limits),
+        poses: limits,
+    };
+    print(&table);
+    write_json(args.json.as_deref(), &table)
+}
+
+fn print(table: &Table) {
+    println!(
+        "{:<6} {:<15} {:>9} {:>9} {:>9} {:>12}",
+        "pose", "limit", "x mm", "y mm", "z mm", "rotation deg"
+    );
+    let line = |name: &str, what: &str, limit: &Limit| {
+        println!(
+            "{name:<6} {what:<15} {:9.4} {:9.4} {:9.3} {:12.4}",
+            limit.x_mm, limit.y_mm, limit.z_mm, limit.geodesic_deg
+        );
+    };
+    let both = |name: &str, limits: &PoseLimits| {
+        line(name, "bound", &limits.bound);
+        if table.noise.jitter_px > 0.0 {
+            line("", "least squares", &limits.least_squares);
+        }
+    };
+    for (index, limits) in table.poses.iter().enumerate() {
+        both(&(index + 1).to_string(), limits);
+    }
+    if table.poses.len() > 1 {
+        both("RMS", &table.rms);
+    }
+}

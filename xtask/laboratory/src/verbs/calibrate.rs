@@ -1,0 +1,184 @@
+//! Verb `calibrate`: camera and distortion from a picture of a bead grid.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::image::frame::Frame;
+use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
+use fluoropose_distortion::automatic::{MARKS, Memory, find_grid};
+use fluoropose_distortion::correction::{Corrected, ORDERS, fit};
+use fluoropose_distortion::discs::{Disc, sums_needed};
+use fluoropose_distortion::lattice::Bead;
+use fluoropose_distortion::plate::{Distances, PlateCamera, camera};
+
+use crate::files::{name_of, read, write_distortion, write_text};
+
+/// Options of `calibrate`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "The grid is a flat plate of round beads or holes in a square pattern. With --distortion a polynomial correction is fitted \
+and written (its order, 3 to 5, by cross-validation); the camera is then that of the straightened picture, so frames must go through \
+`cargo xtask undistort` before they are traced. With the spacing and both distances the calibration is written to --out.\n\n\
+Example:\n  cargo xtask calibrate --grid plate.dcm --distortion plate.json --spacing 10 --source-to-detector 1200 --source-to-plate 1150 \
+--out calibration.txt"
+)]
+pub struct Args {
+    /// Frame of the grid: PNG, JPEG, JPEG 2000, TIFF or DICOM
+    #[arg(long)]
+    grid: PathBuf,
+    /// Which frame of the file, from 1
+    #[arg(long, default_value_t = 1)]
+    frame: usize,
+    /// Radius of the beads, px; any, where it is left out
+    #[arg(long)]
+    radius: Option<f64>,
+    /// The beads are brighter than what is round them
+    #[arg(long)]
+    bright: bool,
+    /// Correction of distortion to write (JSON)
+    #[arg(long)]
+    distortion: Option<PathBuf>,
+    /// Between neighbouring beads, mm
+    #[arg(long, requires = "out")]
+    spacing: Option<f64>,
+    /// From the X-ray source to the detector, mm
+    #[arg(long, requires = "spacing")]
+    source_to_detector: Option<f64>,
+    /// From the X-ray source to the middle of the plate, mm
+    #[arg(long, requires = "spacing")]
+    source_to_plate: Option<f64>,
+    /// Calibration to write (JT_INTCALIB)
+    #[arg(long, requires_all = ["spacing", "source_to_detector", "source_to_plate"])]
+    out: Option<PathBuf>,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For a picture without a grid, impossible lengths, and files that cannot be read or written.
+pub fn run(args: Args) -> Result<()> {
+    let name = name_of(&args.grid);
+    let picture = FrameFile::open(read(&args.grid)?, &name)?.frame(args.frame.saturating_sub(1))?;
+    let size = (picture.width as usize, picture.height as usize);
+    let mut beads = beads_of(&picture, args.bright, args.radius).with_context(|| name.clone())?;
+    if let Some(path) = &args.distortion {
+        let corrected = fit(&mut beads, size).with_context(|| name.clone())?;
+        describe_distortion(&corrected);
+        write_distortion(path, &corrected, &name)?;
+        for bead in &mut beads {
+            *bead = Bead::new(corrected.distortion.straight(bead.at), bead.index);
+        }
+    }
+    match (
+        args.spacing,
+        args.source_to_detector,
+        args.source_to_plate,
+        &args.out,
+    ) {
+        (Some(spacing_mm), Some(source_to_detector_mm), Some(source_to_plate_mm), Some(out)) => {
+            let measured = Distances {
+                spacing_mm,
+                source_to_detector_mm,
+                source_to_plate_mm,
+            };
+            let found = camera(&beads, measured, size).with_context(|| name)?;
+            describe_camera(&found);
+            write_camera(out, &found, measured)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The numbered beads of a picture.
+///
+/// # Errors
+/// When there is no grid.
+pub fn beads_of(picture: &GreyFrame, bright: bool, radius: Option<f64>) -> Result<Vec<Bead>> {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let mut sums = vec![0; sums_needed(width, height)];
+    let (mut discs, mut beads) = (vec![Disc::default(); MARKS], vec![Bead::default(); MARKS]);
+    let mut queue = vec![0; MARKS];
+    let mut memory = Memory {
+        sums: &mut sums,
+        discs: &mut discs,
+        beads: &mut beads,
+        queue: &mut queue,
+    };
+    let found = match &picture.pixels {
+        Pixels::U8(pixels) => find_grid(
+            &Frame::new(pixels, width, height, width)?,
+            bright,
+            radius,
+            &mut memory,
+        )?,
+        Pixels::U16(pixels) => find_grid(
+            &Frame::new(pixels, width, height, width)?,
+            bright,
+            radius,
+            &mut memory,
+        )?,
+    };
+    beads.truncate(found.marks);
+    beads.retain(|bead| bead.index.is_some());
+    println!(
+        "{} beads of {:.1} px radius in a lattice, {:.1} px apart; {} other marks left out",
+        found.numbered,
+        found.radius_px,
+        found.step_px,
+        found.marks - found.numbered
+    );
+    Ok(beads)
+}
+
+fn describe_distortion(corrected: &Corrected) {
+    println!(
+        "distortion: {:.3} px RMS before, {:.3} px after a correction of order {}; {} beads used, {} dropped; largest shift {:.1} px",
+        corrected.before_px,
+        corrected.after_px,
+        corrected.distortion.order(),
+        corrected.used,
+        corrected.dropped,
+        corrected.distortion.largest_shift_px()
+    );
+    let told = ORDERS
+        .iter()
+        .zip(corrected.left_out_px)
+        .map(|(order, residual)| {
+            let residual = residual.map_or("too few beads".to_owned(), |px| format!("{px:.3} px"));
+            format!("order {order} {residual}")
+        });
+    println!("cross-validated: {}", told.collect::<Vec<_>>().join(", "));
+}
+
+fn describe_camera(found: &PlateCamera) {
+    println!(
+        "pixel pitch {:.5} +- {:.5} mm (and the relative error of the distances); {} beads, {:.3} px residual; plate tilted {:.1} deg",
+        found.pitch_mm, found.pitch_deviation_mm, found.used, found.residual_px, found.tilt_deg
+    );
+    match found.offset_is_measured {
+        true => println!(
+            "principal point {:.2} +- {:.2}, {:.2} +- {:.2} mm from the frame's middle",
+            found.offset_mm[0],
+            found.offset_deviation_mm[0],
+            found.offset_mm[1],
+            found.offset_deviation_mm[1]
+        ),
+        false => println!(
+            "principal point: the frame's middle is taken, a plate this level does not show it"
+        ),
+    }
+}
+
+fn write_camera(path: &Path, found: &PlateCamera, measured: Distances) -> Result<()> {
+    let calibration = Calibration::PrincipalDistance {
+        distance: measured.source_to_detector_mm,
+        offset: if found.offset_is_measured {
+            found.offset_mm
+        } else {
+            [0.0; 2]
+        },
+        pitch: found.pitch_mm,
+    };
+    write_text(path, &calibration.to_string())
+}

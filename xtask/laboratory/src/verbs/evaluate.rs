@@ -1,0 +1,158 @@
+//! Verb `evaluate`: poses from a study's masks against its reference poses.
+
+mod found;
+mod limits;
+mod print;
+mod reference;
+mod request;
+mod table;
+
+use std::path::{Path, PathBuf};
+
+use crate::choice::report::{report, write_report};
+use crate::choice::{Reasons, report};
+use crate::files::{Study, known_pose, read_calibration, read_poses, write_json, write_poses};
+use crate::finding::{EdgeOptions, Method};
+use crate::noise::{DisturbanceOptions, Noise};
+use anyhow::{Result, bail};
+use found::{Found, Part, find_parts};
+pub use request::Request;
+pub use table::{Row, StartDifference, Table};
+
+/// Options of `evaluate`.
+#[derive(clap::Args)]
+#[command(
+    after_help = format!("For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
+the reference poses, and the other methods' pose files named there in the same table. wrong counts frames whose pose is nearer to the \
+reference's mirror image than to the reference. No frame is left out: those without a pose are counted and named on standard error. A component without a reference has its poses written and no row.\n\n\
+Of several poses of a frame one is chosen by its residual, where it decides; of a tibia by the coronal tilt against the femur of the same \
+source; then by continuity over the frames. How many frames were chosen by what stands below each row. Components are femur and tibia by their names or \
+by the key role = \"femur\" or \"tibia\".\n\n\
+--method image needs the key frames; it also refines from the reference poses, and the difference from what was found stands below the row: \
+where it is small, the start does not matter.\n\n\
+Under each row of poses found here stand the bound of Cramer and Rao at the reference poses, for masks that are rounded to pixels and \
+err in nothing else, and the error divided by it: masks traced by a hand or a network err more, and their ratio says how much. \
+--jitter S and --occlude F disturb each mask as they do in `pose`; the bound is then that for rounding and jitter, for the \
+part of the outline that is not hidden. Tables unknown.SOURCE = \"folder\" of a component name masks of pixels of which nothing is known.\n\n{}\n\n\
+Example:\n  cargo xtask evaluate --study study.toml --json table.json --poses found", report::HELP)
+)]
+pub struct Args {
+    /// Study file
+    #[arg(long)]
+    study: PathBuf,
+    /// Only masks of this source [default: all]
+    #[arg(long, value_name = "NAME")]
+    source: Option<String>,
+    /// How poses are found
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
+    #[command(flatten)]
+    edges: EdgeOptions,
+    /// Write the table as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Folder for the poses found: COMPONENT-SOURCE.jts each, with the uncertainty table
+    /// COMPONENT-SOURCE.csv beside it [default: written only for components without a reference,
+    /// to the current folder]
+    #[arg(long, value_name = "DIR")]
+    poses: Option<PathBuf>,
+    #[command(flatten)]
+    disturbance: DisturbanceOptions,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that are missing, unreadable or do not belong together.
+pub fn run(args: Args) -> Result<()> {
+    let request = Request {
+        source: args.source.as_deref(),
+        method: args.method,
+        edges: args.edges,
+        disturbance: args.disturbance,
+        poses: args.poses.as_deref(),
+    };
+    let table = evaluate(&args.study, &request)?;
+    print::print(&table);
+    write_json(args.json.as_deref(), &table)
+}
+
+/// Evaluates a study.
+///
+/// # Errors
+/// For files that are missing, unreadable or do not belong together.
+pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
+    request.disturbance.check()?;
+    let study = Study::read(path)?;
+    if request.method == Method::Image && study.frames.is_none() {
+        bail!(
+            "{} has no key 'frames': the method image needs the folder of the grey frames, frames = \"folder\"",
+            path.display()
+        );
+    }
+    if let Some(source) = request.source
+        && !study
+            .components
+            .iter()
+            .any(|c| c.masks.contains_key(source))
+    {
+        bail!("{} names no masks of a source '{source}'", path.display());
+    }
+    let calibration = read_calibration(&study.calibration)?;
+    let mut rows = Vec::new();
+    for part in find_parts(&study, &calibration, request)? {
+        for found in &part.found {
+            part.write(found, request.poses)?;
+            rows.extend(part.row(found, request)?);
+        }
+        rows.extend(part.peers()?);
+    }
+    Ok(Table {
+        study: study.name,
+        rows,
+    })
+}
+
+impl Part<'_> {
+    /// Writes poses and their uncertainty.
+    fn write(&self, found: &Found, folder: Option<&Path>) -> Result<()> {
+        let Some(folder) = folder.or(self.reference.is_none().then_some(Path::new(""))) else {
+            return Ok(());
+        };
+        let path = folder.join(format!("{}-{}.jts", self.component.name, found.source));
+        write_poses(&path, &found.rows())?;
+        let middle = self.model.as_model().bounds().centre;
+        let frames = report(&found.frames, &found.decisions, &middle);
+        write_report(&path.with_extension("csv"), &frames)
+    }
+
+    /// The row of a source, where there is a reference.
+    fn row(&self, found: &Found, request: &Request<'_>) -> Result<Option<Row>> {
+        let Some(reference) = &self.reference else {
+            return Ok(None);
+        };
+        let poses = found.poses();
+        let names = [&self.component.name, &found.source, request.method.word()];
+        let mut row = reference.row(names, &poses)?;
+        row.reasons = Some(Reasons::of(&found.decisions));
+        row.femur.clone_from(&found.femur);
+        let starts = found.from_reference.as_deref();
+        row.from_reference = starts.map(|starts| StartDifference::of(&poses, starts));
+        let noise = Noise::of(&request.disturbance, 1);
+        let mesh = self.model.as_model();
+        row.limits = Some(limits::against(reference, mesh, found, noise, &row.rms)?);
+        Ok(Some(row))
+    }
+
+    /// The rows of other methods' pose files.
+    fn peers(&self) -> Result<Vec<Row>> {
+        let Some(reference) = &self.reference else {
+            return Ok(Vec::new());
+        };
+        let peers = self.component.peer.iter().map(|(source, path)| {
+            let poses: Vec<_> = read_poses(path)?.iter().map(known_pose).collect();
+            reference.row([&self.component.name, source, "peer"], &poses)
+        });
+        peers.collect()
+    }
+}

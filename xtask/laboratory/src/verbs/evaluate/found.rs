@@ -1,0 +1,252 @@
+//! Poses of a study's components in all of their sources.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::finder::choice::Counterpart;
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use rayon::prelude::*;
+
+use super::reference::{Reference, in_front};
+use super::request::Request;
+use crate::choice::{Decision, decide};
+use crate::files::{Component, MaskBuffer, Role, Study, read_model};
+use crate::finding::{Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses};
+use crate::measure::accuracy::median_absolute;
+use crate::options::Pair;
+use crate::sequence::{Folders, Sequence, Source};
+use fluoropose::mesh::OwnedModel;
+
+/// A component and what was found in each of its sources.
+pub(super) struct Part<'s> {
+    pub(super) component: &'s Component,
+    pub(super) model: OwnedModel,
+    pub(super) reference: Option<Reference>,
+    /// In the order of the sources' names.
+    pub(super) found: Vec<Found>,
+}
+
+/// What was found in the masks of one source.
+pub(super) struct Found {
+    pub(super) source: String,
+    pub(super) camera: Camera,
+    pub(super) frames: Vec<FrameFound>,
+    /// Which of the poses was chosen in each frame.
+    pub(super) decisions: Vec<Option<Decision>>,
+    /// Source of the femoral poses that were known when these were chosen.
+    pub(super) femur: Option<String>,
+    /// Of the method `image`: where refinement comes to from the reference pose.
+    pub(super) from_reference: Option<Vec<Option<Pose>>>,
+    /// Pixels of each mask that say nothing.
+    pub(super) hidden: Vec<Option<MaskBuffer>>,
+}
+
+impl Found {
+    /// The poses that were chosen.
+    pub(super) fn poses(&self) -> Vec<Option<Pose>> {
+        let pose = |decision: &Option<Decision>| decision.map(|decision| decision.answer.pose);
+        self.decisions.iter().map(pose).collect()
+    }
+
+    /// The same as rows of a pose file.
+    pub(super) fn rows(&self) -> Vec<EulerPose> {
+        let row = |pose: Option<Pose>| pose.map(EulerPose::from).unwrap_or_default();
+        self.poses().into_iter().map(row).collect()
+    }
+}
+
+/// Finds and chooses the poses of all components. Femoral components are decided first, then
+/// tibial ones with the femoral poses of the same source known, or of the first source that has
+/// any. Others are decided by themselves.
+pub(super) fn find_parts<'s>(
+    study: &'s Study,
+    calibration: &Calibration,
+    request: &Request<'_>,
+) -> Result<Vec<Part<'s>>> {
+    let find = |component: &'s Component| {
+        Part::find(component, study.frames.as_deref(), calibration, request)
+            .with_context(|| format!("the component {}", component.name))
+    };
+    // On a core each.
+    let components = study.components.par_iter();
+    let mut parts: Vec<Part<'s>> = components.map(find).collect::<Result<_>>()?;
+    let is = |role: Role| move |part: &Part<'_>| part.component.role() == Some(role);
+    let mut femurs: Vec<(String, Vec<Option<Pose>>)> = Vec::new();
+    for part in parts.iter_mut().filter(|part| !is(Role::Tibia)(part)) {
+        for found in &mut part.found {
+            found.decisions = decide(&found.frames, &[])?;
+        }
+    }
+    for part in parts.iter().filter(|part| is(Role::Femur)(part)) {
+        let poses = part
+            .found
+            .iter()
+            .map(|found| (found.source.clone(), found.poses()));
+        femurs.extend(poses);
+    }
+    for part in parts.iter_mut().filter(|part| is(Role::Tibia)(part)) {
+        for found in &mut part.found {
+            found.decide_with(&femurs)?;
+        }
+    }
+    Ok(parts)
+}
+
+impl Found {
+    /// Chooses tibial poses with the femoral ones of a source known.
+    fn decide_with(&mut self, femurs: &[(String, Vec<Option<Pose>>)]) -> Result<()> {
+        let fitting = || {
+            femurs
+                .iter()
+                .filter(|(_, poses)| poses.len() == self.frames.len())
+        };
+        let same = fitting().find(|(source, _)| *source == self.source);
+        let femur = same.or_else(|| fitting().next());
+        let counterparts = femur.map_or(Vec::new(), |(_, poses)| {
+            let known = |pose: &Option<Pose>| pose.map(Counterpart::Femur);
+            poses.iter().map(known).collect()
+        });
+        self.femur = femur.map(|(source, _)| source.clone());
+        self.decisions = decide(&self.frames, &counterparts)?;
+        Ok(())
+    }
+}
+
+impl<'s> Part<'s> {
+    fn find(
+        component: &'s Component,
+        frames: Option<&Path>,
+        calibration: &Calibration,
+        request: &Request<'_>,
+    ) -> Result<Self> {
+        let mut part = Self {
+            component,
+            model: read_model(&component.model)?,
+            reference: Reference::of(component)?,
+            found: Vec::new(),
+        };
+        let wanted = |name: &String| request.source.is_none_or(|source| source == name);
+        for (name, masks) in component.masks.iter().filter(|(name, _)| wanted(name)) {
+            let folders = Folders {
+                masks,
+                unknown: component.unknown.get(name).map(PathBuf::as_path),
+                frames: frames.filter(|_| request.method == Method::Image),
+            };
+            let source = Source::read(&folders, calibration)?;
+            let sequence = source.disturbed(&request.disturbance)?;
+            let views = part.views(calibration, &sequence, request)?;
+            let found = part.find_source(name, &sequence, &views, request)?;
+            part.found.push(found);
+        }
+        Ok(part)
+    }
+
+    /// The views of the library. Perspective depends on the distance: where nobody told it, the
+    /// masks do, once.
+    fn views(
+        &self,
+        calibration: &Calibration,
+        sequence: &Sequence<'_>,
+        request: &Request<'_>,
+    ) -> Result<ViewOptions> {
+        let mut views = ViewOptions {
+            nominal: Pair(self.component.nominal),
+            distance: self.component.distance_mm,
+            ..ViewOptions::default()
+        };
+        if views.distance.is_none() {
+            let guess = views.distance_for(calibration);
+            let built = self.library(sequence, &views, guess)?;
+            let mut finder = self.finder(&built, sequence, Method::Library, request)?;
+            let found = find_poses(&mut finder, sequence);
+            let best = found.iter().filter_map(|frame| frame.answers.first());
+            let depths: Vec<f64> = best.map(|answer| answer.pose.translation[2]).collect();
+            let median = median_absolute(&depths);
+            views.distance = Some(if depths.is_empty() { guess } else { median });
+        }
+        Ok(views)
+    }
+
+    fn library(
+        &self,
+        sequence: &Sequence<'_>,
+        views: &ViewOptions,
+        distance: f64,
+    ) -> Result<Built> {
+        build_library(self.model.as_model(), sequence.camera(), views, distance)
+    }
+
+    fn finder<'l>(
+        &'l self,
+        built: &'l Built,
+        sequence: &Sequence<'_>,
+        method: Method,
+        request: &Request<'_>,
+    ) -> Result<Finder<'l>> {
+        let mesh = self.model.as_model();
+        let finder = Finder::open(&built.bytes, mesh, sequence.camera(), method)?;
+        Ok(finder.with_edges(request.edges))
+    }
+
+    fn find_source(
+        &self,
+        source: &str,
+        sequence: &Sequence<'_>,
+        views: &ViewOptions,
+        request: &Request<'_>,
+    ) -> Result<Found> {
+        let count = sequence.masks().len();
+        if let Some(reference) = &self.reference
+            && reference.poses.len() != count
+        {
+            bail!(
+                "{source}: {count} masks but {} reference poses; both must be of the same frames",
+                reference.poses.len()
+            );
+        }
+        let distance = views.distance.context("the distance was found before")?;
+        let built = self.library(sequence, views, distance)?;
+        let mut finder = self.finder(&built, sequence, request.method, request)?;
+        let reference = self.reference.as_ref();
+        let reference = reference.filter(|_| request.method == Method::Image);
+        Ok(Found {
+            source: source.to_owned(),
+            camera: sequence.camera(),
+            frames: find_poses(&mut finder, sequence),
+            decisions: Vec::new(),
+            femur: None,
+            from_reference: reference
+                .map(|reference| from_reference(&mut finder, sequence, reference)),
+            hidden: sequence
+                .masks()
+                .map(|(_, mask)| mask.hidden.clone())
+                .collect(),
+        })
+    }
+}
+
+/// Where refinement on the grey frame comes to from the reference poses; of several answers, as a
+/// mirrored one, the nearest to the reference.
+fn from_reference(
+    finder: &mut Finder<'_>,
+    sequence: &Sequence<'_>,
+    reference: &Reference,
+) -> Vec<Option<Pose>> {
+    let known = reference.poses.iter().enumerate();
+    let refine = |(frame, pose): (usize, &Option<Pose>)| {
+        let start = in_front(&(*pose)?);
+        let found = sequence.look(frame, |seen| finder.refine_on_image(seen, &[start]));
+        let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &start.rotation);
+        let poses = found.map(|found| {
+            let poses = found.iter().map(|rival| rival.refined.pose);
+            poses.min_by(|a, b| turn(a).total_cmp(&turn(b)))
+        });
+        poses.unwrap_or_else(|error| {
+            eprintln!("frame {} from the reference pose: {error:#}", frame + 1);
+            None
+        })
+    };
+    known.map(refine).collect()
+}

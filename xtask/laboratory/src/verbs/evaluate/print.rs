@@ -1,0 +1,97 @@
+//! The table for a person.
+
+use super::table::{Row, Table};
+use crate::measure::accuracy::Errors;
+use crate::measure::bound::{Comparison, Limit};
+
+/// Width of the columns before the numbers.
+const LEFT: usize = 39;
+
+pub(super) fn print(table: &Table) {
+    println!(
+        "{}: error against the reference, RMS over all frames with a pose (median absolute below)",
+        table.study
+    );
+    println!(
+        "{:<10} {:<12} {:<8} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>8} {:>9} {:>6}",
+        "component",
+        "source",
+        "method",
+        "frames",
+        "x mm",
+        "y mm",
+        "z mm",
+        "z_rot",
+        "x_rot",
+        "y_rot",
+        "geodesic",
+        "wrong"
+    );
+    for row in &table.rows {
+        print_row(row);
+    }
+}
+
+fn print_row(row: &Row) {
+    println!(
+        "{:<10} {:<12} {:<8} {:>6} {} {:>6}",
+        row.component,
+        row.source,
+        row.method,
+        row.frames,
+        numbers(&row.rms),
+        row.wrong_side
+    );
+    println!("{:LEFT$} {}", "", numbers(&row.median));
+    if row.not_found > 0 {
+        let (missing, frames) = (row.not_found, row.frames);
+        println!(
+            "{:LEFT$} {missing} of {frames} frames have no pose: the errors are those of the others",
+            ""
+        );
+    }
+    if row.no_reference > 0 {
+        let (missing, frames) = (row.no_reference, row.frames);
+        println!(
+            "{:LEFT$} {missing} of {frames} frames have no reference pose",
+            ""
+        );
+    }
+    if let Some(limits) = &row.limits {
+        print_limits(limits);
+    }
+    if let Some(reasons) = &row.reasons {
+        let known = row.femur.as_ref().map_or(String::new(), |source| {
+            format!(" (with the femoral poses of {source} known)")
+        });
+        println!("{:>LEFT$} {reasons}{known}", "chosen by");
+    }
+    if let Some(start) = &row.from_reference {
+        let frames = format!("from the reference's start, {} frames", start.frames);
+        println!("{frames:>LEFT$} {}", numbers(&start.rms));
+        println!("{:>LEFT$} {}", "largest", numbers(&start.largest));
+    }
+}
+
+fn numbers(e: &Errors) -> String {
+    format!(
+        "{:7.3} {:7.3} {:7.2} {:8.3} {:8.3} {:8.3} {:9.3}",
+        e.x_mm, e.y_mm, e.z_mm, e.z_rot_deg, e.x_rot_deg, e.y_rot_deg, e.geodesic_deg
+    )
+}
+
+/// Limits and ratios in the columns of the table.
+fn print_limits(limits: &Comparison) {
+    let line = |name: &str, l: &Limit| {
+        println!(
+            "{name:>LEFT$} {:7.3} {:7.3} {:7.2} {:26} {:9.3}",
+            l.x_mm, l.y_mm, l.z_mm, "", l.geodesic_deg
+        );
+    };
+    line("bound", &limits.bound);
+    line("RMS / bound", &limits.ratio_to_bound);
+    if limits.noise.jitter_px > 0.0 {
+        line("plain least squares", &limits.least_squares);
+        line("RMS / that", &limits.ratio_to_least_squares);
+    }
+}

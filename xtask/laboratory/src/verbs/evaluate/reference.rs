@@ -1,0 +1,88 @@
+//! What a component's poses are compared with.
+
+use anyhow::{Result, bail};
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::pose::Pose;
+
+use super::table::Row;
+use crate::files::{Component, known_pose, read_model, read_poses};
+use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute, rms};
+
+/// Reference poses of a component.
+pub(super) struct Reference {
+    /// Those of each frame, in the frame of the reference's own camera.
+    pub(super) poses: Vec<Option<Pose>>,
+    /// Planes in which the component is nearly symmetric.
+    planes: Vec<SymmetryPlane>,
+}
+
+impl Reference {
+    pub(super) fn of(component: &Component) -> Result<Option<Self>> {
+        let Some(path) = &component.reference else {
+            return Ok(None);
+        };
+        let model = read_model(&component.model)?;
+        Ok(Some(Self {
+            poses: read_poses(path)?.iter().map(known_pose).collect(),
+            planes: symmetry_planes(model.as_model().mesh()).to_vec(),
+        }))
+    }
+
+    /// The row of poses that are named by component, source and method.
+    pub(super) fn row(
+        &self,
+        [component, source, method]: [&str; 3],
+        found: &[Option<Pose>],
+    ) -> Result<Row> {
+        if found.len() != self.poses.len() {
+            bail!(
+                "{component} {source}: {} poses but {} reference poses; both must be of the same frames",
+                found.len(),
+                self.poses.len()
+            );
+        }
+        let both = found.iter().zip(&self.poses);
+        let pairs: Vec<(Pose, Pose)> = both
+            .filter_map(|(found, reference)| Some(in_frame_of((*found)?, (*reference)?)))
+            .collect();
+        let errors: Vec<Errors> = pairs.iter().map(|(a, b)| Errors::of(a, b)).collect();
+        let none = |poses: &[Option<Pose>]| poses.iter().filter(|pose| pose.is_none()).count();
+        Ok(Row {
+            component: component.to_owned(),
+            source: source.to_owned(),
+            method: method.to_owned(),
+            frames: found.len(),
+            not_found: none(found),
+            no_reference: none(&self.poses),
+            rms: Errors::summarise(&errors, rms),
+            median: Errors::summarise(&errors, median_absolute),
+            wrong_side: pairs
+                .iter()
+                .filter(|(found, known)| is_wrong_side(found, known, &self.planes))
+                .count(),
+            reasons: None,
+            femur: None,
+            from_reference: None,
+            limits: None,
+        })
+    }
+}
+
+/// A pose in our camera frame, which looks along -z.
+pub(super) fn in_front(pose: &Pose) -> Pose {
+    if pose.translation[2] > 0.0 {
+        pose.flip_camera_axes()
+    } else {
+        *pose
+    }
+}
+
+/// Both poses in the reference's own camera frame. A reference in front of a camera that looks
+/// along +z (computer vision, as camera-matrix studies may have) has positive z; ours never do.
+fn in_frame_of(found: Pose, reference: Pose) -> (Pose, Pose) {
+    if reference.translation[2] * found.translation[2] < 0.0 {
+        (found.flip_camera_axes(), reference)
+    } else {
+        (found, reference)
+    }
+}

@@ -1,0 +1,76 @@
+//! The table of a study: errors of each component, source and method.
+
+use fluoropose::pose::Pose;
+use serde::Serialize;
+
+use crate::choice::Reasons;
+use crate::measure::accuracy::{Errors, rms};
+use crate::measure::bound::Comparison;
+
+/// The table of a study.
+#[derive(Debug, Serialize)]
+pub struct Table {
+    /// Name of the study.
+    pub study: String,
+    /// A row for each component, source and method.
+    pub rows: Vec<Row>,
+}
+
+/// One row: errors of one method on one source.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Name of the component.
+    pub component: String,
+    /// Name of the mask source, or of the other method's pose file.
+    pub source: String,
+    /// The method's word, or `peer` for another method's file.
+    pub method: String,
+    /// Number of frames.
+    pub frames: usize,
+    /// Frames without a pose; errors are those of the others.
+    pub not_found: usize,
+    /// Frames of which no reference pose is known.
+    pub no_reference: usize,
+    /// Root mean square errors.
+    pub rms: Errors,
+    /// Median absolute errors.
+    pub median: Errors,
+    /// Frames nearer to the reference's mirror image than to the reference.
+    pub wrong_side: usize,
+    /// Of poses found here: by what they were chosen.
+    pub reasons: Option<Reasons>,
+    /// Source of the femoral poses that were known when these were chosen.
+    pub femur: Option<String>,
+    /// Of the method `image`: how much the start matters.
+    pub from_reference: Option<StartDifference>,
+    /// Of poses found here: the limits at the reference poses, and the root mean square errors
+    /// against them.
+    pub limits: Option<Comparison>,
+}
+
+/// How far poses that were found differ from what refinement finds from the reference poses.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct StartDifference {
+    /// Frames in which both were found.
+    pub frames: usize,
+    /// Root mean square.
+    pub rms: Errors,
+    /// Largest magnitude in each column.
+    pub largest: Errors,
+}
+
+impl StartDifference {
+    /// Poses that were chosen against those that refinement found from the reference poses.
+    pub(super) fn of(chosen: &[Option<Pose>], from_reference: &[Option<Pose>]) -> Self {
+        let both = chosen.iter().zip(from_reference);
+        let differences: Vec<Errors> = both
+            .filter_map(|(chosen, other)| Some(Errors::of(&(*chosen)?, &(*other)?)))
+            .collect();
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        Self {
+            frames: differences.len(),
+            rms: Errors::summarise(&differences, rms),
+            largest: Errors::summarise(&differences, largest),
+        }
+    }
+}

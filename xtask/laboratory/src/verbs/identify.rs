@@ -1,0 +1,153 @@
+//! Verb `identify`: which implant of a catalogue a silhouette is of, and its pose.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail};
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
+use fluoropose::library::Library;
+use fluoropose::locate::{Workspace, locate, workspace_needed};
+use fluoropose::pose::EulerPose;
+use fluoropose::search::{
+    Catalogue, CatalogueMemory, Identified, Leaf, Query, catalogue_needed, identify_bytes_needed,
+    query_bytes_needed,
+};
+
+use crate::files::{MaskBuffer, files_in, name_of, read, read_calibration, read_mask};
+
+/// Implants that are told of each mask.
+const TOLD: usize = 3;
+
+/// Options of `identify`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Every library of the folder is one implant. The search is exact: it finds what comparing the mask with every view of \
+every library would, and leaves out only what cannot be better. A canonical silhouette tells nothing of an implant's size; the pose's depth does.\n\n\
+Example:\n  cargo xtask identify --libraries catalogue --calibration calibration.txt --masks masks/femur"
+)]
+pub struct Args {
+    /// Folder of library files from `cargo xtask library`, all of one canonical size and area
+    #[arg(long, value_name = "DIR")]
+    libraries: PathBuf,
+    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    #[arg(long)]
+    calibration: PathBuf,
+    /// Folder of mask images
+    #[arg(long)]
+    masks: PathBuf,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that cannot be read or do not go together, and masks without a canonical form.
+pub fn run(args: Args) -> Result<()> {
+    let calibration = read_calibration(&args.calibration)?;
+    let files = files_in(&args.libraries)?;
+    let contents: Vec<Vec<u8>> = files.iter().map(|file| read(file)).collect::<Result<_>>()?;
+    let libraries = files
+        .iter()
+        .zip(&contents)
+        .map(|(file, bytes)| Library::open(bytes).with_context(|| file.display().to_string()))
+        .collect::<Result<Vec<_>>>()?;
+    let needs = catalogue_needed(&libraries);
+    let memory = CatalogueMemory {
+        leaves: &mut vec![Leaf::default(); needs.leaves],
+        boxes: &mut vec![0; needs.boxes],
+        places: &mut vec![0; needs.places],
+        scratch: &mut vec![0; needs.scratch],
+    };
+    let catalogue = Catalogue::new(&libraries, memory)?;
+    let mut memory = Memory::new(&catalogue.spec());
+    for path in files_in(&args.masks)? {
+        let mask = read_mask(&path)?;
+        let start = Instant::now();
+        let found = memory.identify(&catalogue, &calibration, &mask)?;
+        let took = start.elapsed();
+        println!(
+            "{}: looked for in {} libraries in {took:.1?}",
+            name_of(&path),
+            libraries.len()
+        );
+        for one in &found {
+            println!(
+                "  {}: {} pixels unmatched",
+                name_of(&files[one.library]),
+                one.best.unmatched
+            );
+        }
+        let Some(best) = found.first() else {
+            bail!("the catalogue has no view");
+        };
+        println!(
+            "  {}",
+            pose_line(&libraries[best.library], &calibration, &mask)?
+        );
+    }
+    Ok(())
+}
+
+/// Working memory for one mask after another.
+struct Memory {
+    canonical: Vec<u32>,
+    turned: Vec<u32>,
+    query: Vec<u8>,
+    bytes: Vec<u8>,
+}
+
+impl Memory {
+    fn new(spec: &CanonicalSpec) -> Self {
+        Self {
+            canonical: vec![0; spec.words_needed()],
+            turned: vec![0; spec.words_needed()],
+            query: vec![0; query_bytes_needed(spec, false)],
+            bytes: vec![0; identify_bytes_needed(spec)],
+        }
+    }
+
+    fn identify(
+        &mut self,
+        catalogue: &Catalogue<'_>,
+        calibration: &Calibration,
+        mask: &MaskBuffer,
+    ) -> Result<Vec<Identified>> {
+        let spec = catalogue.spec();
+        let mask = mask.mask();
+        let camera = calibration.camera(mask.width(), mask.height())?;
+        canonicalise(&mask, &spec, camera.aspect(), &mut self.canonical)?;
+        reverse(&self.canonical, &mut self.turned);
+        let query = Query::new(&spec, &self.canonical, &self.turned, None, &mut self.query)?;
+        let kernels = fluoropose_kernels::fastest();
+        let found = catalogue.identify::<TOLD>(&query, &kernels, &mut self.bytes)?;
+        Ok(found.to_vec())
+    }
+}
+
+/// The pose by the library that fits best.
+fn pose_line(
+    library: &Library<'_>,
+    calibration: &Calibration,
+    mask: &MaskBuffer,
+) -> Result<String> {
+    let mask = mask.mask();
+    let camera = calibration.camera(mask.width(), mask.height())?;
+    let needs = workspace_needed(library);
+    let work = Workspace {
+        canonical: &mut vec![0; needs.words],
+        turned: &mut vec![0; needs.words],
+        scores: &mut vec![0; needs.scores],
+        bytes: &mut vec![0; needs.bytes],
+        kernels: fluoropose_kernels::fastest(),
+    };
+    let found = locate::<1>(&mask, &camera, library, work)?;
+    let located = found
+        .poses
+        .first()
+        .context("the best library has no pose")?;
+    let pose = EulerPose::from(located.pose);
+    Ok(format!(
+        "x {:.2}, y {:.2}, z {:.1} mm; z {:.2}, x {:.2}, y {:.2} deg",
+        pose.x_mm, pose.y_mm, pose.z_mm, pose.z_rot_deg, pose.x_rot_deg, pose.y_rot_deg
+    ))
+}

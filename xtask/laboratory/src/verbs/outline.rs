@@ -1,0 +1,310 @@
+//! Verb `outline`: one-click outlines on a study's grey frames, against its masks.
+
+mod picture;
+mod prompts;
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use fluoropose::camera::Camera;
+use fluoropose::image::mask::Mask;
+use fluoropose::mesh::Model;
+use fluoropose::pose::Pose;
+use fluoropose::refine::Polarity;
+use fluoropose::render::{Projected, render, scratch_needed};
+use serde::Serialize;
+
+use crate::files::{
+    Component, MaskBuffer, Study, grey, known_pose, read_calibration, read_model, read_poses,
+    write_json,
+};
+
+use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
+
+use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
+
+use crate::options::Pair;
+
+use crate::sequence::{Folders, Source};
+use prompts::Kind;
+
+/// Options of `outline`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "For each frame of the study: a click where the implant is thickest, a click anywhere inside it and a rough box, 5 to 15 % \
+larger on each side, all derived from its mask. Each is given to the one-click outline with the grey frame and the component's library, \
+built for the usual distance; nothing else of the mask is used. The table holds the overlap (intersection over union) of the model's \
+silhouette with the mask, the pose's errors against the reference poses, and the time.\n\n\
+Example:\n  cargo xtask outline --study study.toml --component femur"
+)]
+pub struct Args {
+    /// Study file; it needs the key frames
+    #[arg(long)]
+    study: PathBuf,
+    /// Name of the component
+    #[arg(long)]
+    component: String,
+    /// Source of the masks
+    #[arg(long, value_name = "NAME", default_value = "labels")]
+    source: String,
+    /// The implant is brighter than what surrounds it
+    #[arg(long)]
+    bright_implant: bool,
+    /// Only this frame, from 0
+    #[arg(long)]
+    frame: Option<usize>,
+    /// Tell every first pose and every answer
+    #[arg(long)]
+    verbose: bool,
+    /// Folder for a picture of each answer
+    #[arg(long, value_name = "DIR")]
+    pictures: Option<PathBuf>,
+    /// Write the table as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// A row of the table: one kind of prompt.
+#[derive(Debug, Serialize)]
+pub struct Row {
+    /// Kind of prompt.
+    pub prompt: &'static str,
+    /// Prompts that were given.
+    pub frames: usize,
+    /// Prompts without an answer.
+    pub failed: usize,
+    /// Median overlap, failures counted as 0.
+    pub median_iou: f64,
+    /// Least overlap.
+    pub least_iou: f64,
+    /// Median absolute errors of the first answer's pose.
+    pub median: Option<Errors>,
+    /// First answers nearer to the reference's mirror image than to the reference.
+    pub wrong_side: usize,
+    /// Median time, ms.
+    pub median_ms: f64,
+    /// Median of the longest step of each, ms.
+    pub step_ms: f64,
+}
+
+/// What came of one prompt.
+struct Outcome {
+    iou: f64,
+    errors: Option<Errors>,
+    wrong_side: bool,
+    ms: f64,
+    step_ms: f64,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that are missing, unreadable or do not belong together.
+pub fn run(args: Args) -> Result<()> {
+    let study = Study::read(&args.study)?;
+    let component = study
+        .components
+        .iter()
+        .find(|component| component.name == args.component)
+        .with_context(|| format!("the study has no component {}", args.component))?;
+    let masks = component.masks.get(&args.source);
+    let folders = Folders {
+        masks: masks.with_context(|| format!("{} has no masks.{}", args.component, args.source))?,
+        unknown: None,
+        frames: Some(
+            study
+                .frames
+                .as_deref()
+                .context("the study has no key 'frames'")?,
+        ),
+    };
+    let calibration = read_calibration(&study.calibration)?;
+    let source = Source::read(&folders, &calibration)?;
+    let views = ViewOptions {
+        nominal: Pair(component.nominal),
+        distance: component.distance_mm,
+        ..ViewOptions::default()
+    };
+    let model = read_model(&component.model)?;
+    let mesh = model.as_model();
+    let distance = views.distance_for(&calibration);
+    let library = build_library(mesh, source.camera, &views, distance)?;
+    let mut trial = Trial {
+        clicker: Clicker::open(&library.bytes, mesh, source.camera)?,
+        references: references(component)?,
+        source: &source,
+        mesh,
+        args: &args,
+    };
+    let mut rows = Vec::new();
+    for kind in Kind::ALL {
+        let row = trial.row(kind)?;
+        print(&row);
+        rows.push(row);
+    }
+    write_json(args.json.as_deref(), &rows)
+}
+
+fn references(component: &Component) -> Result<Vec<Option<Pose>>> {
+    let Some(path) = &component.reference else {
+        return Ok(Vec::new());
+    };
+    Ok(read_poses(path)?.iter().map(known_pose).collect())
+}
+
+struct Trial<'t> {
+    clicker: Clicker<'t>,
+    references: Vec<Option<Pose>>,
+    source: &'t Source,
+    mesh: Model<'t>,
+    args: &'t Args,
+}
+
+impl Trial<'_> {
+    fn row(&mut self, kind: Kind) -> Result<Row> {
+        let all = 0..self.source.masks.len();
+        let frames: Vec<usize> = match self.args.frame {
+            Some(frame) => all.skip(frame).take(1).collect(),
+            None => all.collect(),
+        };
+        let mut outcomes = Vec::new();
+        for &frame in &frames {
+            outcomes.push(self.outcome(kind, frame)?);
+        }
+        let done: Vec<&Outcome> = outcomes.iter().flatten().collect();
+        let median = |value: fn(&Outcome) -> f64| {
+            let values: Vec<f64> = done.iter().map(|outcome| value(outcome)).collect();
+            median_absolute(&values)
+        };
+        let overlaps: Vec<f64> = outcomes
+            .iter()
+            .map(|outcome| outcome.as_ref().map_or(0.0, |outcome| outcome.iou))
+            .collect();
+        let errors: Vec<Errors> = done.iter().filter_map(|outcome| outcome.errors).collect();
+        Ok(Row {
+            prompt: kind.word(),
+            frames: frames.len(),
+            failed: frames.len() - done.len(),
+            median_iou: median_absolute(&overlaps),
+            least_iou: overlaps.iter().copied().fold(1.0, f64::min),
+            median: (!errors.is_empty()).then(|| Errors::summarise(&errors, median_absolute)),
+            wrong_side: done.iter().filter(|outcome| outcome.wrong_side).count(),
+            median_ms: median(|outcome| outcome.ms),
+            step_ms: median(|outcome| outcome.step_ms),
+        })
+    }
+
+    /// One prompt; `None` where nothing came of it.
+    fn outcome(&mut self, kind: Kind, frame: usize) -> Result<Option<Outcome>> {
+        let (path, mask) = &self.source.masks[frame];
+        let mask = mask.mask();
+        let prompt = kind
+            .prompt(&mask, frame as u64)
+            .with_context(|| format!("{} is too thin to click into", path.display()))?;
+        let frames = self.source.frames.as_ref().context("there are no frames")?;
+        let decoded = frames.decode(frame)?;
+        let grey = grey(&decoded)?;
+        let polarity = if self.args.bright_implant {
+            Polarity::BrightImplant
+        } else {
+            Polarity::DarkImplant
+        };
+        let clicked = match self.clicker.click(&*grey, prompt, polarity) {
+            Ok(clicked) => clicked,
+            Err(error) => {
+                eprintln!("frame {frame}, {}: {error}", kind.word());
+                return Ok(None);
+            }
+        };
+        if self.args.verbose {
+            self.tell(
+                &format!("frame {frame} {} {prompt:?}", kind.word()),
+                &clicked,
+                &mask,
+            )?;
+        }
+        let best = &clicked.answers[0].refined.pose;
+        let drawn = draw(&self.mesh, &self.source.camera, best)?;
+        if let Some(folder) = &self.args.pictures {
+            let name = format!("{}-{frame:03}-{kind:?}.png", self.args.component);
+            picture::write(&folder.join(name), &*grey, &mask, &drawn.mask(), &prompt)?;
+        }
+        let reference = self.references.get(frame).copied().flatten();
+        let planes = self.clicker.planes();
+        Ok(Some(Outcome {
+            iou: overlap(&mask, &drawn.mask()),
+            errors: reference.map(|reference| Errors::of(best, &reference)),
+            wrong_side: reference.is_some_and(|reference| is_wrong_side(best, &reference, planes)),
+            ms: clicked.took.as_secs_f64() * 1e3,
+            step_ms: clicked.longest.as_secs_f64() * 1e3,
+        }))
+    }
+
+    fn tell(&self, what: &str, clicked: &Clicked, mask: &Mask<'_>) -> Result<()> {
+        eprintln!("{what}: {:.0} ms", clicked.took.as_secs_f64() * 1e3);
+        let iou = |pose: &Pose| -> Result<f64> {
+            let drawn = draw(&self.mesh, &self.source.camera, pose)?;
+            Ok(overlap(mask, &drawn.mask()))
+        };
+        for start in &clicked.starts {
+            eprintln!(
+                "  start: iou {:.3}, score {:.3}, region {:.3}, edges {:.3}, share {:.3}",
+                iou(&start.pose)?,
+                start.score,
+                start.overlap,
+                start.support.strength,
+                start.support.share
+            );
+        }
+        for answer in &clicked.answers {
+            eprintln!(
+                "  answer: iou {:.3}, score {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
+                iou(&answer.refined.pose)?,
+                answer.score,
+                answer.support.share,
+                answer.refined.residual_px,
+                answer.refined.loss,
+                if answer.mirrored { ", mirrored" } else { "" }
+            );
+        }
+        Ok(())
+    }
+}
+
+/// The silhouette of a pose.
+fn draw(mesh: &Model<'_>, camera: &Camera, pose: &Pose) -> Result<MaskBuffer> {
+    let mut buffer = MaskBuffer::new(camera.width(), camera.height())?;
+    let mut scratch = vec![Projected::default(); scratch_needed(mesh)];
+    buffer.draw(|mask| render(mesh, camera, pose, &mut scratch, mask))?;
+    Ok(buffer)
+}
+
+/// Pixels in both masks divided by those in either.
+fn overlap(a: &Mask<'_>, b: &Mask<'_>) -> f64 {
+    let count = |rule: fn(u32, u32) -> u32| -> f64 {
+        let pairs = a.words().iter().zip(b.words());
+        pairs
+            .map(|(&a, &b)| f64::from(rule(a, b).count_ones()))
+            .sum()
+    };
+    count(|a, b| a & b) / count(|a, b| a | b).max(1.0)
+}
+
+fn print(row: &Row) {
+    println!(
+        "{:22} {:3} frames, {} without an answer: overlap median {:.3}, least {:.3}; {:.0} ms, longest step {:.0} ms",
+        row.prompt,
+        row.frames,
+        row.failed,
+        row.median_iou,
+        row.least_iou,
+        row.median_ms,
+        row.step_ms
+    );
+    if let Some(errors) = &row.median {
+        println!(
+            "{:22} median errors: x {:.2}, y {:.2}, z {:.2} mm; {:.2} deg; {} on the wrong side",
+            "", errors.x_mm, errors.y_mm, errors.z_mm, errors.geodesic_deg, row.wrong_side
+        );
+    }
+}

@@ -1,0 +1,195 @@
+//! Verb `pose`: the pose of an implant in each mask of a folder.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
+use fluoropose::math::Vector3;
+use fluoropose::pose::EulerPose;
+
+use crate::choice::{Decision, Reasons, decide, report};
+
+use crate::choice::report::{Numbers, check_path, report, write_report};
+
+use crate::files::{
+    Role, known_pose, name_of, read, read_calibration, read_model, read_poses, write_poses,
+};
+
+use crate::finding::{Answer, EdgeOptions, Finder, FrameFound, Method, find_poses, misfit};
+
+use crate::noise::DisturbanceOptions;
+
+use crate::sequence::{Folders, Source};
+
+/// Options of `pose`.
+#[derive(clap::Args)]
+#[command(
+    after_help = format!("Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant; their names' order is \
+the order of the frames. Where two poses fit nearly alike both are printed, and why one was chosen: by its residual, where it decides; by the \
+coronal tilt against the other component, where --counterpart tells its poses; by continuity over the frames. A frame without a pose is \
+named on standard error and has a row of six zeros. --method image brings the pose from each mask onto the edges of its grey frame in --frames.\n\n\
+With --unknown, what a mask says of the pixels set in its companion is not believed: they are hidden, cut off or were not traced.\n\n\
+To see what a worse trace would give, --jitter S follows each outline of a mask, smooths its pixel steps, moves it along its normals by \
+Gaussian noise of the standard deviation S and the correlation length --correlation, and fills it again; --occlude F hides the part F of \
+the outline's length behind a half plane, a disc or a band, and what is hidden is left out of the mask or traced as a part of it.\n\n\
+After the sign ± stands one standard deviation (1 SD). {}\n\n\
+Example:\n  cargo xtask pose --library femur.library --model femur.stl --calibration calibration.txt --masks masks/femur --out femur.jts \
+--method refined --report femur.csv", report::HELP)
+)]
+pub struct Args {
+    /// Library file from `cargo xtask library`
+    #[arg(long)]
+    library: PathBuf,
+    /// The model that the library was made from; checked by its digest
+    #[arg(long)]
+    model: PathBuf,
+    /// Calibration of the frames: JT_INTCALIB or a camera matrix (MayaCam 2.0)
+    #[arg(long)]
+    calibration: PathBuf,
+    /// Folder of mask images
+    #[arg(long)]
+    masks: PathBuf,
+    /// Folder of mask images of unknown pixels, one for each mask, in the same order of names
+    #[arg(long, value_name = "DIR")]
+    unknown: Option<PathBuf>,
+    /// Folder of grey frames for --method image, one for each mask, in the same order of names
+    #[arg(long, value_name = "DIR")]
+    frames: Option<PathBuf>,
+    /// How poses are found
+    #[arg(long, value_enum, default_value_t)]
+    method: Method,
+    #[command(flatten)]
+    edges: EdgeOptions,
+    /// Which component this is; needed for --counterpart
+    #[arg(long, value_enum, requires = "counterpart")]
+    role: Option<Role>,
+    /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart
+    #[arg(long, value_name = "FILE", requires = "role")]
+    counterpart: Option<PathBuf>,
+    /// Pose file to write, a row a mask
+    #[arg(long)]
+    out: PathBuf,
+    /// Uncertainty table to write, .csv or .json
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    #[command(flatten)]
+    disturbance: DisturbanceOptions,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that cannot be read or do not belong together, a model that the library was not made
+/// from, and masks of which not one has a pose: nothing is written then.
+pub fn run(args: Args) -> Result<()> {
+    args.disturbance.check()?;
+    args.report.as_deref().map_or(Ok(()), check_path)?;
+    if args.method == Method::Image && args.frames.is_none() {
+        bail!("--method image needs the grey frames: name their folder with --frames");
+    }
+    let bytes = read(&args.library)?;
+    let model = read_model(&args.model)?;
+    let mesh = model.as_model();
+    let calibration = read_calibration(&args.calibration)?;
+    let folders = Folders {
+        masks: &args.masks,
+        unknown: args.unknown.as_deref(),
+        frames: args.frames.as_deref(),
+    };
+    let source = Source::read(&folders, &calibration)?;
+    let counterparts = counterparts(&args, source.masks.len())?;
+    let mut finder = Finder::open(&bytes, mesh, source.camera, args.method)
+        .with_context(|| args.library.display().to_string())?
+        .with_edges(args.edges);
+    let sequence = source.disturbed(&args.disturbance)?;
+    let found = find_poses(&mut finder, &sequence);
+    let decisions = decide(&found, &counterparts)?;
+    let middle = mesh.bounds().centre;
+    for (frame, decision) in found.iter().zip(&decisions) {
+        describe(frame, decision.as_ref(), &middle);
+    }
+    let missing = decisions.iter().filter(|decision| decision.is_none());
+    let missing = missing.count();
+    println!("chosen by: {}", Reasons::of(&decisions));
+    if missing == decisions.len() {
+        bail!("no mask has a pose; nothing was written");
+    }
+    if missing > 0 {
+        eprintln!("{missing} of {} masks have no pose", decisions.len());
+    }
+    if let Some(path) = &args.report {
+        write_report(path, &report(&found, &decisions, &middle))?;
+    }
+    let row = |decision: &Option<Decision>| {
+        let pose = decision.map(|decision| EulerPose::from(decision.answer.pose));
+        pose.unwrap_or_default()
+    };
+    let rows: Vec<EulerPose> = decisions.iter().map(row).collect();
+    write_poses(&args.out, &rows)
+}
+
+/// The other component's poses, a frame each; none where no file of them was given.
+fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> {
+    let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
+        return Ok(Vec::new());
+    };
+    let rows = read_poses(path)?;
+    if rows.len() != frames {
+        bail!(
+            "{} has {} poses but there are {frames} masks; both must be of the same frames",
+            path.display(),
+            rows.len()
+        );
+    }
+    let known = |row| known_pose(row).map(|pose| role.against(pose));
+    Ok(rows.iter().map(known).collect())
+}
+
+/// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.
+fn describe(frame: &FrameFound, decision: Option<&Decision>, middle: &Vector3) {
+    println!("{}", name_of(&frame.file));
+    let Some(decision) = decision else {
+        println!("  no pose");
+        return;
+    };
+    line(&decision.answer, middle, "");
+    let least = frame.answers.iter().map(misfit).fold(f64::MAX, f64::min);
+    let rivals = frame.answers.iter().filter(|answer| {
+        answer.pose != decision.answer.pose && misfit(answer) <= least * DECISIVE_RATIO
+    });
+    for rival in rivals {
+        line(rival, middle, "  (rival)");
+    }
+    println!("  chosen by: {decision}");
+}
+
+fn line(answer: &Answer, middle: &Vector3, note: &str) {
+    let values = Numbers::from(answer.pose).all();
+    let deviations = Numbers::deviations(answer, middle).map(|sd| sd.all());
+    let number = |k: usize| match deviations {
+        Some(sd) => format!("{:8.2} ±{:.2}", values[k], sd[k]),
+        None => format!("{:8.2}", values[k]),
+    };
+    let fit = match answer.refined {
+        Some(_) => format!("{:.3} px residual", misfit(answer)),
+        None => format!("{} px unmatched", answer.located.unmatched),
+    };
+    let offset = answer.refined.filter(|refined| refined.offset_px != 0.0);
+    let offset = offset.map_or(String::new(), |refined| {
+        format!(", edges {:.2} px outside", refined.offset_px)
+    });
+    let border = if answer.located.located.fine.at_border {
+        "  (at the border of the library)"
+    } else {
+        ""
+    };
+    println!(
+        "  x {} y {} z {} mm   z {} x {} y {} deg   {fit}{offset}{note}{border}",
+        number(0),
+        number(1),
+        number(2),
+        number(3),
+        number(4),
+        number(5),
+    );
+}
