@@ -1,4 +1,5 @@
-import type { ComponentName, Doc, FrameEntry, Outline } from './types';
+import type { Doc, FrameEntry, Outline } from './types';
+import type { ComponentName } from '../terms/component';
 
 /**
  * Outlines that came from files and wait for a person's word on which frame and component each is for. Nothing of the

@@ -1,12 +1,13 @@
 import type { Viewport } from '../geometry/viewport';
-import { USUAL_OPTIONS, type AidOptions } from '../interaction/aid';
-import type { ToolName } from '../interaction/tools';
-import type { Command, Place } from './commands';
+import { type AidOptions, USUAL_OPTIONS } from '../terms/tracing';
+import type { ToolName } from '../terms/tool';
+import type { Command, Place } from './command';
 import * as history from './history';
 import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
-import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
-import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
+import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
+import { type Cell, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
+import type { ComponentName } from '../terms/component';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
 export interface State {
@@ -22,7 +23,7 @@ export interface Ui {
   readonly viewport: Viewport | null;
   readonly selectedPoint: number | null;
   readonly overlayOpacity: number;
-  /** How things are shown; `view/taste.ts` remembers it. */
+  /** How things are shown; `keep/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
   readonly aids: AidOptions;

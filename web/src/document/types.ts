@@ -1,4 +1,6 @@
 import type { FramePoint } from '../geometry/points';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
 import type { Distortion } from './distortion';
 
 /**
@@ -41,9 +43,6 @@ export interface Reference {
 }
 
 export type Side = 'left' | 'right' | 'unknown';
-
-export const COMPONENT_NAMES = ['femur', 'tibia'] as const;
-export type ComponentName = (typeof COMPONENT_NAMES)[number];
 
 /** One image; a file may hold many. */
 export interface FrameEntry {
@@ -143,15 +142,6 @@ export interface Candidate {
   readonly deviations: PoseNumbers | null;
 }
 
-export interface PoseNumbers {
-  readonly x: number;
-  readonly y: number;
-  readonly z: number;
-  readonly zRot: number;
-  readonly xRot: number;
-  readonly yRot: number;
-}
-
 /** Grey values shown from black to white: centre -+ width / 2. */
 export interface GreyWindow {
   readonly centre: number;
@@ -209,9 +199,4 @@ export function isByHand(result: Result | null): boolean {
 /** Were the poses brought onto the outline, or are they the library's? */
 export function isRefined(result: Result | null): boolean {
   return result?.kind === 'posed' && result.candidates.some((candidate) => candidate.residual !== null);
-}
-
-/** The name of a component as a word at the start of a sentence or on a button. */
-export function titleOf(component: ComponentName): string {
-  return component === 'femur' ? 'Femur' : 'Tibia';
 }

@@ -1,5 +1,4 @@
-import type { Locks } from '../document/seeing';
-import type { PoseNumbers } from '../document/types';
+import type { Locks, PoseNumbers } from './pose_numbers';
 
 /**
  * Motions of a pose as a hand makes them. Camera frame: x right, y up, looking along -z; millimetres and degrees;

@@ -1,25 +1,11 @@
+import type { HandScene } from './hand_scene';
 import { setPoseByHand } from '../document/hand_poses';
-import type { Locks } from '../document/seeing';
-import type { PoseNumbers } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 import { canvasPoint, distance, framePoint, type CanvasPoint } from '../geometry/points';
-import { inCamera, movedInDepth, projected, shifted, turned, type Pinhole, type Vector } from '../geometry/pose_motion';
+import { inCamera, movedInDepth, projected, shifted, turned } from '../geometry/pose_motion';
 import { canvasFromFrame, type Viewport } from '../geometry/viewport';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
-import { texts } from '../texts';
-
-/** What a hand on the model needs to know. */
-export interface HandScene {
-  /** Where the model is, or where it would be placed. */
-  readonly pose: PoseNumbers;
-  /** The model is not there yet: the first press places it. */
-  readonly absent: boolean;
-  /** The middle of the model in its own coordinates, mm. */
-  readonly middle: Vector;
-  readonly camera: Pinhole;
-  readonly locks: Locks;
-  /** The mouse moves the model a fifth as far. */
-  readonly fine: boolean;
-}
+import { texts } from '../texts/texts';
 
 /** In the image plane, round the line of sight, round lines across it, along it. */
 export type Motion = 'move' | 'turn' | 'tilt' | 'depth';

@@ -7,7 +7,7 @@ import { oneClick } from './one_click';
 import { ruler } from './ruler';
 import { stretch } from './stretch';
 import { threshold } from './threshold';
-import type { ToolName } from './tools';
+import type { ToolName } from '../terms/tool';
 import { trace } from './trace';
 import { transform } from './transform';
 import { wire, wireBusy } from './wire';

@@ -1,8 +1,8 @@
-import { aidHint, type AidSituation } from './aid_hints';
+import { aidHint, type AidSituation } from './tracing_hints';
 import type { Outline } from '../document/types';
 import { FEWEST_POINTS, type Hit } from './hit';
-import type { ToolName } from './tools';
-import { texts } from '../texts';
+import type { ToolName } from '../terms/tool';
+import { texts } from '../texts/texts';
 
 /** One line: what the next click does. */
 export function hint(

@@ -1,8 +1,8 @@
-import type { HandScene } from './adjust';
-import type { AidIntent } from './aid';
+import type { HandScene } from './hand_scene';
+import type { AidIntent } from './tracing_intent';
 import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
-import type { Command, Place } from '../document/commands';
+import type { Command, Place } from '../document/command';
 import type { GreyWindow, Outline } from '../document/types';
 
 /**

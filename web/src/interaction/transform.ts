@@ -4,7 +4,7 @@ import { boundsOf, middleOf, moved, scaled, turned, type Bounds, type Similarity
 import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
 import { reachOf } from './hit';
 import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
-import { texts } from '../texts';
+import { texts } from '../texts/texts';
 
 /** Moving, turning and scaling a whole outline by the frame of handles round it. */
 export const CORNERS = ['top-left', 'top-right', 'bottom-right', 'bottom-left'] as const;

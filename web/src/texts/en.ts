@@ -1,4 +1,4 @@
-import type { ComponentName } from '../document/types';
+import type { ComponentName } from '../terms/component';
 import { aids } from './en_aids';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';

@@ -1,4 +1,4 @@
-import type { PoseNumbers } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 
 /** English of poses set by hand. */
 export const hand = {

@@ -1,4 +1,4 @@
-import type { FilmLook, OverlayLook, PictureName } from '../document/seeing';
+import type { FilmLook, OverlayLook, PictureName } from '../terms/seeing';
 
 /** English of how things are shown. */
 export const seeing = {

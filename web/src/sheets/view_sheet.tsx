@@ -1,0 +1,31 @@
+import { FILM_LOOKS, OVERLAY_LOOKS } from '../terms/seeing';
+import type { State } from '../document/store';
+import { seeingKey, type SeeingAction } from '../commands/seeing_bindings';
+import { texts } from '../texts/texts';
+import { useApp } from '../commands/app';
+import { Segments, Toggle } from '../controls/segments';
+
+/** All of how things are shown, each with its key. */
+export function ViewSheet({ state }: { state: State }) {
+  const { seeing: actions } = useApp();
+  const { seeing } = state.ui;
+  const words = texts.seeing;
+  const films = FILM_LOOKS.map((value) => ({ value, title: words.films[value], key: seeingKey({ name: 'film', look: value }) }));
+  const overlays = OVERLAY_LOOKS.map((value) => ({ value, title: words.overlays[value], key: seeingKey({ name: 'overlay', look: value }) }));
+  const aid = (action: SeeingAction, label: string, on: boolean, disabled = false) => (
+    <Toggle label={label} keyShown={seeingKey(action)} on={on} disabled={disabled} onToggle={() => actions.run(action)} />
+  );
+  return (
+    <div class="sheet-body">
+      <Segments label={words.film} shown options={films} value={seeing.film} onChoose={(look) => actions.run({ name: 'film', look })} />
+      <Segments label={words.overlay} shown options={overlays} value={seeing.overlay} onChoose={(look) => actions.run({ name: 'overlay', look })} />
+      <div class="toggles" role="group" aria-label={words.aids}>
+        {aid({ name: 'magnifier' }, words.magnifier, seeing.magnifier)}
+        {aid({ name: 'scale-bar' }, words.scaleBar, seeing.scaleBar)}
+        {aid({ name: 'ghosts' }, words.ghosts, seeing.ghosts)}
+        {aid({ name: 'compare' }, words.compare, seeing.comparing, !state.history.present.reference)}
+      </div>
+      <p class="sheet-text quiet">{words.remembered}</p>
+    </div>
+  );
+}
