@@ -15,7 +15,7 @@ interface RangeProps {
 /** A slider between its name and its value in words. */
 export function Range({ label, shown, short, title, value, text, min, max, step, onInput }: RangeProps) {
   return (
-    <label class={short ? 'strip-range short' : 'strip-range'} title={title ?? label}>
+    <label class={short ? 'range short' : 'range'} title={title ?? label}>
       <span>{shown ?? label}</span>
       <input
         type="range"
@@ -27,7 +27,7 @@ export function Range({ label, shown, short, title, value, text, min, max, step,
         value={value}
         onInput={(event) => onInput(event.currentTarget.valueAsNumber)}
       />
-      <span class="strip-value">{text}</span>
+      <span class="range-value">{text}</span>
     </label>
   );
 }

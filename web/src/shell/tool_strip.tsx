@@ -13,9 +13,9 @@ import { Icon, type IconName } from '../controls/icons';
 export function ToolStrip({ state }: { state: State }) {
   const { tool } = state.ui;
   return (
-    <div class="strip" role="region" aria-label={texts.aids.strip.region}>
-      <span class="strip-tool">{TOOLS.find(({ name }) => name === tool)?.title}</span>
-      <div class="strip-options">
+    <div class="tool-strip" role="region" aria-label={texts.aids.strip.region}>
+      <span class="tool-strip-tool">{TOOLS.find(({ name }) => name === tool)?.title}</span>
+      <div class="tool-strip-options">
         <ToolOptions state={state} />
       </div>
       <OutlineCommands state={state} />
@@ -105,9 +105,9 @@ function BrushOptions({ state }: { state: State }) {
   const { radius, erase } = state.ui.aids;
   return (
     <>
-      <div class="strip-segments" role="radiogroup" aria-label={strip.mode}>
+      <div class="tool-strip-segments" role="radiogroup" aria-label={strip.mode}>
         {([false, true] as const).map((mode) => (
-          <button key={String(mode)} type="button" role="radio" class="strip-segment" aria-checked={erase === mode} title="E" onClick={() => store.setAids({ erase: mode })}>
+          <button key={String(mode)} type="button" role="radio" class="tool-strip-segment" aria-checked={erase === mode} title="E" onClick={() => store.setAids({ erase: mode })}>
             {mode ? strip.erase : strip.add}
           </button>
         ))}
@@ -136,12 +136,12 @@ function Polarity({ state }: { state: State }) {
   const { strip } = texts.aids;
   const { bright } = state.ui.aids;
   return (
-    <div class="strip-segments" role="radiogroup" aria-label={strip.polarity} title={strip.polarityTitle}>
-      <span class="strip-segments-label" aria-hidden="true">
+    <div class="tool-strip-segments" role="radiogroup" aria-label={strip.polarity} title={strip.polarityTitle}>
+      <span class="tool-strip-segments-label" aria-hidden="true">
         {strip.polarity}
       </span>
       {([false, true] as const).map((value) => (
-        <button key={String(value)} type="button" role="radio" class="strip-segment" aria-checked={bright === value} onClick={() => store.setAids({ bright: value })}>
+        <button key={String(value)} type="button" role="radio" class="tool-strip-segment" aria-checked={bright === value} onClick={() => store.setAids({ bright: value })}>
           {value ? strip.bright : strip.dark}
         </button>
       ))}
@@ -155,7 +155,7 @@ function OutlineCommands({ state }: { state: State }) {
   const closed = currentCell(state).outline?.closed === true;
   const first = state.ui.frameIndex === 0;
   return (
-    <div class="strip-commands">
+    <div class="tool-strip-commands">
       <Command command={{ what: 'copy', step: -1 }} icon="copy" label={strip.copy} name={strip.copyLabel} title={strip.copyTitle} keys="Shift+D" disabled={first} />
       <Command command={{ what: 'snap' }} icon="magnet" label={strip.snap} name={strip.snapLabel} title={strip.snapTitle} keys="S" disabled={!closed} />
       <Command command={{ what: 'shape' }} icon="smooth" label={strip.shape} name={strip.shapeLabel} title={strip.shapeTitle} keys="Shift+S" disabled={!closed} opens={state.ui.popover === 'shape'} />
