@@ -10,7 +10,7 @@ import './styles/sheets.css';
 import './styles/open.css';
 import { Assets } from './document/assets';
 import { Store } from './document/store';
-import { Aids } from './tracing/tracing_tools';
+import { TracingTools } from './tracing/tracing_tools';
 import { Calibrator } from './jobs/calibrator';
 import { Chooser } from './jobs/chooser';
 import { Convergence } from './jobs/convergence';
@@ -49,11 +49,11 @@ async function start(root: HTMLElement): Promise<void> {
   const matcher = poseWorker();
   const poser = new Poser(services.store, matcher);
   new Chooser(services.store, matcher);
-  const aids = new Aids(services, matcher);
+  const tracingTools = new TracingTools(services, matcher);
   const landscapes = new Landscapes(services.store, matcher);
   const hand = new HandActions(services, new FromHere(services, matcher), landscapes);
   rememberTaste(services.store);
-  const actions = new Actions(services, aids);
+  const actions = new Actions(services, tracingTools);
   const videos = new Videos(services, (files) => actions.open(files));
   actions.videos = videos;
   const app: App = {
@@ -62,7 +62,7 @@ async function start(root: HTMLElement): Promise<void> {
     poser,
     convergence: new Convergence(services.store, poser, matcher),
     keeper,
-    aids,
+    tracingTools,
     hand,
     seeing: new SeeingActions(services.store, hand),
     landscapes,

@@ -12,14 +12,14 @@ import { saveSession } from '../exchange/saver';
 import { sentenceOf, type Services } from '../jobs/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
-import type { AidCommand } from './tracing_keys';
+import type { TracingCommand } from './tracing_keys';
 import type { Action } from './bindings';
 import { FEWEST_POINTS, sideMeant } from '../interaction/hit';
-import type { Aids } from '../tracing/tracing_tools';
+import type { TracingTools } from '../tracing/tracing_tools';
 import type { Videos } from '../exchange/videos';
 import { Aborted } from '../workers/bridge';
 import { texts } from '../texts/texts';
-import { AidActions } from './tracing_actions';
+import { TracingActions } from './tracing_actions';
 import { ExchangeActions } from './exchange_actions';
 import { download, fileStem, pickFiles } from '../exchange/browser_files';
 import { pointerStore } from './pointer';
@@ -56,12 +56,12 @@ export class Actions {
   readonly exchange: ExchangeActions;
 
   /** Whole outlines and the tools' options. */
-  readonly aid: AidActions;
+  readonly tracing: TracingActions;
 
-  constructor(services: Services, aids: Aids) {
+  constructor(services: Services, tracingTools: TracingTools) {
     this.#services = services;
     this.#store = services.store;
-    this.aid = new AidActions(services, aids, () => this.stage);
+    this.tracing = new TracingActions(services, tracingTools, () => this.stage);
     this.work = new WorkActions(services);
     this.exchange = new ExchangeActions(services);
   }
@@ -73,15 +73,15 @@ export class Actions {
       // The hand is in the middle of something: Esc lets go of it, everything else waits.
       if (action.name === 'leave') this.stage.cancel();
       // The keyboard drags as the mouse does: by pointing and pressing once more.
-      if (action.name === 'aid' && (action.command.what === 'point' || action.command.what === 'press')) this.aid.run(action.command);
+      if (action.name === 'tracing' && (action.command.what === 'point' || action.command.what === 'press')) this.tracing.run(action.command);
       return true;
     }
     switch (action.name) {
       case 'tool':
         store.show({ tool: action.tool });
         return true;
-      case 'aid':
-        return this.#aid(action.command);
+      case 'tracing':
+        return this.#trace(action.command);
       case 'undo':
         store.undo();
         return true;
@@ -150,8 +150,8 @@ export class Actions {
   }
 
   /** What a tool has no use for is what the key means otherwise. */
-  #aid(command: AidCommand): boolean {
-    if (this.aid.run(command)) return true;
+  #trace(command: TracingCommand): boolean {
+    if (this.tracing.run(command)) return true;
     if (command.what === 'accept') return this.closeOutline();
     return command.what === 'take-back' && this.deletePoint();
   }

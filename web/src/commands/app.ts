@@ -1,7 +1,7 @@
 import { createContext } from 'preact';
 import { useCallback, useContext } from 'preact/hooks';
 import type { State } from '../document/store';
-import type { Aids } from '../tracing/tracing_tools';
+import type { TracingTools } from '../tracing/tracing_tools';
 import type { Calibrator } from '../jobs/calibrator';
 import type { Convergence } from '../jobs/convergence';
 import type { Keeper } from '../keep/keeper';
@@ -21,7 +21,7 @@ export interface App {
   readonly librarian: Librarian;
   readonly poser: Poser;
   readonly convergence: Convergence;
-  readonly aids: Aids;
+  readonly tracingTools: TracingTools;
   readonly keeper: Keeper;
   readonly actions: Actions;
   readonly calibrator: Calibrator;

@@ -1,5 +1,5 @@
 import { texts } from '../texts/texts';
-import { AID_KEYS, AID_ROWS, type AidCommand, type AidKey } from './tracing_keys';
+import { AID_KEYS, AID_ROWS, type TracingCommand, type TracingKey } from './tracing_keys';
 import { TOOLS } from '../interaction/tools';
 import type { ToolName } from '../terms/tool';
 import { WORK_KEYS, type WorkCommand, type WorkKey } from './work_keys';
@@ -7,7 +7,7 @@ import { WORK_KEYS, type WorkCommand, type WorkKey } from './work_keys';
 /** What keys do. The sheet that `?` shows is made from this table, so the two cannot differ. */
 export type Action =
   | { readonly name: 'tool'; readonly tool: ToolName }
-  | { readonly name: 'aid'; readonly command: AidCommand }
+  | { readonly name: 'tracing'; readonly command: TracingCommand }
   | { readonly name: 'work'; readonly command: WorkCommand }
   | {
       readonly name:
@@ -55,7 +55,7 @@ export interface KeyInput {
 }
 
 export const BINDINGS: readonly Binding[] = [
-  ...AID_KEYS.map(aidKey),
+  ...AID_KEYS.map(tracingKey),
   ...AID_ROWS.map(({ shown, does }): Binding => ({ group: 'Shaping', shown, does, matches: () => false, action: null })),
   ...TOOLS.map(({ name, key, title }) =>
     binding('Tracing', [key.toUpperCase()], title, plainly(key), { name: 'tool', tool: name }),
@@ -102,10 +102,10 @@ export function actionFor(key: KeyInput, tool: ToolName | null = null): Action |
   return (special ?? meant.find(({ tools }) => !tools))?.action ?? null;
 }
 
-function aidKey({ shown, does, key, held, tools, command }: AidKey): Binding {
+function tracingKey({ shown, does, key, held, tools, command }: TracingKey): Binding {
   const matches = (input: KeyInput) =>
     !input.alt && is(input, key) && (held === 'any' || (input.ctrl === (held === 'ctrl') && input.shift === (held === 'shift')));
-  return { group: 'Shaping', shown, does, matches, action: { name: 'aid', command }, tools };
+  return { group: 'Shaping', shown, does, matches, action: { name: 'tracing', command }, tools };
 }
 
 function workKey({ shown, key, shift, alt = false, command }: WorkKey): Binding {

@@ -2,13 +2,13 @@ import { movePoint } from '../document/commands';
 import { copyOutline, markAllKnown, nudgeOutline, setOutline, tracedNeighbour } from '../document/outlines';
 import { currentCell, currentFrame, currentPlace } from '../document/store';
 import { cellOf, type Outline } from '../document/types';
-import type { Aids } from '../tracing/tracing_tools';
+import type { TracingTools } from '../tracing/tracing_tools';
 import { snappedOutline } from '../tracing/snapping';
 import type { Services } from '../jobs/services';
 import { framePoint } from '../geometry/points';
 import { boundsOf, middleOf, moved, scaled, turned, type Similarity } from '../geometry/similarity';
 import { RADIUS } from '../terms/tracing';
-import type { AidCommand } from './tracing_keys';
+import type { TracingCommand } from './tracing_keys';
 import { texts } from '../texts/texts';
 
 interface Pointing {
@@ -17,18 +17,18 @@ interface Pointing {
 }
 
 /** What keys and buttons do with whole outlines and with the tools' options. True where there was something to do. */
-export class AidActions {
+export class TracingActions {
   readonly #services: Services;
-  readonly #aids: Aids;
+  readonly #tools: TracingTools;
   readonly #stage: () => Pointing | null;
 
-  constructor(services: Services, aids: Aids, stage: () => Pointing | null) {
+  constructor(services: Services, tools: TracingTools, stage: () => Pointing | null) {
     this.#services = services;
-    this.#aids = aids;
+    this.#tools = tools;
     this.#stage = stage;
   }
 
-  run(command: AidCommand): boolean {
+  run(command: TracingCommand): boolean {
     switch (command.what) {
       case 'move':
         return this.#move(command.columns, command.rows);
@@ -46,24 +46,24 @@ export class AidActions {
     }
   }
 
-  #onTool(command: AidCommand): boolean {
+  #onTool(command: TracingCommand): boolean {
     const { store } = this.#services;
     switch (command.what) {
       case 'size':
         return this.#size(command.steps);
       case 'erase':
-        store.setAids({ erase: !store.ui.aids.erase });
+        store.setTracing({ erase: !store.ui.tracing.erase });
         return true;
       case 'accept':
         return this.#accept();
       case 'take-back':
-        return store.ui.selectedPoint === null && this.#aids.takeBack();
+        return store.ui.selectedPoint === null && this.#tools.takeBack();
       default:
         return this.#onOutline(command);
     }
   }
 
-  #onOutline(command: AidCommand): boolean {
+  #onOutline(command: TracingCommand): boolean {
     const { store } = this.#services;
     switch (command.what) {
       case 'copy':
@@ -88,7 +88,7 @@ export class AidActions {
     const frame = currentFrame(state);
     if (!place || !frame) return false;
     const index = tracedNeighbour(doc, ui.frameIndex, ui.component, step);
-    const { copied, noneBefore, noneAfter, otherSize } = texts.aids.said;
+    const { copied, noneBefore, noneAfter, otherSize } = texts.tracing.said;
     const from = index === null ? undefined : doc.frames[index];
     const outline = cellOf(doc, from?.id, ui.component).outline;
     if (!from || !outline) return this.#say((step < 0 ? noneBefore : noneAfter)(texts.component[ui.component]));
@@ -107,12 +107,12 @@ export class AidActions {
     const film = frame && studio.filmOf(frame.id);
     const outline = this.#closedOutline();
     if (!place || !outline) return true;
-    if (!film) return this.#say(texts.aids.said.noFilm(frame?.name ?? ''));
-    const { points, unknownSides, greatest, rms } = snappedOutline(film, outline, !ui.aids.bright, ui.aids.reach);
-    if (points.length === 0 || greatest === 0) return this.#say(texts.aids.said.noEdge);
+    if (!film) return this.#say(texts.tracing.said.noFilm(frame?.name ?? ''));
+    const { points, unknownSides, greatest, rms } = snappedOutline(film, outline, !ui.tracing.bright, ui.tracing.reach);
+    if (points.length === 0 || greatest === 0) return this.#say(texts.tracing.said.noEdge);
     store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
     store.show({ selectedPoint: null });
-    return this.#say(texts.aids.said.snapped(greatest.toFixed(1), rms.toFixed(2)));
+    return this.#say(texts.tracing.said.snapped(greatest.toFixed(1), rms.toFixed(2)));
   }
 
   #allKnown(): boolean {
@@ -120,7 +120,7 @@ export class AidActions {
     const place = currentPlace(store.state);
     if (!place || currentCell(store.state).outline?.unknownSides.length === 0) return false;
     store.perform(markAllKnown(place));
-    return this.#say(texts.aids.said.allKnown);
+    return this.#say(texts.tracing.said.allKnown);
   }
 
   /** With Edit points the selected point, with its own tool the outline. */
@@ -147,35 +147,35 @@ export class AidActions {
 
   /** While a region is adjusted up and down move its level. */
   #point(columns: number, rows: number): boolean {
-    const { tool, aidLevel } = this.#services.store.ui;
-    if (tool === 'threshold' && aidLevel && rows !== 0) return this.#aids.stepLevel(-rows);
+    const { tool, thresholdLevel } = this.#services.store.ui;
+    if (tool === 'threshold' && thresholdLevel && rows !== 0) return this.#tools.stepLevel(-rows);
     this.#stage()?.point(columns, rows);
     return true;
   }
 
   #size(steps: number): boolean {
     const { store } = this.#services;
-    const { tool, aids } = store.ui;
-    if (tool === 'threshold') return this.#aids.stepLevel(steps);
+    const { tool, tracing } = store.ui;
+    if (tool === 'threshold') return this.#tools.stepLevel(steps);
     if (tool !== 'brush') return false;
-    const radius = aids.radius + steps * Math.max(1, Math.round(aids.radius / 8));
-    store.setAids({ radius: Math.min(RADIUS.most, Math.max(RADIUS.least, radius)) });
+    const radius = tracing.radius + steps * Math.max(1, Math.round(tracing.radius / 8));
+    store.setTracing({ radius: Math.min(RADIUS.most, Math.max(RADIUS.least, radius)) });
     return true;
   }
 
   /** Enter: the wire closes along the edge, a region that was taken is done with. */
   #accept(): boolean {
     const { store } = this.#services;
-    if (store.ui.tool === 'wire') return this.#aids.closeWire();
-    if (!store.ui.aidLevel) return false;
-    store.show({ tool: 'edit', aidLevel: null });
+    if (store.ui.tool === 'wire') return this.#tools.closeWire();
+    if (!store.ui.thresholdLevel) return false;
+    store.show({ tool: 'edit', thresholdLevel: null });
     return true;
   }
 
   #closedOutline(): Outline | null {
     const { outline } = currentCell(this.#services.store.state);
     if (outline?.closed) return outline;
-    this.#say(texts.aids.said.closedFirst);
+    this.#say(texts.tracing.said.closedFirst);
     return null;
   }
 

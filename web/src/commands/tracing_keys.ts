@@ -2,7 +2,7 @@ import type { ToolName } from '../terms/tool';
 import { texts } from '../texts/texts';
 
 /** What keys and buttons do with whole outlines and with the tools' options. */
-export type AidCommand =
+export type TracingCommand =
   | { readonly what: 'move'; readonly columns: number; readonly rows: number }
   | { readonly what: 'turn'; readonly degrees: number }
   | { readonly what: 'scale'; readonly factor: number }
@@ -19,7 +19,7 @@ export type AidCommand =
   | { readonly what: 'shape' }
   | { readonly what: 'all-known' };
 
-export interface AidKey {
+export interface TracingKey {
   /** As on the sheet; none where another row tells of it. */
   readonly shown: readonly string[];
   readonly does: string;
@@ -27,7 +27,7 @@ export interface AidKey {
   readonly held: 'none' | 'shift' | 'ctrl' | 'any';
   /** Only with these tools; with all of them where there are none. */
   readonly tools?: readonly ToolName[];
-  readonly command: AidCommand;
+  readonly command: TracingCommand;
 }
 
 const FINE = 1;
@@ -46,15 +46,15 @@ const DIRECTIONS = [
   ['arrowdown', 0, 1],
 ] as const;
 
-export const AID_KEYS: readonly AidKey[] = [
-  { shown: ['S'], does: texts.keys.aids.snap, key: 's', held: 'none', command: { what: 'snap' } },
-  { shown: ['Shift + S'], does: texts.keys.aids.shape, key: 's', held: 'shift', command: { what: 'shape' } },
-  { shown: ['Shift + D'], does: texts.keys.aids.copyPrevious, key: 'd', held: 'shift', command: { what: 'copy', step: -1 } },
-  { shown: ['Shift + F'], does: texts.keys.aids.copyNext, key: 'f', held: 'shift', command: { what: 'copy', step: 1 } },
-  { shown: ['['], does: texts.keys.aids.smaller, key: '[', held: 'any', command: { what: 'size', steps: -1 } },
-  { shown: [']'], does: texts.keys.aids.larger, key: ']', held: 'any', command: { what: 'size', steps: 1 } },
-  { shown: ['E'], does: texts.keys.aids.erase, key: 'e', held: 'none', command: { what: 'erase' } },
-  { shown: ['I'], does: texts.keys.aids.press, key: 'i', held: 'none', tools: POINTING, command: { what: 'press' } },
+export const AID_KEYS: readonly TracingKey[] = [
+  { shown: ['S'], does: texts.keys.tracing.snap, key: 's', held: 'none', command: { what: 'snap' } },
+  { shown: ['Shift + S'], does: texts.keys.tracing.shape, key: 's', held: 'shift', command: { what: 'shape' } },
+  { shown: ['Shift + D'], does: texts.keys.tracing.copyPrevious, key: 'd', held: 'shift', command: { what: 'copy', step: -1 } },
+  { shown: ['Shift + F'], does: texts.keys.tracing.copyNext, key: 'f', held: 'shift', command: { what: 'copy', step: 1 } },
+  { shown: ['['], does: texts.keys.tracing.smaller, key: '[', held: 'any', command: { what: 'size', steps: -1 } },
+  { shown: [']'], does: texts.keys.tracing.larger, key: ']', held: 'any', command: { what: 'size', steps: 1 } },
+  { shown: ['E'], does: texts.keys.tracing.erase, key: 'e', held: 'none', command: { what: 'erase' } },
+  { shown: ['I'], does: texts.keys.tracing.press, key: 'i', held: 'none', tools: POINTING, command: { what: 'press' } },
   ...DIRECTIONS.flatMap(([key, x, y]) => [
     hidden(key, 'none', MOVING, { what: 'move', columns: FINE * x, rows: FINE * y }),
     hidden(key, 'shift', MOVING, { what: 'move', columns: COARSE * x, rows: COARSE * y }),
@@ -70,8 +70,8 @@ export const AID_KEYS: readonly AidKey[] = [
 ];
 
 /** Rows of the sheet for keys whose meaning depends on the tool. */
-export const AID_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.aids.rows;
+export const AID_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.tracing.rows;
 
-function hidden(key: string, held: AidKey['held'], tools: readonly ToolName[], command: AidCommand): AidKey {
+function hidden(key: string, held: TracingKey['held'], tools: readonly ToolName[], command: TracingCommand): TracingKey {
   return { shown: [], does: '', key, held, tools, command };
 }

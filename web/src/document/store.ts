@@ -1,5 +1,5 @@
 import type { Viewport } from '../geometry/viewport';
-import { type AidOptions, USUAL_OPTIONS } from '../terms/tracing';
+import { type TracingOptions, USUAL_OPTIONS } from '../terms/tracing';
 import type { ToolName } from '../terms/tool';
 import type { Command, Place } from './command';
 import * as history from './history';
@@ -26,9 +26,9 @@ export interface Ui {
   /** How things are shown; `keep/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
-  readonly aids: AidOptions;
+  readonly tracing: TracingOptions;
   /** The threshold that was taken and can still be moved, grey values. */
-  readonly aidLevel: AidLevel | null;
+  readonly thresholdLevel: ThresholdLevel | null;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
@@ -54,7 +54,7 @@ export type Theme = 'dark' | 'light';
 
 export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video';
 
-export interface AidLevel {
+export interface ThresholdLevel {
   readonly level: number;
   readonly least: number;
   readonly greatest: number;
@@ -107,8 +107,8 @@ const EMPTY_UI: Ui = {
   overlayOpacity: 0.35,
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
-  aids: USUAL_OPTIONS,
-  aidLevel: null,
+  tracing: USUAL_OPTIONS,
+  thresholdLevel: null,
   overlaysHidden: false,
   popover: null,
   notice: null,
@@ -211,8 +211,8 @@ export class Store {
     this.show({ seeing: { ...this.ui.seeing, ...change } });
   }
 
-  setAids(change: Partial<AidOptions>): void {
-    this.show({ aids: { ...this.ui.aids, ...change } });
+  setTracing(change: Partial<TracingOptions>): void {
+    this.show({ tracing: { ...this.ui.tracing, ...change } });
   }
 
   setHand(change: Partial<HandSettings>): void {

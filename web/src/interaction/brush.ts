@@ -12,7 +12,7 @@ const IDLE: BrushState = { name: 'idle' };
 export const brush: Machine<BrushState> = { start: IDLE, next };
 
 function next(state: BrushState, input: Input, scene: Scene): Outcome<BrushState> {
-  if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' }, { type: 'aid', intent: { aid: 'none' } });
+  if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' }, { type: 'tracing', intent: { tool: 'none' } });
   const at = frameFromCanvas(scene.viewport, input.at);
   if (state.name === 'idle') {
     if (input.type !== 'down' || input.button !== 'primary') return outcome(state);
@@ -25,5 +25,5 @@ function next(state: BrushState, input: Input, scene: Scene): Outcome<BrushState
 
 function painting(stroke: readonly FramePoint[], erase: boolean, to: 'paint' | 'finish'): Outcome<BrushState> {
   const state: BrushState = to === 'finish' ? IDLE : { name: 'painting', stroke, erase };
-  return outcome(state, { type: 'aid', intent: { aid: 'brush', to, stroke, erase } });
+  return outcome(state, { type: 'tracing', intent: { tool: 'brush', to, stroke, erase } });
 }

@@ -1,5 +1,5 @@
 import type { HandScene } from './hand_scene';
-import type { AidIntent } from './tracing_intent';
+import type { TracingIntent } from './tracing_intent';
 import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
 import type { Command, Place } from '../document/command';
@@ -42,7 +42,7 @@ export type Effect =
   | { readonly type: 'select'; readonly index: number | null }
   | { readonly type: 'viewport'; readonly viewport: Viewport }
   | { readonly type: 'mark'; readonly at: FramePoint; readonly begins: boolean }
-  | { readonly type: 'aid'; readonly intent: AidIntent };
+  | { readonly type: 'tracing'; readonly intent: TracingIntent };
 
 export interface Outcome<State> {
   readonly state: State;

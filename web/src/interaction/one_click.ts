@@ -13,7 +13,7 @@ const IDLE: OneClickState = { name: 'idle' };
 export const oneClick: Machine<OneClickState> = { start: IDLE, next };
 
 function next(state: OneClickState, input: Input, scene: Scene): Outcome<OneClickState> {
-  if (input.type === 'cancel') return outcome(IDLE, { type: 'aid', intent: { aid: 'none' } });
+  if (input.type === 'cancel') return outcome(IDLE, { type: 'tracing', intent: { tool: 'none' } });
   if (state.name === 'idle') {
     const begins = input.type === 'down' && input.button === 'primary';
     return outcome(begins ? { name: 'pressed', from: input.at } : state);
@@ -22,9 +22,9 @@ function next(state: OneClickState, input: Input, scene: Scene): Outcome<OneClic
   const from = frameFromCanvas(scene.viewport, state.from);
   if (state.name === 'pressed' && distance(state.from, input.at) < DRAG_THRESHOLD) {
     if (input.type !== 'up') return outcome(state);
-    return outcome(IDLE, { type: 'aid', intent: { aid: 'one-click', to: 'point', at: from } });
+    return outcome(IDLE, { type: 'tracing', intent: { tool: 'one-click', to: 'point', at: from } });
   }
-  if (input.type === 'up') return outcome(IDLE, { type: 'aid', intent: { aid: 'one-click', to: 'box', from, at } });
+  if (input.type === 'up') return outcome(IDLE, { type: 'tracing', intent: { tool: 'one-click', to: 'box', from, at } });
   if (input.type !== 'move') return outcome(state);
-  return outcome({ name: 'boxing', from: state.from }, { type: 'aid', intent: { aid: 'one-click', to: 'frame', from, at } });
+  return outcome({ name: 'boxing', from: state.from }, { type: 'tracing', intent: { tool: 'one-click', to: 'frame', from, at } });
 }

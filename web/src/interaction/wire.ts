@@ -21,7 +21,7 @@ export function wireBusy(state: WireState): boolean {
 }
 
 function next(state: WireState, input: Input, scene: Scene): Outcome<WireState> {
-  if (input.type === 'cancel') return outcome(AIMING, { type: 'cancel-preview' }, { type: 'aid', intent: { aid: 'none' } });
+  if (input.type === 'cancel') return outcome(AIMING, { type: 'cancel-preview' }, { type: 'tracing', intent: { tool: 'none' } });
   if (scene.outline?.closed) return onClosed(state, input, scene);
   if (input.type === 'double') return outcome(AIMING, intent('close', input, scene));
   if (input.type === 'down') return input.button === 'primary' ? outcome({ name: 'pressed' }, intent('aim', input, scene)) : outcome(state);
@@ -46,5 +46,5 @@ export function isOnFirst(input: Pick<Input, 'at' | 'touch'>, { outline, viewpor
 
 function intent(to: 'aim' | 'fix' | 'close', input: Input, scene: Scene): Effect {
   const at = frameFromCanvas(scene.viewport, input.at);
-  return { type: 'aid', intent: { aid: 'wire', to, at, straight: input.shift === true } };
+  return { type: 'tracing', intent: { tool: 'wire', to, at, straight: input.shift === true } };
 }

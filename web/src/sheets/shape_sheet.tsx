@@ -10,17 +10,17 @@ import { Range } from '../controls/range';
 
 /** Simplifies or smooths the outline: what it would become lies on the film, with how far the shape moves. */
 export function ShapeSheet({ state }: { state: State }) {
-  const { aids, services } = useApp();
+  const { tracingTools, services } = useApp();
   const { store } = services;
   const [shaping, setShaping] = useState<Shaping>({ smooth: 0, simplify: 0.5 });
   const { outline } = currentCell(state);
   const closed = outline?.closed ? outline : null;
   const shape = useMemo(() => closed && reshaped(closed, shaping), [closed, shaping]);
   useEffect(() => {
-    aids.showShape(shape?.points ?? []);
-    return () => aids.showShape([]);
-  }, [aids, shape]);
-  const { none, smooth, simplify, use, smoothed, simplified } = texts.aids.shape;
+    tracingTools.showShape(shape?.points ?? []);
+    return () => tracingTools.showShape([]);
+  }, [tracingTools, shape]);
+  const { none, smooth, simplify, use, smoothed, simplified } = texts.tracing.shape;
   if (!closed || !shape) return <p class="sheet-body">{none}</p>;
   const take = () => {
     const place = currentPlace(store.state);
@@ -48,7 +48,7 @@ export function ShapeSheet({ state }: { state: State }) {
 }
 
 function ShapeError({ outline, shape }: { outline: Outline; shape: Reshape }) {
-  const { points, error, same: unchanged, gone } = texts.aids.shape;
+  const { points, error, same: unchanged, gone } = texts.tracing.shape;
   if (shape.points.length === 0) return <p class="sheet-text">{gone}</p>;
   if (same(outline, shape)) return <p class="sheet-text">{unchanged}</p>;
   return (

@@ -12,18 +12,18 @@ export function ViewSheet({ state }: { state: State }) {
   const words = texts.seeing;
   const films = FILM_LOOKS.map((value) => ({ value, title: words.films[value], key: seeingKey({ name: 'film', look: value }) }));
   const overlays = OVERLAY_LOOKS.map((value) => ({ value, title: words.overlays[value], key: seeingKey({ name: 'overlay', look: value }) }));
-  const aid = (action: SeeingAction, label: string, on: boolean, disabled = false) => (
+  const toggle = (action: SeeingAction, label: string, on: boolean, disabled = false) => (
     <Toggle label={label} keyShown={seeingKey(action)} on={on} disabled={disabled} onToggle={() => actions.run(action)} />
   );
   return (
     <div class="sheet-body">
       <Segments label={words.film} shown options={films} value={seeing.film} onChoose={(look) => actions.run({ name: 'film', look })} />
       <Segments label={words.overlay} shown options={overlays} value={seeing.overlay} onChoose={(look) => actions.run({ name: 'overlay', look })} />
-      <div class="toggles" role="group" aria-label={words.aids}>
-        {aid({ name: 'magnifier' }, words.magnifier, seeing.magnifier)}
-        {aid({ name: 'scale-bar' }, words.scaleBar, seeing.scaleBar)}
-        {aid({ name: 'ghosts' }, words.ghosts, seeing.ghosts)}
-        {aid({ name: 'compare' }, words.compare, seeing.comparing, !state.history.present.reference)}
+      <div class="toggles" role="group" aria-label={words.besides}>
+        {toggle({ name: 'magnifier' }, words.magnifier, seeing.magnifier)}
+        {toggle({ name: 'scale-bar' }, words.scaleBar, seeing.scaleBar)}
+        {toggle({ name: 'ghosts' }, words.ghosts, seeing.ghosts)}
+        {toggle({ name: 'compare' }, words.compare, seeing.comparing, !state.history.present.reference)}
       </div>
       <p class="sheet-text quiet">{words.remembered}</p>
     </div>

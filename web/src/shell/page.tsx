@@ -64,7 +64,7 @@ function useKeys(): void {
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
       // Enter belongs to the control that has the focus.
-      if (onControl(target) && (action.name === 'close-outline' || (action.name === 'aid' && /^(Enter|Arrow)/.test(key)))) return false;
+      if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
       store.quiet();
       return actions.run(action);

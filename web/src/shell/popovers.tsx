@@ -39,7 +39,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   convergence: texts.sheets.convergence,
   work: texts.work.list,
   import: texts.exchange.title,
-  shape: texts.aids.shape.title,
+  shape: texts.tracing.shape.title,
   view: texts.seeing.sheet,
   calibrate: texts.calibrate.sheet,
   video: texts.files.video.sheet,

@@ -44,7 +44,7 @@ function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion |
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
   if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
-  return { text: hint(tool, component, outline, hit, { erase: state.ui.aids.erase, adjusting: state.ui.aidLevel !== null }), kind: 'hint' };
+  return { text: hint(tool, component, outline, hit, { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null }), kind: 'hint' };
 }
 
 /** News passes; errors stay until something is done. */

@@ -1,8 +1,8 @@
 import type { ComponentChildren } from 'preact';
 import { currentCell, type State } from '../document/store';
-import type { Aids } from '../tracing/tracing_tools';
+import type { TracingTools } from '../tracing/tracing_tools';
 import { RADIUS } from '../terms/tracing';
-import type { AidCommand } from '../commands/tracing_keys';
+import type { TracingCommand } from '../commands/tracing_keys';
 import { TOOLS } from '../interaction/tools';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
@@ -13,7 +13,7 @@ import { Icon, type IconName } from '../controls/icons';
 export function ToolStrip({ state }: { state: State }) {
   const { tool } = state.ui;
   return (
-    <div class="tool-strip" role="region" aria-label={texts.aids.strip.region}>
+    <div class="tool-strip" role="region" aria-label={texts.tracing.strip.region}>
       <span class="tool-strip-tool">{TOOLS.find(({ name }) => name === tool)?.title}</span>
       <div class="tool-strip-options">
         <ToolOptions state={state} />
@@ -42,11 +42,11 @@ function ToolOptions({ state }: { state: State }) {
 
 function WireOptions({ state }: { state: State }) {
   const { store } = useApp().services;
-  const { strip } = texts.aids;
+  const { strip } = texts.tracing;
   const draft = currentCell(state).outline?.closed === false;
   return (
     <>
-      <Check label={strip.cooling} title={strip.coolingTitle} checked={state.ui.aids.cooling} onChange={(cooling) => store.setAids({ cooling })} />
+      <Check label={strip.cooling} title={strip.coolingTitle} checked={state.ui.tracing.cooling} onChange={(cooling) => store.setTracing({ cooling })} />
       <Command command={{ what: 'take-back' }} label={strip.takeBack} title={strip.takeBackTitle} disabled={!draft} />
       <Command command={{ what: 'accept' }} label={strip.closeOutline} title="Enter" disabled={!draft} />
       <Polarity state={state} />
@@ -55,12 +55,12 @@ function WireOptions({ state }: { state: State }) {
 }
 
 function ThresholdOptions({ state }: { state: State }) {
-  const { aids, services } = useApp();
+  const { tracingTools, services } = useApp();
   const { store } = services;
-  const { strip } = texts.aids;
-  const { aidLevel, aids: options } = state.ui;
-  const ends = aidLevel ?? endsOf(aids);
-  const level = aidLevel?.level ?? options.level ?? (ends.least + ends.greatest) / 2;
+  const { strip } = texts.tracing;
+  const { thresholdLevel, tracing: options } = state.ui;
+  const ends = thresholdLevel ?? endsOf(tracingTools);
+  const level = thresholdLevel?.level ?? options.level ?? (ends.least + ends.greatest) / 2;
   const automatic = options.level === null;
   return (
     <>
@@ -68,13 +68,13 @@ function ThresholdOptions({ state }: { state: State }) {
         label={strip.level}
         shown={strip.levelShort}
         value={level}
-        text={automatic && !aidLevel ? '–' : String(Math.round(level))}
+        text={automatic && !thresholdLevel ? '–' : String(Math.round(level))}
         min={ends.least}
         max={ends.greatest}
         step={(ends.greatest - ends.least) / 500}
-        onInput={(value) => aids.setLevel(value)}
+        onInput={(value) => tracingTools.setLevel(value)}
       />
-      <Check label={strip.automatic} shown={strip.automaticShort} title={strip.automaticTitle} checked={automatic} onChange={(on) => store.setAids({ level: on ? null : level })} />
+      <Check label={strip.automatic} shown={strip.automaticShort} title={strip.automaticTitle} checked={automatic} onChange={(on) => store.setTracing({ level: on ? null : level })} />
       <Range
         label={strip.bridge}
         shown={strip.bridgeShort}
@@ -86,8 +86,8 @@ function ThresholdOptions({ state }: { state: State }) {
         max={8}
         step={1}
         onInput={(bridge) => {
-          store.setAids({ bridge });
-          aids.takeAgain();
+          store.setTracing({ bridge });
+          tracingTools.takeAgain();
         }}
       />
       <Polarity state={state} />
@@ -95,19 +95,19 @@ function ThresholdOptions({ state }: { state: State }) {
   );
 }
 
-function endsOf(aids: Aids): { readonly least: number; readonly greatest: number } {
-  return aids.levelEnds ?? { least: 0, greatest: 255 };
+function endsOf(tools: TracingTools): { readonly least: number; readonly greatest: number } {
+  return tools.levelEnds ?? { least: 0, greatest: 255 };
 }
 
 function BrushOptions({ state }: { state: State }) {
   const { store } = useApp().services;
-  const { strip } = texts.aids;
-  const { radius, erase } = state.ui.aids;
+  const { strip } = texts.tracing;
+  const { radius, erase } = state.ui.tracing;
   return (
     <>
       <div class="tool-strip-segments" role="radiogroup" aria-label={strip.mode}>
         {([false, true] as const).map((mode) => (
-          <button key={String(mode)} type="button" role="radio" class="tool-strip-segment" aria-checked={erase === mode} title="E" onClick={() => store.setAids({ erase: mode })}>
+          <button key={String(mode)} type="button" role="radio" class="tool-strip-segment" aria-checked={erase === mode} title="E" onClick={() => store.setTracing({ erase: mode })}>
             {mode ? strip.erase : strip.add}
           </button>
         ))}
@@ -120,7 +120,7 @@ function BrushOptions({ state }: { state: State }) {
         min={RADIUS.least}
         max={RADIUS.most}
         step={1}
-        onInput={(value) => store.setAids({ radius: value })}
+        onInput={(value) => store.setTracing({ radius: value })}
       />
     </>
   );
@@ -128,20 +128,20 @@ function BrushOptions({ state }: { state: State }) {
 
 function StretchOptions({ state }: { state: State }) {
   const { outline } = currentCell(state);
-  return <Command command={{ what: 'all-known' }} label={texts.aids.strip.allKnown} disabled={!outline || outline.unknownSides.length === 0} />;
+  return <Command command={{ what: 'all-known' }} label={texts.tracing.strip.allKnown} disabled={!outline || outline.unknownSides.length === 0} />;
 }
 
 function Polarity({ state }: { state: State }) {
   const { store } = useApp().services;
-  const { strip } = texts.aids;
-  const { bright } = state.ui.aids;
+  const { strip } = texts.tracing;
+  const { bright } = state.ui.tracing;
   return (
     <div class="tool-strip-segments" role="radiogroup" aria-label={strip.polarity} title={strip.polarityTitle}>
       <span class="tool-strip-segments-label" aria-hidden="true">
         {strip.polarity}
       </span>
       {([false, true] as const).map((value) => (
-        <button key={String(value)} type="button" role="radio" class="tool-strip-segment" aria-checked={bright === value} onClick={() => store.setAids({ bright: value })}>
+        <button key={String(value)} type="button" role="radio" class="tool-strip-segment" aria-checked={bright === value} onClick={() => store.setTracing({ bright: value })}>
           {value ? strip.bright : strip.dark}
         </button>
       ))}
@@ -151,7 +151,7 @@ function Polarity({ state }: { state: State }) {
 
 /** What is done with the outline as a whole, whatever the tool. */
 function OutlineCommands({ state }: { state: State }) {
-  const { strip } = texts.aids;
+  const { strip } = texts.tracing;
   const closed = currentCell(state).outline?.closed === true;
   const first = state.ui.frameIndex === 0;
   return (
@@ -164,7 +164,7 @@ function OutlineCommands({ state }: { state: State }) {
 }
 
 interface CommandProps {
-  readonly command: AidCommand;
+  readonly command: TracingCommand;
   readonly label: string;
   /** For readers, where the label is short. */
   readonly name?: string;
@@ -181,7 +181,7 @@ function Command({ command, label, name, title, keys, icon, disabled, opens }: C
   const { actions } = useApp();
   const dialog = opens === undefined ? {} : { 'aria-haspopup': 'dialog' as const, 'aria-expanded': opens };
   return (
-    <button type="button" class="button small" aria-label={name ?? label} aria-keyshortcuts={keys} title={title ?? label} disabled={disabled} {...dialog} onClick={() => actions.run({ name: 'aid', command })}>
+    <button type="button" class="button small" aria-label={name ?? label} aria-keyshortcuts={keys} title={title ?? label} disabled={disabled} {...dialog} onClick={() => actions.run({ name: 'tracing', command })}>
       {icon && <Icon name={icon} />}
       {label}
     </button>

@@ -53,7 +53,7 @@ function attach(app: App, film: HTMLCanvasElement, ink: HTMLCanvasElement, glass
   const { store, studio } = app.services;
   const view = new StageView(store, studio, film, ink);
   view.calibrator = app.calibrator;
-  view.aids = app.aids;
+  view.tracingTools = app.tracingTools;
   const controller = new Controller();
   app.actions.stage = {
     size: () => view.size,
@@ -132,7 +132,7 @@ function attachPointer(
       if (event.pointerType !== 'touch' || !touches.up(event.pointerId)) send('cancel', event);
     },
     pointerleave: () => {
-      app.aids.leave();
+      app.tracingTools.leave();
       view.setPointer(null);
     },
     dblclick: (event) => {
@@ -144,7 +144,7 @@ function attachPointer(
       if (!currentFrame(store.state)) return;
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
       // With Shift held some systems turn the wheel sideways.
-      if (event.shiftKey && app.actions.aid.run({ what: 'size', steps: -Math.sign(event.deltaY || event.deltaX) })) return;
+      if (event.shiftKey && app.actions.tracing.run({ what: 'size', steps: -Math.sign(event.deltaY || event.deltaX) })) return;
       store.show({ viewport: wheelZoom(view.viewport(store.state), pointOf(event), event.deltaY * lines) });
       hover(event);
     },

@@ -26,7 +26,7 @@ export function sceneOf(store: Store, view: StageView): Scene | null {
   const place = currentPlace(state);
   if (!frame || !place) return null;
   const { outline } = currentCell(state);
-  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state), erase: state.ui.aids.erase, hand: view.hand(state) };
+  return { viewport: view.viewport(state), frame, place, outline, window: view.window(state), erase: state.ui.tracing.erase, hand: view.hand(state) };
 }
 
 function apply(app: App, effect: Effect): void {
@@ -46,7 +46,7 @@ function apply(app: App, effect: Effect): void {
       return store.show({ viewport: effect.viewport });
     case 'mark':
       return app.calibrator.mark(effect.at, effect.begins);
-    case 'aid':
-      return app.aids.want(effect.intent);
+    case 'tracing':
+      return app.tracingTools.want(effect.intent);
   }
 }

@@ -1,7 +1,7 @@
 import { currentCell, currentFrame, type State, type Store } from '../document/store';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry, type GreyWindow, type Outline } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
-import type { Aids } from '../tracing/tracing_tools';
+import type { TracingTools } from '../tracing/tracing_tools';
 import { NO_PREVIEW, pointsOfPreview, type Preview } from '../tracing/preview';
 import type { Calibrator } from '../jobs/calibrator';
 import { cameraOf } from '../results/keys';
@@ -50,7 +50,7 @@ export class StageView {
   #drawnFilm = '';
   #scheduled = 0;
   /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
-  aids: Pick<Aids, 'tick' | 'preview' | 'scale'> | null = null;
+  tracingTools: Pick<TracingTools, 'tick' | 'preview' | 'scale'> | null = null;
   calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
 
   constructor(store: Store, studio: Studio, film: HTMLCanvasElement, ink: HTMLCanvasElement) {
@@ -106,7 +106,7 @@ export class StageView {
   }
 
   draw(): void {
-    this.#letAidsWork();
+    this.#letTracingToolsWork();
     const { state } = this.#store;
     const frame = currentFrame(state);
     const view = this.viewport(state);
@@ -115,12 +115,12 @@ export class StageView {
     const motion = hand && this.#pointer && (handleAt(hand, view, this.#pointer) ?? 'move');
     pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit, motion });
     this.#drawFilm(state, frame, view);
-    const preview = this.aids?.preview(state.ui.tool) ?? NO_PREVIEW;
+    const preview = this.tracingTools?.preview(state.ui.tool) ?? NO_PREVIEW;
     for (const overlay of this.#overlays) if (frame) this.#updateOverlay(overlay, state.history.present, frame);
     const context = this.#ink.begin(this.#inkBox(state, view, preview));
     this.#mainView = view;
     if (frame && !state.ui.overlaysHidden) this.#drawVectors(context, state, frame, view, hit);
-    if (frame && !state.ui.overlaysHidden) this.#drawAids(context, state, view, preview);
+    if (frame && !state.ui.overlaysHidden) this.#drawPreview(context, state, view, preview);
     if (frame && hand && !hand.absent && !state.ui.overlaysHidden) drawHandles(context, hand, view, state.ui.component, this.#pointer);
     if (frame) this.#drawMeasuring(context, state, frame, view);
     if (frame) this.#drawLens(context, state, frame, view);
@@ -175,19 +175,19 @@ export class StageView {
     drawMeasuring(context, view, measuring, beads);
   }
 
-  #letAidsWork(): void {
-    if (!this.aids) return;
-    this.aids.scale = this.viewport(this.#store.state).scale;
-    if (this.aids.tick(this.#store.ui.tool)) this.schedule();
+  #letTracingToolsWork(): void {
+    if (!this.tracingTools) return;
+    this.tracingTools.scale = this.viewport(this.#store.state).scale;
+    if (this.tracingTools.tick(this.#store.ui.tool)) this.schedule();
   }
 
-  #drawAids(context: CanvasRenderingContext2D, state: State, view: Viewport, preview: Preview): void {
-    const { tool, component, aids } = state.ui;
+  #drawPreview(context: CanvasRenderingContext2D, state: State, view: Viewport, preview: Preview): void {
+    const { tool, component, tracing } = state.ui;
     const { outline } = currentCell(state);
     drawPreview(context, view, component, preview);
     if (tool === 'transform' && outline) drawTransformBox(context, view, component, outline, this.#pointer);
     if (tool === 'stretch' && outline?.closed) drawHold(context, view, component, outline, this.#pointer);
-    if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, aids.radius * view.scale, aids.erase);
+    if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, tracing.radius * view.scale, tracing.erase);
   }
 
   #hit(state: State, view: Viewport): Hit {

@@ -1,5 +1,5 @@
 /** How the tools work; set in the strip above the film, kept while the page is open. */
-export interface AidOptions {
+export interface TracingOptions {
   /** Metal is brighter than what surrounds it. */
   readonly bright: boolean;
   /** Of the brush, frame pixels. */
@@ -15,7 +15,7 @@ export interface AidOptions {
   readonly reach: number;
 }
 
-export const USUAL_OPTIONS: AidOptions = {
+export const USUAL_OPTIONS: TracingOptions = {
   bright: false,
   radius: 8,
   erase: false,

@@ -1,5 +1,5 @@
 import type { ComponentName } from '../terms/component';
-import { aids } from './en_aids';
+import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { hand } from './en_hand';
@@ -12,7 +12,7 @@ import { steps } from './en_steps';
 /** English, as the page speaks it. Grouped as the page is. */
 export const en = {
   program: 'fluoropose',
-  aids,
+  tracing,
   calibrate,
   files,
   hand,

@@ -45,7 +45,7 @@ export const keys = {
     double: { shown: 'Double click', does: 'Close the outline' },
   },
 
-  aids: {
+  tracing: {
     snap: 'Snap the outline to the edges',
     shape: 'Simplify or smooth the outline',
     copyPrevious: 'Copy the outline of the previous frame',

@@ -4,7 +4,7 @@ import type { FilmLook, OverlayLook, PictureName } from '../terms/seeing';
 export const seeing = {
   sheet: 'View',
   open: 'View',
-  openTitle: 'All of how film, model and aids are shown (9)',
+  openTitle: 'How frame and model are shown, and what else is (9)',
   film: 'Film',
   films: {
     original: 'Original',
@@ -14,7 +14,7 @@ export const seeing = {
   } satisfies Record<FilmLook, string>,
   overlay: 'Model',
   overlays: { outline: 'Outline', fill: 'Fill', shaded: 'Shaded' } satisfies Record<OverlayLook, string>,
-  aids: 'Aids',
+  besides: 'Also shown',
   magnifier: 'Magnifier',
   scaleBar: 'Scale bar',
   ghosts: 'Neighbouring outlines',

@@ -43,15 +43,15 @@ export class Host implements WireHost, ThresholdHost {
   }
 
   get cooling(): boolean {
-    return this.#store.ui.aids.cooling;
+    return this.#store.ui.tracing.cooling;
   }
 
   get level(): number | null {
-    return this.#store.ui.aids.level;
+    return this.#store.ui.tracing.level;
   }
 
   get bridge(): number {
-    return this.#store.ui.aids.bridge;
+    return this.#store.ui.tracing.bridge;
   }
 
   now(): number {

@@ -48,8 +48,8 @@ export class OneClick {
     const input = this.#input(prompt, place, frame, bright);
     const before = cellOf(store.doc, frame.id, component).outline;
     const key = input.withModel ? poseKey(store.doc, component, frame) : null;
-    const title = texts.aids.said.oneClickJob(texts.componentTitle[component]);
-    const job = { title, unit: texts.aids.said.percent, total: 0, cancel: () => running.abort() };
+    const title = texts.tracing.said.oneClickJob(texts.componentTitle[component]);
+    const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => running.abort() };
     const answer = await asJob(store, job, (report) =>
       this.#worker.call('oneClick', input, {
         signal: running.signal,
@@ -58,16 +58,16 @@ export class OneClick {
       }),
     );
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
-    if (changed) return store.say('info', texts.aids.said.changedMeanwhile);
+    if (changed) return store.say('info', texts.tracing.said.changedMeanwhile);
     this.#take(answer, place, key);
   }
 
   #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean): OneClickInput {
     const { store, studio } = this.#services;
     const camera = cameraOf(store.doc, frame);
-    if (!camera) throw new Error(texts.aids.said.needsCalibration);
+    if (!camera) throw new Error(texts.tracing.said.needsCalibration);
     const pixels = studio.filmPixels(frame.id);
-    if (!pixels) throw new Error(texts.aids.said.noFilm(frame.name));
+    if (!pixels) throw new Error(texts.tracing.said.noFilm(frame.name));
     if (camera.bend) throw new Error(texts.calibrate.bentFilm);
     const other = cellOf(store.doc, frame.id, component === 'femur' ? 'tibia' : 'femur').outline;
     return {

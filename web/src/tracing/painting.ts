@@ -7,8 +7,8 @@ import { brushed } from './pixels';
 
 /** Why a brush cannot do anything here; null where it can. */
 export function brushRefusal(before: Outline | null, erase: boolean): string | null {
-  if (before && !before.closed) return texts.aids.said.closedFirst;
-  return !before && erase ? texts.aids.said.nothingToErase : null;
+  if (before && !before.closed) return texts.tracing.said.closedFirst;
+  return !before && erase ? texts.tracing.said.nothingToErase : null;
 }
 
 /** The stroke on the outline from before it. */

@@ -13,7 +13,7 @@ import {
   type Reshaped,
 } from '../pkg/page/fluoropose_wasm.js';
 
-/** What an aid made of an outline. */
+/** What a tool made of an outline. */
 export interface Reshape {
   readonly points: readonly FramePoint[];
   /** Sides that come from unknown ones. */
@@ -96,13 +96,13 @@ export interface Region {
 }
 
 export function regionOf(film: Film, dark: boolean): Region {
-  const aid = new ThresholdAid(film, dark);
+  const tool = new ThresholdAid(film, dark);
   return {
-    least: aid.leastLevel,
-    greatest: aid.greatestLevel,
-    suggest: ({ column, row }) => aid.suggest(column, row) ?? null,
-    outline: ({ column, row }, level, bridge) => taken(aid.outline(column, row, level, bridge, TOLERANCE), null).points,
-    free: () => aid.free(),
+    least: tool.leastLevel,
+    greatest: tool.greatestLevel,
+    suggest: ({ column, row }) => tool.suggest(column, row) ?? null,
+    outline: ({ column, row }, level, bridge) => taken(tool.outline(column, row, level, bridge, TOLERANCE), null).points,
+    free: () => tool.free(),
   };
 }
 

@@ -84,7 +84,7 @@ export class Threshold {
     const { place } = this.#host;
     const level = this.#levelAt(at);
     if (!place) return;
-    if (level === null) return this.#host.say(texts.aids.said.flat);
+    if (level === null) return this.#host.say(texts.tracing.said.flat);
     const mergeKey = `threshold ${++taken}`;
     this.#set({ place, at, level, grip: level, mergeKey });
   }
@@ -118,7 +118,7 @@ export class Threshold {
     const points = this.#region.outline(wanted.at, wanted.level, this.#host.bridge);
     if (points.length === 0) {
       if (this.#taken) this.#taken = { ...wanted, outline: this.#taken.outline };
-      return this.#host.say(texts.aids.said.empty(Math.round(wanted.level)));
+      return this.#host.say(texts.tracing.said.empty(Math.round(wanted.level)));
     }
     const outline: Outline = { points, closed: true, unknownSides: [] };
     this.#taken = { ...wanted, outline };

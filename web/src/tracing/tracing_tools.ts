@@ -1,7 +1,7 @@
 import { currentCell, currentFrame, currentPlace } from '../document/store';
 import { cellOf } from '../document/types';
 import type { FramePoint } from '../geometry/points';
-import type { AidIntent } from '../interaction/tracing_intent';
+import type { TracingIntent } from '../interaction/tracing_intent';
 import type { ToolName } from '../terms/tool';
 import type { Film } from '../pkg/page/fluoropose_wasm.js';
 import { texts } from '../texts/texts';
@@ -20,20 +20,20 @@ import { Wire } from './wire';
 const BUDGET = 4;
 /** A path has to stay the same for so long while the hand moves, ms. */
 const COOLS_AFTER = 700;
-type Held<T> = { readonly film: Film; readonly bright: boolean; readonly aid: T } | null;
+type Held<T> = { readonly film: Film; readonly bright: boolean; readonly tool: T } | null;
 
 /**
  * The tools that work with pixels: answers what their machines want with previews and commands. Keeps one live-wire and
  * one threshold, of the film that is traced; everything is done in slices within screen frames.
  */
-export class Aids {
+export class TracingTools {
   readonly #services: Services;
   readonly #oneClick: OneClick;
   #wire: Held<Wire> = null;
   #threshold: Held<Threshold> = null;
   #box: Preview = NO_PREVIEW;
   #shape: Preview = NO_PREVIEW;
-  #stroke: Extract<AidIntent, { aid: 'brush' }> | null = null;
+  #stroke: Extract<TracingIntent, { tool: 'brush' }> | null = null;
   #trouble = '';
   /** How many CSS pixels a frame pixel is; the stage tells. */
   scale = 1;
@@ -63,12 +63,12 @@ export class Aids {
     }
   }
 
-  want(intent: AidIntent): void {
+  want(intent: TracingIntent): void {
     this.#telling(() => this.#answer(intent));
   }
 
-  #answer(intent: AidIntent): void {
-    switch (intent.aid) {
+  #answer(intent: TracingIntent): void {
+    switch (intent.tool) {
       case 'wire':
         return this.#toWire(intent);
       case 'threshold':
@@ -107,8 +107,8 @@ export class Aids {
 
   /** The pointer has left, or the tool: nothing is shown that a click would not do. */
   leave(): void {
-    this.#wire?.aid.leave();
-    this.#threshold?.aid.leave();
+    this.#wire?.tool.leave();
+    this.#threshold?.tool.leave();
     this.#box = NO_PREVIEW;
     this.#stroke = null;
   }
@@ -123,15 +123,15 @@ export class Aids {
 
   /** Moves the level of the region that was taken, or the level of the next one. */
   setLevel(level: number): void {
-    if (!this.#thresholdOfNow()?.setLevel(level)) this.#services.store.setAids({ level });
+    if (!this.#thresholdOfNow()?.setLevel(level)) this.#services.store.setTracing({ level });
     this.#tellLevel();
   }
 
   /** By steps of a hundredth of the film's range. False where no region was taken. */
   stepLevel(steps: number): boolean {
-    const { aidLevel } = this.#services.store.ui;
-    if (!aidLevel) return false;
-    this.setLevel(aidLevel.level + (steps * (aidLevel.greatest - aidLevel.least)) / 200);
+    const { thresholdLevel } = this.#services.store.ui;
+    if (!thresholdLevel) return false;
+    this.setLevel(thresholdLevel.level + (steps * (thresholdLevel.greatest - thresholdLevel.least)) / 200);
     return true;
   }
 
@@ -149,16 +149,16 @@ export class Aids {
 
   /** Ends of the level's slider, grey values. */
   get levelEnds(): { readonly least: number; readonly greatest: number } | null {
-    return this.#threshold?.aid.ends ?? null;
+    return this.#threshold?.tool.ends ?? null;
   }
 
   get adjusting(): boolean {
-    return this.#threshold?.aid.taken != null;
+    return this.#threshold?.tool.taken != null;
   }
 
   // --- Tools ------------------------------------------------------------------------------------------------------
 
-  #toWire(intent: Extract<AidIntent, { aid: 'wire' }>): void {
+  #toWire(intent: Extract<TracingIntent, { tool: 'wire' }>): void {
     const wire = this.#wireOfNow();
     if (!wire) return this.#sayNoFilm();
     if (intent.to === 'aim') wire.aim(intent.at, intent.straight);
@@ -166,7 +166,7 @@ export class Aids {
     else wire.close(intent.straight);
   }
 
-  #toThreshold(intent: Extract<AidIntent, { aid: 'threshold' }>): void {
+  #toThreshold(intent: Extract<TracingIntent, { tool: 'threshold' }>): void {
     const threshold = this.#thresholdOfNow();
     if (!threshold) return this.#sayNoFilm();
     if (intent.to === 'aim') threshold.aim(intent.at);
@@ -176,18 +176,18 @@ export class Aids {
     if (intent.to !== 'aim') this.#tellLevel();
   }
 
-  #toBrush(intent: Extract<AidIntent, { aid: 'brush' }>): void {
+  #toBrush(intent: Extract<TracingIntent, { tool: 'brush' }>): void {
     this.#stroke = intent;
     if (intent.to === 'finish') this.#paint();
   }
 
-  #toOneClick(intent: Extract<AidIntent, { aid: 'one-click' }>): void {
+  #toOneClick(intent: Extract<TracingIntent, { tool: 'one-click' }>): void {
     const { store } = this.#services;
     const frame = currentFrame(store.state);
     this.#box = intent.to === 'frame' ? { kind: 'box', from: intent.from, to: intent.at } : NO_PREVIEW;
     if (intent.to === 'frame' || !frame) return;
     const prompt = intent.to === 'box' ? ([intent.from, intent.at] as const) : ([intent.at] as const);
-    void this.#oneClick.ask(prompt, frame, store.ui.aids.bright);
+    void this.#oneClick.ask(prompt, frame, store.ui.tracing.bright);
   }
 
   /** The stroke so far on the outline from before it. */
@@ -200,10 +200,10 @@ export class Aids {
     const before = cellOf(store.state.history.gestureStart ?? store.doc, place.frameId, place.component).outline;
     const refusal = brushRefusal(before, stroke.erase);
     if (refusal) return stroke.to === 'finish' ? store.say('info', refusal) : undefined;
-    const command = paint(place, before, stroke.stroke, store.ui.aids.radius, stroke.erase);
+    const command = paint(place, before, stroke.stroke, store.ui.tracing.radius, stroke.erase);
     if (stroke.to === 'paint') return store.preview(command);
     store.commit(command);
-    if (!currentCell(store.state).outline) store.say('info', texts.aids.said.allErased);
+    if (!currentCell(store.state).outline) store.say('info', texts.tracing.said.allErased);
   }
 
   // --- What they work on --------------------------------------------------------------------------------------------
@@ -220,17 +220,17 @@ export class Aids {
     );
   }
 
-  /** The aid of the film on view; another film's is given up, it holds much memory. */
+  /** The tool of the film on view; another film's is given up, it holds much memory. */
   #held<T extends { free(): void }>(held: Held<T>, keep: (held: Held<T>) => void, make: (film: Film, bright: boolean) => T): T | null {
     const { store, studio } = this.#services;
     const frame = currentFrame(store.state);
     const film = frame && studio.filmOf(frame.id);
-    const { bright } = store.ui.aids;
-    if (held && held.film === film && held.bright === bright) return held.aid;
-    held?.aid.free();
-    const made = film && { film, bright, aid: make(film, bright) };
+    const { bright } = store.ui.tracing;
+    if (held && held.film === film && held.bright === bright) return held.tool;
+    held?.tool.free();
+    const made = film && { film, bright, tool: make(film, bright) };
     keep(made);
-    return made?.aid ?? null;
+    return made?.tool ?? null;
   }
 
   #hostOf(film: Film, bright: boolean): Host {
@@ -240,19 +240,19 @@ export class Aids {
   #sayNoFilm(): void {
     const { store } = this.#services;
     const frame = currentFrame(store.state);
-    if (frame) store.say('info', texts.aids.said.noFilm(frame.name));
+    if (frame) store.say('info', texts.tracing.said.noFilm(frame.name));
   }
 
   #tellLevel(): void {
     const { store } = this.#services;
-    const threshold = this.#threshold?.aid;
+    const threshold = this.#threshold?.tool;
     const taken = threshold?.taken;
-    const aidLevel = threshold && taken ? { level: taken.level, ...threshold.ends } : null;
-    if (aidLevel || store.ui.aidLevel) store.show({ aidLevel });
+    const thresholdLevel = threshold && taken ? { level: taken.level, ...threshold.ends } : null;
+    if (thresholdLevel || store.ui.thresholdLevel) store.show({ thresholdLevel });
   }
 
   /** Adjusting ends as soon as the outline is another one. */
   #watch(): void {
-    if (this.#services.store.ui.aidLevel && !this.adjusting) this.#services.store.show({ aidLevel: null });
+    if (this.#services.store.ui.thresholdLevel && !this.adjusting) this.#services.store.show({ thresholdLevel: null });
   }
 }

@@ -25,13 +25,13 @@ describe('keys', () => {
   });
 
   it('depends on the tool for some keys', () => {
-    expect(pressWith('transform', 'ArrowLeft')).toEqual({ name: 'aid', command: { what: 'move', columns: -1, rows: 0 } });
-    expect(pressWith('wire', 'ArrowUp', { shift: true })).toEqual({ name: 'aid', command: { what: 'point', columns: 0, rows: -10 } });
-    expect(pressWith('transform', 'ArrowRight', { ctrl: true })).toEqual({ name: 'aid', command: { what: 'turn', degrees: 1 } });
+    expect(pressWith('transform', 'ArrowLeft')).toEqual({ name: 'tracing', command: { what: 'move', columns: -1, rows: 0 } });
+    expect(pressWith('wire', 'ArrowUp', { shift: true })).toEqual({ name: 'tracing', command: { what: 'point', columns: 0, rows: -10 } });
+    expect(pressWith('transform', 'ArrowRight', { ctrl: true })).toEqual({ name: 'tracing', command: { what: 'turn', degrees: 1 } });
     expect(pressWith('hand', 'ArrowLeft')).toBeNull();
-    expect(pressWith('wire', 'Backspace')).toEqual({ name: 'aid', command: { what: 'take-back' } });
+    expect(pressWith('wire', 'Backspace')).toEqual({ name: 'tracing', command: { what: 'take-back' } });
     expect(pressWith('trace', 'Backspace')).toEqual({ name: 'delete-point' });
-    expect(pressWith('threshold', 's', { shift: true })).toEqual({ name: 'aid', command: { what: 'shape' } });
+    expect(pressWith('threshold', 's', { shift: true })).toEqual({ name: 'tracing', command: { what: 'shape' } });
   });
 
   it('leaves the browser its own', () => {

@@ -1,5 +1,5 @@
 /** English of the tools that trace and shape outlines. */
-export const aids = {
+export const tracing = {
   hints: {
     wire: {
       first: (component: string) => `Click on the edge of the ${component}: the path follows it to the pointer from there.`,

@@ -1,7 +1,7 @@
 /** Tools that trace and shape outlines, each really used on the demonstration; clicks and seconds counted. */
 import assert from 'node:assert/strict';
 import { drawn, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
-import * as aids from './support/aids.mjs';
+import * as tracing from './support/tracing.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { polygonWithin, trueOutline, truePose } from './support/study.mjs';
@@ -25,8 +25,8 @@ const QUICK = { x: 0.6, y: 0.6, z: 12, zRot: 1.2, xRot: 1.5, yRot: 1.5 };
 
 pageTest('a new user with one click', async (page, t) => {
   const { clicks, seconds, pose } = await timed(page, async () => {
-    await aids.openDemonstration(page);
-    return aids.byOneClick(page);
+    await tracing.openDemonstration(page);
+    return tracing.byOneClick(page);
   });
   const truth = await truePose('femur', 1);
   t.diagnostic(`${clicks} clicks, ${seconds.toFixed(1)} s: ${panel.differences(pose, truth)}`);
@@ -43,8 +43,8 @@ pageTest('a new user with one click', async (page, t) => {
 
 pageTest('a new user with a plain polygon', async (page, t) => {
   const { clicks, seconds, pose } = await timed(page, async () => {
-    await aids.openDemonstration(page);
-    return aids.byPolygon(page);
+    await tracing.openDemonstration(page);
+    return tracing.byPolygon(page);
   });
   const truth = await truePose('femur', 1);
   t.diagnostic(`${clicks} clicks, ${seconds.toFixed(1)} s: ${panel.differences(pose, truth)}`);
@@ -54,7 +54,7 @@ pageTest('a new user with a plain polygon', async (page, t) => {
 
 pageTest('threshold, live-wire and snap', async (page, t) => {
   const stage = new Stage(page);
-  await aids.openDemonstration(page);
+  await tracing.openDemonstration(page);
   await stage.learn();
   await step(page, t, 'threshold: a click inside takes the region, its level can be moved', (t) => threshold(page, stage, t));
   await step(page, t, 'live-wire: the path follows the edge, Backspace and undo take it back', (t) => liveWire(page, stage, t));
@@ -64,7 +64,7 @@ pageTest('threshold, live-wire and snap', async (page, t) => {
 
 pageTest('brush, stretches and whole outlines', async (page, t) => {
   const stage = new Stage(page);
-  await aids.openDemonstration(page);
+  await tracing.openDemonstration(page);
   await stage.learn();
   const outline = await trueOutline('femur', 1);
   await page.keyboard.press('p');
@@ -78,7 +78,7 @@ pageTest('brush, stretches and whole outlines', async (page, t) => {
 
 pageTest('tools and the keyboard', async (page, t) => {
   const stage = new Stage(page);
-  await aids.openDemonstration(page);
+  await tracing.openDemonstration(page);
   await stage.learn();
   await step(page, t, 'switching tools keeps a draft, Esc leaves without loss', () => draftStays(page, stage));
   await step(page, t, 'the keyboard alone takes a region', (t) => byKeyboard(page, t));
@@ -88,7 +88,7 @@ pageTest('tools and the keyboard', async (page, t) => {
 if (!IN_FIREFOX) {
   pageTest('fingers zoom and move the film', async (page) => {
     const stage = new Stage(page);
-    await aids.openDemonstration(page);
+    await tracing.openDemonstration(page);
     await stage.learn();
     await pinch(page, stage);
   });
@@ -96,7 +96,7 @@ if (!IN_FIREFOX) {
 
 /** Presses and seconds of a way through the page. @param {Page} page @param {() => Promise<import('./support/study.mjs').Pose>} way */
 async function timed(page, way) {
-  const clicks = await aids.countClicks(page);
+  const clicks = await tracing.countClicks(page);
   const startedAt = Date.now();
   const pose = await way();
   return { pose, clicks: await clicks(), seconds: (Date.now() - startedAt) / 1000 };
@@ -104,9 +104,9 @@ async function timed(page, way) {
 
 /** @param {Page} page @param {Stage} stage @param {import('node:test').TestContext} t */
 async function threshold(page, stage, t) {
-  const inside = aids.insideOf(await trueOutline('femur', 1));
+  const inside = tracing.insideOf(await trueOutline('femur', 1));
   await page.getByRole('button', { name: 'Threshold', exact: true }).click();
-  await aids.toolInHand(page, 'Threshold');
+  await tracing.toolInHand(page, 'Threshold');
   await stage.hover(inside);
   await drawn(page);
   await screenshot(page, 'threshold hover');
@@ -132,9 +132,9 @@ async function liveWire(page, stage, t) {
   // Whatever the step before left.
   await page.keyboard.press('Shift+Delete');
   const outline = await trueOutline('femur', 1);
-  const way = aids.alongRing(outline, 12);
+  const way = tracing.alongRing(outline, 12);
   await page.keyboard.press('l');
-  await aids.toolInHand(page, 'Live-wire');
+  await tracing.toolInHand(page, 'Live-wire');
   for (const [index, point] of way.slice(0, 26).entries()) {
     if (index % 12 === 0) await stage.click(point);
     else await stage.hover(point);
@@ -154,7 +154,7 @@ async function liveWire(page, stage, t) {
   }
   await undo('begin the outline');
   await page.keyboard.press('Shift+Delete');
-  await aids.wireRound(page, stage, outline, 9);
+  await tracing.wireRound(page, stage, outline, 9);
   const pose = await panel.waitForPose(page);
   const truth = await truePose('femur', 1);
   t.diagnostic(`live-wire: ${panel.differences(pose, truth)}`);
@@ -186,7 +186,7 @@ async function snap(page, stage, t) {
 /** @param {Page} page */
 async function shape(page) {
   const pose = await panel.waitForPose(page);
-  await aids.strip(page).getByRole('button', { name: 'Shape the outline' }).click();
+  await tracing.strip(page).getByRole('button', { name: 'Shape the outline' }).click();
   const sheet = page.getByRole('dialog', { name: 'Shape' });
   await sheet.getByRole('slider', { name: 'Simplify within' }).fill('2');
   const text = await until(() => sheet.innerText(), (words) => /\d+ points become \d+\. The shape moves by [\d.]+ px at most/.test(words), 'the error');
@@ -212,7 +212,7 @@ async function brush(page, stage, outline) {
   const lowest = outline.reduce((low, point) => (point[1] > low[1] ? point : low));
   const [column, row] = lowest;
   await page.keyboard.press('b');
-  await aids.toolInHand(page, 'Brush');
+  await tracing.toolInHand(page, 'Brush');
   await stage.drag([column - 20, row + 4], [column + 20, row + 4]);
   const fatter = await panel.waitForOtherPose(page, pose);
   await screenshot(page, 'brush');
@@ -229,13 +229,13 @@ async function brush(page, stage, outline) {
   await page.keyboard.press(']');
   await until(radius, (now) => now > before, 'a larger brush');
   await page.keyboard.press('e');
-  await aids.strip(page).getByRole('radio', { name: 'Erase', checked: true }).waitFor();
+  await tracing.strip(page).getByRole('radio', { name: 'Erase', checked: true }).waitFor();
   await page.keyboard.press('e');
 }
 
 /** @param {Page} page @param {Stage} stage @param {Point[]} outline */
 async function stretch(page, stage, outline) {
-  const way = aids.alongRing(outline, 8).slice(3, 20);
+  const way = tracing.alongRing(outline, 8).slice(3, 20);
   await page.getByRole('button', { name: 'Mark a stretch unknown' }).click();
   await dragAlong(page, stage, way);
   await page.getByRole('button', { name: 'Undo: mark a stretch unknown' }).waitFor();
@@ -243,7 +243,7 @@ async function stretch(page, stage, outline) {
   await screenshot(page, 'stretch');
   await dragAlong(page, stage, way.slice(2, -2));
   await page.getByRole('button', { name: 'Undo: mark a stretch known' }).waitFor();
-  await aids.strip(page).getByRole('button', { name: 'All known' }).click();
+  await tracing.strip(page).getByRole('button', { name: 'All known' }).click();
   await page.getByRole('button', { name: 'Undo: mark all of the outline known' }).waitFor();
   for (let step = 0; step < 3; step++) await page.keyboard.press('Control+z');
 }
@@ -260,7 +260,7 @@ async function dragAlong(page, stage, way) {
 async function transform(page, stage) {
   const pose = await panel.waitForPose(page);
   const outline = await trueOutline('femur', 1);
-  const inside = aids.insideOf(outline);
+  const inside = tracing.insideOf(outline);
   await page.keyboard.press('m');
   await stage.hover(inside);
   await drawn(page);
@@ -294,7 +294,7 @@ async function copy(page, t) {
   await page.keyboard.press('s');
   const after = await panel.waitForOtherPose(page, before).catch(() => before);
   t.diagnostic(`copied and snapped: ${panel.differences(after, await truePose('femur', 2))}`);
-  await aids.waitForCell(page, /^Frame 2, femur: posed/);
+  await tracing.waitForCell(page, /^Frame 2, femur: posed/);
   await page.keyboard.press('d');
 }
 
@@ -330,7 +330,7 @@ async function byKeyboard(page, t) {
   panel.assertNear(pose, await truePose('femur', 1), AIDED);
   await page.keyboard.press('ArrowUp');
   await page.keyboard.press('Enter');
-  await aids.toolInHand(page, 'Edit points');
+  await tracing.toolInHand(page, 'Edit points');
 }
 
 /** @param {Page} page */
