@@ -42,8 +42,8 @@ pageTest('from the demonstration to a pose', async (page, t) => {
 
   await step(page, t, 'the pose follows a dragged point; undo and redo move both', () => dragUndoRedo(page, stage, outline));
 
-  await step(page, t, 'the film fits again and the silhouette lies on the implant', async () => {
-    await page.getByRole('button', { name: 'Fit the film to the window' }).click();
+  await step(page, t, 'the frame fits again and the silhouette lies on the implant', async () => {
+    await page.getByRole('button', { name: 'Fit the frame to the window' }).click();
     await atRest(page);
     await screenshot(page, 'traced-fitted');
   });
@@ -74,10 +74,10 @@ async function dragUndoRedo(page, stage, outline) {
 
   await page.keyboard.press('Control+z');
   await panel.waitForThePose(page, before.pose);
-  await stage.looksLike(before.picture, 'the film after undo');
+  await stage.looksLike(before.picture, 'the frame after undo');
   await page.keyboard.press('Control+y');
   await panel.waitForThePose(page, following);
-  await stage.looksLike(after.picture, 'the film after redo');
+  await stage.looksLike(after.picture, 'the frame after redo');
   await page.getByRole('button', { name: 'Undo: move a point' }).click();
   await panel.waitForThePose(page, before.pose);
 }

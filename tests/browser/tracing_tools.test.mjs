@@ -15,7 +15,7 @@ const MOST_CLICKS = 12;
 const MOST_CLICKS_OF_A_POLYGON = 40;
 
 /**
- * Where the page finds the edges itself. On the demonstration's films the metal thins out towards its border, and grey is
+ * Where the page finds the edges itself. On the demonstration's frames the metal thins out towards its border, and grey is
  * halfway 0.8 px inside of the true silhouette: a smaller outline, some 1.6 percent farther away (one click, seen: 15.3 mm
  * in z, 0.06 mm in x and y, 0.83 degrees; threshold: 18.1 mm, 0.07 mm, 0.73 degrees).
  */
@@ -86,7 +86,7 @@ pageTest('tools and the keyboard', async (page, t) => {
 });
 
 if (!IN_FIREFOX) {
-  pageTest('fingers zoom and move the film', async (page) => {
+  pageTest('fingers zoom and move the frame', async (page) => {
     const stage = new Stage(page);
     await tracing.openDemonstration(page);
     await stage.learn();
@@ -320,7 +320,7 @@ async function byKeyboard(page, t) {
   await page.getByRole('application').focus();
   await page.mouse.move(1, 1);
   await page.keyboard.press('t');
-  // From the middle of the film, at 512 and 512, into the femur's shield.
+  // From the middle of the frame, at 512 and 512, into the femur's shield.
   await page.keyboard.press('Shift+ArrowDown');
   await page.keyboard.press('Shift+ArrowDown');
   await page.keyboard.press('ArrowUp');

@@ -1,4 +1,4 @@
-/** How long the page's thread takes for a frame while a hand moves over the film. */
+/** How long the page's thread takes for a frame while a hand moves over the frame. */
 import * as tracing from '../support/tracing.mjs';
 import { drawn } from '../support/browser.mjs';
 import * as panel from '../support/panel.mjs';

@@ -86,7 +86,7 @@ export async function wireRound(page, stage, outline, seeds) {
   await page.keyboard.press('Enter');
 }
 
-/** The live-wire looks at the film once: a moment in which the hand comes to the film. @param {Page} page @param {Stage} stage @param {Point} point */
+/** The live-wire looks at the frame once: a moment in which the hand comes to the frame. @param {Page} page @param {Stage} stage @param {Point} point */
 async function ready(page, stage, point) {
   await stage.hover(point);
   await drawn(page);
@@ -104,12 +104,12 @@ export function alongRing(ring, step) {
   });
 }
 
-/** What the strip above the film says of the tool. @param {Page} page */
+/** What the strip above the frame says of the tool. @param {Page} page */
 export function strip(page) {
   return page.getByRole('region', { name: 'Tool options' });
 }
 
-/** The film's state cell. @param {Page} page @param {RegExp} wanted */
+/** The state of a cell in the strip. @param {Page} page @param {RegExp} wanted */
 export async function waitForCell(page, wanted) {
   await until(() => panel.cells(page), (cells) => cells.some((cell) => wanted.test(cell)), `a cell like ${wanted}`);
 }

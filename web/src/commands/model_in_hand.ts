@@ -30,7 +30,7 @@ export function meshOf(doc: Doc, component: ComponentName, studio: Studio): Mode
   return model && studio.meshOf(model.sha256);
 }
 
-/** Where a model without a pose would be placed: as in the nearest frame that has one, else in the middle of the film. */
+/** Where a model without a pose would be placed: as in the nearest frame that has one, else in the middle of the frame. */
 export function placedPose(state: State, studio: Studio): { readonly pose: PoseNumbers; readonly frame: number | null } | null {
   const { present: doc } = state.history;
   const { component, frameIndex } = state.ui;

@@ -3,7 +3,7 @@ import type { Motion } from '../interaction/adjust';
 import type { Hit } from '../interaction/hit';
 import { useAtReadingPace } from '../controls/pace';
 
-/** Where the pointer is over the film. Apart from the store: it changes with every move and nothing is kept of it. */
+/** Where the pointer is over the frame. Apart from the store: it changes with every move and nothing is kept of it. */
 export interface PointerPlace {
   readonly at: FramePoint;
   readonly hit: Hit;

@@ -15,11 +15,11 @@ export class SeeingActions {
   run(action: SeeingAction): boolean {
     const { seeing, popover } = this.#store.ui;
     switch (action.name) {
-      case 'film':
-        this.#store.see({ film: action.look });
+      case 'preprocessing':
+        this.#store.see({ preprocessing: action.preprocessing });
         return true;
       case 'overlay':
-        this.#store.see({ overlay: action.look });
+        this.#store.see({ overlay: action.style });
         return true;
       case 'magnifier':
         this.#store.see({ magnifier: !seeing.magnifier });

@@ -1,11 +1,11 @@
-import type { FilmLook, OverlayLook } from '../terms/seeing';
+import type { Preprocessing, OverlayStyle } from '../terms/seeing';
 import type { Binding, KeyInput } from './bindings';
 import { texts } from '../texts/texts';
 
 /** Keys of how things are shown. */
 export type SeeingAction =
-  | { readonly name: 'film'; readonly look: FilmLook }
-  | { readonly name: 'overlay'; readonly look: OverlayLook }
+  | { readonly name: 'preprocessing'; readonly preprocessing: Preprocessing }
+  | { readonly name: 'overlay'; readonly style: OverlayStyle }
   | { readonly name: 'magnifier' | 'ghosts' | 'scale-bar' | 'compare' | 'view-sheet' };
 
 interface SeeingBinding extends Omit<Binding, 'action' | 'group'> {
@@ -18,13 +18,13 @@ function binding(key: string, does: string, action: SeeingAction): SeeingBinding
 }
 
 export const SEEING_BINDINGS: readonly SeeingBinding[] = [
-  binding('1', texts.keys.seeing.original, { name: 'film', look: 'original' }),
-  binding('2', texts.keys.seeing.inverted, { name: 'film', look: 'inverted' }),
-  binding('3', texts.keys.seeing.edges, { name: 'film', look: 'edges' }),
-  binding('4', texts.keys.seeing.equalised, { name: 'film', look: 'equalised' }),
-  binding('5', texts.keys.seeing.outline, { name: 'overlay', look: 'outline' }),
-  binding('6', texts.keys.seeing.fill, { name: 'overlay', look: 'fill' }),
-  binding('7', texts.keys.seeing.shaded, { name: 'overlay', look: 'shaded' }),
+  binding('1', texts.keys.seeing.original, { name: 'preprocessing', preprocessing: 'original' }),
+  binding('2', texts.keys.seeing.inverted, { name: 'preprocessing', preprocessing: 'inverted' }),
+  binding('3', texts.keys.seeing.edges, { name: 'preprocessing', preprocessing: 'edges' }),
+  binding('4', texts.keys.seeing.equalised, { name: 'preprocessing', preprocessing: 'equalised' }),
+  binding('5', texts.keys.seeing.outline, { name: 'overlay', style: 'outline' }),
+  binding('6', texts.keys.seeing.fill, { name: 'overlay', style: 'fill' }),
+  binding('7', texts.keys.seeing.shaded, { name: 'overlay', style: 'shaded' }),
   binding('z', texts.keys.seeing.magnifier, { name: 'magnifier' }),
   binding('g', texts.keys.seeing.ghosts, { name: 'ghosts' }),
   binding('q', texts.keys.seeing.compare, { name: 'compare' }),

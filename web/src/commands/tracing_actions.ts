@@ -104,11 +104,11 @@ export class TracingActions {
     const { state, ui } = store;
     const place = currentPlace(state);
     const frame = currentFrame(state);
-    const film = frame && studio.filmOf(frame.id);
+    const image = frame && studio.imageOf(frame.id);
     const outline = this.#closedOutline();
     if (!place || !outline) return true;
-    if (!film) return this.#say(texts.tracing.said.noFilm(frame?.name ?? ''));
-    const { points, unknownSides, greatest, rms } = snappedOutline(film, outline, !ui.tracing.bright, ui.tracing.reach);
+    if (!image) return this.#say(texts.tracing.said.noPixels(frame?.name ?? ''));
+    const { points, unknownSides, greatest, rms } = snappedOutline(image, outline, !ui.tracing.bright, ui.tracing.reach);
     if (points.length === 0 || greatest === 0) return this.#say(texts.tracing.said.noEdge);
     store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
     store.show({ selectedPoint: null });

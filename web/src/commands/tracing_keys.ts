@@ -6,7 +6,7 @@ export type TracingCommand =
   | { readonly what: 'move'; readonly columns: number; readonly rows: number }
   | { readonly what: 'turn'; readonly degrees: number }
   | { readonly what: 'scale'; readonly factor: number }
-  /** The place on the film that the keyboard points at, frame pixels. */
+  /** The place on the frame that the keyboard points at, frame pixels. */
   | { readonly what: 'point'; readonly columns: number; readonly rows: number }
   | { readonly what: 'press' }
   /** Of the tool in hand: the brush's radius, the threshold's level. */

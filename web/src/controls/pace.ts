@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'preact/hooks';
 
 /**
- * While something moves, words and numbers are renewed at most so often, ms: the film follows the hand in every screen
+ * While something moves, words and numbers are renewed at most so often, ms: the stage follows the hand in every screen
  * frame, but nobody reads faster.
  */
 const PERIOD = 100;

@@ -50,7 +50,7 @@ export async function decodeFrames(
     signal,
     onProgress: ({ index, total, frame }) => {
       const id = `${asset.sha256.slice(0, 16)}:${index}`;
-      studio.addFilm(id, frame);
+      studio.addFrame(id, frame);
       const name = total === 1 ? asset.name : `${asset.name} #${index + 1}`;
       const { width, height } = frame;
       entries.push({ id, name, source: asset.sha256, indexInSource: index, width, height });

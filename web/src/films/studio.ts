@@ -1,7 +1,7 @@
 import init, {
   CalibrationText,
   checkLibrary,
-  Film,
+  Film as FrameImage,
   jointMotion,
   jtIntcalibText,
   Model,
@@ -20,25 +20,26 @@ import type { FramePoint } from '../geometry/points';
 import type { Size } from '../geometry/viewport';
 import type { Motion } from '../results/motion';
 import { poseArray, poseFrom } from '../workers/protocol/pose_array';
-import { paintLook, type Look } from './preprocessing';
-import type { FilmPixels } from '../workers/protocol/frame_pixels';
+import { paintPreprocessed } from './preprocessing';
+import type { Preprocessing } from '../terms/seeing';
+import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { Picture } from '../workers/protocol/match';
 import type { DecodedFrame, ModelMesh, StatedGeometry } from '../workers/protocol/decode';
 import type { Bend, CalibrationFacts, CameraInput } from '../workers/protocol/camera';
-import { Bender, StraightFilms } from './undistorted';
+import { Bender, UndistortedFrames } from './undistorted';
 import { numbersAt } from './wasm_view';
 
 /** Grey values of a frame, and the window to begin with. */
-export interface FilmFacts {
+export interface FrameFacts {
   readonly least: number;
   readonly greatest: number;
   readonly window: GreyWindow;
 }
 
-interface HeldFilm {
+interface HeldFrame {
   /** As it was taken. */
-  readonly film: Film;
-  readonly facts: FilmFacts;
+  readonly image: FrameImage;
+  readonly facts: FrameFacts;
   readonly size: Size;
   readonly stated: StatedGeometry;
 }
@@ -67,8 +68,8 @@ interface PaintedSilhouette {
  */
 export class Studio {
   readonly #memory: WebAssembly.Memory;
-  readonly #films = new Map<string, HeldFilm>();
-  readonly #straight = new StraightFilms();
+  readonly #frames = new Map<string, HeldFrame>();
+  readonly #straight = new UndistortedFrames();
   #bender: Bender | null = null;
   /** By the file's SHA-256: undo may go back to an earlier one. */
   readonly #models = new Map<string, HeldModel>();
@@ -84,63 +85,63 @@ export class Studio {
 
   // --- Frames -------------------------------------------------------------------------------------------------
 
-  addFilm(id: string, frame: DecodedFrame): void {
-    if (this.#films.has(id)) return;
+  addFrame(id: string, frame: DecodedFrame): void {
+    if (this.#frames.has(id)) return;
     const { pixels, width, height } = frame;
-    const film =
-      pixels instanceof Uint8Array ? Film.fromEightBit(pixels, width, height) : Film.fromSixteenBit(pixels, width, height);
-    const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = film.greyRange();
+    const image =
+      pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+    const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = image.greyRange();
     const window = frame.window ?? { centre, width: windowWidth };
-    this.#films.set(id, { film, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
+    this.#frames.set(id, { image, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
   }
 
-  /** Films are shown straight from now on, or as they were taken. */
+  /** Frames are shown straight from now on, or as they were taken. */
   useDistortion(distortion: Distortion | null): void {
     this.#straight.use(distortion);
   }
 
-  /** Changes whenever films look otherwise: what was painted or worked out from their pixels is of the past. */
-  get filmsKey(): string {
+  /** Changes whenever frames look otherwise: what was painted or worked out from their pixels is of the past. */
+  get framesKey(): string {
     return this.#straight.key;
   }
 
   /** What the file of a frame says of sizes and distances. */
   statedGeometry(id: string): StatedGeometry | null {
-    return this.#films.get(id)?.stated ?? null;
+    return this.#frames.get(id)?.stated ?? null;
   }
 
-  #shown(id: string): Film | null {
-    const held = this.#films.get(id);
-    return held ? this.#straight.shown(id, held.film, held.size) : null;
+  #shown(id: string): FrameImage | null {
+    const held = this.#frames.get(id);
+    return held ? this.#straight.shown(id, held.image, held.size) : null;
   }
 
   /** The frame in WASM memory, for tools that look at its pixels. */
-  filmOf(id: string): Film | null {
+  imageOf(id: string): FrameImage | null {
     return this.#shown(id);
   }
 
-  hasFilm(id: string): boolean {
-    return this.#films.has(id);
+  hasFrame(id: string): boolean {
+    return this.#frames.has(id);
   }
 
-  filmFacts(id: string): FilmFacts | null {
-    return this.#films.get(id)?.facts ?? null;
+  frameFacts(id: string): FrameFacts | null {
+    return this.#frames.get(id)?.facts ?? null;
   }
 
-  paintFilm(context: CanvasRenderingContext2D, id: string, window: GreyWindow, look: Look = 'original'): void {
-    const held = this.#films.get(id);
-    const film = this.#shown(id);
-    if (held && film) paintLook(film, held.facts.window, context, window, look);
+  paintFrame(context: CanvasRenderingContext2D, id: string, window: GreyWindow, preprocessing: Preprocessing = 'original'): void {
+    const held = this.#frames.get(id);
+    const image = this.#shown(id);
+    if (held && image) paintPreprocessed(image, held.facts.window, context, window, preprocessing);
   }
 
   /** A copy of a frame's grey values, for a worker. */
-  filmPixels(id: string): FilmPixels['pixels'] | null {
+  framePixels(id: string): FramePixels['pixels'] | null {
     return pixelsOf(this.#shown(id));
   }
 
   /** The same of the frame as it was taken, whether it is shown straight or not. */
-  takenPixels(id: string): FilmPixels['pixels'] | null {
-    return pixelsOf(this.#films.get(id)?.film ?? null);
+  takenPixels(id: string): FramePixels['pixels'] | null {
+    return pixelsOf(this.#frames.get(id)?.image ?? null);
   }
 
   greyAt(id: string, column: number, row: number): number | null {
@@ -273,8 +274,8 @@ function paintPicture(model: Model, canvas: CanvasRenderingContext2D, { width, h
   return { left: 0, top: 0, width, height };
 }
 
-function pixelsOf(film: Film | null): FilmPixels['pixels'] | null {
-  return film && (film.copyPixels() as FilmPixels['pixels']);
+function pixelsOf(image: FrameImage | null): FramePixels['pixels'] | null {
+  return image && (image.copyPixels() as FramePixels['pixels']);
 }
 
 /** At the focus, where nothing can be: other programs of the field read it without complaint. */

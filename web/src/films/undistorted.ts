@@ -1,15 +1,15 @@
-import { Straightener, type Film, type Model } from '../pkg/page/fluoropose_wasm.js';
+import { Straightener, type Film as FrameImage, type Model } from '../pkg/page/fluoropose_wasm.js';
 import { type Distortion, distortionKey, fits, numbersOf } from '../document/distortion';
 import type { MovePoints } from '../document/set_distortion';
 
-/** Corrections at work on the page's own thread: for points, and for films that are shown straight. */
-export class StraightFilms {
+/** Corrections at work on the page's own thread: for points, and for frames that are shown straight. */
+export class UndistortedFrames {
   #distortion: Distortion | null = null;
   #key = '';
   #straightener: Straightener | null = null;
-  readonly #films = new Map<string, Film>();
+  readonly #images = new Map<string, FrameImage>();
 
-  /** Changes whenever films look otherwise. */
+  /** Changes whenever frames look otherwise. */
   get key(): string {
     return this.#key;
   }
@@ -24,18 +24,18 @@ export class StraightFilms {
     this.#straightener?.free();
     this.#straightener = null;
     // Tools may still hold one of them: they are let go, not freed.
-    this.#films.clear();
+    this.#images.clear();
   }
 
-  /** The film as it is shown: straight, where the correction is for frames of its size. */
-  shown(id: string, film: Film, size: { readonly width: number; readonly height: number }): Film {
+  /** The frame as it is shown: straight, where the correction is for frames of its size. */
+  shown(id: string, image: FrameImage, size: { readonly width: number; readonly height: number }): FrameImage {
     const distortion = this.#distortion;
-    if (!fits(distortion, size)) return film;
-    const known = this.#films.get(id);
+    if (!fits(distortion, size)) return image;
+    const known = this.#images.get(id);
     if (known) return known;
     this.#straightener ??= new Straightener(numbersOf(distortion));
-    const straight = this.#straightener.film(film);
-    this.#films.set(id, straight);
+    const straight = this.#straightener.film(image);
+    this.#images.set(id, straight);
     return straight;
   }
 }

@@ -1,7 +1,7 @@
 import type { FramePoint } from '../geometry/points';
 
 /**
- * What tools that work with the film's pixels want done. The machines say it in frame coordinates; who holds the pixels
+ * What tools that work with the frame's pixels want done. The machines say it in frame coordinates; who holds the pixels
  * (`tracing/tracing_tools.ts`) answers with previews and commands.
  */
 export type TracingIntent =

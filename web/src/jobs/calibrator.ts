@@ -21,7 +21,7 @@ export class Calibrator {
 
   constructor(services: Services) {
     this.#services = services;
-    // The studio shows films straight where the document asks for it, before any view looks.
+    // The studio shows frames straight where the document asks for it, before any view looks.
     services.store.subscribe(() => services.studio.useDistortion(services.store.doc.distortion));
   }
 
@@ -30,7 +30,7 @@ export class Calibrator {
     store.show({ measuring: { ...(store.ui.measuring ?? NOTHING_MEASURED), ...change } });
   }
 
-  /** A press on the film sets a mark of the ruler; while it is held the mark goes with the pointer. */
+  /** A press on the frame sets a mark of the ruler; while it is held the mark goes with the pointer. */
   mark(at: FramePoint, begins: boolean): void {
     const { marks } = this.#services.store.ui.measuring ?? NOTHING_MEASURED;
     this.show({ marks: begins ? withMark(marks, at) : withMovedMark(marks, at) });

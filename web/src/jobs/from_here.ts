@@ -15,7 +15,7 @@ import { asJob, sentenceOf, type Services } from './services';
 export const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies readonly (keyof PoseNumbers)[];
 
 /**
- * Refines from the pose on view: against the closed outline, or against the film where there is none. The answer is a
+ * Refines from the pose on view: against the closed outline, or against the frame where there is none. The answer is a
  * command, so that it can be undone, and is dropped when the pose was changed meanwhile.
  */
 export class FromHere {
@@ -52,10 +52,10 @@ export class FromHere {
     return asJob(this.#services.store, job, async () => {
       const { doc } = this.#services.store;
       const { outline } = cellOf(doc, place.frameId, place.component);
-      const fit = outline?.closed ? await this.#onOutline(place, start, locks, abort.signal) : await this.#onFilm(place, start, locks, abort.signal);
+      const fit = outline?.closed ? await this.#onOutline(place, start, locks, abort.signal) : await this.#onFrame(place, start, locks, abort.signal);
       const against = outline?.closed
         ? texts.hand.fitOutline(fit.residual.toFixed(2))
-        : texts.hand.fitFilm(fit.residual.toFixed(2), fit.bright);
+        : texts.hand.fitFrame(fit.residual.toFixed(2), fit.bright);
       return { candidate: candidateOf(fit), reason: against + heldWords(locks) };
     });
   }
@@ -70,21 +70,21 @@ export class FromHere {
     return this.#worker.call('refineFrom', input, { signal });
   }
 
-  #onFilm(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
+  #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
     const { store, studio } = this.#services;
     const { component, frameId } = place;
     const camera = cameraOf(store.doc, frameOf(store.doc, place));
-    const pixels = studio.filmPixels(frameId);
+    const pixels = studio.framePixels(frameId);
     if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
-    if (!pixels) throw new Error(texts.hand.said.noFilm);
-    if (camera.bend) throw new Error(texts.calibrate.bentFilm);
+    if (!pixels) throw new Error(texts.hand.said.noPixels);
+    if (camera.bend) throw new Error(texts.calibrate.distortedFrame);
     const { width, height } = camera;
     const others = COMPONENT_NAMES.flatMap((other) => {
       const there = other !== component && store.ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(store.doc, frameId, other));
       return there ? [{ component: other, pose: there.pose }] : [];
     });
-    const input = { component, camera, film: { pixels, width, height }, start: pose, locked: flagsOf(locks), others };
-    return this.#worker.call('refineOnFilm', input, { signal, transfer: [pixels.buffer] });
+    const input = { component, camera, frame: { pixels, width, height }, start: pose, locked: flagsOf(locks), others };
+    return this.#worker.call('refineOnFrame', input, { signal, transfer: [pixels.buffer] });
   }
 
   #take(place: Place, start: Candidate, fit: HandFit): void {

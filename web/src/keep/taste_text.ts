@@ -1,6 +1,6 @@
 import { flag, missingAs, number, object, oneOf, type Reader } from '../document/reader';
 import { NO_LOCKS } from '../geometry/pose_numbers';
-import { FILM_LOOKS, OVERLAY_LOOKS, PICTURES, type HandSettings, type Seeing, type Steps } from '../terms/seeing';
+import { PREPROCESSINGS, OVERLAY_STYLES, PICTURES, type HandSettings, type Seeing, type Steps } from '../terms/seeing';
 
 /** What the browser remembers, as a text. */
 export interface Taste {
@@ -19,8 +19,8 @@ const readSteps = object<Steps>({ plane: positive, depth: positive, turn: positi
 
 const readTasteObject = object<Taste>({
   seeing: object<Seeing>({
-    film: oneOf(...FILM_LOOKS),
-    overlay: oneOf(...OVERLAY_LOOKS),
+    preprocessing: oneOf(...PREPROCESSINGS),
+    overlay: oneOf(...OVERLAY_STYLES),
     magnifier: flag,
     scaleBar: flag,
     ghosts: flag,

@@ -8,7 +8,7 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { Range } from '../controls/range';
 
-/** Simplifies or smooths the outline: what it would become lies on the film, with how far the shape moves. */
+/** Simplifies or smooths the outline: what it would become lies on the frame, with how far the shape moves. */
 export function ShapeSheet({ state }: { state: State }) {
   const { tracingTools, services } = useApp();
   const { store } = services;

@@ -4,12 +4,12 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { Icon } from '../controls/icons';
 
-/** Opacity of the overlay, window and level of the film. */
+/** Opacity of the overlay, window and level of the frame. */
 export function Display({ state }: { state: State }) {
   const { actions, seeing, services } = useApp();
   const { store, studio } = services;
   const frame = currentFrame(state);
-  const facts = frame && studio.filmFacts(frame.id);
+  const facts = frame && studio.frameFacts(frame.id);
   const window = state.history.present.window ?? facts?.window ?? { centre: 128, width: 256 };
   const [least, greatest] = [facts?.least ?? 0, facts?.greatest ?? 255];
   const span = Math.max(1, greatest - least);

@@ -18,7 +18,7 @@ export function Page() {
   const dropping = useDropTarget();
   const { actions } = useApp();
   useKeys();
-  // The mouse leaves the keyboard with the film; who works by keyboard keeps the focus where it is.
+  // The mouse leaves the keyboard with the frame; who works by keyboard keeps the focus where it is.
   const giveBack = (event: MouseEvent) => {
     const target = event.target instanceof Element ? event.target.closest('button, input[type=range]') : null;
     const elsewhere = target?.closest('[role=dialog]') || target?.hasAttribute('aria-haspopup');

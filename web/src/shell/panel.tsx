@@ -10,7 +10,7 @@ import { CompareCard } from '../pose/compare_card';
 import { Pictures } from '../pose/pictures';
 import { texts } from '../texts/texts';
 
-/** The right side: the selected component's pose, how far to trust it, and how the film is shown. */
+/** The right side: the selected component's pose, how far to trust it, and how the frame is shown. */
 export function Panel({ state }: { state: State }) {
   const { actions, services } = useApp();
   const { component } = state.ui;

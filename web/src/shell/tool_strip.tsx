@@ -9,7 +9,7 @@ import { useApp } from '../commands/app';
 import { Range } from '../controls/range';
 import { Icon, type IconName } from '../controls/icons';
 
-/** Above the film, always there: what the tool in hand can be set to, and what can be done with the whole outline. */
+/** Above the frame, always there: what the tool in hand can be set to, and what can be done with the whole outline. */
 export function ToolStrip({ state }: { state: State }) {
   const { tool } = state.ui;
   return (

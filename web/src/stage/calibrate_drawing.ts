@@ -9,7 +9,7 @@ const HALO = 'rgb(0 0 0 / 0.6)';
 const MARK = '#f0e442';
 const TAU = 2 * Math.PI;
 
-/** Beads with the lattice that joins them, or the marks of a ruler, over the film. `beads` are where the film shows them. */
+/** Beads with the lattice that joins them, or the marks of a ruler, over the frame. `beads` are where the frame shows them. */
 export function drawMeasuring(context: Context, view: Viewport, measuring: Measuring, beads: Float64Array | null): void {
   context.save();
   context.lineJoin = 'round';

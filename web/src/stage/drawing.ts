@@ -8,7 +8,7 @@ import type { OverlayLayer } from './layers';
 
 type Context = CanvasRenderingContext2D;
 
-/** Dark under every line: the film behind may be as bright as the line. */
+/** Dark under every line: the frame behind may be as bright as the line. */
 const HALO = 'rgb(0 0 0 / 0.55)';
 const TAU = 2 * Math.PI;
 

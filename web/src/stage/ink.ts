@@ -8,8 +8,8 @@ const MARGIN = 16;
 const STEP = 64;
 
 /**
- * The canvas for what is drawn over the film, no larger than that: without a graphics card every pixel of it is cleared,
- * copied and laid over the film in each screen frame.
+ * The canvas for what is drawn over the frame, no larger than that: without a graphics card every pixel of it is cleared,
+ * copied and laid over the frame in each screen frame.
  */
 export class Ink {
   readonly #canvas: HTMLCanvasElement;

@@ -8,7 +8,7 @@ import type { StageView } from './stage_view';
 
 /** The keyboard's way to point and press: it moves the same pointer that the mouse does. */
 
-/** Moves the pointer by frame pixels; from the middle of the film where it is not on it. */
+/** Moves the pointer by frame pixels; from the middle of the frame where it is not on it. */
 export function pointByKey(
   app: App,
   view: StageView,

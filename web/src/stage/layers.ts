@@ -1,4 +1,4 @@
-import type { FilmLook } from '../terms/seeing';
+import type { Preprocessing } from '../terms/seeing';
 import type { Candidate, GreyWindow } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import type { CameraInput } from '../workers/protocol/camera';
@@ -20,19 +20,19 @@ abstract class Layer {
   }
 }
 
-export class FilmLayer extends Layer {
+export class FrameLayer extends Layer {
   #id = '';
   #window: GreyWindow | null = null;
-  #look: FilmLook = 'original';
-  #films = '';
+  #preprocessing: Preprocessing = 'original';
+  #framesKey = '';
 
-  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow, look: FilmLook): void {
+  update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow, preprocessing: Preprocessing): void {
     const sameWindow = this.#window?.centre === window.centre && this.#window.width === window.width;
-    const same = this.#id === frame.id && sameWindow && this.#look === look && this.#films === studio.filmsKey;
-    if (same || !studio.hasFilm(frame.id)) return;
-    studio.paintFilm(this.context(frame), frame.id, window, look);
-    this.#look = look;
-    this.#films = studio.filmsKey;
+    const same = this.#id === frame.id && sameWindow && this.#preprocessing === preprocessing && this.#framesKey === studio.framesKey;
+    if (same || !studio.hasFrame(frame.id)) return;
+    studio.paintFrame(this.context(frame), frame.id, window, preprocessing);
+    this.#preprocessing = preprocessing;
+    this.#framesKey = studio.framesKey;
     this.#id = frame.id;
     this.#window = window;
   }

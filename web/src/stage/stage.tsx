@@ -20,11 +20,11 @@ import { StageView } from './stage_view';
 /** The frame with everything on it, and the pointer's way into the document. */
 export function Stage({ state }: { state: State }) {
   const app = useApp();
-  const film = useRef<HTMLCanvasElement>(null);
+  const picture = useRef<HTMLCanvasElement>(null);
   const ink = useRef<HTMLCanvasElement>(null);
   const glass = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    if (film.current && ink.current && glass.current) return attach(app, film.current, ink.current, glass.current);
+    if (picture.current && ink.current && glass.current) return attach(app, picture.current, ink.current, glass.current);
     return undefined;
   }, [app]);
   const frame = currentFrame(state);
@@ -36,22 +36,22 @@ export function Stage({ state }: { state: State }) {
     : words.noFrame;
   return (
     <main class="stage" aria-label={words.region}>
-      <canvas ref={film} class="film" aria-hidden="true" />
+      <canvas ref={picture} class="frame-picture" aria-hidden="true" />
       <canvas ref={ink} class="ink" aria-hidden="true" />
-      <div ref={glass} class="glass" style={{ cursor }} tabIndex={0} role="application" aria-label={words.film(label, titleOf(component))} />
+      <div ref={glass} class="glass" style={{ cursor }} tabIndex={0} role="application" aria-label={words.canvas(label, titleOf(component))} />
       {frame && <ScaleBar state={state} />}
       {!frame && <EmptyState />}
-      {frame && !app.services.studio.hasFilm(frame.id) && (
+      {frame && !app.services.studio.hasFrame(frame.id) && (
         <p class="absent">{words.absent(frame.name)}</p>
       )}
     </main>
   );
 }
 
-/** `glass` lies over the film and what is drawn on it, and feels the pointer. */
-function attach(app: App, film: HTMLCanvasElement, ink: HTMLCanvasElement, glass: HTMLElement): () => void {
+/** `glass` lies over the frame and what is drawn on it, and feels the pointer. */
+function attach(app: App, picture: HTMLCanvasElement, ink: HTMLCanvasElement, glass: HTMLElement): () => void {
   const { store, studio } = app.services;
-  const view = new StageView(store, studio, film, ink);
+  const view = new StageView(store, studio, picture, ink);
   view.calibrator = app.calibrator;
   view.tracingTools = app.tracingTools;
   const controller = new Controller();
@@ -112,7 +112,7 @@ function attachPointer(
       if (store.ui.popover && store.ui.popover !== 'shape' && store.ui.popover !== 'calibrate') store.show({ popover: null });
       if (event.pointerType === 'pen') touches.pen();
       const use = event.pointerType === 'touch' ? touches.down(event.pointerId, pointOf(event)) : 'tool';
-      if (use === 'film') return cancelGesture(app, view, controller);
+      if (use === 'view') return cancelGesture(app, view, controller);
       if (use === 'nothing') return;
       send('down', event);
       hover(event);

@@ -18,7 +18,7 @@ type Context = CanvasRenderingContext2D;
 const HALO = 'rgb(0 0 0 / 0.55)';
 const TAU = 2 * Math.PI;
 
-/** What lies over film and outlines when somebody asks for it: other frames' outlines, the other set of poses, handles. */
+/** What lies over frame and outlines when somebody asks for it: other frames' outlines, the other set of poses, handles. */
 
 // --- Outlines of the frames before and after ---------------------------------------------------------------------------
 

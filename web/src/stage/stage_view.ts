@@ -17,7 +17,7 @@ import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { COMPONENT_COLOURS } from '../controls/colours';
 import { handSceneOf } from '../commands/model_in_hand';
 import { boxRound, Ink } from './ink';
-import { FilmLayer, OverlayLayer } from './layers';
+import { FrameLayer, OverlayLayer } from './layers';
 import { pointerStore } from '../commands/pointer';
 import { Shading } from './shading';
 import { drawGhosts, drawHandles, drawLens, drawShaded, lensAt, ReferenceLayers, strokeBorder } from './stage_extras';
@@ -28,17 +28,17 @@ const NOTHING: Hit = { kind: 'nothing' };
 const FALLBACK_WINDOW: GreyWindow = { centre: 128, width: 256 };
 
 /**
- * Draws the stage: the film on one canvas, overlays and outlines on another above it, at the screen's own resolution.
+ * Draws the stage: the frame on one canvas, overlays and outlines on another above it, at the screen's own resolution.
  * Everything is redrawn from the state at most once a screen frame.
  */
 export class StageView {
   readonly #store: Store;
   readonly #studio: Studio;
-  readonly #film: HTMLCanvasElement;
+  readonly #picture: HTMLCanvasElement;
   readonly #ink: Ink;
   /** Tells what lies under a place; nothing is drawn on it. */
   readonly #probe = document.createElement('canvas').getContext('2d');
-  readonly #filmLayer = new FilmLayer();
+  readonly #frameLayer = new FrameLayer();
   readonly #reference = new ReferenceLayers();
   readonly #shading: Shading;
   /** The viewport of the stage, not that of the lens. */
@@ -47,17 +47,17 @@ export class StageView {
   /** Where the pointer is; what lies under it is found anew whenever something changes. */
   #pointer: CanvasPoint | null = null;
   #size: Size = { width: 1, height: 1 };
-  #drawnFilm = '';
+  #drawnFrame = '';
   #scheduled = 0;
   /** Tools that work with pixels: they get a slice of each screen frame, and show what they would do. */
   tracingTools: Pick<TracingTools, 'tick' | 'preview' | 'scale'> | null = null;
   calibrator: Pick<Calibrator, 'beadsShown'> | null = null;
 
-  constructor(store: Store, studio: Studio, film: HTMLCanvasElement, ink: HTMLCanvasElement) {
+  constructor(store: Store, studio: Studio, picture: HTMLCanvasElement, ink: HTMLCanvasElement) {
     this.#store = store;
     this.#studio = studio;
     this.#shading = new Shading(store, studio);
-    this.#film = film;
+    this.#picture = picture;
     this.#ink = new Ink(ink);
   }
 
@@ -72,9 +72,9 @@ export class StageView {
   resize(size: Size): void {
     this.#size = size;
     const ratio = window.devicePixelRatio || 1;
-    this.#film.width = Math.max(1, Math.round(size.width * ratio));
-    this.#film.height = Math.max(1, Math.round(size.height * ratio));
-    this.#drawnFilm = '';
+    this.#picture.width = Math.max(1, Math.round(size.width * ratio));
+    this.#picture.height = Math.max(1, Math.round(size.height * ratio));
+    this.#drawnFrame = '';
     this.draw();
   }
 
@@ -97,7 +97,7 @@ export class StageView {
 
   window(state: State): GreyWindow {
     const frame = currentFrame(state);
-    return state.history.present.window ?? (frame && this.#studio.filmFacts(frame.id)?.window) ?? FALLBACK_WINDOW;
+    return state.history.present.window ?? (frame && this.#studio.frameFacts(frame.id)?.window) ?? FALLBACK_WINDOW;
   }
 
   /** What a hand on the model works with; null with any other tool. */
@@ -114,7 +114,7 @@ export class StageView {
     const hand = this.hand(state);
     const motion = hand && this.#pointer && (handleAt(hand, view, this.#pointer) ?? 'move');
     pointerStore.set(frame && this.#pointer && { at: frameFromCanvas(view, this.#pointer), hit, motion });
-    this.#drawFilm(state, frame, view);
+    this.#drawFrame(state, frame, view);
     const preview = this.tracingTools?.preview(state.ui.tool) ?? NO_PREVIEW;
     for (const overlay of this.#overlays) if (frame) this.#updateOverlay(overlay, state.history.present, frame);
     const context = this.#ink.begin(this.#inkBox(state, view, preview));
@@ -158,7 +158,7 @@ export class StageView {
     const lens = lensAt(pointer, view, this.#size);
     drawLens(context, lens, () => {
       context.imageSmoothingEnabled = false;
-      if (this.#studio.hasFilm(frame.id)) drawFrameSized(context, this.#filmLayer.canvas, frame, lens.view);
+      if (this.#studio.hasFrame(frame.id)) drawFrameSized(context, this.#frameLayer.canvas, frame, lens.view);
       if (state.ui.overlaysHidden) return;
       // A line to the pointer ends in the middle of the lens.
       this.#pointer = lens.centre;
@@ -198,26 +198,26 @@ export class StageView {
   }
 
   /** Handed on as a picture: a canvas that can be drawn on is copied in every screen frame, changed or not. */
-  #drawFilm(state: State, frame: FrameEntry | null, view: Viewport): void {
-    const key = frame ? this.#filmKey(state, frame, view) : 'none';
-    if (key === this.#drawnFilm) return;
-    this.#drawnFilm = key;
-    const drawn = new OffscreenCanvas(this.#film.width, this.#film.height);
+  #drawFrame(state: State, frame: FrameEntry | null, view: Viewport): void {
+    const key = frame ? this.#frameKey(state, frame, view) : 'none';
+    if (key === this.#drawnFrame) return;
+    this.#drawnFrame = key;
+    const drawn = new OffscreenCanvas(this.#picture.width, this.#picture.height);
     const context = drawn.getContext('2d');
-    if (context && frame && this.#studio.hasFilm(frame.id)) {
+    if (context && frame && this.#studio.hasFrame(frame.id)) {
       context.scale(devicePixelRatio, devicePixelRatio);
-      this.#filmLayer.update(this.#studio, frame, this.window(state), state.ui.seeing.film);
+      this.#frameLayer.update(this.#studio, frame, this.window(state), state.ui.seeing.preprocessing);
       // Pixels are shown as pixels as soon as they are large enough to be told apart.
       context.imageSmoothingEnabled = view.scale * devicePixelRatio < 3;
       context.imageSmoothingQuality = 'high';
-      drawFrameSized(context, this.#filmLayer.canvas, frame, view);
+      drawFrameSized(context, this.#frameLayer.canvas, frame, view);
     }
-    this.#film.getContext('bitmaprenderer')?.transferFromImageBitmap(drawn.transferToImageBitmap());
+    this.#picture.getContext('bitmaprenderer')?.transferFromImageBitmap(drawn.transferToImageBitmap());
   }
 
-  #filmKey(state: State, frame: FrameEntry, view: Viewport): string {
+  #frameKey(state: State, frame: FrameEntry, view: Viewport): string {
     const window = this.window(state);
-    return `${frame.id} ${this.#studio.filmsKey} ${state.ui.seeing.film} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    return `${frame.id} ${this.#studio.framesKey} ${state.ui.seeing.preprocessing} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
   }
 
   #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport, hit: Hit): void {
@@ -241,8 +241,8 @@ export class StageView {
   /** As an outline, filled, or shaded where that can be drawn. */
   #drawModel(context: CanvasRenderingContext2D, state: State, view: Viewport, overlay: OverlayLayer, opacity: number): void {
     if (!overlay.border || opacity === 0) return;
-    const { overlay: look } = state.ui.seeing;
-    if (look === 'fill') return drawSilhouette(context, view, overlay, opacity);
+    const { overlay: style } = state.ui.seeing;
+    if (style === 'fill') return drawSilhouette(context, view, overlay, opacity);
     strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].light);
   }
 

@@ -8,7 +8,7 @@ import { holdOf, STRETCH_REACH } from '../interaction/stretch';
 import { cornerOf, CORNERS, handleAt, turnHandle, type Handle } from '../interaction/transform';
 import { COMPONENT_COLOURS } from '../controls/colours';
 
-/** What tools show on the film before they do it. */
+/** What tools show on the frame before they do it. */
 
 type Context = CanvasRenderingContext2D;
 
@@ -120,7 +120,7 @@ function pathOf(view: Viewport, points: readonly FramePoint[], closed: boolean):
   return path;
 }
 
-/** On a dark edge, so that it is seen on any film. */
+/** On a dark edge, so that it is seen on any frame. */
 function strokeTwice(context: Context, path: Path2D, colour: string, width: number): void {
   context.lineJoin = 'round';
   context.strokeStyle = HALO;

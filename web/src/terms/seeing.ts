@@ -2,19 +2,19 @@ import { NO_LOCKS, type Locks } from '../geometry/pose_numbers';
 
 /** How things are shown, and how far a key moves a model: taste, not work. Remembered by the browser, not undone. */
 
-export const FILM_LOOKS = ['original', 'inverted', 'edges', 'equalised'] as const;
-export type FilmLook = (typeof FILM_LOOKS)[number];
+export const PREPROCESSINGS = ['original', 'inverted', 'edges', 'equalised'] as const;
+export type Preprocessing = (typeof PREPROCESSINGS)[number];
 
-export const OVERLAY_LOOKS = ['outline', 'fill', 'shaded'] as const;
-export type OverlayLook = (typeof OVERLAY_LOOKS)[number];
+export const OVERLAY_STYLES = ['outline', 'fill', 'shaded'] as const;
+export type OverlayStyle = (typeof OVERLAY_STYLES)[number];
 
 /** The picture in the panel: unmatched pixels, the scores of all views, or the models in space. */
 export const PICTURES = ['unmatched', 'landscape', 'space'] as const;
 export type PictureName = (typeof PICTURES)[number];
 
 export interface Seeing {
-  readonly film: FilmLook;
-  readonly overlay: OverlayLook;
+  readonly preprocessing: Preprocessing;
+  readonly overlay: OverlayStyle;
   readonly magnifier: boolean;
   readonly scaleBar: boolean;
   /** Outlines of the frames before and after. */
@@ -45,7 +45,7 @@ export interface HandSettings {
 }
 
 export const DEFAULT_SEEING: Seeing = {
-  film: 'original',
+  preprocessing: 'original',
   overlay: 'fill',
   magnifier: false,
   scaleBar: true,

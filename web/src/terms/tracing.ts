@@ -1,4 +1,4 @@
-/** How the tools work; set in the strip above the film, kept while the page is open. */
+/** How the tools work; set in the strip above the frame, kept while the page is open. */
 export interface TracingOptions {
   /** Metal is brighter than what surrounds it. */
   readonly bright: boolean;

@@ -6,7 +6,7 @@ export const calibrate = {
   kinds: { grid: 'Bead grid', ruler: 'Ruler' },
   gridMeaning:
     'A flat plate of round beads or holes in a square pattern. On the detector it shows the distortion; at a known distance from the source it shows the pixel pitch.',
-  rulerMeaning: 'Click two marks of the ruler on the film (zoom in first), or type their places. The ruler lies parallel to the detector.',
+  rulerMeaning: 'Click two marks of the ruler on the frame (zoom in first), or type their places. The ruler lies parallel to the detector.',
   find: 'Find the beads',
   radius: 'Bead radius',
   anyRadius: 'any',
@@ -47,8 +47,8 @@ export const calibrate = {
     frames: (name: string, order: number, after: string) => `In use on frames: order ${order} from ${name}, ${after} px left.`,
     outlines: (name: string, order: number, after: string) => `In use on outlines: order ${order} from ${name}, ${after} px left.`,
   },
-  bentFilm:
-    'outlines alone are straightened, and this looks at the film, which is not. Choose "Straighten the frames" in the calibration helper first',
+  distortedFrame:
+    'outlines alone are straightened, and this looks at the frame, which is not. Choose "Straighten the frames" in the calibration helper first',
   opened: (name: string) => `the correction of distortion ${name}`,
 
   camera: 'Camera',

@@ -1,19 +1,19 @@
-import type { FilmLook, OverlayLook, PictureName } from '../terms/seeing';
+import type { Preprocessing, OverlayStyle, PictureName } from '../terms/seeing';
 
 /** English of how things are shown. */
 export const seeing = {
   sheet: 'View',
   open: 'View',
   openTitle: 'How frame and model are shown, and what else is (9)',
-  film: 'Film',
-  films: {
+  preprocessing: 'Frame',
+  preprocessings: {
     original: 'Original',
     inverted: 'Inverted',
     edges: 'Edges',
     equalised: 'Equalised',
-  } satisfies Record<FilmLook, string>,
+  } satisfies Record<Preprocessing, string>,
   overlay: 'Model',
-  overlays: { outline: 'Outline', fill: 'Fill', shaded: 'Shaded' } satisfies Record<OverlayLook, string>,
+  overlays: { outline: 'Outline', fill: 'Fill', shaded: 'Shaded' } satisfies Record<OverlayStyle, string>,
   besides: 'Also shown',
   magnifier: 'Magnifier',
   scaleBar: 'Scale bar',

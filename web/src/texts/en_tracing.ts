@@ -89,7 +89,7 @@ export const tracing = {
     allErased: 'All of the outline was erased; Ctrl+Z brings it back.',
     noEdge: 'No edges were found near the outline: it stays as it was.',
     snapped: (greatest: string, rms: string) => `Snapped to the edges: ${greatest} px at most, ${rms} px on the whole. Ctrl+Z takes it back.`,
-    noFilm: (frame: string) => `The pixels of ${frame} are not here: drop the file on the page.`,
+    noPixels: (frame: string) => `The pixels of ${frame} are not here: drop the file on the page.`,
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',
     oneClickJob: (component: string) => `${component} by one click`,

@@ -2,7 +2,7 @@ import type { Command, Place } from '../document/command';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import type { Outline } from '../document/types';
 import type { FramePoint } from '../geometry/points';
-import type { Film } from '../pkg/page/fluoropose_wasm.js';
+import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
 import { snappedPath } from './pixels';
 import type { ThresholdHost } from './threshold';
 import type { WireHost } from './wire';
@@ -15,17 +15,17 @@ const PATH_REACH = 2;
 /** Fewer points to hold afterwards: noise moves an edge by more than this from pixel to pixel. */
 const PATH_TOLERANCE = 0.5;
 
-/** The page as the tools see it, with one film. */
+/** The page as the tools see it, with one frame. */
 export class Host implements WireHost, ThresholdHost {
   readonly #store: Store;
-  readonly #film: Film;
+  readonly #image: FrameImage;
   readonly #bright: boolean;
   readonly #scale: () => number;
 
   /** `scale`: CSS pixels a frame pixel, now. */
-  constructor(store: Store, film: Film, bright: boolean, scale: () => number) {
+  constructor(store: Store, image: FrameImage, bright: boolean, scale: () => number) {
     this.#store = store;
-    this.#film = film;
+    this.#image = image;
     this.#bright = bright;
     this.#scale = scale;
   }
@@ -67,6 +67,6 @@ export class Host implements WireHost, ThresholdHost {
   }
 
   refined(path: readonly FramePoint[], side: number): readonly FramePoint[] {
-    return snappedPath(this.#film, path, side, !this.#bright, PATH_REACH, PATH_TOLERANCE).points;
+    return snappedPath(this.#image, path, side, !this.#bright, PATH_REACH, PATH_TOLERANCE).points;
   }
 }

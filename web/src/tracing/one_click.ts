@@ -53,7 +53,7 @@ export class OneClick {
     const answer = await asJob(store, job, (report) =>
       this.#worker.call('oneClick', input, {
         signal: running.signal,
-        transfer: [input.film.pixels.buffer],
+        transfer: [input.frame.pixels.buffer],
         onProgress: ({ share }) => report(Math.round(100 * share), 100),
       }),
     );
@@ -66,14 +66,14 @@ export class OneClick {
     const { store, studio } = this.#services;
     const camera = cameraOf(store.doc, frame);
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);
-    const pixels = studio.filmPixels(frame.id);
-    if (!pixels) throw new Error(texts.tracing.said.noFilm(frame.name));
-    if (camera.bend) throw new Error(texts.calibrate.bentFilm);
+    const pixels = studio.framePixels(frame.id);
+    if (!pixels) throw new Error(texts.tracing.said.noPixels(frame.name));
+    if (camera.bend) throw new Error(texts.calibrate.distortedFrame);
     const other = cellOf(store.doc, frame.id, component === 'femur' ? 'tibia' : 'femur').outline;
     return {
       component,
       camera,
-      film: { pixels, width: frame.width, height: frame.height },
+      frame: { pixels, width: frame.width, height: frame.height },
       prompt: promptNumbers(prompt),
       bright,
       avoid: other?.closed ? flat(other.points) : null,

@@ -9,7 +9,7 @@ import {
   snapOutline,
   snapPath,
   ThresholdAid,
-  type Film,
+  type Film as FrameImage,
   type Reshaped,
 } from '../pkg/page/fluoropose_wasm.js';
 
@@ -76,13 +76,13 @@ export function smoothed(outline: Outline, sigma: number, tolerance: number): Re
   return taken(smoothOutline(flat(outline.points), sigma, tolerance), outline);
 }
 
-export function snapped(film: Film, outline: Outline, dark: boolean, reach: number): Reshape {
-  return taken(snapOutline(film, flat(outline.points), dark, reach, TOLERANCE), outline);
+export function snapped(image: FrameImage, outline: Outline, dark: boolean, reach: number): Reshape {
+  return taken(snapOutline(image, flat(outline.points), dark, reach, TOLERANCE), outline);
 }
 
 /** An open path at the edges near it; its ends stay. `side`: +1 the implant is on the right hand, -1 on the left, 0 either. */
-export function snappedPath(film: Film, path: readonly FramePoint[], side: number, dark: boolean, reach: number, tolerance = TOLERANCE): Reshape {
-  return taken(snapPath(film, flat(path), side, dark, reach, tolerance), null);
+export function snappedPath(image: FrameImage, path: readonly FramePoint[], side: number, dark: boolean, reach: number, tolerance = TOLERANCE): Reshape {
+  return taken(snapPath(image, flat(path), side, dark, reach, tolerance), null);
 }
 
 export interface Region {
@@ -95,8 +95,8 @@ export interface Region {
   free(): void;
 }
 
-export function regionOf(film: Film, dark: boolean): Region {
-  const tool = new ThresholdAid(film, dark);
+export function regionOf(image: FrameImage, dark: boolean): Region {
+  const tool = new ThresholdAid(image, dark);
   return {
     least: tool.leastLevel,
     greatest: tool.greatestLevel,
@@ -110,8 +110,8 @@ export function regionOf(film: Film, dark: boolean): Region {
 export type WirePixels = Pick<LiveWire, 'prepare' | 'snapPoint' | 'seed' | 'expand' | 'follow' | 'common' | 'darkSide' | 'free'>;
 export type CoolingPixels = Pick<Cooling, 'restart' | 'observe'>;
 
-export function wireOf(film: Film, dark: boolean): WirePixels {
-  return new LiveWire(film, dark);
+export function wireOf(image: FrameImage, dark: boolean): WirePixels {
+  return new LiveWire(image, dark);
 }
 
 export function coolingOf(milliseconds: number): CoolingPixels {

@@ -1,21 +1,21 @@
 import { clockwise } from '../geometry/rings';
 import type { Outline } from '../document/types';
 import type { FramePoint } from '../geometry/points';
-import type { Film } from '../pkg/page/fluoropose_wasm.js';
+import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
 import { snapped, snappedPath, type Reshape } from './pixels';
 
 /**
  * A closed outline pulled to the edges near it. Stretches that are marked unknown stay where they are: what hides the
  * implant there has edges of its own.
  */
-export function snappedOutline(film: Film, outline: Outline, dark: boolean, reach: number): Reshape {
-  if (outline.unknownSides.length === 0) return snapped(film, outline, dark, reach);
+export function snappedOutline(image: FrameImage, outline: Outline, dark: boolean, reach: number): Reshape {
+  if (outline.unknownSides.length === 0) return snapped(image, outline, dark, reach);
   if (outline.unknownSides.length === outline.points.length) {
     return { points: outline.points, unknownSides: outline.unknownSides, greatest: 0, rms: 0 };
   }
   const side = clockwise(outline.points) ? 1 : -1;
   const pieces = piecesOf(outline).map(({ points, unknown }) =>
-    unknown ? { points, unknown, greatest: 0, rms: 0 } : { ...snappedPath(film, points, side, dark, reach), unknown },
+    unknown ? { points, unknown, greatest: 0, rms: 0 } : { ...snappedPath(image, points, side, dark, reach), unknown },
   );
   return joined(pieces);
 }

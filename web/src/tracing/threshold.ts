@@ -28,7 +28,7 @@ interface Taken {
   readonly mergeKey: string;
 }
 
-/** A whole drag down the film goes over half of the film's grey values. */
+/** A whole drag down the frame goes over half of the frame's grey values. */
 const TRAVEL = 800;
 
 let taken = 0;

@@ -3,7 +3,7 @@ import { cellOf } from '../document/types';
 import type { FramePoint } from '../geometry/points';
 import type { TracingIntent } from '../interaction/tracing_intent';
 import type { ToolName } from '../terms/tool';
-import type { Film } from '../pkg/page/fluoropose_wasm.js';
+import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
 import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -20,11 +20,11 @@ import { Wire } from './wire';
 const BUDGET = 4;
 /** A path has to stay the same for so long while the hand moves, ms. */
 const COOLS_AFTER = 700;
-type Held<T> = { readonly film: Film; readonly bright: boolean; readonly tool: T } | null;
+type Held<T> = { readonly image: FrameImage; readonly bright: boolean; readonly tool: T } | null;
 
 /**
  * The tools that work with pixels: answers what their machines want with previews and commands. Keeps one live-wire and
- * one threshold, of the film that is traced; everything is done in slices within screen frames.
+ * one threshold, of the frame that is traced; everything is done in slices within screen frames.
  */
 export class TracingTools {
   readonly #services: Services;
@@ -93,7 +93,7 @@ export class TracingTools {
     return tool === 'wire' && !currentCell(this.#services.store.state).outline?.closed && (this.#wireOfNow()?.tick(BUDGET) ?? false);
   }
 
-  /** Whatever goes wrong is said, once: the film goes on being drawn. */
+  /** Whatever goes wrong is said, once: the frame goes on being drawn. */
   #telling<T>(work: () => T): T | null {
     try {
       return work();
@@ -127,7 +127,7 @@ export class TracingTools {
     this.#tellLevel();
   }
 
-  /** By steps of a hundredth of the film's range. False where no region was taken. */
+  /** By steps of a hundredth of the frame's range. False where no region was taken. */
   stepLevel(steps: number): boolean {
     const { thresholdLevel } = this.#services.store.ui;
     if (!thresholdLevel) return false;
@@ -160,7 +160,7 @@ export class TracingTools {
 
   #toWire(intent: Extract<TracingIntent, { tool: 'wire' }>): void {
     const wire = this.#wireOfNow();
-    if (!wire) return this.#sayNoFilm();
+    if (!wire) return this.#sayNoFrame();
     if (intent.to === 'aim') wire.aim(intent.at, intent.straight);
     else if (intent.to === 'fix') wire.fix(intent.at, intent.straight);
     else wire.close(intent.straight);
@@ -168,7 +168,7 @@ export class TracingTools {
 
   #toThreshold(intent: Extract<TracingIntent, { tool: 'threshold' }>): void {
     const threshold = this.#thresholdOfNow();
-    if (!threshold) return this.#sayNoFilm();
+    if (!threshold) return this.#sayNoFrame();
     if (intent.to === 'aim') threshold.aim(intent.at);
     else if (intent.to === 'take') threshold.take(intent.at);
     else if (intent.to === 'drag') threshold.drag(intent.down);
@@ -209,38 +209,38 @@ export class TracingTools {
   // --- What they work on --------------------------------------------------------------------------------------------
 
   #wireOfNow(): Wire | null {
-    return this.#held(this.#wire, (held) => (this.#wire = held), (film, bright) =>
-      new Wire(wireOf(film, !bright), coolingOf(COOLS_AFTER), this.#hostOf(film, bright)),
+    return this.#held(this.#wire, (held) => (this.#wire = held), (image, bright) =>
+      new Wire(wireOf(image, !bright), coolingOf(COOLS_AFTER), this.#hostOf(image, bright)),
     );
   }
 
   #thresholdOfNow(): Threshold | null {
-    return this.#held(this.#threshold, (held) => (this.#threshold = held), (film, bright) =>
-      new Threshold(regionOf(film, !bright), this.#hostOf(film, bright)),
+    return this.#held(this.#threshold, (held) => (this.#threshold = held), (image, bright) =>
+      new Threshold(regionOf(image, !bright), this.#hostOf(image, bright)),
     );
   }
 
-  /** The tool of the film on view; another film's is given up, it holds much memory. */
-  #held<T extends { free(): void }>(held: Held<T>, keep: (held: Held<T>) => void, make: (film: Film, bright: boolean) => T): T | null {
+  /** The tool of the frame on view; another frame's is given up, it holds much memory. */
+  #held<T extends { free(): void }>(held: Held<T>, keep: (held: Held<T>) => void, make: (image: FrameImage, bright: boolean) => T): T | null {
     const { store, studio } = this.#services;
     const frame = currentFrame(store.state);
-    const film = frame && studio.filmOf(frame.id);
+    const image = frame && studio.imageOf(frame.id);
     const { bright } = store.ui.tracing;
-    if (held && held.film === film && held.bright === bright) return held.tool;
+    if (held && held.image === image && held.bright === bright) return held.tool;
     held?.tool.free();
-    const made = film && { film, bright, tool: make(film, bright) };
+    const made = image && { image, bright, tool: make(image, bright) };
     keep(made);
     return made?.tool ?? null;
   }
 
-  #hostOf(film: Film, bright: boolean): Host {
-    return new Host(this.#services.store, film, bright, () => this.scale);
+  #hostOf(image: FrameImage, bright: boolean): Host {
+    return new Host(this.#services.store, image, bright, () => this.scale);
   }
 
-  #sayNoFilm(): void {
+  #sayNoFrame(): void {
     const { store } = this.#services;
     const frame = currentFrame(store.state);
-    if (frame) store.say('info', texts.tracing.said.noFilm(frame.name));
+    if (frame) store.say('info', texts.tracing.said.noPixels(frame.name));
   }
 
   #tellLevel(): void {

@@ -44,7 +44,7 @@ const LONGEST_STEP = 60;
 const CLEAR = 0.2;
 
 /**
- * The live-wire of one film. Its seed is always the last point of the draft in the document: whatever undo, another tool
+ * The live-wire of one frame. Its seed is always the last point of the draft in the document: whatever undo, another tool
  * or another frame does to the draft, the wire goes on from there.
  */
 export class Wire {
@@ -117,7 +117,7 @@ export class Wire {
     if (straight) return this.#append(draft, [at], [], texts.steps.straightStretch);
     this.#aimed = false;
     this.#follow(ALL, false);
-    // Beyond the film's border there is no edge to follow.
+    // Beyond the frame's border there is no edge to follow.
     if (!this.#aimed) return this.#append(draft, [at], [], texts.steps.straightStretch);
     this.#fixPath(draft, this.#path, texts.steps.followEdge);
   }

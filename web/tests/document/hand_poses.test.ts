@@ -146,7 +146,7 @@ describe('refining from here', () => {
     const asked: { method: string; input: Record<string, unknown> }[] = [];
     let answer: (fit: unknown) => void = () => undefined;
     const call = (method: string, input: Record<string, unknown>) => (asked.push({ method, input }), new Promise((resolve) => (answer = resolve)));
-    const studio = { filmPixels: () => new Uint8Array(4) };
+    const studio = { framePixels: () => new Uint8Array(4) };
     const fromHere = new FromHere({ store, studio } as unknown as Services, { call } as unknown as ConstructorParameters<typeof FromHere>[1]);
     return { store, asked, fromHere, answer: () => answer(FIT) };
   }
@@ -165,15 +165,15 @@ describe('refining from here', () => {
     expect(shown(store)).toEqual(POSE);
   });
 
-  it('goes onto the film where there is no outline', async () => {
+  it('goes onto the frame where there is no outline', async () => {
     const { store, asked, fromHere, answer } = bench();
     store.perform(deleteOutline(PLACE));
     store.perform(setPoseByHand(PLACE, POSE));
     const done = fromHere.refine(PLACE);
-    expect(asked[0]).toMatchObject({ method: 'refineOnFilm', input: { start: POSE, others: [], film: { width: 100, height: 100 } } });
+    expect(asked[0]).toMatchObject({ method: 'refineOnFrame', input: { start: POSE, others: [], frame: { width: 100, height: 100 } } });
     answer();
     await done;
-    expect(cell(store).result).toMatchObject({ reason: expect.stringContaining('dark edges of the film') });
+    expect(cell(store).result).toMatchObject({ reason: expect.stringContaining('dark edges of the frame') });
   });
 
   it('drops an answer for a pose that was changed meanwhile', async () => {
@@ -224,7 +224,7 @@ describe('a view of the landscape', () => {
 
 describe('taste', () => {
   it('comes back, but for comparing and locks', () => {
-    const seeing = { ...DEFAULT_SEEING, film: 'edges', ghosts: true, comparing: true } as const;
+    const seeing = { ...DEFAULT_SEEING, preprocessing: 'edges', ghosts: true, comparing: true } as const;
     const hand = { ...DEFAULT_HAND, grain: 'fine', locks: { ...NO_LOCKS, z: true } } as const;
     expect(readTaste(writeTaste({ seeing, hand }))).toEqual({ seeing: { ...seeing, comparing: false }, hand: { ...hand, locks: NO_LOCKS } });
     for (const text of [null, '', '{}', '{"seeing":1}', 'null']) expect(readTaste(text)).toBeNull();

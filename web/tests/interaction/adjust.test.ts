@@ -164,7 +164,7 @@ describe('keys', () => {
       expect(others, `${shown[0]}`).toEqual([]);
       expect(seeingActionFor(input), `${shown[0]}`).not.toBeNull();
     }
-    expect(seeingKey({ name: 'film', look: 'edges' })).toBe('3');
+    expect(seeingKey({ name: 'preprocessing', preprocessing: 'edges' })).toBe('3');
   });
 
   it('leave no key of the hand without a row on the sheet', () => {

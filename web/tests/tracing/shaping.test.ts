@@ -254,7 +254,7 @@ describe('fingers', () => {
     const touches = new Touches();
     expect(touches.down(1, canvasPoint(100, 100))).toBe('tool');
     expect(touches.move(1, canvasPoint(110, 100), VIEW)).toBeNull();
-    expect(touches.down(2, canvasPoint(210, 100))).toBe('film');
+    expect(touches.down(2, canvasPoint(210, 100))).toBe('view');
     const zoomed = touches.move(2, canvasPoint(310, 100), VIEW)!;
     expect(zoomed.scale).toBeCloseTo(2, 9);
     // What lay between the fingers, at 160, stays between them, at 210.
@@ -269,7 +269,7 @@ describe('fingers', () => {
   it('leave drawing to a pen once there was one', () => {
     const touches = new Touches();
     touches.pen();
-    expect(touches.down(1, canvasPoint(0, 0))).toBe('film');
+    expect(touches.down(1, canvasPoint(0, 0))).toBe('view');
   });
 
   it('ignore a third', () => {

@@ -7,7 +7,7 @@ import { ModelScene, type PlacedModel } from './models';
 const NEAR = 10;
 const FAR = 10_000;
 
-/** Models as the X-ray's camera sees them, shaded, to lie on the film. */
+/** Models as the X-ray's camera sees them, shaded, to lie on the frame. */
 export class ShadedOverlay {
   readonly #renderer = new WebGLRenderer({ alpha: true, antialias: true });
   readonly #models = new ModelScene();

@@ -12,7 +12,7 @@ const MARGIN = 6;
 /** Less than this is drawn flat: what is left is noise, mm or degrees. */
 const LEAST_SPAN = 2;
 
-/** Room for the curve is kept as soon as a joint can come about: the film must not jump when the first one does. */
+/** Room for the curve is kept as soon as a joint can come about: the frame must not jump when the first one does. */
 export function hasBothComponents(doc: Doc): boolean {
   return COMPONENT_NAMES.every((component) => {
     const { model, libraryFile } = doc.components[component];

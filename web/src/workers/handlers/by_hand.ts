@@ -3,7 +3,7 @@ import type { ComponentName } from '../../terms/component';
 import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { MatchInput } from '../protocol/match';
-import { filmOf } from './frame_pixels';
+import { imageOf } from './frame_pixels';
 import type { Handlers } from './serve';
 
 /** What the handlers share with those that hold the libraries. */
@@ -16,16 +16,16 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
   return {
     refineFrom: ({ start, locked, ...input }) =>
       withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
-    refineOnFilm: async ({ component, camera, film: pixels, start, locked, others }) => {
+    refineOnFrame: async ({ component, camera, frame, start, locked, others }) => {
       const matcher = await matcherOf(component);
-      const film = filmOf(pixels);
+      const image = imageOf(frame);
       const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
       try {
         for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
-        return factsOf(matcher.refineOnFilm(film, hidden, numbers(poseArray(start)), flags(locked)));
+        return factsOf(matcher.refineOnFilm(image, hidden, numbers(poseArray(start)), flags(locked)));
       } finally {
         hidden.free();
-        film.free();
+        image.free();
       }
     },
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),

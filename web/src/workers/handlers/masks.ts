@@ -1,10 +1,10 @@
 import { strToU8, zipSync, type Zippable } from 'fflate';
-import { labelsOfMask, maskOfOutline, outlineOfMask, type Film } from '../../pkg/core/fluoropose_wasm.js';
+import { labelsOfMask, maskOfOutline, outlineOfMask, type Film as FrameImage } from '../../pkg/core/fluoropose_wasm.js';
 import initDecode, { encodeMask, FrameFile, type DecodedFrame } from '../../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { MaskLabel, MaskPage, MasksProtocol } from '../protocol/masks';
 import { loadCore } from './core_module';
-import { filmOf } from './frame_pixels';
+import { imageOf } from './frame_pixels';
 import { serve, type Context } from './serve';
 
 /** Masks to outlines and outlines to masks, with both modules: one decodes and encodes, the other follows and fills. */
@@ -59,21 +59,21 @@ async function readPages(file: FrameFile, name: string, tolerance: number, conte
 
 function readPage(frame: DecodedFrame, where: string, tolerance: number): MaskPage {
   const { width, height } = frame;
-  return using(filmOf(frame), (page) => {
+  return using(imageOf(frame), (page) => {
     const values = labelsOfMask(page, MOST_LABELS);
     if (!values) throw new Error(`${where} has more than ${MOST_LABELS} grey values: it is no mask`);
     return { width, height, labels: Array.from(values, (value) => labelOf(page, value, tolerance)) };
   });
 }
 
-function labelOf(page: Film, value: number, tolerance: number): MaskLabel {
+function labelOf(page: FrameImage, value: number, tolerance: number): MaskLabel {
   return using(outlineOfMask(page, value, tolerance), ({ points, exact, area, specks, holes, differing }) => {
     return { value, points: points as Buffered, exact: exact as Buffered, area, specks, holes, differing };
   });
 }
 
-function firstPage(file: FrameFile): Film {
-  return using(file.frame(0), filmOf);
+function firstPage(file: FrameFile): FrameImage {
+  return using(file.frame(0), imageOf);
 }
 
 function using<H extends { free(): void }, T>(held: H, work: (held: H) => T): T {

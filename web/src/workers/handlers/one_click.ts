@@ -1,8 +1,8 @@
-import { OneClick, type Film, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
+import { OneClick, type Film as FrameImage, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';
-import { filmOf } from './frame_pixels';
+import { imageOf } from './frame_pixels';
 import type { Context, Handlers } from './serve';
 
 /** What the handler shares with those that hold the libraries. */
@@ -19,11 +19,11 @@ export function oneClick(held: Held): Handlers<OneClickProtocol> {
     oneClick: async (input, context) => {
       await held.ready;
       const matcher = input.withModel ? await held.matcherOf(input.component) : null;
-      const film = filmOf(input.film);
+      const image = imageOf(input.frame);
       try {
-        return await search(held, input, film, matcher, context);
+        return await search(held, input, image, matcher, context);
       } finally {
-        film.free();
+        image.free();
       }
     },
   };
@@ -31,9 +31,9 @@ export function oneClick(held: Held): Handlers<OneClickProtocol> {
 
 type Progress = Context<OneClickProtocol['oneClick']['progress']>;
 
-async function search(held: Held, input: OneClickInput, film: Film, matcher: Matcher | null, context: Progress): Promise<OneClickFacts> {
+async function search(held: Held, input: OneClickInput, image: FrameImage, matcher: Matcher | null, context: Progress): Promise<OneClickFacts> {
   const startedAt = performance.now();
-  const work = new OneClick(film, input.camera.text, input.prompt, input.bright);
+  const work = new OneClick(image, input.camera.text, input.prompt, input.bright);
   try {
     if (input.avoid) work.avoid(input.avoid);
     while (matcher ? work.step(matcher) : work.stepAlone()) {

@@ -2,7 +2,7 @@ import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { MatchInput } from './match';
 import type { CameraInput } from './camera';
-import type { FilmPixels } from './frame_pixels';
+import type { FramePixels } from './frame_pixels';
 
 /** What the pose worker does with a pose that somebody set, and with all views of a library. */
 
@@ -20,7 +20,7 @@ export interface FitFacts {
   readonly drawn: number | null;
   /** Null where numbers were locked, or the pose is not determined. */
   readonly deviations: PoseNumbers | null;
-  /** The implant was taken to be brighter than what surrounds it; of the film alone. */
+  /** The implant was taken to be brighter than what surrounds it; of the frame alone. */
   readonly bright: boolean;
 }
 
@@ -51,12 +51,12 @@ export interface Minimum {
 export interface HandProtocol {
   /** From a start onto the outline. */
   refineFrom: { input: MatchInput & HandStart; output: FitFacts; progress: never };
-  /** From a start onto the edges of the film; those of the other components at their poses do not count. */
-  refineOnFilm: {
+  /** From a start onto the edges of the frame; those of the other components at their poses do not count. */
+  refineOnFrame: {
     input: HandStart & {
       readonly component: ComponentName;
       readonly camera: CameraInput;
-      readonly film: FilmPixels;
+      readonly frame: FramePixels;
       readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
     };
     output: FitFacts;

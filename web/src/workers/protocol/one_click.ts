@@ -1,5 +1,5 @@
 import type { ComponentName } from '../../terms/component';
-import type { FilmPixels } from './frame_pixels';
+import type { FramePixels } from './frame_pixels';
 import type { Match, Surroundings } from './match';
 import type { CameraInput } from './camera';
 
@@ -7,7 +7,7 @@ import type { CameraInput } from './camera';
 export interface OneClickInput {
   readonly component: ComponentName;
   readonly camera: CameraInput;
-  readonly film: FilmPixels;
+  readonly frame: FramePixels;
   /** Column and row of a click inside the implant, or left, top, right and bottom of a rough box. */
   readonly prompt: Float64Array<ArrayBuffer>;
   /** Metal is brighter than what surrounds it. */
