@@ -229,7 +229,7 @@ async function compares(page) {
   const card = page.getByRole('region', { name: 'Pose numbers' });
   await card.getByRole('group', { name: /^x differs by [+\u2212]?\d+\.\d\d mm from the reference$/ }).waitFor();
   await card.getByRole('group', { name: /^y rotation differs by [+\u2212]?\d+\.\d\d degrees from the reference$/ }).waitFor();
-  await page.getByRole('region', { name: 'Compare' }).getByText(/against femur\.jts · turned by \d+\.\d\d°/).waitFor();
+  await page.getByRole('region', { name: 'Compare' }).getByText(/against femur\.jts · rotated by \d+\.\d\d°/).waitFor();
   await screenshot(page, 'compare');
   await page.getByRole('button', { name: 'Keep as reference' }).click();
   await card.getByRole('group', { name: /^x differs by 0\.00 mm from the reference$/ }).waitFor();

@@ -28,7 +28,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     assert.equal(await panel.shownPose(page), null);
   });
 
-  await step(page, t, 'an outline clicked round the femur gives its known pose', async (t) => {
+  await step(page, t, 'an outline clicked around the femur gives its known pose', async (t) => {
     await stage.zoomTo(outline);
     await stage.trace(outline);
     const pose = await panel.waitForPose(page);
@@ -109,7 +109,7 @@ async function tibiaCandidates(page, stage, t) {
   const truth = await truePose('tibia', 1);
   t.diagnostic(`best: ${panel.differences(best, truth)}; rival: ${panel.differences(rival, truth)}`);
   const nearer = [best, rival].sort((a, b) => Math.abs(a.xRot - truth.xRot) - Math.abs(b.xRot - truth.xRot))[0];
-  // A small round tray says little about its turn round the leg.
+  // A small round tray says little about its turn around the leg.
   panel.assertNear(nearer, truth, { ...HAND_TRACED, yRot: 1.5 });
 }
 

@@ -42,7 +42,7 @@ async function start(root: HTMLElement): Promise<void> {
     assets: new Assets(),
     decoder: decodeWorker(),
   };
-  // Before anybody looks at frames: it sees to it that they are straight where the document says so.
+  // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.
   const calibrator = new Calibrator(services);
   const keeper = new Keeper(services);
   const kept = await workToRestore(keeper).catch(() => null);

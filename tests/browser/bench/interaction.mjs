@@ -28,7 +28,7 @@ export async function dragging(page) {
   return figures('dragging a vertex, the pose following', frames);
 }
 
-/** The path from the last seed to the mouse, which goes twice round the implant's edge. @param {Page} page */
+/** The path from the last seed to the mouse, which goes twice around the implant's edge. @param {Page} page */
 export async function wiring(page) {
   const { stage, outline } = await prepared(page);
   // Both cores work at libraries before.

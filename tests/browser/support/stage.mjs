@@ -94,7 +94,7 @@ export class Stage {
     await this.learn();
   }
 
-  /** Clicks round the points and closes with a click on the first. @param {Point[]} points */
+  /** Clicks around the points and closes with a click on the first. @param {Point[]} points */
   async trace(points) {
     for (const point of points) await this.click(point);
     await this.click(points[0]);

@@ -69,7 +69,7 @@ export function readJts(text) {
 }
 
 /**
- * The polygon a careful hand would click round a component: the border of its true mask with as few points as stay
+ * The polygon a careful hand would click around a component: the border of its true mask with as few points as stay
  * within `HAND` of it.
  *
  * @param {'femur' | 'tibia'} component

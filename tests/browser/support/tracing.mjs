@@ -8,7 +8,7 @@ import { polygonWithin, trueOutline } from './study.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./study.mjs').Point} Point */
 
-/** So far from the true border a quick hand clicks, px: some 30 points round a femur. */
+/** So far from the true border a quick hand clicks, px: some 30 points around a femur. */
 const QUICK_HAND = 2.5;
 
 /** Counts presses of the mouse on anything from now on. @param {Page} page */
@@ -55,7 +55,7 @@ export async function byOneClick(page) {
   return panel.waitForPose(page);
 }
 
-/** By clicks round the femur, few and quick. @param {Page} page */
+/** By clicks around the femur, few and quick. @param {Page} page */
 export async function byPolygon(page) {
   const stage = new Stage(page);
   const outline = await polygonWithin('femur', 1, QUICK_HAND);

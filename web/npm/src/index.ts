@@ -2,9 +2,9 @@ import { decodeModel } from './decode.js';
 import { buildLibrary } from './library.js';
 import init, { Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
-import type { Candidate, Found, Hints, ImplantOptions, Mesh, Point, Pose, Size } from './types.js';
+import type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size } from './types.js';
 
-export type { Candidate, Found, Hints, ImplantOptions, Mesh, Point, Pose, Size, Views } from './types.js';
+export type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Views } from './types.js';
 
 let ready: Promise<unknown> | undefined;
 
@@ -43,7 +43,7 @@ export class Implant {
    * The pose that brings the model's outline onto a traced one, refined: about a second. Throws a sentence about an
    * outline from which no pose can be found.
    */
-  pose(outline: readonly Point[], hints: Hints = {}): Found {
+  pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     const around = surroundings(hints);
     try {
       return this.#look(outline, hints, (traced) => this.#matcher.refineOutline(traced, around));
@@ -53,7 +53,7 @@ export class Implant {
   }
 
   /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
-  preview(outline: readonly Point[], hints: Hints = {}): Found {
+  preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
   }
 
@@ -61,7 +61,7 @@ export class Implant {
     this.#matcher.free();
   }
 
-  #look(outline: readonly Point[], { unknownSides = [] }: Hints, find: (traced: Traced) => Match): Found {
+  #look(outline: readonly Point[], { unknownSides = [] }: Hints, find: (traced: Traced) => Match): FoundPose {
     const { width, height } = this.#frame;
     const sides = Uint32Array.from(unknownSides);
     const traced = new Traced(Float64Array.from(outline.flat()), sides, this.#calibration, width, height);
@@ -86,7 +86,7 @@ function surroundings({ femur, tibia, neighbours = [] }: Hints): Surroundings {
 }
 
 /** Copies what was found out of WebAssembly's memory and frees it there. */
-function copied(match: Match): Found {
+function copied(match: Match): FoundPose {
   try {
     const { decided, partial, reason = null } = match;
     const candidates = Array.from({ length: match.count }, (_, index) => candidate(match, index));

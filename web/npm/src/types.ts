@@ -81,7 +81,7 @@ export interface Candidate {
   readonly atBorder: boolean;
 }
 
-export interface Found {
+export interface FoundPose {
   /** The pose of the first candidate. */
   readonly pose: Pose;
   /** The chosen one first, then its rivals. */

@@ -1,6 +1,6 @@
 import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
-import { unknownShare } from '../document/sides';
+import { unknownFraction } from '../document/sides';
 import { poseTable } from '../document/session/table';
 import { cellOf, chosenCandidate } from '../document/types';
 import type { ComponentName } from '../terms/component';
@@ -45,10 +45,10 @@ export interface StageControls {
 export class Actions {
   readonly #services: Services;
   readonly #store: Store;
-  /** Lent by the stage: what "fit" and "zoom" refer to. */
+  /** Set by the stage: what "fit" and "zoom" refer to. */
   stage: StageControls | null = null;
 
-  /** Lent when there are any: pictures of videos come back through `open`. */
+  /** Set when there are any: pictures of videos come back through `open`. */
   videos: Pick<Videos, 'begin'> | null = null;
 
   /** Marks, notes and what is next. */
@@ -226,11 +226,11 @@ export class Actions {
     const { outline } = currentCell(this.#store.state);
     if (!outline) return;
     const { points, unknownSides } = outline;
-    const share = Math.round(100 * unknownShare(outline));
+    const fraction = Math.round(100 * unknownFraction(outline));
     const { sideKnown, sideUnknown } = texts.said;
     const sentence = unknownSides.includes(side)
-      ? sideUnknown(side + 1, points.length, this.#services.studio.unknownReach, share)
-      : sideKnown(side + 1, points.length, share);
+      ? sideUnknown(side + 1, points.length, this.#services.studio.unknownReach, fraction)
+      : sideKnown(side + 1, points.length, fraction);
     this.#store.say('info', sentence);
   }
 

@@ -11,7 +11,7 @@ import { sentenceOf, type Services } from '../jobs/services';
 import { isTurn, nudged } from '../geometry/pose_motion';
 import type { HandAction } from './hand_bindings';
 import { texts } from '../texts/texts';
-import { handSceneOf, placedPose } from './model_in_hand';
+import { handSituationOf, placedPose } from './model_in_hand';
 import { degreesOf, type LandscapeCell } from '../results/landscape';
 
 /** What keys and buttons do with a pose that is set by hand. */
@@ -68,7 +68,7 @@ export class HandActions {
   refine(): void {
     const place = currentPlace(this.#store.state);
     if (!place) return;
-    if (handSceneOf(this.#store.state, this.#services.studio)?.absent) this.place();
+    if (handSituationOf(this.#store.state, this.#services.studio)?.absent) this.place();
     else void this.#fromHere.refine(place);
   }
 
@@ -91,10 +91,10 @@ export class HandActions {
 
   /** A number that was typed. Turns keep the middle of the model in place, as keys do. False if it was not taken. */
   type(field: keyof PoseNumbers, value: number): boolean {
-    const scene = handSceneOf(this.#store.state, this.#services.studio);
+    const situation = handSituationOf(this.#store.state, this.#services.studio);
     const possible = Number.isFinite(value) && (field !== 'z' || value < 0);
     if (!possible) this.#store.say('error', Number.isNaN(value) ? texts.hand.said.notANumber(texts.hand.names[field]) : texts.hand.said.behind);
-    return possible && scene !== null && this.#change(field, value - scene.pose[field], `type-${++this.#held}`);
+    return possible && situation !== null && this.#change(field, value - situation.pose[field], `type-${++this.#held}`);
   }
 
   /** Offers the pose of a view of the landscape as a candidate. */
@@ -152,13 +152,13 @@ export class HandActions {
   #change(field: keyof PoseNumbers, by: number, mergeKey: string): boolean {
     const { state } = this.#store;
     const place = currentPlace(state);
-    const scene = handSceneOf(state, this.#services.studio);
-    if (!place || !scene) return false;
-    if (scene.absent) {
+    const situation = handSituationOf(state, this.#services.studio);
+    if (!place || !situation) return false;
+    if (situation.absent) {
       this.place();
       return true;
     }
-    const pose = nudged(scene.pose, field, by, scene.middle, scene.locks);
+    const pose = nudged(situation.pose, field, by, situation.middle, situation.locks);
     // In front of the camera it stays.
     if (pose.z < 0 && by !== 0) this.#store.perform(setPoseByHand(place, pose, texts.steps.adjustPose, mergeKey));
     return true;

@@ -8,10 +8,10 @@ import type { CameraInput } from '../workers/protocol/camera';
 import { cameraOf } from '../results/keys';
 import type { Studio } from '../films/studio';
 import type { Pinhole, Vector } from '../geometry/pose_motion';
-import type { HandScene } from '../interaction/hand_scene';
+import type { HandSituation } from '../interaction/hand_situation';
 
 /** What a hand on the selected model works with; null where model, calibration or frame is missing. */
-export function handSceneOf(state: State, studio: Studio): HandScene | null {
+export function handSituationOf(state: State, studio: Studio): HandSituation | null {
   const { present: doc } = state.history;
   const { component, hand } = state.ui;
   const frame = currentFrame(state);
@@ -44,12 +44,12 @@ export function placedPose(state: State, studio: Studio): { readonly pose: PoseN
   const pinhole = pinholeOf(studio, camera);
   if (!frame || !mesh || !pinhole || !camera) return null;
   const { librarySpec } = doc.components[component];
-  const depth = librarySpec.distance ?? USUAL_SHARE * (studio.calibrationFacts(camera.text, camera).principal?.distance ?? USUAL_DISTANCE);
+  const depth = librarySpec.distance ?? USUAL_FRACTION * (studio.calibrationFacts(camera.text, camera).principal?.distance ?? USUAL_DISTANCE);
   return { pose: inTheMiddle(frame, pinhole, depth, librarySpec, middleOf(mesh)), frame: null };
 }
 
-/** Knees stand at this share of the principal distance, as libraries are built for; mm where that is not known. */
-const USUAL_SHARE = 0.9;
+/** Knees stand at this fraction of the principal distance, as libraries are built for; mm where that is not known. */
+const USUAL_FRACTION = 0.9;
 const USUAL_DISTANCE = 1100;
 
 function nearestPosed(

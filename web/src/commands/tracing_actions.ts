@@ -6,7 +6,7 @@ import type { TracingTools } from '../tracing/tracing_tools';
 import { snappedOutline } from '../tracing/snapping';
 import type { Services } from '../jobs/services';
 import { framePoint } from '../geometry/points';
-import { boundsOf, middleOf, moved, scaled, turned, type Similarity } from '../geometry/similarity';
+import { boundsOf, middleOf, moved, scaled, rotated, type Similarity } from '../geometry/similarity';
 import { RADIUS } from '../terms/tracing';
 import type { TracingCommand } from './tracing_keys';
 import { texts } from '../texts/texts';
@@ -33,7 +33,7 @@ export class TracingActions {
       case 'move':
         return this.#move(command.columns, command.rows);
       case 'turn':
-        return this.#transform((middle) => turned(middle, (command.degrees * Math.PI) / 180));
+        return this.#transform((middle) => rotated(middle, (command.degrees * Math.PI) / 180));
       case 'scale':
         return this.#transform((middle) => scaled(middle, command.factor));
       case 'point':

@@ -13,7 +13,7 @@ import { texts } from '../texts/texts';
 export class WorkActions {
   readonly #services: Services;
   readonly #store: Store;
-  /** Lent by the timeline: the field for notes on the cell that is selected. */
+  /** Set by the timeline: the field for notes on the cell that is selected. */
   noteField: HTMLInputElement | null = null;
 
   constructor(services: Services) {

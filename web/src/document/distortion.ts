@@ -2,8 +2,8 @@ import { count, list, nullable, number, object, oneOf, ReadError, text, type Rea
 
 /**
  * A correction of distortion: two polynomials that take a place in a frame as it was taken to where it lies in the
- * straight one. It is applied to the frames, which are then shown straight, or to the outlines alone, which stay where
- * they were traced and are straightened when a pose is worked out.
+ * undistorted one. It is applied to the frames, which are then shown so, or to the outlines alone, which stay where
+ * they were traced and are undistorted when a pose is worked out.
  */
 export interface Distortion {
   /** The file that the grid was in, for people. */

@@ -8,8 +8,8 @@ import { texts } from '../texts/texts';
 export type MovePoints = (points: Float64Array<ArrayBuffer>) => ArrayLike<number>;
 
 /**
- * Takes another correction, or none. Outlines stay on what they were traced on: where frames become straight, or are
- * straight no longer, their points go with them. `fromShown` and `toShown` do that for the correction before and after.
+ * Takes another correction, or none. Outlines stay on what they were traced on: where frames become undistorted, or are
+ * no longer so, their points go with them. `fromShown` and `toShown` do that for the correction before and after.
  */
 export function setDistortion(distortion: Distortion | null, fromShown: MovePoints | null, toShown: MovePoints | null): Command {
   const move = (points: readonly FramePoint[]): readonly FramePoint[] => {

@@ -125,7 +125,7 @@ const EMPTY_UI: Ui = {
 
 const LOG_LENGTH = 200;
 
-/** The one store. Listeners are told after every change, synchronously. */
+/** The one store. Listeners are called after every change, synchronously. */
 export class Store {
   #state: State = { history: history.startHistory(EMPTY_DOC), ui: EMPTY_UI };
   readonly #listeners = new Set<() => void>();

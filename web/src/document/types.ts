@@ -21,7 +21,7 @@ export interface Doc {
   readonly reference: Reference | null;
   /** What people noted about cells, by `cellKey`. */
   readonly marks: Readonly<Record<string, Mark>>;
-  /** How frames or outlines are straightened; null: they are straight. */
+  /** How frames or outlines are undistorted; null: they stay as they were taken. */
   readonly distortion: Distortion | null;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
   readonly work: string;
@@ -74,7 +74,7 @@ export interface FileReference {
   readonly sha256: string;
 }
 
-/** Which views a library holds: degrees round the nominal view, millimetres to the focus, canonical pixels. */
+/** Which views a library holds: degrees around the nominal view, millimetres to the focus, canonical pixels. */
 export interface LibrarySpec {
   readonly nominalX: number;
   readonly nominalY: number;

@@ -30,7 +30,7 @@ export async function bringFiles(services: Services, doc: Doc, title: string): P
   return missing;
 }
 
-/** Decodes a model and lends it to the studio; the document is left alone. Returns what was left out of the file. */
+/** Decodes a model and hands it to the studio; the document is left alone. Returns what was left out of the file. */
 export async function holdModel(services: Services, asset: Asset): Promise<readonly string[]> {
   if (services.studio.meshOf(asset.sha256)) return [];
   const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });

@@ -119,11 +119,11 @@ function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPa
 
 function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
   const { exchange } = texts;
-  const share = (100 * differing) / Math.max(1, area);
+  const fraction = (100 * differing) / Math.max(1, area);
   return [
     specks > 0 ? exchange.specks(specks) : null,
     holes > 0 ? exchange.holes(holes) : null,
-    share >= 0.5 ? exchange.differing(share.toFixed(1)) : null,
+    fraction >= 0.5 ? exchange.differing(fraction.toFixed(1)) : null,
   ].filter((note) => note !== null);
 }
 

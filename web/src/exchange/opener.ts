@@ -7,7 +7,7 @@ import { Aborted } from '../workers/bridge';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import type { OutlineFile } from './importer';
-import { takeDistortion } from '../jobs/distorting';
+import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { mismatchOf, openSession } from './session_opener';

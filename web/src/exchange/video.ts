@@ -154,14 +154,14 @@ export function rateFrom(times: readonly number[]): number {
 }
 
 /** Which pictures are wanted: seconds from and to, and every so many. */
-export interface Choice {
+export interface PictureChoice {
   readonly from: number;
   readonly to: number;
   readonly every: number;
 }
 
 /** Times in the middle of the chosen pictures, seconds. */
-export function timesOf({ duration, rate }: Pick<Video, 'duration' | 'rate'>, { from, to, every }: Choice): number[] {
+export function timesOf({ duration, rate }: Pick<Video, 'duration' | 'rate'>, { from, to, every }: PictureChoice): number[] {
   const step = Math.max(1, Math.round(every)) / rate;
   const first = Math.max(0, Math.round(from * rate)) / rate;
   const end = Math.min(to, duration);
@@ -176,7 +176,7 @@ export interface Taking {
 }
 
 /** Takes the pictures one by one as grey images; one that was taken before is left out. Returns how many were. */
-export async function takeFrames(video: Video, choice: Choice, { signal, onFrame }: Taking): Promise<number> {
+export async function takeFrames(video: Video, choice: PictureChoice, { signal, onFrame }: Taking): Promise<number> {
   const times = timesOf(video, choice);
   const canvas = new OffscreenCanvas(video.width, video.height);
   const context = canvas.getContext('2d', { willReadFrequently: true });

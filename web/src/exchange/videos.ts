@@ -2,7 +2,7 @@ import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { Incoming } from './incoming';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
-import { openVideo, takeFrames, type Choice, type TakenFrame, type Video } from './video';
+import { openVideo, takeFrames, type PictureChoice, type TakenFrame, type Video } from './video';
 
 const said = texts.files.video;
 
@@ -49,7 +49,7 @@ export class Videos {
     element.currentTime = Math.min(video.duration, Math.max(0, time + 0.5 / video.rate));
   }
 
-  async take(choice: Choice): Promise<void> {
+  async take(choice: PictureChoice): Promise<void> {
     const { store } = this.#services;
     const video = this.#video;
     if (!video) return;

@@ -25,8 +25,8 @@ import type { Preprocessing } from '../terms/seeing';
 import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { Picture } from '../workers/protocol/match';
 import type { DecodedFrame, ModelMesh, StatedGeometry } from '../workers/protocol/decode';
-import type { Bend, CalibrationFacts, CameraInput } from '../workers/protocol/camera';
-import { Bender, UndistortedFrames } from './undistorted';
+import type { DistortionInput, CalibrationFacts, CameraInput } from '../workers/protocol/camera';
+import { OverlayDistorter, UndistortedFrames } from './undistorted';
 import { numbersAt } from './wasm_view';
 
 /** Grey values of a frame, and the window to begin with. */
@@ -69,8 +69,8 @@ interface PaintedSilhouette {
 export class Studio {
   readonly #memory: WebAssembly.Memory;
   readonly #frames = new Map<string, HeldFrame>();
-  readonly #straight = new UndistortedFrames();
-  #bender: Bender | null = null;
+  readonly #undistorted = new UndistortedFrames();
+  #distorter: OverlayDistorter | null = null;
   /** By the file's SHA-256: undo may go back to an earlier one. */
   readonly #models = new Map<string, HeldModel>();
 
@@ -95,14 +95,14 @@ export class Studio {
     this.#frames.set(id, { image, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
   }
 
-  /** Frames are shown straight from now on, or as they were taken. */
+  /** Frames are shown undistorted from now on, or as they were taken. */
   useDistortion(distortion: Distortion | null): void {
-    this.#straight.use(distortion);
+    this.#undistorted.use(distortion);
   }
 
   /** Changes whenever frames look otherwise: what was painted or worked out from their pixels is of the past. */
   get framesKey(): string {
-    return this.#straight.key;
+    return this.#undistorted.key;
   }
 
   /** What the file of a frame says of sizes and distances. */
@@ -112,7 +112,7 @@ export class Studio {
 
   #shown(id: string): FrameImage | null {
     const held = this.#frames.get(id);
-    return held ? this.#straight.shown(id, held.image, held.size) : null;
+    return held ? this.#undistorted.shown(id, held.image, held.size) : null;
   }
 
   /** The frame in WASM memory, for tools that look at its pixels. */
@@ -139,7 +139,7 @@ export class Studio {
     return pixelsOf(this.#shown(id));
   }
 
-  /** The same of the frame as it was taken, whether it is shown straight or not. */
+  /** The same of the frame as it was taken, whether it is shown undistorted or not. */
   takenPixels(id: string): FramePixels['pixels'] | null {
     return pixelsOf(this.#frames.get(id)?.image ?? null);
   }
@@ -172,19 +172,19 @@ export class Studio {
   ): PaintedSilhouette | null {
     const model = this.#models.get(sha256)?.model;
     if (!model) return null;
-    const { text, width, height, bend } = camera;
+    const { text, width, height, distortion } = camera;
     model.project(text, width, height, Float64Array.from(poseArray(pose)));
     model.followBorder(width, height);
-    const bender = bend ? this.#benderOf(bend) : null;
-    bender?.border(model);
-    const box = model.borderIsWhole ? null : paintPicture(model, context(), camera, rgb, bender);
+    const distorter = distortion ? this.#distorterOf(distortion) : null;
+    distorter?.border(model);
+    const box = model.borderIsWhole ? null : paintPicture(model, context(), camera, rgb, distorter);
     return { border: numbersAt(this.#memory, model.borderAddress, model.borderLength), box };
   }
 
-  #benderOf({ key, numbers }: Bend): Bender {
-    if (this.#bender?.key === key) return this.#bender;
-    this.#bender?.free();
-    return (this.#bender = new Bender(key, numbers));
+  #distorterOf({ key, numbers }: DistortionInput): OverlayDistorter {
+    if (this.#distorter?.key === key) return this.#distorter;
+    this.#distorter?.free();
+    return (this.#distorter = new OverlayDistorter(key, numbers));
   }
 
   paintUnmatched(context: CanvasRenderingContext2D, picture: Picture): void {
@@ -266,11 +266,11 @@ export class Studio {
 }
 
 /** The part of the canvas that was painted. */
-function paintPicture(model: Model, canvas: CanvasRenderingContext2D, { width, height }: Size, rgb: number, bender: Bender | null): Box {
+function paintPicture(model: Model, canvas: CanvasRenderingContext2D, { width, height }: Size, rgb: number, distorter: OverlayDistorter | null): Box {
   canvas.clearRect(0, 0, width, height);
   const [left = 0, top = 0, across = 0, down = 0] = model.paint(canvas, width, height, rgb);
-  if (!bender) return { left, top, width: across, height: down };
-  bender.picture(canvas, width, height);
+  if (!distorter) return { left, top, width: across, height: down };
+  distorter.picture(canvas, width, height);
   return { left: 0, top: 0, width, height };
 }
 

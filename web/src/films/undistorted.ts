@@ -1,12 +1,12 @@
-import { Straightener, type Film as FrameImage, type Model } from '../pkg/page/fluoropose_wasm.js';
+import { Straightener as Undistorter, type Film as FrameImage, type Model } from '../pkg/page/fluoropose_wasm.js';
 import { type Distortion, distortionKey, fits, numbersOf } from '../document/distortion';
 import type { MovePoints } from '../document/set_distortion';
 
-/** Corrections at work on the page's own thread: for points, and for frames that are shown straight. */
+/** Corrections at work on the page's own thread: for points, and for frames that are shown undistorted. */
 export class UndistortedFrames {
   #distortion: Distortion | null = null;
   #key = '';
-  #straightener: Straightener | null = null;
+  #undistorter: Undistorter | null = null;
   readonly #images = new Map<string, FrameImage>();
 
   /** Changes whenever frames look otherwise. */
@@ -21,74 +21,74 @@ export class UndistortedFrames {
     const key = distortionKey(shown);
     if (key === this.#key) return;
     this.#key = key;
-    this.#straightener?.free();
-    this.#straightener = null;
+    this.#undistorter?.free();
+    this.#undistorter = null;
     // Tools may still hold one of them: they are let go, not freed.
     this.#images.clear();
   }
 
-  /** The frame as it is shown: straight, where the correction is for frames of its size. */
+  /** The frame as it is shown: undistorted, where the correction is for frames of its size. */
   shown(id: string, image: FrameImage, size: { readonly width: number; readonly height: number }): FrameImage {
     const distortion = this.#distortion;
     if (!fits(distortion, size)) return image;
     const known = this.#images.get(id);
     if (known) return known;
-    this.#straightener ??= new Straightener(numbersOf(distortion));
-    const straight = this.#straightener.film(image);
-    this.#images.set(id, straight);
-    return straight;
+    this.#undistorter ??= new Undistorter(numbersOf(distortion));
+    const undistorted = this.#undistorter.film(image);
+    this.#images.set(id, undistorted);
+    return undistorted;
   }
 }
 
-/** Points of frames as taken to where they lie once straight. */
-export function straightening(distortion: Distortion): MovePoints {
-  return (points) => withStraightener(distortion, (straightener) => straightener.straight(points));
+/** Points of frames as taken to where they lie in the undistorted frame. */
+export function undistorting(distortion: Distortion): MovePoints {
+  return (points) => withUndistorter(distortion, (undistorter) => undistorter.straight(points));
 }
 
 /** The way back. */
-export function bending(distortion: Distortion): MovePoints {
-  return (points) => withStraightener(distortion, (straightener) => straightener.bent(points));
+export function distorting(distortion: Distortion): MovePoints {
+  return (points) => withUndistorter(distortion, (undistorter) => undistorter.bent(points));
 }
 
 /** Throws the core's sentence for numbers that are no correction. */
 export function checkDistortion(distortion: Distortion): void {
-  withStraightener(distortion, () => undefined);
+  withUndistorter(distortion, () => undefined);
 }
 
-function withStraightener<T>(distortion: Distortion, work: (straightener: Straightener) => T): T {
-  const straightener = new Straightener(numbersOf(distortion));
+function withUndistorter<T>(distortion: Distortion, work: (undistorter: Undistorter) => T): T {
+  const undistorter = new Undistorter(numbersOf(distortion));
   try {
-    return work(straightener);
+    return work(undistorter);
   } finally {
-    straightener.free();
+    undistorter.free();
   }
 }
 
-/** Overlays are drawn straight; on frames that stay as they were taken they are bent likewise. */
-export class Bender {
-  readonly #straightener: Straightener;
+/** Overlays are drawn undistorted; on frames that stay as they were taken they are distorted likewise. */
+export class OverlayDistorter {
+  readonly #undistorter: Undistorter;
   #sources: Uint32Array | null = null;
 
   constructor(readonly key: string, numbers: Float64Array) {
-    this.#straightener = new Straightener(numbers);
+    this.#undistorter = new Undistorter(numbers);
   }
 
   border(model: Model): void {
-    model.bendBorder(this.#straightener);
+    model.bendBorder(this.#undistorter);
   }
 
   /** Moves what was painted, pixel by pixel. */
   picture(context: CanvasRenderingContext2D, width: number, height: number): void {
-    const sources = (this.#sources ??= this.#straightener.sources());
+    const sources = (this.#sources ??= this.#undistorter.sources());
     const painted = new Uint32Array(context.getImageData(0, 0, width, height).data.buffer);
-    const bent = new ImageData(width, height);
-    const out = new Uint32Array(bent.data.buffer);
+    const distorted = new ImageData(width, height);
+    const out = new Uint32Array(distorted.data.buffer);
     // One past the last pixel stands for nowhere: undefined becomes 0, nothing painted.
     sources.forEach((source: number, index: number) => (out[index] = painted[source] ?? 0));
-    context.putImageData(bent, 0, 0);
+    context.putImageData(distorted, 0, 0);
   }
 
   free(): void {
-    this.#straightener.free();
+    this.#undistorter.free();
   }
 }

@@ -1,4 +1,4 @@
-import type { HandScene } from './hand_scene';
+import type { HandSituation } from './hand_situation';
 import type { TracingIntent } from './tracing_intent';
 import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
@@ -6,7 +6,7 @@ import type { Command, Place } from '../document/command';
 import type { GreyWindow, Outline } from '../document/types';
 
 /**
- * Interactions are state machines without a DOM: an input and the scene go in, the next state and effects come out.
+ * Interactions are state machines without a DOM: an input and the situation go in, the next state and effects come out.
  * Tests drive them with plain values.
  */
 export type Button = 'primary' | 'middle' | 'secondary';
@@ -22,7 +22,7 @@ export interface Input {
   readonly ctrl?: boolean;
 }
 
-export interface Scene {
+export interface Situation {
   readonly viewport: Viewport;
   readonly frame: Size;
   readonly place: Place;
@@ -31,7 +31,7 @@ export interface Scene {
   /** The brush takes away; with Alt held the other way round. */
   readonly erase: boolean;
   /** Null where no model can be adjusted: it, the calibration or the frame is missing. */
-  readonly hand?: HandScene | null;
+  readonly hand?: HandSituation | null;
 }
 
 export type Effect =
@@ -51,7 +51,7 @@ export interface Outcome<State> {
 
 export interface Machine<State> {
   readonly start: State;
-  readonly next: (state: State, input: Input, scene: Scene) => Outcome<State>;
+  readonly next: (state: State, input: Input, situation: Situation) => Outcome<State>;
 }
 
 export function outcome<State>(state: State, ...effects: readonly Effect[]): Outcome<State> {

@@ -8,8 +8,8 @@ import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { CalibrateProtocol } from '../workers/protocol/calibrate';
 import { asJob, sentenceOf, type Services } from './services';
-import { takeDistortion } from './distorting';
-import { straightening } from '../films/undistorted';
+import { takeDistortion } from './take_distortion';
+import { undistorting } from '../films/undistorted';
 import { calibrateWorker } from '../workers/start';
 
 const said = texts.calibrate;
@@ -21,7 +21,7 @@ export class Calibrator {
 
   constructor(services: Services) {
     this.#services = services;
-    // The studio shows frames straight where the document asks for it, before any view looks.
+    // The studio shows frames undistorted where the document asks for it, before any view looks.
     services.store.subscribe(() => services.studio.useDistortion(services.store.doc.distortion));
   }
 
@@ -66,7 +66,7 @@ export class Calibrator {
   /** Where the beads lie in the frames that poses are worked out in. */
   beadsForCamera(grid: MeasuredGrid, doc: Doc): Float64Array<ArrayBuffer> {
     const { distortion } = doc;
-    return fits(distortion, grid) ? this.#moved(grid.beads, straightening(distortion)) : grid.beads;
+    return fits(distortion, grid) ? this.#moved(grid.beads, undistorting(distortion)) : grid.beads;
   }
 
   /** Where the beads lie on the frame as it is shown. */

@@ -18,14 +18,14 @@ interface Open {
 }
 
 /**
- * Chooses anew between rivals of which none was decided, whenever more has become known round them: the femur was posed
+ * Chooses anew between rivals of which none was decided, whenever more has become known around them: the femur was posed
  * after the tibia, or the frame before after this one. What was decided stays so, and what a person chose by hand is
  * left alone, so this comes to an end.
  */
 export class Chooser {
   readonly #store: Store;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
-  /** What was known round a result when its choice was last made. */
+  /** What was known around a result when its choice was last made. */
   readonly #knownThen = new WeakMap<readonly Candidate[], string>();
   #busy = false;
 

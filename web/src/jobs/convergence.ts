@@ -46,7 +46,7 @@ export class Convergence {
       if (!(error instanceof Aborted)) this.#traces.set(candidate, { refusal: sentenceOf(error) });
     } finally {
       this.#busy = false;
-      // The traces are no part of the state: the views are told all the same.
+      // The traces are no part of the state: the views are notified all the same.
       this.#store.show({});
     }
   }

@@ -77,7 +77,7 @@ export class FromHere {
     const pixels = studio.framePixels(frameId);
     if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
     if (!pixels) throw new Error(texts.hand.said.noPixels);
-    if (camera.bend) throw new Error(texts.calibrate.distortedFrame);
+    if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
     const { width, height } = camera;
     const others = COMPONENT_NAMES.flatMap((other) => {
       const there = other !== component && store.ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(store.doc, frameId, other));

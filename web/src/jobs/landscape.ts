@@ -68,7 +68,7 @@ export class Landscapes {
       if (!(error instanceof Aborted)) this.#scored.set(outline, { key, refusal: sentenceOf(error) });
     } finally {
       this.#busy = false;
-      // No part of the state: the views are told all the same.
+      // No part of the state: the views are notified all the same.
       this.#store.show({});
     }
   }

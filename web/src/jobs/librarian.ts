@@ -2,7 +2,7 @@ import type { Doc } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, libraryKey } from '../results/keys';
-import { LibraryCrew } from './library_pool';
+import { LibraryPool } from './library_pool';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { LibraryFacts } from '../workers/protocol/library';
 import { asJob, sentenceOf, type Services } from './services';
@@ -25,7 +25,7 @@ export class Librarian {
   readonly #services: Services;
   readonly #poser: Bridge<PoseProtocol>;
   readonly #running = new Map<ComponentName, AbortController>();
-  readonly #crew = new LibraryCrew(workersFor(navigator.hardwareConcurrency), libraryWorker);
+  readonly #pool = new LibraryPool(workersFor(navigator.hardwareConcurrency), libraryWorker);
 
   constructor(services: Services, poser: Bridge<PoseProtocol>) {
     this.#services = services;
@@ -98,7 +98,7 @@ export class Librarian {
     const cancel = () => abort.abort();
     const { signal } = abort;
     return asJob(store, { title: texts.said.library.job(titleOf(component)), unit: texts.said.library.views, total: 0, cancel }, async (onProgress) => {
-      const bytes = await this.#crew.build({ mesh, camera, spec }, { signal, onProgress });
+      const bytes = await this.#pool.build({ mesh, camera, spec }, { signal, onProgress });
       return this.#poser.call('open', { component, bytes, mesh }, { signal, transfer: [bytes.buffer] });
     });
   }

@@ -13,7 +13,7 @@ interface Build {
  * Builds libraries, one after the other, each with all its workers: the first is there as soon as it can be. Workers
  * start with the first library and are let go when none is wanted.
  */
-export class LibraryCrew {
+export class LibraryPool {
   readonly #size: number;
   readonly #hire: () => Bridge<LibraryProtocol>;
   #workers: readonly Bridge<LibraryProtocol>[] = [];

@@ -83,7 +83,7 @@ export class Poser {
   /** Of the candidates that were found for an outline, the one with this pose or the nearest: their order may differ. */
   detail(outline: Outline | null, candidate: Candidate): Detail | null {
     const details = this.findings(outline)?.details ?? [];
-    const distances = details.map((detail) => turned(candidate, detail));
+    const distances = details.map((detail) => rotationBetween(candidate, detail));
     return details[distances.indexOf(Math.min(...distances))] ?? null;
   }
 
@@ -243,7 +243,7 @@ export class Poser {
       if (!isStale(cell, key) && !better) return doc;
       return withCell(doc, place, { outline, result: sameChoice(cell.result, result), resultOf: outline });
     });
-    // The pictures are no part of the document: the views are told all the same.
+    // The pictures are no part of the document: the views are notified all the same.
     this.#store.show({});
   }
 }
@@ -276,12 +276,12 @@ function sameChoice(before: Result | null, result: Result): Result {
   if (before?.kind !== 'posed' || result.kind !== 'posed' || before.chosen === 0) return result;
   const previous = before.candidates[before.chosen];
   if (!previous) return result;
-  const distances = result.candidates.map((candidate) => turned(previous, candidate));
+  const distances = result.candidates.map((candidate) => rotationBetween(previous, candidate));
   return { ...result, chosen: distances.indexOf(Math.min(...distances)) };
 }
 
 /** A rough angle between two poses, degrees. */
-function turned(a: Pick<Candidate, 'pose'>, b: Pick<Candidate, 'pose'>): number {
+function rotationBetween(a: Pick<Candidate, 'pose'>, b: Pick<Candidate, 'pose'>): number {
   return Math.hypot(a.pose.xRot - b.pose.xRot, a.pose.yRot - b.pose.yRot);
 }
 

@@ -84,7 +84,7 @@ function CandidateButton({ index, name, candidate, chosen, onChoose }: Candidate
     >
       <span>{name}</span>
       <span class="rival-score">{candidate ? scoreOf(candidate) : '–'}</span>
-      <span class="rival-pose">{pose ? texts.panel.candidates.turned(degrees(pose.xRot), degrees(pose.yRot)) : texts.panel.candidates.none}</span>
+      <span class="rival-pose">{pose ? texts.panel.candidates.rotations(degrees(pose.xRot), degrees(pose.yRot)) : texts.panel.candidates.none}</span>
       <span class="rival-pose">{candidate?.drawn == null ? '' : texts.panel.candidates.drawn(grouped(candidate.drawn))}</span>
     </button>
   );

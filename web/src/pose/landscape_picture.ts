@@ -55,8 +55,8 @@ function shadesOf(scores: ArrayLike<number>): (score: number) => string {
   return (score) => colourAt(1 - (Math.sqrt(score) - least) / Math.max(1e-9, most - least));
 }
 
-function colourAt(share: number): string {
-  const at = Math.min(1, Math.max(0, share)) * (STOPS.length - 1);
+function colourAt(fraction: number): string {
+  const at = Math.min(1, Math.max(0, fraction)) * (STOPS.length - 1);
   const [low, high] = [STOPS[Math.floor(at)] ?? STOPS[0], STOPS[Math.ceil(at)] ?? STOPS[0]];
   const mix = (channel: 0 | 1 | 2) => Math.round(low[channel] + (high[channel] - low[channel]) * (at % 1));
   return `rgb(${mix(0)} ${mix(1)} ${mix(2)})`;

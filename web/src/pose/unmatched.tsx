@@ -12,7 +12,7 @@ function described({ clipped, partial, milliseconds }: Findings): string {
   return say(milliseconds.toFixed(1));
 }
 
-/** Both canonical silhouettes in one frame, black where they differ: the source's own figure. */
+/** Both canonical silhouettes in one frame, black where they differ: the figure of Walker et al. 1996. */
 export function Unmatched({ state }: { state: State }) {
   const { poser, services } = useApp();
   const canvas = useRef<HTMLCanvasElement>(null);

@@ -1,7 +1,7 @@
 import { distortionKey, fits, numbersOf, type Distortion } from '../document/distortion';
 import type { Doc, FrameEntry } from '../document/types';
 import type { ComponentName } from '../terms/component';
-import type { Bend, CameraInput } from '../workers/protocol/camera';
+import type { DistortionInput, CameraInput } from '../workers/protocol/camera';
 
 /**
  * A key names the inputs of a result; two results with the same key are the same. It is a readable text, kept with
@@ -39,18 +39,18 @@ export function poseKeys(doc: Doc): (component: ComponentName, frame: FrameEntry
 export function cameraOf(doc: Doc, frame: FrameEntry | null): CameraInput | null {
   if (!doc.calibration || !frame) return null;
   const camera = { text: doc.calibration.text, width: frame.width, height: frame.height };
-  const bend = bendOf(doc.distortion);
-  return bend && fits(doc.distortion, frame) ? { ...camera, bend } : camera;
+  const distortion = distortionInputOf(doc.distortion);
+  return distortion && fits(doc.distortion, frame) ? { ...camera, distortion } : camera;
 }
 
-const bends = new WeakMap<Distortion, Bend>();
+const inputs = new WeakMap<Distortion, DistortionInput>();
 
-/** Null where frames themselves are straightened, or nothing is. */
-function bendOf(distortion: Distortion | null): Bend | null {
+/** Null where frames themselves are undistorted, or nothing is. */
+function distortionInputOf(distortion: Distortion | null): DistortionInput | null {
   if (distortion?.appliesTo !== 'outlines') return null;
-  const known = bends.get(distortion);
+  const known = inputs.get(distortion);
   if (known) return known;
-  const bend = { key: distortionKey(distortion), numbers: numbersOf(distortion) };
-  bends.set(distortion, bend);
-  return bend;
+  const input = { key: distortionKey(distortion), numbers: numbersOf(distortion) };
+  inputs.set(distortion, input);
+  return input;
 }

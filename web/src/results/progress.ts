@@ -110,7 +110,7 @@ function isBegun({ outline, result }: Cell): boolean {
   return outline !== null || result !== null;
 }
 
-/** The next thing to do from a place, round the whole list: what has no pose; once all have one, what nobody checked. */
+/** The next thing to do from a place, around the whole list: what has no pose; once all have one, what nobody checked. */
 export function nextTask(
   doc: Doc,
   keyOf: KeyOf,

@@ -104,8 +104,8 @@ function Ruler({ marks }: { marks: readonly FramePoint[] }) {
   const { calibrator } = useApp();
   const typed = (index: number, column: number, row: number) => {
     const all = [0, 1].map((at) => marks[at] ?? framePoint(NaN, NaN)).with(index, framePoint(column, row));
-    const told = all.filter((mark) => !Number.isNaN(mark.column) || !Number.isNaN(mark.row));
-    calibrator.show({ marks: told });
+    const given = all.filter((mark) => !Number.isNaN(mark.column) || !Number.isNaN(mark.row));
+    calibrator.show({ marks: given });
   };
   return (
     <>
@@ -213,12 +213,12 @@ function ofPlate({ calibrator, services }: AppServices, state: State, { grid }: 
     said.residual(residual.toFixed(3), used),
     said.distancesMatter,
   ];
-  if (!doc.distortion && before > BENT) sentences.push(said.bentFirst(before.toFixed(2)));
+  if (!doc.distortion && before > DISTORTED) sentences.push(said.distortedFirst(before.toFixed(2)));
   return { sentences, pitch, offset: isMeasured ? [x, y] : [0, 0] };
 }
 
 /** Bead centres are better than this, px: what is more is distortion. */
-const BENT = 0.3;
+const DISTORTED = 0.3;
 
 function ofRuler({ services }: AppServices, measuring: Measuring, { known, toDetector, toObject }: Lengths): CameraFound {
   const marks = marksOf(measuring);

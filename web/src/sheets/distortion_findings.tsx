@@ -37,7 +37,7 @@ const PER_BEAD = 6;
 /** The longest line of the map, as a part of the frame's width. */
 const LONGEST = 0.09;
 
-/** A line for each bead: how far it lies off the straight lattice before and after. */
+/** A line for each bead: how far it lies off the regular lattice before and after. */
 function ResidualMap({ grid: { width, height }, distortion: { residuals } }: { grid: MeasuredGrid; distortion: MeasuredDistortion }) {
   const beads = Array.from({ length: residuals.length / PER_BEAD }, (_, at) => residuals.subarray(PER_BEAD * at, PER_BEAD * (at + 1)));
   const longest = Math.max(1e-6, ...beads.map(([, , right = 0, down = 0]) => Math.hypot(right, down)));

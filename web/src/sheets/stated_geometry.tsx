@@ -7,7 +7,7 @@ const said = texts.calibrate.stated;
 
 interface Offer {
   readonly sentence: string;
-  /** Null for what is told but not offered. */
+  /** Null for what is stated but not offered. */
   readonly fill: (() => void) | null;
   readonly what: string;
 }
@@ -59,11 +59,11 @@ function Offers({ offers }: { offers: readonly Offer[] }) {
 function offersOf(stated: Stated | null, { onDistance, onPitch }: Takers): Offer[] {
   if (!stated) return [];
   const { detectorSpacing, pixelSpacing, pixelSpacingCalibration, scannedSpacing } = stated;
-  const told = (sentence: string): Offer => ({ sentence, fill: null, what: '' });
+  const only = (sentence: string): Offer => ({ sentence, fill: null, what: '' });
   return [
     ...spacing(detectorSpacing, said.detectorSpacing, texts.calibration.pitch, onPitch),
     ...spacing(scannedSpacing, said.scannedSpacing, texts.calibration.pitch, onPitch),
-    ...(pixelSpacing ? [told(said.pixelSpacing[pixelSpacingCalibration ?? 'plain'](shown(pixelSpacing)))] : []),
+    ...(pixelSpacing ? [only(said.pixelSpacing[pixelSpacingCalibration ?? 'plain'](shown(pixelSpacing)))] : []),
     ...distances(stated, onDistance),
   ];
 }

@@ -69,7 +69,7 @@ export function drawOutline(context: Context, component: ComponentName, points: 
 
 /** Handles nearer to each other than this, CSS px, hide the edge that they are on. */
 const DENSE = 14;
-/** Then those round the pointer are shown. */
+/** Then those around the pointer are shown. */
 const ROUND_POINTER = 48;
 
 /** Which points get a handle: all of a sparse outline, of a dense one those that the hand is near to. */

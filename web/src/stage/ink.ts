@@ -44,7 +44,7 @@ export class Ink {
   }
 }
 
-/** The part of the stage that some points are in, with room for what is drawn round them. */
+/** The part of the stage that some points are in, with room for what is drawn around them. */
 export function boxRound(points: Iterable<CanvasPoint>, stage: Size): Box {
   let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
   for (const { x, y } of points) {

@@ -3,7 +3,7 @@ import { canvasFromFrame, frameFromCanvas } from '../geometry/viewport';
 import type { Controller } from '../interaction/controller';
 import type { Input } from '../interaction/machine';
 import type { App } from '../commands/app';
-import { act, sceneOf } from './stage_input';
+import { act, situationOf } from './stage_input';
 import type { StageView } from './stage_view';
 
 /** The keyboard's way to point and press: it moves the same pointer that the mouse does. */
@@ -37,8 +37,8 @@ export function pressByKey(app: App, view: StageView, controller: Controller): v
 }
 
 function send(app: App, view: StageView, controller: Controller, type: Input['type'], at: Input['at']): void {
-  const scene = sceneOf(app.services.store, view);
-  if (scene) act(app, controller, { type, at, button: 'primary', alt: false }, scene);
+  const situation = situationOf(app.services.store, view);
+  if (situation) act(app, controller, { type, at, button: 'primary', alt: false }, situation);
   view.schedule();
 }
 

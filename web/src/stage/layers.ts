@@ -42,7 +42,7 @@ export class FrameLayer extends Layer {
 export class OverlayLayer extends Layer {
   /** In frame coordinates; null while there is nothing to show. */
   border: Path2D | null = null;
-  /** Two opposite corners of the rectangle round the border; empty while there is none. */
+  /** Two opposite corners of the rectangle around the border; empty while there is none. */
   extent: readonly FramePoint[] = [];
   /** The part of the canvas that the silhouette is in; null where to fill the border is the same. */
   box: Box | null = null;
@@ -62,7 +62,7 @@ export class OverlayLayer extends Layer {
       this.extent = [];
       return null;
     }
-    const cameraKey = `${camera.width}x${camera.height} ${camera.text} ${camera.bend?.key ?? ''}`;
+    const cameraKey = `${camera.width}x${camera.height} ${camera.text} ${camera.distortion?.key ?? ''}`;
     if (candidate === this.#candidate && cameraKey === this.#camera && model === this.#model) return null;
     this.#candidate = candidate;
     this.#camera = cameraKey;

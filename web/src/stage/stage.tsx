@@ -13,7 +13,7 @@ import { useApp, type App } from '../commands/app';
 import { EmptyState } from '../steps/open/empty_state';
 import { pointByKey, pressByKey } from './key_pointer';
 import { ScaleBar } from './scale_bar';
-import { act, cancelGesture, sceneOf } from './stage_input';
+import { act, cancelGesture, situationOf } from './stage_input';
 import { takeModel } from './take_model';
 import { StageView } from './stage_view';
 
@@ -96,10 +96,10 @@ function attachPointer(
   const pointOf = (event: MouseEvent): CanvasPoint => canvasPoint(event.offsetX, event.offsetY);
 
   const send = (type: Input['type'], event: MouseEvent) => {
-    const scene = sceneOf(store, view);
-    if (!scene) return;
+    const situation = situationOf(store, view);
+    if (!situation) return;
     const input: Input = { type, at: pointOf(event), button: BUTTONS[event.button] ?? 'primary', alt: event.altKey, shift: event.shiftKey, touch: event instanceof PointerEvent && event.pointerType === 'touch', ctrl: event.ctrlKey };
-    act(app, controller, input, scene);
+    act(app, controller, input, situation);
   };
   const hover = (event: MouseEvent) => view.setPointer(pointOf(event));
 

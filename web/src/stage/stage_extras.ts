@@ -9,7 +9,7 @@ import type { Studio } from '../films/studio';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, type Size, type Viewport } from '../geometry/viewport';
 import { centreOf, handleAt, knobs, type Motion, RING } from '../interaction/adjust';
-import type { HandScene } from '../interaction/hand_scene';
+import type { HandSituation } from '../interaction/hand_situation';
 import { COMPONENT_COLOURS, REFERENCE_COLOUR } from '../controls/colours';
 import { OverlayLayer } from './layers';
 
@@ -104,10 +104,10 @@ export function strokeBorder(context: Context, view: Viewport, border: Path2D, c
 const KNOB = 7;
 
 /** What of the handles lies under the pointer, and the handles themselves. */
-export function drawHandles(context: Context, scene: HandScene, view: Viewport, component: ComponentName, pointer: CanvasPoint | null): Motion | null {
-  const centre = centreOf(scene, view);
+export function drawHandles(context: Context, situation: HandSituation, view: Viewport, component: ComponentName, pointer: CanvasPoint | null): Motion | null {
+  const centre = centreOf(situation, view);
   if (!centre) return null;
-  const hovered = pointer && handleAt(scene, view, pointer);
+  const hovered = pointer && handleAt(situation, view, pointer);
   const { css, light } = COMPONENT_COLOURS[component];
   context.save();
   const ring = new Path2D();

@@ -1,26 +1,26 @@
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import { canvasPoint } from '../geometry/points';
 import type { Controller } from '../interaction/controller';
-import type { Effect, Input, Scene } from '../interaction/machine';
+import type { Effect, Input, Situation } from '../interaction/machine';
 import type { App } from '../commands/app';
 import type { StageView } from './stage_view';
 
-/** Between the machines and the page: scenes go in, effects come out. */
+/** Between the machines and the page: situations go in, effects come out. */
 
-export function act(app: App, controller: Controller, input: Input, scene: Scene): void {
+export function act(app: App, controller: Controller, input: Input, situation: Situation): void {
   const { store } = app.services;
   // While a ruler is marked the pointer marks, whatever the tool.
   const { popover, measuring } = store.ui;
   const tool = popover === 'calibrate' && measuring?.kind === 'ruler' ? 'ruler' : store.ui.tool;
-  for (const effect of controller.handle(tool, input, scene, store.ui.overlaysHidden)) apply(app, effect);
+  for (const effect of controller.handle(tool, input, situation, store.ui.overlaysHidden)) apply(app, effect);
 }
 
 export function cancelGesture(app: App, view: StageView, controller: Controller): void {
-  const scene = sceneOf(app.services.store, view);
-  if (scene) act(app, controller, { type: 'cancel', at: canvasPoint(0, 0), button: 'primary', alt: false }, scene);
+  const situation = situationOf(app.services.store, view);
+  if (situation) act(app, controller, { type: 'cancel', at: canvasPoint(0, 0), button: 'primary', alt: false }, situation);
 }
 
-export function sceneOf(store: Store, view: StageView): Scene | null {
+export function situationOf(store: Store, view: StageView): Situation | null {
   const { state } = store;
   const frame = currentFrame(state);
   const place = currentPlace(state);

@@ -9,13 +9,13 @@ import type { Box, Studio } from '../films/studio';
 import type { CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from '../geometry/viewport';
 import { handleAt } from '../interaction/adjust';
-import type { HandScene } from '../interaction/hand_scene';
+import type { HandSituation } from '../interaction/hand_situation';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
 import { drawBrush, drawHold, drawPreview, drawTransformBox } from './tracing_drawing';
 import { drawMeasuring } from './calibrate_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { COMPONENT_COLOURS } from '../controls/colours';
-import { handSceneOf } from '../commands/model_in_hand';
+import { handSituationOf } from '../commands/model_in_hand';
 import { boxRound, Ink } from './ink';
 import { FrameLayer, OverlayLayer } from './layers';
 import { pointerStore } from '../commands/pointer';
@@ -101,8 +101,8 @@ export class StageView {
   }
 
   /** What a hand on the model works with; null with any other tool. */
-  hand(state: State): HandScene | null {
-    return state.ui.tool === 'pose' ? handSceneOf(state, this.#studio) : null;
+  hand(state: State): HandSituation | null {
+    return state.ui.tool === 'pose' ? handSituationOf(state, this.#studio) : null;
   }
 
   draw(): void {
@@ -134,7 +134,7 @@ export class StageView {
     return (hit.find(({ component }) => component === state.ui.component) ?? hit[0])?.component ?? null;
   }
 
-  /** The part of the stage that is drawn on: round the outlines, models and previews; all of it where a tool or a look draws elsewhere too. */
+  /** The part of the stage that is drawn on: around the outlines, models and previews; all of it where a tool or a look draws elsewhere too. */
   #inkBox(state: State, view: Viewport, preview: Preview): Box {
     const { ui, history } = state;
     const { seeing, tool } = ui;

@@ -56,7 +56,7 @@ function drawBox(context: Context, from: CanvasPoint, to: CanvasPoint, colour: s
   context.restore();
 }
 
-/** The box round an outline with its handles; the one under the pointer stands out. */
+/** The box around an outline with its handles; the one under the pointer stands out. */
 export function drawTransformBox(
   context: Context,
   view: Viewport,

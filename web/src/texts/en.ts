@@ -159,7 +159,7 @@ export const en = {
     refused: (why: string) => `Not to be followed: ${why}`,
     noStep: 'Not a step was needed.',
     summary: (poses: number, renders: number) =>
-      `${poses} poses, the model drawn ${renders} times. Each stage looks less far round the outline and trusts what is far off less.`,
+      `${poses} poses, the model drawn ${renders} times. Each stage looks less far around the outline and trusts what is far off less.`,
     region: 'Steps of refinement',
     table: 'Poses on the way',
     columns: ['Stage', 'Drawn', 'Residual px', 'x mm', 'y mm', 'z mm', 'z rot °', 'x rot °', 'y rot °'],
@@ -171,7 +171,7 @@ export const en = {
   hints: {
     hand: 'Drag to move the frame, wheel to zoom at the cursor, 0 to see all of it.',
     window: 'Drag sideways for contrast, up and down for brightness; R goes back to what the frame suggests.',
-    noOutline: (component: string) => `No outline of the ${component} here: press P and click round it.`,
+    noOutline: (component: string) => `No outline of the ${component} here: press P and click around it.`,
     onPoint: (point: number) => `Point ${point}: drag to move it; Alt-click or Delete removes it.`,
     onSide: 'Click to insert a point here; U marks this side unknown, or known again.',
     open: 'The outline is open: press P to go on tracing, Enter to close it.',

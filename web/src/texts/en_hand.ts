@@ -53,7 +53,7 @@ export const hand = {
     absent: (component: string) => `No pose of the ${component} here: click where it is, or press Enter, to place the model.`,
     over: {
       move: 'Drag to move; Shift tilts, Ctrl turns, both go nearer; arrows move, Enter refines from here.',
-      turn: 'Drag round the ring to turn in the image plane (Ctrl + left and right).',
+      turn: 'Drag around the ring to turn in the image plane (Ctrl + left and right).',
       tilt: 'Drag to tilt: sideways about the upright, up and down about the level axis (Shift + arrows).',
       depth: 'Drag down to bring the model nearer, up to push it away (Ctrl + up and down).',
     },
@@ -72,7 +72,7 @@ export const hand = {
     noneHere: 'no pose here',
     nothingHere: (name: string) => `${name} has no pose here.`,
     difference: (name: string, text: string, unit: string) => `${name} differs by ${text} ${unit} from the reference`,
-    rotation: (text: string) => `turned by ${text}°`,
+    rotation: (text: string) => `rotated by ${text}°`,
     said: (name: string) => `Compared with ${name}: its outline is dotted, differences stand beside the numbers.`,
     kept: (count: number) => `${count === 1 ? '1 pose' : `${count} poses`} kept to compare with.`,
   },

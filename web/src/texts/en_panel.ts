@@ -54,7 +54,7 @@ export const panel = {
     candidate: (name: string) => `${name} candidate`,
     rivalTitle: 'Another pose that explains the outline nearly as well (X switches)',
     bestTitle: 'The pose that was chosen; the reason stands below (X switches)',
-    turned: (x: string, y: string) => `x ${x}, y ${y}`,
+    rotations: (x: string, y: string) => `x ${x}, y ${y}`,
     none: 'none',
     pixels: (count: string) => `${count} px`,
     drawn: (count: string) => `${count} px drawn`,

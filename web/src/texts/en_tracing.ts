@@ -10,7 +10,7 @@ export const tracing = {
       first: (component: string) => `Click inside the ${component} to take its region; hold and drag up or down for its level.`,
       taken: 'Move the level until the outline fits ([ and ], arrows, Shift + wheel); Enter is done, Ctrl+Z takes it back.',
     },
-    oneClick: (component: string) => `Click inside the ${component}, or drag a rough box round it: outline and pose come by themselves.`,
+    oneClick: (component: string) => `Click inside the ${component}, or drag a rough box around it: outline and pose come by themselves.`,
     brush: {
       add: 'Paint to add to the outline; Alt erases, [ and ] change the size.',
       erase: 'Paint to take away from the outline; Alt adds, [ and ] change the size.',

@@ -54,7 +54,7 @@ export class OneClick {
       this.#worker.call('oneClick', input, {
         signal: running.signal,
         transfer: [input.frame.pixels.buffer],
-        onProgress: ({ share }) => report(Math.round(100 * share), 100),
+        onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
       }),
     );
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
@@ -68,7 +68,7 @@ export class OneClick {
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);
     const pixels = studio.framePixels(frame.id);
     if (!pixels) throw new Error(texts.tracing.said.noPixels(frame.name));
-    if (camera.bend) throw new Error(texts.calibrate.distortedFrame);
+    if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
     const other = cellOf(store.doc, frame.id, component === 'femur' ? 'tibia' : 'femur').outline;
     return {
       component,

@@ -106,7 +106,7 @@ export function regionOf(image: FrameImage, dark: boolean): Region {
   };
 }
 
-/** What the live-wire needs of the core; tests lend one of their own. */
+/** What the live-wire needs of the core; tests supply their own. */
 export type WirePixels = Pick<LiveWire, 'prepare' | 'snapPoint' | 'seed' | 'expand' | 'follow' | 'common' | 'darkSide' | 'free'>;
 export type CoolingPixels = Pick<Cooling, 'restart' | 'observe'>;
 

@@ -6,7 +6,7 @@ import { flat, pointsFrom, type CoolingPixels, type WirePixels } from './pixels'
 import { NO_PREVIEW, type Preview } from './preview';
 import { texts } from '../texts/texts';
 
-/** What the live-wire asks of the page; tests lend one of their own. */
+/** What the live-wire asks of the page; tests supply their own. */
 export interface WireHost {
   readonly place: Place | null;
   readonly outline: Outline | null;

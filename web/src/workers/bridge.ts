@@ -1,7 +1,7 @@
 import type { FromWorker, Protocol, ToWorker } from './protocol/messages';
 import { texts } from '../texts/texts';
 
-/** The half of `Worker` that the bridge needs; tests lend one of their own. */
+/** The half of `Worker` that the bridge needs; tests supply their own. */
 export interface WorkerPort {
   postMessage(message: ToWorker, transfer: Transferable[]): void;
   onmessage: ((event: MessageEvent<FromWorker>) => void) | null;
@@ -23,7 +23,7 @@ interface Waiting {
   readonly reject: (error: Error) => void;
 }
 
-/** A call was aborted: by its own signal, so nobody needs to be told. */
+/** A call was aborted: by its own signal, so nobody needs to hear of it. */
 export class Aborted extends Error {
   constructor() {
     super('aborted');
@@ -41,7 +41,7 @@ export class Bridge<P extends Protocol<P>> {
   #running: { id: number; call: Waiting } | null = null;
   #lastId = 0;
 
-  /** Told when the worker has stopped by itself and what it held is gone. */
+  /** Called when the worker has stopped by itself and what it held is gone. */
   onCrash: () => void = () => undefined;
 
   /** The worker starts with the first call. */

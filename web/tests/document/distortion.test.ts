@@ -77,18 +77,18 @@ describe('a correction of distortion', () => {
     expect(columns(elsewhere)).toEqual([10, 50, 30]);
   });
 
-  it('makes poses outdated, and goes to the worker with outlines that are to be straightened', () => {
+  it('makes poses outdated, and goes to the worker with outlines that are to be undistorted', () => {
     const doc = { ...docOf(), components: { ...EMPTY_DOC.components, femur: { ...EMPTY_DOC.components.femur, model: { name: 'm', sha256: 'm' } } } };
     const frame = doc.frames[0]!;
     const corrected = { ...doc, distortion: shift(5) };
     const outlines = { ...doc, distortion: shift(5, 'outlines') };
     const keys = [doc, corrected, outlines].map((each) => poseKey(each, 'femur', frame));
     expect(new Set(keys).size).toBe(3);
-    expect(cameraOf(corrected, frame)?.bend).toBeUndefined();
-    expect(cameraOf(outlines, frame)?.bend?.numbers).toEqual(numbersOf(shift(5)));
-    expect(cameraOf(outlines, frame)?.bend).toBe(cameraOf(outlines, frame)?.bend);
+    expect(cameraOf(corrected, frame)?.distortion).toBeUndefined();
+    expect(cameraOf(outlines, frame)?.distortion?.numbers).toEqual(numbersOf(shift(5)));
+    expect(cameraOf(outlines, frame)?.distortion).toBe(cameraOf(outlines, frame)?.distortion);
     expect(fits(outlines.distortion, { width: 401, height: 300 })).toBe(false);
-    expect(cameraOf(outlines, { ...frame, width: 401 })?.bend).toBeUndefined();
+    expect(cameraOf(outlines, { ...frame, width: 401 })?.distortion).toBeUndefined();
   });
 
   it('is kept in a session; one from before it has none', () => {

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { withMark, withMovedMark } from '../../src/document/measuring';
 import { isMeant } from '../../src/exchange/reading';
 import { canvasPoint, framePoint } from '../../src/geometry/points';
-import type { Effect, Input, Scene } from '../../src/interaction/machine';
+import type { Effect, Input, Situation } from '../../src/interaction/machine';
 import { ruler, type RulerState } from '../../src/interaction/ruler';
 
 describe('marks of a ruler', () => {
@@ -22,14 +22,14 @@ describe('marks of a ruler', () => {
 });
 
 describe('the pointer on a ruler', () => {
-  const scene = { viewport: { scale: 2, left: 0, top: 0 }, frame: { width: 100, height: 50 } } as Scene;
+  const situation = { viewport: { scale: 2, left: 0, top: 0 }, frame: { width: 100, height: 50 } } as Situation;
   const input = (type: Input['type'], x: number, y: number, button: Input['button'] = 'primary'): Input => ({ type, at: canvasPoint(x, y), button, alt: false });
 
   function run(inputs: readonly Input[]): { effects: Effect[]; state: RulerState } {
     let state = ruler.start;
     const effects: Effect[] = [];
     for (const each of inputs) {
-      const next = ruler.next(state, each, scene);
+      const next = ruler.next(state, each, situation);
       state = next.state;
       effects.push(...next.effects);
     }

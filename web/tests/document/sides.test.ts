@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { deletePoint, insertPoint, toggleUnknownSide, withCell } from '../../src/document/commands';
 import * as history from '../../src/document/history';
-import { unknownShare } from '../../src/document/sides';
+import { unknownFraction } from '../../src/document/sides';
 import { cellOf, EMPTY_CELL, EMPTY_DOC, type Outline } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { sideMeant } from '../../src/interaction/hit';
@@ -66,10 +66,10 @@ describe('sides that are marked unknown', () => {
     expect(ends(after(marked(0, 2, 5), deletePoint(place, index))).sort()).toEqual([...wanted].sort());
   });
 
-  it('have a share of the outline by length', () => {
+  it('have a fraction of the outline by length', () => {
     const points = [framePoint(0, 0), framePoint(30, 0), framePoint(30, 20), framePoint(0, 20)];
-    expect(unknownShare({ points, closed: true, unknownSides: [0, 1] })).toBe(0.5);
-    expect(unknownShare({ points, closed: true, unknownSides: [] })).toBe(0);
+    expect(unknownFraction({ points, closed: true, unknownSides: [0, 1] })).toBe(0.5);
+    expect(unknownFraction({ points, closed: true, unknownSides: [] })).toBe(0);
   });
 });
 

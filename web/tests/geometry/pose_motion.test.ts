@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { NO_LOCKS, type PoseNumbers } from '../../src/geometry/pose_numbers';
-import { applied, inCamera, movedInDepth, nudged, projected, rotationOf, shifted, turnBetween, turned, type Vector } from '../../src/geometry/pose_motion';
+import { applied, inCamera, movedInDepth, nudged, projected, rotationOf, shifted, turnBetween, rotated, type Vector } from '../../src/geometry/pose_motion';
 
 const POSE: PoseNumbers = { x: 5, y: -12, z: -1000, zRot: 35, xRot: 8, yRot: -14 };
 /** A CAD origin that lies beside the part. */
@@ -78,7 +78,7 @@ describe('the mouse', () => {
   it('tilts about lines across the view whatever the turn in the plane', () => {
     for (const zRot of [0, 35, 90, -160]) {
       const before = { ...POSE, zRot };
-      const after = turned(before, [0.5, 0, 0], MIDDLE, NO_LOCKS);
+      const after = rotated(before, [0.5, 0, 0], MIDDLE, NO_LOCKS);
       expect(turnBetween(before, after)).toBeCloseTo(0.5, 2);
       // A point of the camera's x axis through the middle stays.
       const [r, s] = [rotationOf(before), rotationOf(after)];
@@ -89,9 +89,9 @@ describe('the mouse', () => {
   });
 
   it('comes as near as it can where a rotation is locked', () => {
-    const after = turned(POSE, [1, 1, 0], MIDDLE, { ...NO_LOCKS, yRot: true });
+    const after = rotated(POSE, [1, 1, 0], MIDDLE, { ...NO_LOCKS, yRot: true });
     expect(after.yRot).toBe(POSE.yRot);
     expect(turnBetween(POSE, after)).toBeGreaterThan(0.3);
-    expect(turned(POSE, [1, 1, 1], MIDDLE, { ...NO_LOCKS, zRot: true, xRot: true, yRot: true })).toEqual(POSE);
+    expect(rotated(POSE, [1, 1, 1], MIDDLE, { ...NO_LOCKS, zRot: true, xRot: true, yRot: true })).toEqual(POSE);
   });
 });

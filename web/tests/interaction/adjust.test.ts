@@ -6,10 +6,10 @@ import { type Locks, NO_LOCKS, type PoseNumbers } from '../../src/geometry/pose_
 import { canvasPoint, type CanvasPoint } from '../../src/geometry/points';
 import { inCamera, projected } from '../../src/geometry/pose_motion';
 import { adjust, type AdjustState, centreOf, handleAt, knobs, RING } from '../../src/interaction/adjust';
-import type { HandScene } from '../../src/interaction/hand_scene';
+import type { HandSituation } from '../../src/interaction/hand_situation';
 import { BINDINGS } from '../../src/commands/bindings';
 import { HAND_BINDINGS, handActionFor } from '../../src/commands/hand_bindings';
-import type { Input, Scene } from '../../src/interaction/machine';
+import type { Input, Situation } from '../../src/interaction/machine';
 import { SEEING_BINDINGS, seeingActionFor, seeingKey } from '../../src/commands/seeing_bindings';
 import { barLength } from '../../src/stage/scale_length';
 
@@ -26,7 +26,7 @@ function bench(change: { locks?: Partial<Locks>; fine?: boolean; absent?: boolea
     const { result } = cellOf(store.doc, 'f', 'femur');
     return result?.kind === 'posed' ? (result.candidates[0]?.pose ?? null) : null;
   };
-  const hand = (): HandScene => ({
+  const hand = (): HandSituation => ({
     pose: posed() ?? POSE,
     absent: (change.absent ?? false) && posed() === null,
     middle: [10, 5, -3],
@@ -35,8 +35,8 @@ function bench(change: { locks?: Partial<Locks>; fine?: boolean; absent?: boolea
     fine: change.fine ?? false,
   });
   const send = (type: Input['type'], at: CanvasPoint, held: Partial<Input> = {}) => {
-    const scene = { viewport: VIEW, frame: { width: 1024, height: 1024 }, place: PLACE, outline: null, window: { centre: 0, width: 1 }, erase: false, hand: hand() } as Scene;
-    const { state: next, effects } = adjust.next(state, { type, at, button: 'primary', alt: false, ...held }, scene);
+    const situation = { viewport: VIEW, frame: { width: 1024, height: 1024 }, place: PLACE, outline: null, window: { centre: 0, width: 1 }, erase: false, hand: hand() } as Situation;
+    const { state: next, effects } = adjust.next(state, { type, at, button: 'primary', alt: false, ...held }, situation);
     state = next;
     for (const effect of effects) {
       if (effect.type === 'preview') store.preview(effect.command);
@@ -47,8 +47,8 @@ function bench(change: { locks?: Partial<Locks>; fine?: boolean; absent?: boolea
   const drag = (from: CanvasPoint, to: CanvasPoint, held: Partial<Input> = {}) => {
     send('down', from, held);
     for (let step = 1; step <= 8; step++) {
-      const share = step / 8;
-      send('move', canvasPoint(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)), held);
+      const fraction = step / 8;
+      send('move', canvasPoint(from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y)), held);
     }
     send('up', to, held);
   };

@@ -4,7 +4,7 @@ import { cellOf, EMPTY_DOC, type Outline } from '../../src/document/types';
 import { canvasPoint, framePoint } from '../../src/geometry/points';
 import { Controller } from '../../src/interaction/controller';
 import { hitDraft, hitTest } from '../../src/interaction/hit';
-import type { Button, Effect, Input, Scene } from '../../src/interaction/machine';
+import type { Button, Effect, Input, Situation } from '../../src/interaction/machine';
 import { draggedWindow, wheelZoom } from '../../src/interaction/navigate';
 import type { ToolName } from '../../src/terms/tool';
 
@@ -26,7 +26,7 @@ class Bench {
   }
 
   send(type: Input['type'], x: number, y: number, button: Button = 'primary', alt = false): void {
-    const scene: Scene = {
+    const situation: Situation = {
       viewport: this.viewport,
       frame: { width: 500, height: 500 },
       place: { frameId: 'f', component: 'femur' },
@@ -35,7 +35,7 @@ class Bench {
       erase: false,
     };
     const input = { type, at: canvasPoint(x, y), button, alt };
-    for (const effect of this.controller.handle(this.tool, input, scene, this.space)) this.#apply(effect);
+    for (const effect of this.controller.handle(this.tool, input, situation, this.space)) this.#apply(effect);
   }
 
   click(x: number, y: number, alt = false): void {

@@ -45,7 +45,7 @@ function bench() {
 const settled = () => new Promise((resolve) => setTimeout(resolve, 5));
 
 describe('chooser', () => {
-  it('leaves rivals alone while nothing is known round them', async () => {
+  it('leaves rivals alone while nothing is known around them', async () => {
     const { asked, put } = bench();
     put(at('b', 'tibia'), posed(false, 1, 2));
     put(at('b', 'femur'), posed(false, 3, 4));

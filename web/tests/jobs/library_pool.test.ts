@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { LibraryCrew } from '../../src/jobs/library_pool';
+import { LibraryPool } from '../../src/jobs/library_pool';
 import type { LibraryPlan, LibraryProtocol } from '../../src/workers/protocol/library';
 import { Aborted, type Bridge } from '../../src/workers/bridge';
 
@@ -14,12 +14,12 @@ interface Call {
   readonly fail: (error: Error) => void;
 }
 
-/** A crew whose workers answer when the test says so. */
+/** A pool whose workers answer when the test says so. */
 function bench(size: number) {
   const calls: Call[] = [];
   const dismissed: number[] = [];
   let hired = 0;
-  const crew = new LibraryCrew(size, () => {
+  const pool = new LibraryPool(size, () => {
     const worker = hired++;
     const call = (method: string, input: Call['input'], { signal }: { signal: AbortSignal }) =>
       new Promise((answer, fail) => {
@@ -28,7 +28,7 @@ function bench(size: number) {
       });
     return { call, dispose: () => dismissed.push(worker) } as unknown as Bridge<LibraryProtocol>;
   });
-  return { crew, calls, dismissed, hired: () => hired };
+  return { pool, calls, dismissed, hired: () => hired };
 }
 
 /** Lets promises go on. */
@@ -47,11 +47,11 @@ function packed({ first, count }: Call['input']): Uint8Array {
 
 const quiet = () => ({ signal: new AbortController().signal, onProgress: () => undefined });
 
-describe('library crew', () => {
+describe('library pool', () => {
   it('puts the views together in their order, whoever packs them and whenever', async () => {
-    const { crew, calls, dismissed } = bench(3);
+    const { pool, calls, dismissed } = bench(3);
     const told: [number, number][] = [];
-    const library = crew.build(PLAN, { ...quiet(), onProgress: (done, total) => told.push([done, total]) });
+    const library = pool.build(PLAN, { ...quiet(), onProgress: (done, total) => told.push([done, total]) });
     await planned(calls);
     while (calls[0]?.method !== 'assemble') {
       const last = calls.pop();
@@ -68,9 +68,9 @@ describe('library crew', () => {
   });
 
   it('builds the next with the same workers, once the first is there', async () => {
-    const { crew, calls, dismissed, hired } = bench(1);
-    const first = crew.build(PLAN, quiet());
-    const second = crew.build(PLAN, quiet());
+    const { pool, calls, dismissed, hired } = bench(1);
+    const first = pool.build(PLAN, quiet());
+    const second = pool.build(PLAN, quiet());
     for (const library of [first, second]) {
       await planned(calls);
       expect(dismissed).toEqual([]);
@@ -86,10 +86,10 @@ describe('library crew', () => {
   });
 
   it('stops at once when it is called off, and so does one that waits', async () => {
-    const { crew, calls } = bench(2);
+    const { pool, calls } = bench(2);
     const [running, waiting] = [new AbortController(), new AbortController()];
-    const first = crew.build(PLAN, { ...quiet(), signal: running.signal });
-    const second = crew.build(PLAN, { ...quiet(), signal: waiting.signal });
+    const first = pool.build(PLAN, { ...quiet(), signal: running.signal });
+    const second = pool.build(PLAN, { ...quiet(), signal: waiting.signal });
     await planned(calls);
     waiting.abort();
     await expect(second).rejects.toThrow(Aborted);
@@ -101,8 +101,8 @@ describe('library crew', () => {
   });
 
   it('asks for no more views once a worker has failed', async () => {
-    const { crew, calls } = bench(2);
-    const library = crew.build(PLAN, quiet());
+    const { pool, calls } = bench(2);
+    const library = pool.build(PLAN, quiet());
     await planned(calls);
     const [one, other] = calls.splice(0) as [Call, Call];
     one.fail(new Error('a trap'));

@@ -11,9 +11,9 @@ import { sidesFrom } from '../../src/tracing/pixels';
 import type { Match, MatchedCandidate } from '../../src/workers/protocol/match';
 import { canvasPoint, framePoint } from '../../src/geometry/points';
 import { clockwise } from '../../src/geometry/rings';
-import { boundsOf, middleOf, moved, scaled, transformed, turned } from '../../src/geometry/similarity';
+import { boundsOf, middleOf, moved, scaled, transformed, rotated } from '../../src/geometry/similarity';
 import { Controller } from '../../src/interaction/controller';
-import type { Effect, Input, Scene } from '../../src/interaction/machine';
+import type { Effect, Input, Situation } from '../../src/interaction/machine';
 import { Touches } from '../../src/interaction/touch';
 import type { ToolName } from '../../src/terms/tool';
 
@@ -50,7 +50,7 @@ class Bench {
   }
 
   send(type: Input['type'], [x, y]: readonly [number, number], alt = false): void {
-    const scene: Scene = {
+    const situation: Situation = {
       viewport: { scale: 1, left: 0, top: 0 },
       frame: { width: 500, height: 500 },
       place: PLACE,
@@ -59,7 +59,7 @@ class Bench {
       erase: false,
     };
     const input = { type, at: canvasPoint(x, y), button: 'primary', alt } as const;
-    for (const effect of this.controller.handle(this.tool, input, scene, false)) this.#apply(effect);
+    for (const effect of this.controller.handle(this.tool, input, situation, false)) this.#apply(effect);
   }
 
   drag(way: readonly (readonly [number, number])[], alt = false): void {
@@ -84,7 +84,7 @@ class Bench {
 
 describe('similarities', () => {
   it('turn clockwise on the screen, scale and move', () => {
-    const [point] = transformed(turned(framePoint(10, 10), Math.PI / 2), [framePoint(20, 10)]);
+    const [point] = transformed(rotated(framePoint(10, 10), Math.PI / 2), [framePoint(20, 10)]);
     expect(point!.column).toBeCloseTo(10, 9);
     expect(point!.row).toBeCloseTo(20, 9);
     expect(transformed(scaled(framePoint(10, 10), 2), [framePoint(20, 15)])).toEqual([{ column: 30, row: 20 }]);

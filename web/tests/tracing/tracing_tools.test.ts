@@ -274,7 +274,7 @@ describe('the live-wire', () => {
   });
 });
 
-/** A square of the size of its level round the place; nothing below 10. */
+/** A square of the size of its level around the place; nothing below 10. */
 function region(): Region {
   return {
     least: 0,

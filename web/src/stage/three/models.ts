@@ -75,7 +75,7 @@ function geometryOf(mesh: ModelMesh): BufferGeometry {
   return geometry;
 }
 
-/** How large a model is: the radius of a ball round it, mm. */
+/** How large a model is: the radius of a ball around it, mm. */
 export function radiusOf(mesh: ModelMesh): number {
   return geometryOf(mesh).boundingSphere?.radius ?? 1;
 }

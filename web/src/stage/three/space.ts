@@ -61,7 +61,7 @@ export class SpaceView {
     this.#schedule();
   }
 
-  /** Goes round what is looked at, degrees to the right and upwards. */
+  /** Goes around what is looked at, degrees to the right and upwards. */
   turn(right: number, up: number): void {
     const axisUp = this.#camera.up.clone().normalize();
     const offset = this.#camera.position.clone().sub(this.#controls.target);

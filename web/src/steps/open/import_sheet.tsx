@@ -1,11 +1,11 @@
 import { importProposal } from '../../document/importing';
-import { assignments, type Assignment, type Match, type Proposal } from '../../document/proposal';
+import { assignments, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
 import type { State, Store } from '../../document/store';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../../terms/component';
 import { texts } from '../../texts/texts';
 import { useApp } from '../../commands/app';
 
-const MATCHES: readonly Match[] = ['name', 'order'];
+const MATCHES: readonly FrameMatching[] = ['name', 'order'];
 
 /** Changes a part of the proposal as it is at that moment. */
 type Change = (of: (now: Proposal) => Partial<Proposal>) => void;

@@ -37,7 +37,7 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
   try {
     if (input.avoid) work.avoid(input.avoid);
     while (matcher ? work.step(matcher) : work.stepAlone()) {
-      context.report({ share: work.progress, doing: work.doing });
+      context.report({ fraction: work.progress, doing: work.doing });
       await context.breathe();
     }
     const answer = matcher

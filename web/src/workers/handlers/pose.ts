@@ -1,9 +1,9 @@
-import { choosePose, Matcher, Straightener, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { choosePose, Matcher, Straightener as Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
-import type { Bend } from '../protocol/camera';
+import type { DistortionInput } from '../protocol/camera';
 import { byHand } from './by_hand';
 import { oneClick } from './one_click';
 import { loadCore } from './core_module';
@@ -50,21 +50,21 @@ async function matcherOf(component: ComponentName): Promise<Matcher> {
   return matcher;
 }
 
-let straightener: { readonly key: string; readonly tool: Straightener } | null = null;
+let undistorter: { readonly key: string; readonly tool: Undistorter } | null = null;
 
-/** Outlines of frames that are shown as they were taken: their points are straightened before they are looked at. */
-function straightened({ key, numbers }: Bend, outline: Float64Array): Float64Array {
-  if (straightener?.key !== key) {
-    straightener?.tool.free();
-    straightener = { key, tool: new Straightener(numbers) };
+/** Outlines of frames that are shown as they were taken: their points are undistorted before they are looked at. */
+function undistorted({ key, numbers }: DistortionInput, outline: Float64Array): Float64Array {
+  if (undistorter?.key !== key) {
+    undistorter?.tool.free();
+    undistorter = { key, tool: new Undistorter(numbers) };
   }
-  return straightener.tool.straight(outline);
+  return undistorter.tool.straight(outline);
 }
 
 async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
   const { component, outline, unknownSides, camera } = input;
   const matcher = await matcherOf(component);
-  const points = camera.bend ? straightened(camera.bend, outline) : outline;
+  const points = camera.distortion ? undistorted(camera.distortion, outline) : outline;
   const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
   try {
     return work(matcher, traced);

@@ -3,12 +3,12 @@ export interface CameraInput {
   readonly text: string;
   readonly width: number;
   readonly height: number;
-  /** Outlines and overlays of frames that are shown as they were taken; absent where frames are straight. */
-  readonly bend?: Bend;
+  /** Outlines and overlays of frames that are shown as they were taken; absent where frames are undistorted. */
+  readonly distortion?: DistortionInput;
 }
 
 /** A correction of distortion as the core takes it, and a text that tells it from others. */
-export interface Bend {
+export interface DistortionInput {
   readonly key: string;
   readonly numbers: Float64Array<ArrayBuffer>;
 }

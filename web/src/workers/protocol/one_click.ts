@@ -33,6 +33,6 @@ export interface OneClickProtocol {
     input: OneClickInput;
     output: OneClickFacts;
     /** 0 to 1, and what is being done. */
-    progress: { readonly share: number; readonly doing: string };
+    progress: { readonly fraction: number; readonly doing: string };
   };
 }

@@ -29,7 +29,7 @@ export interface PoseProtocol extends HandProtocol, OneClickProtocol {
   match: { input: MatchInput & { readonly before: readonly Refined[] }; output: Match; progress: never };
   /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
   refine: { input: MatchInput & { readonly around: Surroundings }; output: Match; progress: never };
-  /** Chooses anew among refined poses when more is known round them; null where there are none. */
+  /** Chooses anew among refined poses when more is known around them; null where there are none. */
   choose: {
     input: {
       component: ComponentName;

@@ -2,7 +2,7 @@ import { type Distortion, fits } from '../document/distortion';
 import { setDistortion } from '../document/set_distortion';
 import { texts } from '../texts/texts';
 import type { Services } from './services';
-import { bending, checkDistortion, straightening } from '../films/undistorted';
+import { distorting, checkDistortion, undistorting } from '../films/undistorted';
 
 const said = texts.calibrate;
 
@@ -10,13 +10,13 @@ const said = texts.calibrate;
 export function takeDistortion({ store }: Services, distortion: Distortion | null): void {
   if (distortion) checkDistortion(distortion);
   const before = store.doc.distortion;
-  const fromShown = before?.appliesTo === 'frames' ? bending(before) : null;
-  const toShown = distortion?.appliesTo === 'frames' ? straightening(distortion) : null;
+  const fromShown = before?.appliesTo === 'frames' ? distorting(before) : null;
+  const toShown = distortion?.appliesTo === 'frames' ? undistorting(distortion) : null;
   store.perform(setDistortion(distortion, fromShown, toShown));
-  store.say('info', distortion ? told(distortion, store.doc.frames) : said.removed);
+  store.say('info', distortion ? sentenceOn(distortion, store.doc.frames) : said.removed);
 }
 
-function told(distortion: Distortion, frames: readonly { readonly width: number; readonly height: number }[]): string {
+function sentenceOn(distortion: Distortion, frames: readonly { readonly width: number; readonly height: number }[]): string {
   const others = frames.filter((frame) => !fits(distortion, frame)).length;
   const rest = others === 0 ? '' : ` ${said.otherSizes(others, distortion.width, distortion.height)}`;
   return said.applied[distortion.appliesTo] + rest;

@@ -2,7 +2,7 @@ import type { Locks, PoseNumbers } from '../geometry/pose_numbers';
 import type { Pinhole, Vector } from '../geometry/pose_motion';
 
 /** What a hand on the model needs to know. */
-export interface HandScene {
+export interface HandSituation {
   /** Where the model is, or where it would be placed. */
   readonly pose: PoseNumbers;
   /** The model is not there yet: the first press places it. */
