@@ -1,6 +1,6 @@
 /** A model in hand: keys as in JointTrack, the mouse, typed numbers, locks, refining from there, another set of poses. */
 import assert from 'node:assert/strict';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
@@ -196,8 +196,8 @@ async function outlineStays(page, stage) {
   await stage.learn();
   await stage.trace(await trueOutline('femur', 1));
   await page.getByRole('button', { name: 'Frame 1, femur: posed' }).or(page.getByRole('button', { name: /^Frame 1, femur: / })).first().waitFor();
-  // Long enough for a match and a refinement that would come.
-  await page.waitForTimeout(3000);
+  // A match or a refinement would have come.
+  await atRest(page);
   const shown = await panel.shownPose(page);
   for (const [field] of FIELDS) assert.equal(shown?.[field], own[field], `${field} stays`);
   await page.getByRole('radio', { name: 'By hand candidate', checked: true }).waitFor();

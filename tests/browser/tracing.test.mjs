@@ -1,15 +1,13 @@
 /** The whole way: demonstration, outline by mouse, pose; a point dragged; undo and redo. */
 import assert from 'node:assert/strict';
 import { decode } from 'fast-png';
-import { pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, trueOutline, truePose } from './support/study.mjs';
 
 /** How far a point is dragged off the border, px of the frame. */
 const OFF = 6;
-/** A changed number flashes for less, ms. */
-const FLASH = 700;
 
 pageTest('from the demonstration to a pose', async (page, t) => {
   const stage = new Stage(page);
@@ -36,7 +34,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}; ${await panel.unmatched(page)} px unmatched`);
     panel.assertNear(pose, truth, HAND_TRACED);
     assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
-    await atRest(page);
+    await handsOff(page);
     await screenshot(page, 'traced');
   });
 
@@ -44,7 +42,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
 
   await step(page, t, 'the frame fits again and the silhouette lies on the implant', async () => {
     await page.getByRole('button', { name: 'Fit the frame to the window' }).click();
-    await atRest(page);
+    await handsOff(page);
     await screenshot(page, 'traced-fitted');
   });
 
@@ -95,7 +93,7 @@ async function tibiaCandidates(page, stage, t) {
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const best = await panel.waitForPose(page);
-  await atRest(page);
+  await handsOff(page);
   await screenshot(page, 'candidates');
   const chosen = (/** @type {string} */ name) => page.getByRole('radio', { name: `${name} candidate`, checked: true });
   await chosen('Best').waitFor();
@@ -114,9 +112,9 @@ async function tibiaCandidates(page, stage, t) {
 }
 
 /** The mouse away, and the flash of a changed number over. @param {import('playwright-core').Page} page */
-async function atRest(page) {
+async function handsOff(page) {
   await page.mouse.move(1, 1);
-  await page.waitForTimeout(FLASH);
+  await atRest(page);
 }
 
 /** Pixels that differ in the view of the unmatched pixels, as the screen shows them. @param {import('playwright-core').Page} page */

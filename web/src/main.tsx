@@ -24,6 +24,7 @@ import { Poser } from './jobs/poser';
 import type { Services } from './jobs/services';
 import { Studio } from './films/studio';
 import { Videos } from './exchange/videos';
+import { atRest, shown } from './workers/activity';
 import { decodeWorker, poseWorker } from './workers/start';
 import { texts } from './texts/texts';
 import { Actions } from './commands/actions';
@@ -79,6 +80,7 @@ async function start(root: HTMLElement): Promise<void> {
     </AppContext.Provider>,
     root,
   );
+  Object.assign(globalThis, { fluoropose: { atRest, shown } });
   if (kept) await restoreWork(services, keeper, kept);
 }
 

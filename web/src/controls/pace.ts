@@ -1,4 +1,5 @@
 import { useEffect, useState } from 'preact/hooks';
+import { renewals } from '../workers/activity';
 
 /**
  * While something moves, words and numbers are renewed at most so often, ms: the stage follows the hand in every screen
@@ -13,19 +14,23 @@ const waiting = new Set<() => void>();
 let renewedAt = -Infinity;
 let frame = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
+let renewed: () => void = () => undefined;
 
 /** All that waits is renewed at once: the page is laid out once. */
 function renew(): void {
   frame = 0;
   timer = undefined;
   renewedAt = performance.now();
-  const renewals = [...waiting];
+  const due = [...waiting];
   waiting.clear();
-  for (const renewal of renewals) renewal();
+  for (const renew of due) renew();
+  renewed();
 }
 
 function schedule(): void {
   if (frame !== 0 || timer !== undefined) return;
+  renewed();
+  renewed = renewals.begin();
   const rest = renewedAt + PERIOD - performance.now();
   if (rest <= 0) frame = requestAnimationFrame(renew);
   // In a stream of changes between two screen frames, where there is time left.

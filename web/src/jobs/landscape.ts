@@ -1,6 +1,7 @@
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import type { Outline } from '../document/types';
 import type { ComponentName } from '../terms/component';
+import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { LandscapeFacts } from '../workers/protocol/by_hand';
 import { cameraOf, poseKey } from '../results/keys';
@@ -20,6 +21,7 @@ export class Landscapes {
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #scored = new WeakMap<Outline, Scored>();
   #timer: ReturnType<typeof setTimeout> | undefined;
+  #pauseIsOver: () => void = () => undefined;
   #busy = false;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
@@ -41,9 +43,11 @@ export class Landscapes {
 
   #consider(): void {
     clearTimeout(this.#timer);
+    this.#pauseIsOver();
     const asked = this.#asked();
     if (this.#busy || !asked || this.#store.ui.seeing.picture !== 'landscape') return;
     if (this.#scored.get(asked.outline)?.key === asked.key) return;
+    this.#pauseIsOver = work.begin();
     this.#timer = setTimeout(() => void this.#score(asked), REST);
   }
 
@@ -62,6 +66,7 @@ export class Landscapes {
 
   async #score({ outline, key, input }: { outline: Outline; key: string; input: MatchInput }): Promise<void> {
     this.#busy = true;
+    this.#pauseIsOver();
     try {
       this.#scored.set(outline, { key, facts: await this.#worker.call('landscape', input) });
     } catch (error) {

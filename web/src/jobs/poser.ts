@@ -3,6 +3,7 @@ import type { Place } from '../document/command';
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Result } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
 import { PROGRAM } from '../terms/program';
@@ -66,6 +67,7 @@ export class Poser {
   /** When the pose of an outline was last asked for. */
   #askedAt = -Infinity;
   #timer: ReturnType<typeof setTimeout> | undefined;
+  #pauseIsOver: () => void = () => undefined;
 
   constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#store = store;
@@ -97,12 +99,14 @@ export class Poser {
 
   #next(): void {
     clearTimeout(this.#timer);
+    this.#pauseIsOver();
     if (this.#busy || this.#adopt()) return;
     const task = this.#find('match') ?? this.#find('refine');
     if (!task) return;
     const rest = this.#restBefore(task);
-    if (rest > 0) this.#timer = setTimeout(() => this.#next(), rest);
-    else void this.#run(task);
+    if (rest <= 0) return void this.#run(task);
+    this.#pauseIsOver = work.begin();
+    this.#timer = setTimeout(() => this.#next(), rest);
   }
 
   /** How long to wait before a task, ms. */

@@ -1,5 +1,6 @@
 import { Assets } from '../document/assets';
 import type { Store } from '../document/store';
+import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
 import type { DecodeProtocol } from '../workers/protocol/decode';
 import type { Studio } from '../films/studio';
@@ -14,19 +15,21 @@ export interface Services {
 
 let lastJob = 0;
 
-/** Shows a job in the page while `work` runs; `work` reports how far it is. */
+/** Shows a job in the page while `task` runs; `task` reports how far it is. */
 export async function asJob<T>(
   store: Store,
   job: { readonly title: string; readonly unit: string; readonly total: number; readonly cancel: () => void },
-  work: (report: (done: number, total: number) => void, id: number) => Promise<T>,
+  task: (report: (done: number, total: number) => void, id: number) => Promise<T>,
 ): Promise<T> {
   const id = ++lastJob;
+  const over = work.begin();
   const startedAt = performance.now();
   const report = (done: number, total: number) => store.setJob({ ...job, id, startedAt, done, total });
   report(0, job.total);
   try {
-    return await work(report, id);
+    return await task(report, id);
   } finally {
+    over();
     store.endJob(id);
   }
 }

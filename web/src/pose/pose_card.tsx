@@ -6,6 +6,7 @@ import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
 import { inWords } from '../results/missing';
 import { isFollowing, type Findings } from '../jobs/poser';
 import { wrapped } from '../geometry/pose_motion';
+import { work } from '../workers/activity';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { HandNumbers } from './hand_numbers';
@@ -201,7 +202,11 @@ function useFlash(text: string): boolean {
     if (!quiet || text === '–') return undefined;
     setFlashing(true);
     // Not cleared when the text changes again: the flash ends all the same.
-    setTimeout(() => setFlashing(false), FLASH_LENGTH);
+    const over = work.begin();
+    setTimeout(() => {
+      setFlashing(false);
+      over();
+    }, FLASH_LENGTH);
     return undefined;
   }, [text]);
   return flashing;

@@ -1,3 +1,4 @@
+import { work } from './activity';
 import type { FromWorker, Protocol, ToWorker } from './protocol/messages';
 import { texts } from '../texts/texts';
 
@@ -54,13 +55,15 @@ export class Bridge<P extends Protocol<P>> {
     input: P[K]['input'],
     options: CallOptions<P[K]['progress']> = {},
   ): Promise<P[K]['output']> {
-    return new Promise((resolve, reject) => {
+    const over = work.begin();
+    const answer = new Promise<P[K]['output']>((resolve, reject) => {
       if (options.signal?.aborted) return reject(new Aborted());
       const waiting = { method, input, options, resolve, reject } as Waiting;
       options.signal?.addEventListener('abort', () => this.#abort(waiting), { once: true });
       this.#queue.push(waiting);
       this.#sendNext();
     });
+    return answer.finally(over);
   }
 
   dispose(): void {
