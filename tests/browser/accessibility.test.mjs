@@ -21,7 +21,7 @@ const MAIN_CONTROLS = [
   'Keys and mouse',
   'Edit points',
   'Trace points',
-  'Fit the film to the window',
+  'Fit the frame to the window',
   /Femur outline$/,
   'Femur',
   /^x \S+ mm$/,

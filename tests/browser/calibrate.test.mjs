@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
-import { bent, ideal, plate, PLATE } from './support/plates.mjs';
+import { distorted, ideal, plate, PLATE } from './support/plates.mjs';
 import { Stage } from './support/stage.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -41,10 +41,10 @@ async function pitch(sheet) {
 const LENGTHS = { 'Source to detector (mm)': 1200, 'Source to plate (mm)': 1000, 'Bead spacing (mm)': 10 };
 /** 10 mm at 1000 of 1200 mm are 12 mm at the detector. */
 const TRUE_PITCH = 12 / PLATE.spacing;
-/** A bead near a corner, where the picture is bent by ten pixels against the straight lattice that lies nearest. */
+/** A bead near a corner, where the picture is distorted by ten pixels against the regular lattice that lies nearest. */
 const OUTER = /** @type {const} */ ([9, -8]);
 
-pageTest('a bent plate: beads, correction, camera', async (page, t) => {
+pageTest('a distorted plate: beads, correction, camera', async (page, t) => {
   const stage = new Stage(page);
   const said = (/** @type {RegExp} */ words) => until(() => sheetOf(page).innerText(), (text) => words.test(text), `the sheet to say ${words}`);
 
@@ -56,28 +56,28 @@ pageTest('a bent plate: beads, correction, camera', async (page, t) => {
     const sheet = await openSheet(page);
     await sheet.getByRole('button', { name: 'Find the beads' }).click();
     const text = await said(/px after a correction of order \d/);
-    const [, before, after] = /lie ([\d.]+) px \(RMS\) off a straight lattice, and ([\d.]+) px after/.exec(text) ?? [];
+    const [, before, after] = /lie ([\d.]+) px \(RMS\) off a regular lattice, and ([\d.]+) px after/.exec(text) ?? [];
     t.diagnostic(`${before} px before, ${after} px after`);
     assert(Number(before) > 1 && Number(after) < 0.05, `${before} px before, ${after} px after`);
     await sheet.getByRole('img', { name: /Residuals of the beads/ }).waitFor();
     await screenshot(page, 'calibrate beads');
   });
 
-  await step(page, t, 'straight frames show beads where a straight lattice has them', async () => {
-    const before = await greyAt(page, stage, bent(ideal(...OUTER)));
+  await step(page, t, 'undistorted frames show beads where a regular lattice has them', async () => {
+    const before = await greyAt(page, stage, distorted(ideal(...OUTER)));
     assert(before < 100, `a bead is dark where it was taken: ${before}`);
-    await sheetOf(page).getByRole('button', { name: 'Straighten the frames' }).click();
+    await sheetOf(page).getByRole('button', { name: 'Undistort the frames' }).click();
     await said(/In use on frames/);
-    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey > 100, 'the bead to leave its bent place');
-    await screenshot(page, 'calibrate straight');
+    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey > 100, 'the bead to leave its distorted place');
+    await screenshot(page, 'calibrate undistorted');
   });
 
-  await step(page, t, 'the camera of the straight plate', async (t) => {
+  await step(page, t, 'the camera of the undistorted plate', async (t) => {
     const sheet = sheetOf(page);
     await fill(sheet, LENGTHS);
     const found = await pitch(sheet);
     t.diagnostic(`pixel pitch ${found} mm`);
-    // The straight picture is as large as the bent one on the whole, so a little larger than the ideal one.
+    // The undistorted picture is as large as the distorted one on the whole, so a little larger than the ideal one.
     assert(Math.abs(found / TRUE_PITCH - 1) < 0.05, `${found} for about ${TRUE_PITCH}`);
     assert.match(await sheet.getByRole('group', { name: 'Camera' }).innerText(), /A plate this level .* does not show it/);
     await sheet.getByRole('button', { name: 'Use as calibration' }).click();
@@ -89,22 +89,22 @@ pageTest('a bent plate: beads, correction, camera', async (page, t) => {
     const saved = await downloaded(page, 'Save the correction (.json)');
     assert.equal(JSON.parse(saved.buffer.toString()).kind, 'fluoropose-distortion');
     await sheet.getByRole('button', { name: 'Take the correction away' }).click();
-    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
     await page.getByRole('button', { name: 'Undo: take the correction of distortion away' }).click();
     await said(/In use on frames/);
     await page.getByRole('button', { name: /^Undo: change the calibration/ }).click();
     await page.getByRole('button', { name: /^Undo: correct the distortion/ }).click();
-    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
+    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the bead to be back');
     await choose(page, saved);
-    await panel.waitForWords(page, /Opened the correction of distortion|shown straight/);
+    await panel.waitForWords(page, /Opened the correction of distortion|shown undistorted/);
     await said(/In use on frames/);
   });
 
-  await step(page, t, 'outlines alone may be straightened: frames stay as they were taken', async () => {
+  await step(page, t, 'outlines alone may be undistorted: frames stay as they were taken', async () => {
     const sheet = sheetOf(page);
-    await sheet.getByRole('button', { name: 'Straighten outlines only' }).click();
+    await sheet.getByRole('button', { name: 'Undistort outlines only' }).click();
     await said(/In use on outlines/);
-    await until(() => greyAt(page, stage, bent(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
+    await until(() => greyAt(page, stage, distorted(ideal(...OUTER))), (grey) => grey < 100, 'the frame to be as it was taken');
   });
 });
 

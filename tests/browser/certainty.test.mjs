@@ -42,11 +42,11 @@ pageTest('how sure a pose is', async (page, t) => {
   await step(page, t, 'a stretch is marked unknown by keyboard, and undone', (t) => unknownStretch(page, stage, truth, t));
   await step(page, t, 'a side is marked with the mouse on it', () => unknownByMouse(page, stage, outline));
   await step(page, t, 'the tibia: the reason of the choice, X shows the rival', (t) => rivals(page, stage, t));
-  await step(page, t, 'Tab leaves the film, rival or not', async () => {
+  await step(page, t, 'Tab leaves the frame, rival or not', async () => {
     await stage.canvas.focus();
     await page.keyboard.press('Tab');
     const left = await page.evaluate(() => document.activeElement?.getAttribute('role') !== 'application');
-    assert(left, 'the film keeps the focus');
+    assert(left, 'the frame keeps the focus');
   });
 
   await step(page, t, 'the table of poses has the deviations and the reason', () => table(page));

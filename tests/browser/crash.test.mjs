@@ -189,7 +189,7 @@ async function hasEverything(page, work) {
   await page.keyboard.press('p');
   await stage.hover(ELSEWHERE);
   const status = page.getByRole('contentinfo', { name: 'Status' });
-  await until(() => status.innerText(), (words) => / px · \d+/.test(words), 'the film to have its grey values');
+  await until(() => status.innerText(), (words) => / px · \d+/.test(words), 'the frame to have its grey values');
   await panel.waitForWords(page, /^3 points\./);
   await cell(page, 'Frame 2, femur: pose loaded, checked').click();
   await panel.waitForThePose(page, work.pose);

@@ -13,7 +13,7 @@ pageTest(`from opening to a pose in ${IN_FIREFOX ? 'Firefox' : 'Chromium'}`, asy
 
   /** @type {import('./support/study.mjs').Pose} */
   let refined;
-  await step(page, t, 'an outline clicked round the femur gives its known pose, refined', async () => {
+  await step(page, t, 'an outline clicked around the femur gives its known pose, refined', async () => {
     ({ pose: refined } = await fromOpeningToPose(page));
     const { x } = await panel.deviations(page);
     assert(x > 0, 'a refined pose has its deviations');

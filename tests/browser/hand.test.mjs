@@ -1,6 +1,6 @@
 /** A model in hand: keys as in JointTrack, the mouse, typed numbers, locks, refining from there, another set of poses. */
 import assert from 'node:assert/strict';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose, downloaded, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
@@ -20,7 +20,7 @@ const FIELDS = /** @type {const} */ ([
 ]);
 
 /**
- * On the demonstration's films the metal thins out towards its border, and its edges lie 0.8 px inside of the true
+ * On the demonstration's frames the metal thins out towards its border, and its edges lie 0.8 px inside of the true
  * silhouette: farther away by 1.6 percent of the distance (seen: 15.3 mm; the same as by one click).
  */
 const ON_FILM = { x: 0.25, y: 0.25, z: 22, zRot: 0.6, xRot: 0.6, yRot: 1.2 };
@@ -39,7 +39,7 @@ pageTest('poses by hand', async (page, t) => {
   await step(page, t, 'numbers are typed, and what is no number changes nothing', () => typed(page));
   await step(page, t, 'the mouse moves the model with it, the ring turns it', () => mouse(page, stage, truth));
   await step(page, t, 'all of it is undone, back to the loaded pose', () => undone(page));
-  await step(page, t, 'without an outline the film itself is refined against', (t) => onTheFilm(page, truth, t));
+  await step(page, t, 'without an outline the frame itself is refined against', (t) => onTheFrame(page, truth, t));
   await step(page, t, 'a traced outline does not take the place of the pose set by hand', () => outlineStays(page, stage));
   await step(page, t, 'refined from here onto the outline, with a number held', (t) => onTheOutline(page, truth, t));
   await step(page, t, 'Q compares with the loaded poses', () => compares(page));
@@ -178,11 +178,11 @@ async function undone(page) {
 }
 
 /** @param {Page} page @param {Pose} truth @param {import('node:test').TestContext} t */
-async function onTheFilm(page, truth, t) {
+async function onTheFrame(page, truth, t) {
   for (const keys of ['ArrowRight', 'ArrowUp', 'Control+ArrowLeft', 'Shift+ArrowUp', 'Shift+ArrowLeft']) await page.keyboard.press(keys);
   const off = await numbers(page);
   await page.keyboard.press('Enter');
-  await panel.waitForWords(page, /^Refined from the pose set by hand, against the dark edges of the film: \d+\.\d\d px\./);
+  await panel.waitForWords(page, /^Refined from the pose set by hand, against the dark edges of the frame: \d+\.\d\d px\./);
   const found = await numbers(page);
   t.diagnostic(`from ${panel.differences(off, truth)} to ${panel.differences(found, truth)}; ${await panel.said(page)}`);
   panel.assertNear(found, truth, ON_FILM);
@@ -196,8 +196,8 @@ async function outlineStays(page, stage) {
   await stage.learn();
   await stage.trace(await trueOutline('femur', 1));
   await page.getByRole('button', { name: 'Frame 1, femur: posed' }).or(page.getByRole('button', { name: /^Frame 1, femur: / })).first().waitFor();
-  // Long enough for a match and a refinement that would come.
-  await page.waitForTimeout(3000);
+  // A match or a refinement would have come.
+  await atRest(page);
   const shown = await panel.shownPose(page);
   for (const [field] of FIELDS) assert.equal(shown?.[field], own[field], `${field} stays`);
   await page.getByRole('radio', { name: 'By hand candidate', checked: true }).waitFor();
@@ -229,7 +229,7 @@ async function compares(page) {
   const card = page.getByRole('region', { name: 'Pose numbers' });
   await card.getByRole('group', { name: /^x differs by [+\u2212]?\d+\.\d\d mm from the reference$/ }).waitFor();
   await card.getByRole('group', { name: /^y rotation differs by [+\u2212]?\d+\.\d\d degrees from the reference$/ }).waitFor();
-  await page.getByRole('region', { name: 'Compare' }).getByText(/against femur\.jts · turned by \d+\.\d\d°/).waitFor();
+  await page.getByRole('region', { name: 'Compare' }).getByText(/against femur\.jts · rotated by \d+\.\d\d°/).waitFor();
   await screenshot(page, 'compare');
   await page.getByRole('button', { name: 'Keep as reference' }).click();
   await card.getByRole('group', { name: /^x differs by 0\.00 mm from the reference$/ }).waitFor();
@@ -279,7 +279,7 @@ async function placed(page, stage) {
   await page.keyboard.press('Escape');
   await page.getByRole('button', { name: 'Edit points', pressed: true }).waitFor();
   await stage.learn();
-  // In the middle of the film, where the model was placed.
+  // In the middle of the frame, where the model was placed.
   await page.mouse.dblclick(...stage.toPage([512, 512]));
   await page.getByRole('button', { name: 'Adjust pose', pressed: true }).waitFor();
 }

@@ -12,7 +12,7 @@ import { demoFile, framePath } from './support/study.mjs';
 /** Three corners of a draft, and a place where nothing is. */
 const CORNERS = /** @type {Point[]} */ ([[400, 400], [600, 400], [600, 600]]);
 const ELSEWHERE = /** @type {Point} */ ([700, 300]);
-/** The readout has tenths, and a pixel of the screen is more than one of the film. */
+/** The readout has tenths, and a pixel of the screen is more than one of the frame. */
 const SAME_PLACE = 0.25;
 
 pageTest('keys and mouse', async (page, t) => {
@@ -46,7 +46,7 @@ pageTest('keys and mouse', async (page, t) => {
 
   await step(page, t, '? opens the key sheet, Esc closes it, the draft stays', () => keySheet(page, stage));
   await step(page, t, 'a wheel zoom keeps what is under the cursor', () => wheelZooms(page, stage));
-  await step(page, t, 'a middle drag moves the film with the hand', () => middlePans(page, stage));
+  await step(page, t, 'a middle drag moves the frame with the hand', () => middlePans(page, stage));
   await step(page, t, 'a right drag changes window and level, R takes it back', () => rightWindows(page, stage));
   await step(page, t, 'none of it touched the draft', () => draftHas(page, 3, stage));
 });
@@ -91,7 +91,7 @@ async function wheelZooms(page, stage) {
     assert(Math.abs(ratio - 2 ** (400 / 300)) < 0.02, `two turns of the wheel zoom ${ratio} times`);
     await page.keyboard.press('0');
     await stage.learn();
-    assert(Math.abs(stage.view.scale / scale - 1) < 0.002, '0 fits the film again');
+    assert(Math.abs(stage.view.scale / scale - 1) < 0.002, '0 fits the frame again');
   }
 }
 
@@ -103,7 +103,7 @@ async function middlePans(page, stage) {
   await stage.drag([300, 300], [360, 420], 'middle');
   near(await stage.readout(), grip, SAME_PLACE);
   await stage.learn();
-  assert(stage.view.left > before.left + 10 && stage.view.top > before.top + 10, 'the film moved right and down');
+  assert(stage.view.left > before.left + 10 && stage.view.top > before.top + 10, 'the frame moved right and down');
   await page.keyboard.press('0');
   await stage.learn();
 }
@@ -119,7 +119,7 @@ async function rightWindows(page, stage) {
   await stage.drag([300, 500], [300, 600], 'right');
   await until(shown, (now) => now[0] === width && now[1] < level, 'a lower level: down brightens');
   await page.keyboard.press('r');
-  await until(shown, (now) => now[0] === before[0] && now[1] === before[1], 'window and level of the film');
+  await until(shown, (now) => now[0] === before[0] && now[1] === before[1], 'window and level of the frame');
 }
 
 /** @param {Point} point @param {Point} wanted @param {number} within px */

@@ -15,7 +15,7 @@ import { demoFile, HAND_TRACED, truePose } from './support/study.mjs';
 import { fromOpeningToPose } from './support/workflow.mjs';
 
 const run = promisify(execFile);
-const EXAMPLE = fileURLToPath(new URL('../../npm/example/', import.meta.url));
+const EXAMPLE = fileURLToPath(new URL('../../web/npm/example/', import.meta.url));
 
 test('the page in one file, from the disk', { timeout: 3 * PATIENCE }, async (t) => {
   const address = pathToFileURL(join(setting('FLUOROPOSE_PACKAGE'), 'fluoropose.html')).href;

@@ -129,7 +129,7 @@ async function sameWork(page, stage, traced) {
   }
 }
 
-/** The whole film with outline and silhouette. @param {Page} page @param {Stage} stage @param {number} frame */
+/** The whole frame with outline and silhouette. @param {Page} page @param {Stage} stage @param {number} frame */
 async function pictureOf(page, stage, frame) {
   await goTo(page, frame);
   return stage.picture();

@@ -1,4 +1,4 @@
-/** How film and models are shown, and what helps the eye: looks, magnifier, scale bar, ghosts, landscape, space. */
+/** How frames and models are shown, and what helps the eye: preprocessing, magnifier, scale bar, ghosts, landscape, space. */
 import assert from 'node:assert/strict';
 import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { choose } from './support/files.mjs';
@@ -16,7 +16,7 @@ pageTest('seeing', async (page, t) => {
   await panel.waitForWords(page, /as poses of the (femur|tibia)/);
   await stage.learn();
 
-  await step(page, t, 'the film as it is, inverted, its edges, its contrast equalised', () => films(page, stage));
+  await step(page, t, 'the frame as it is, inverted, its edges, its contrast equalised', () => preprocessings(page, stage));
   await step(page, t, 'the model as an outline, filled, shaded', () => overlays(page, stage));
   await step(page, t, 'all of it in one sheet, with switches', () => sheet(page, stage));
   await step(page, t, 'the magnifier shows four times as much, beside the pointer', () => magnifier(page, stage));
@@ -35,7 +35,7 @@ async function press(page, key) {
 }
 
 /** @param {Page} page @param {Stage} stage */
-async function films(page, stage) {
+async function preprocessings(page, stage) {
   const original = await stage.picture();
   const seen = [original];
   for (const [key, name] of /** @type {const} */ ([['2', 'inverted'], ['3', 'edges'], ['4', 'equalised']])) {
@@ -43,15 +43,15 @@ async function films(page, stage) {
     const picture = await stage.picture();
     assert(seen.every((other) => !other.equals(picture)), `${name} looks like another`);
     seen.push(picture);
-    await screenshot(page, `film ${name}`);
+    await screenshot(page, `frame ${name}`);
   }
   // Window and level work on these pictures too.
   await page.getByRole('slider', { name: 'Window width' }).fill('60');
   await drawn(page);
-  assert(!(await stage.picture()).equals(seen[3]), 'a narrower window changes the equalised film');
+  assert(!(await stage.picture()).equals(seen[3]), 'a narrower window changes the equalised frame');
   await press(page, 'r');
   await press(page, '1');
-  await stage.looksLike(original, 'the film');
+  await stage.looksLike(original, 'the frame');
 }
 
 /** @param {Page} page @param {Stage} stage */
@@ -221,7 +221,7 @@ async function remembered(page) {
   await press(page, '3');
   await press(page, '5');
   const taste = await page.evaluate(() => localStorage.getItem('fluoropose-taste'));
-  assert.match(taste ?? '', /"film":"edges"/);
+  assert.match(taste ?? '', /"preprocessing":"edges"/);
   page.once('dialog', (dialog) => dialog.accept());
   await page.reload();
   await page.getByRole('application', { name: /outline$|No frame/ }).first().waitFor();

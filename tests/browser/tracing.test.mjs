@@ -1,15 +1,13 @@
 /** The whole way: demonstration, outline by mouse, pose; a point dragged; undo and redo. */
 import assert from 'node:assert/strict';
 import { decode } from 'fast-png';
-import { pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, trueOutline, truePose } from './support/study.mjs';
 
 /** How far a point is dragged off the border, px of the frame. */
 const OFF = 6;
-/** A changed number flashes for less, ms. */
-const FLASH = 700;
 
 pageTest('from the demonstration to a pose', async (page, t) => {
   const stage = new Stage(page);
@@ -28,7 +26,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     assert.equal(await panel.shownPose(page), null);
   });
 
-  await step(page, t, 'an outline clicked round the femur gives its known pose', async (t) => {
+  await step(page, t, 'an outline clicked around the femur gives its known pose', async (t) => {
     await stage.zoomTo(outline);
     await stage.trace(outline);
     const pose = await panel.waitForPose(page);
@@ -36,15 +34,15 @@ pageTest('from the demonstration to a pose', async (page, t) => {
     t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}; ${await panel.unmatched(page)} px unmatched`);
     panel.assertNear(pose, truth, HAND_TRACED);
     assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
-    await atRest(page);
+    await handsOff(page);
     await screenshot(page, 'traced');
   });
 
   await step(page, t, 'the pose follows a dragged point; undo and redo move both', () => dragUndoRedo(page, stage, outline));
 
-  await step(page, t, 'the film fits again and the silhouette lies on the implant', async () => {
-    await page.getByRole('button', { name: 'Fit the film to the window' }).click();
-    await atRest(page);
+  await step(page, t, 'the frame fits again and the silhouette lies on the implant', async () => {
+    await page.getByRole('button', { name: 'Fit the frame to the window' }).click();
+    await handsOff(page);
     await screenshot(page, 'traced-fitted');
   });
 
@@ -74,10 +72,10 @@ async function dragUndoRedo(page, stage, outline) {
 
   await page.keyboard.press('Control+z');
   await panel.waitForThePose(page, before.pose);
-  await stage.looksLike(before.picture, 'the film after undo');
+  await stage.looksLike(before.picture, 'the frame after undo');
   await page.keyboard.press('Control+y');
   await panel.waitForThePose(page, following);
-  await stage.looksLike(after.picture, 'the film after redo');
+  await stage.looksLike(after.picture, 'the frame after redo');
   await page.getByRole('button', { name: 'Undo: move a point' }).click();
   await panel.waitForThePose(page, before.pose);
 }
@@ -95,7 +93,7 @@ async function tibiaCandidates(page, stage, t) {
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const best = await panel.waitForPose(page);
-  await atRest(page);
+  await handsOff(page);
   await screenshot(page, 'candidates');
   const chosen = (/** @type {string} */ name) => page.getByRole('radio', { name: `${name} candidate`, checked: true });
   await chosen('Best').waitFor();
@@ -109,14 +107,14 @@ async function tibiaCandidates(page, stage, t) {
   const truth = await truePose('tibia', 1);
   t.diagnostic(`best: ${panel.differences(best, truth)}; rival: ${panel.differences(rival, truth)}`);
   const nearer = [best, rival].sort((a, b) => Math.abs(a.xRot - truth.xRot) - Math.abs(b.xRot - truth.xRot))[0];
-  // A small round tray says little about its turn round the leg.
+  // A small round tray says little about its turn around the leg.
   panel.assertNear(nearer, truth, { ...HAND_TRACED, yRot: 1.5 });
 }
 
 /** The mouse away, and the flash of a changed number over. @param {import('playwright-core').Page} page */
-async function atRest(page) {
+async function handsOff(page) {
   await page.mouse.move(1, 1);
-  await page.waitForTimeout(FLASH);
+  await atRest(page);
 }
 
 /** Pixels that differ in the view of the unmatched pixels, as the screen shows them. @param {import('playwright-core').Page} page */

@@ -4,7 +4,6 @@
 use std::fmt::Write as _;
 
 use fluoropose::mesh::OwnedModel;
-use fluoropose_laboratory::files::owned;
 use fluoropose_laboratory::finding::{Method, ViewOptions};
 use fluoropose_laboratory::noise::DisturbanceOptions;
 use fluoropose_laboratory::verbs::evaluate::{Request, Row, evaluate};

@@ -1,38 +1,40 @@
 import { render } from 'preact';
 import './styles/theme.css';
-import './styles/layout.css';
 import './styles/controls.css';
-import './styles/panels.css';
-import './styles/aids.css';
-import './styles/seeing.css';
-import './styles/calibrate.css';
-import './styles/working.css';
+import './styles/shell.css';
+import './styles/stage.css';
+import './styles/strip.css';
+import './styles/joint.css';
+import './styles/pose.css';
+import './styles/sheets.css';
+import './styles/open.css';
 import { Assets } from './document/assets';
 import { Store } from './document/store';
-import { Aids } from './engine/aids/aids';
-import { Calibrator } from './engine/calibrator';
-import { Chooser } from './engine/chooser';
-import { Convergence } from './engine/convergence';
-import { FromHere } from './engine/from_here';
-import { Landscapes } from './engine/landscape';
-import { Librarian } from './engine/librarian';
-import { Keeper } from './engine/keep/keeper';
-import { restoreWork, workToRestore } from './engine/keep/restore';
-import { keepForOffline } from './engine/offline';
-import { Poser } from './engine/poser';
-import type { Services } from './engine/services';
-import { Studio } from './engine/studio';
-import { Videos } from './engine/videos';
-import { decodeWorker, poseWorker } from './engine/workers';
-import { texts } from './texts';
-import { Actions } from './view/actions';
-import { AppContext, type App } from './view/app';
-import { guardAgainstLoss } from './view/guard';
-import { HandActions } from './view/hand_actions';
-import { Page } from './view/page';
-import { rememberTheme } from './view/theme';
-import { SeeingActions } from './view/seeing_actions';
-import { rememberTaste } from './view/taste';
+import { TracingTools } from './tracing/tracing_tools';
+import { Calibrator } from './jobs/calibrator';
+import { Chooser } from './jobs/chooser';
+import { Convergence } from './jobs/convergence';
+import { FromHere } from './jobs/from_here';
+import { Landscapes } from './jobs/landscape';
+import { Librarian } from './jobs/librarian';
+import { Keeper } from './keep/keeper';
+import { restoreWork, workToRestore } from './keep/restore';
+import { keepForOffline } from './keep/offline';
+import { Poser } from './jobs/poser';
+import type { Services } from './jobs/services';
+import { Studio } from './films/studio';
+import { Videos } from './exchange/videos';
+import { atRest, shown } from './workers/activity';
+import { decodeWorker, poseWorker } from './workers/start';
+import { texts } from './texts/texts';
+import { Actions } from './commands/actions';
+import { AppContext, type App } from './commands/app';
+import { guardAgainstLoss } from './keep/guard';
+import { HandActions } from './commands/hand_actions';
+import { Page } from './shell/page';
+import { rememberTheme } from './keep/theme';
+import { SeeingActions } from './commands/seeing_actions';
+import { rememberTaste } from './keep/taste';
 
 async function start(root: HTMLElement): Promise<void> {
   const services: Services = {
@@ -41,18 +43,18 @@ async function start(root: HTMLElement): Promise<void> {
     assets: new Assets(),
     decoder: decodeWorker(),
   };
-  // Before anybody looks at films: it sees to it that they are straight where the document says so.
+  // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.
   const calibrator = new Calibrator(services);
   const keeper = new Keeper(services);
   const kept = await workToRestore(keeper).catch(() => null);
   const matcher = poseWorker();
   const poser = new Poser(services.store, matcher);
   new Chooser(services.store, matcher);
-  const aids = new Aids(services, matcher);
+  const tracingTools = new TracingTools(services, matcher);
   const landscapes = new Landscapes(services.store, matcher);
   const hand = new HandActions(services, new FromHere(services, matcher), landscapes);
   rememberTaste(services.store);
-  const actions = new Actions(services, aids);
+  const actions = new Actions(services, tracingTools);
   const videos = new Videos(services, (files) => actions.open(files));
   actions.videos = videos;
   const app: App = {
@@ -61,7 +63,7 @@ async function start(root: HTMLElement): Promise<void> {
     poser,
     convergence: new Convergence(services.store, poser, matcher),
     keeper,
-    aids,
+    tracingTools,
     hand,
     seeing: new SeeingActions(services.store, hand),
     landscapes,
@@ -78,6 +80,7 @@ async function start(root: HTMLElement): Promise<void> {
     </AppContext.Provider>,
     root,
   );
+  Object.assign(globalThis, { fluoropose: { atRest, shown } });
   if (kept) await restoreWork(services, keeper, kept);
 }
 

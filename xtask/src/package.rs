@@ -81,7 +81,7 @@ fn single(to: &Path) -> Result<PathBuf> {
 /// The module's own TypeScript compiled, and beside it what `wasm-bindgen` made for the page.
 fn module(to: &Path) -> Result<PathBuf> {
     let root = workspace::root();
-    let (web, npm) = (root.join("web"), root.join("npm"));
+    let (web, npm) = (root.join("web"), root.join("web/npm"));
     empty(to)?;
     announce("compiling the npm module (npm run build-module)");
     let mut compile = node::script(&web, "build-module")?;
@@ -89,6 +89,7 @@ fn module(to: &Path) -> Result<PathBuf> {
     for part in ["core", "decode"] {
         copy_folder(&web.join("src/pkg").join(part), &to.join("pkg").join(part))?;
     }
+    copy_folder(&npm.join("example"), &to.join("example"))?;
     for name in ["package.json", "README.md"] {
         fs::copy(npm.join(name), to.join(name))?;
     }

@@ -1,5 +1,5 @@
-/** How long the page's thread takes for a frame while a hand moves over the film. */
-import * as aids from '../support/aids.mjs';
+/** How long the page's thread takes for a frame while a hand moves over the frame. */
+import * as tracing from '../support/tracing.mjs';
 import { drawn } from '../support/browser.mjs';
 import * as panel from '../support/panel.mjs';
 import { Stage } from '../support/stage.mjs';
@@ -28,13 +28,13 @@ export async function dragging(page) {
   return figures('dragging a vertex, the pose following', frames);
 }
 
-/** The path from the last seed to the mouse, which goes twice round the implant's edge. @param {Page} page */
+/** The path from the last seed to the mouse, which goes twice around the implant's edge. @param {Page} page */
 export async function wiring(page) {
   const { stage, outline } = await prepared(page);
   // Both cores work at libraries before.
   await panel.waitForLibraries(page, 'Femur', 'Tibia');
   await page.keyboard.press('l');
-  const way = aids.alongRing(outline, 4);
+  const way = tracing.alongRing(outline, 4);
   await stage.click(way[0]);
   await drawn(page);
   const frames = await recorded(page, async () => {
@@ -45,7 +45,7 @@ export async function wiring(page) {
 
 /** @param {Page} page */
 async function prepared(page) {
-  await aids.openDemonstration(page);
+  await tracing.openDemonstration(page);
   const stage = new Stage(page);
   await stage.learn();
   return { stage, outline: await trueOutline('femur', 1) };

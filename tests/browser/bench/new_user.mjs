@@ -1,5 +1,5 @@
-/** From opening the page to a refined femoral pose: clicks and seconds, with the best aid and by plain polygon. */
-import { byOneClick, byPolygon, countClicks, openDemonstration } from '../support/aids.mjs';
+/** From opening the page to a refined femoral pose: clicks and seconds, with the best tool and by plain polygon. */
+import { byOneClick, byPolygon, countClicks, openDemonstration } from '../support/tracing.mjs';
 import { visit } from '../support/browser.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */

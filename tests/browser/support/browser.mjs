@@ -223,12 +223,33 @@ export async function until(ask, wanted, what) {
 }
 
 /**
- * Until the page has shown what it knows: while something moves, words and numbers are renewed every 100 ms.
+ * Until the page shows what it knew when this was called, whatever work goes on.
  *
  * @param {import('playwright-core').Page} page
  */
 export async function drawn(page) {
-  await page.evaluate(async () => {
-    for (let frame = 0; frame < 8; frame++) await new Promise((resolve) => requestAnimationFrame(resolve));
+  await inTime(page.evaluate(() => globalThis.fluoropose.shown()), 'the page to show what it knows');
+}
+
+/**
+ * Until no work is under way in the page and it shows what came of it.
+ *
+ * @param {import('playwright-core').Page} page
+ */
+export async function atRest(page) {
+  await inTime(page.evaluate(() => globalThis.fluoropose.atRest()), 'the page to come to rest');
+}
+
+/** @template T @param {Promise<T>} promise @param {string} what completes "waited in vain for ..." @returns {Promise<T>} */
+async function inTime(promise, what) {
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  let timer;
+  const late = new Promise((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`waited in vain for ${what}`)), PATIENCE / 2);
   });
+  try {
+    return /** @type {T} */ (await Promise.race([promise, late]));
+  } finally {
+    clearTimeout(timer);
+  }
 }

@@ -30,7 +30,7 @@ export async function temporaryFolder() {
   return folder;
 }
 
-/** Drops files on the film, as the system's file manager would. @param {Page} page @param {...FileToOpen} files */
+/** Drops files on the frame, as the system's file manager would. @param {Page} page @param {...FileToOpen} files */
 export async function drop(page, ...files) {
   const folder = await temporaryFolder();
   const paths = files.map(({ name }) => join(folder, name));

@@ -1,6 +1,6 @@
 /** What the page says in words and numbers, by role and accessible name. */
 import assert from 'node:assert/strict';
-import { drawn, until } from './browser.mjs';
+import { atRest, drawn, until } from './browser.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 /** @typedef {import('./study.mjs').Pose} Pose */
@@ -62,14 +62,10 @@ export async function waitForPose(page) {
 export async function waitForOtherPose(page, before) {
   const differs = (/** @type {Pose | null} */ pose) => pose !== null && !samePose(pose, before);
   await until(() => shownPose(page), differs, 'the pose to change');
-  let last = await shownPose(page);
-  for (;;) {
-    await page.waitForTimeout(200);
-    const provisional = await isProvisional(page);
-    const now = await shownPose(page);
-    if (now && last && samePose(now, last) && !provisional) return now;
-    last = now;
-  }
+  await atRest(page);
+  const pose = await shownPose(page);
+  assert(pose && !(await isProvisional(page)), 'the page is at rest, and its pose neither gone nor provisional');
+  return pose;
 }
 
 /** @param {Page} page @param {Pose} wanted */

@@ -5,7 +5,7 @@ import { file } from './files.mjs';
 export const PLATE = { side: 640, spacing: 32, middle: 320 };
 
 /** Pin-cushion of four percent at the edge: where an ideal place is seen. @param {[number, number]} place @returns {[number, number]} */
-export function bent([column, row]) {
+export function distorted([column, row]) {
   const [x, y] = [(column - 315) / 320, (row - 326) / 320];
   const grow = 1 + 0.04 * (x * x + y * y);
   return [315 + 320 * grow * x, 326 + 320 * grow * y];
@@ -16,8 +16,8 @@ export function ideal(i, j) {
   return [PLATE.middle + PLATE.spacing * i, PLATE.middle + PLATE.spacing * j];
 }
 
-/** A plate of dark beads of 4.5 px radius, bent or not. @param {string} name @param {(place: [number, number]) => [number, number]} seen */
-export function plate(name, seen = bent) {
+/** A plate of dark beads of 4.5 px radius, distorted or not. @param {string} name @param {(place: [number, number]) => [number, number]} seen */
+export function plate(name, seen = distorted) {
   const { side } = PLATE;
   const data = new Uint8Array(side * side).fill(180);
   for (let i = -11; i <= 11; i++) {

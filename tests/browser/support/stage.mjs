@@ -1,4 +1,4 @@
-/** The film and a hand with a mouse on it. Points are columns and rows of the frame, as in the page's readout. */
+/** The frame and a hand with a mouse on it. Points are columns and rows of the frame, as in the page's readout. */
 import assert from 'node:assert/strict';
 import { AS_IT_IS, drawn, until } from './browser.mjs';
 
@@ -24,7 +24,7 @@ export class Stage {
 
   async box() {
     const box = await this.canvas.boundingBox();
-    assert(box, 'the film is not visible');
+    assert(box, 'the frame is not visible');
     return box;
   }
 
@@ -94,13 +94,13 @@ export class Stage {
     await this.learn();
   }
 
-  /** Clicks round the points and closes with a click on the first. @param {Point[]} points */
+  /** Clicks around the points and closes with a click on the first. @param {Point[]} points */
   async trace(points) {
     for (const point of points) await this.click(point);
     await this.click(points[0]);
   }
 
-  /** What the film and everything on it look like with the mouse elsewhere, but for the ring of the keyboard's focus. */
+  /** What the frame and everything on it look like with the mouse elsewhere, but for the ring of the keyboard's focus. */
   async picture() {
     await this.page.mouse.move(1, 1);
     await drawn(this.page);
@@ -109,7 +109,7 @@ export class Stage {
     return this.page.screenshot({ ...AS_IT_IS, clip });
   }
 
-  /** Waits until the film looks as in a picture taken before. @param {Buffer} before @param {string} what */
+  /** Waits until the frame looks as in a picture taken before. @param {Buffer} before @param {string} what */
   async looksLike(before, what) {
     await until(async () => before.equals(await this.picture()), (same) => same, `${what} to look as before`);
   }

@@ -11,7 +11,7 @@ import { ADDRESS } from './browser.mjs';
 const HAND = 1;
 
 /**
- * What such a polygon of the femur, clicked on whole screen pixels of a film that has been zoomed in, has to give: a
+ * What such a polygon of the femur, clicked on whole screen pixels of a frame that has been zoomed in, has to give: a
  * little over the worst of the demonstration's 8 frames at scales of 2 and 2.8 (0.17 mm, 3.0 mm, 0.38 degrees).
  *
  * @type {Pose}
@@ -69,7 +69,7 @@ export function readJts(text) {
 }
 
 /**
- * The polygon a careful hand would click round a component: the border of its true mask with as few points as stay
+ * The polygon a careful hand would click around a component: the border of its true mask with as few points as stay
  * within `HAND` of it.
  *
  * @param {'femur' | 'tibia'} component

@@ -1,40 +1,25 @@
+import type { Command, Place } from './command';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
 import type { FramePoint } from '../geometry/points';
 import {
-  cellKey,
-  cellOf,
-  isByHand,
   type Calibration,
   type Cell,
+  cellKey,
+  cellOf,
   type Component,
-  type ComponentName,
   type Doc,
   type FileReference,
   type FrameEntry,
+  type GreyWindow,
+  isByHand,
   type LibrarySpec,
   type Outline,
-  type PoseNumbers,
-  type GreyWindow,
 } from './types';
-import { texts } from '../texts';
-
-/** A change to the document that undo takes back as one. */
-export interface Command {
-  /** Completes "Undo ...". */
-  readonly label: string;
-  /** Where it happened, so that undo can show it. */
-  readonly place?: Place | null;
-  /** Commands that follow each other with the same key are one undo unit. */
-  readonly mergeKey?: string;
-  readonly apply: (doc: Doc) => Doc;
-}
-
-export interface Place {
-  readonly frameId: string;
-  readonly component: ComponentName;
-}
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 
 // --- Outlines ---------------------------------------------------------------------------------------------------
 

@@ -1,13 +1,9 @@
-import { framePoint, type FramePoint } from '../geometry/points';
-import type { Command } from './commands';
 import { count, list, nullable, number, object, oneOf, ReadError, text, type Reader } from './reader';
-import type { Doc, Outline } from './types';
-import { texts } from '../texts';
 
 /**
  * A correction of distortion: two polynomials that take a place in a frame as it was taken to where it lies in the
- * straight one. It is applied to the frames, which are then shown straight, or to the outlines alone, which stay where
- * they were traced and are straightened when a pose is worked out.
+ * undistorted one. It is applied to the frames, which are then shown so, or to the outlines alone, which stay where
+ * they were traced and are undistorted when a pose is worked out.
  */
 export interface Distortion {
   /** The file that the grid was in, for people. */
@@ -112,40 +108,4 @@ export function readDistortionFile(json: string): Distortion {
   if (kind !== DISTORTION_KIND) throw new ReadError(`this is no correction of distortion (its kind is "${kind}")`);
   if (version !== VERSION) throw new ReadError(`this correction has version ${version}; this page reads version ${VERSION}`);
   return readDistortion(value, 'file');
-}
-
-// --- The command ------------------------------------------------------------------------------------------------------
-
-/** Columns and rows by turns, moved. */
-export type MovePoints = (points: Float64Array<ArrayBuffer>) => ArrayLike<number>;
-
-/**
- * Takes another correction, or none. Outlines stay on what they were traced on: where frames become straight, or are
- * straight no longer, their points go with them. `fromShown` and `toShown` do that for the correction before and after.
- */
-export function setDistortion(distortion: Distortion | null, fromShown: MovePoints | null, toShown: MovePoints | null): Command {
-  const move = (points: readonly FramePoint[]): readonly FramePoint[] => {
-    const flat = Float64Array.from(points.flatMap(({ column, row }) => [column, row]));
-    const raw = fromShown ? Float64Array.from(fromShown(flat)) : flat;
-    const shown = toShown ? toShown(raw) : raw;
-    return points.map((_, index) => framePoint(shown[2 * index] ?? 0, shown[2 * index + 1] ?? 0));
-  };
-  return {
-    label: distortion ? texts.steps.correctDistortion : texts.steps.leaveDistortion,
-    apply: (doc) => {
-      const moves = fromShown !== null || toShown !== null;
-      return { ...doc, distortion, cells: moves ? movedCells(doc, distortion, move) : doc.cells };
-    },
-  };
-}
-
-function movedCells(doc: Doc, next: Distortion | null, move: (points: readonly FramePoint[]) => readonly FramePoint[]): Doc['cells'] {
-  const concerned = doc.frames.filter((frame) => fits(doc.distortion, frame) || fits(next, frame)).map(({ id }) => id);
-  const ids = new Set(concerned);
-  const moved = (outline: Outline): Outline => ({ ...outline, points: move(outline.points) });
-  const entries = Object.entries(doc.cells).map(([key, cell]) => {
-    const frameId = key.slice(0, key.lastIndexOf('/'));
-    return [key, cell.outline && ids.has(frameId) ? { ...cell, outline: moved(cell.outline) } : cell] as const;
-  });
-  return Object.fromEntries(entries);
 }

@@ -1,6 +1,8 @@
-import { withCell, type Command, type Place } from './commands';
-import { cellOf, isByHand, type Candidate, type Doc, type PoseNumbers, type Posed } from './types';
-import { texts } from '../texts';
+import { withCell } from './commands';
+import type { Command, Place } from './command';
+import { type Candidate, cellOf, type Doc, isByHand, type Posed } from './types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import { texts } from '../texts/texts';
 
 /** Poses that somebody set by hand. */
 

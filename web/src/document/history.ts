@@ -1,5 +1,6 @@
 import type { Doc } from './types';
-import { carryResult, type Command, type Place } from './commands';
+import { carryResult } from './commands';
+import type { Command, Place } from './command';
 
 /**
  * Undo and redo over immutable documents. A command is one undo unit; a gesture previews as often as it likes and

@@ -1,4 +1,5 @@
-import { onOutline, type Command } from './commands';
+import { onOutline } from './commands';
+import type { Command } from './command';
 import { assignments, type Proposal } from './proposal';
 import type { Doc } from './types';
 

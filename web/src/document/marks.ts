@@ -1,6 +1,6 @@
-import type { Command, Place } from './commands';
+import type { Command, Place } from './command';
 import { cellKey, cellOf, chosenCandidate, type Cell, type Doc, type Mark } from './types';
-import { texts } from '../texts';
+import { texts } from '../texts/texts';
 
 export const NO_MARK: Mark = { checked: null, flagged: false, note: '' };
 

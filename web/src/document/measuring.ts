@@ -28,7 +28,7 @@ export interface MeasuredDistortion {
   readonly numbers: Float64Array<ArrayBuffer>;
   /** Beads used and dropped; residual before and after; left out for orders 3, 4, 5 (NaN: too few beads); largest shift. Px. */
   readonly quality: Float64Array<ArrayBuffer>;
-  /** Of each bead: place, offset from the straight lattice before, offset after; columns and rows, px. */
+  /** Of each bead: place, offset from the regular lattice before, offset after; columns and rows, px. */
   readonly residuals: Float64Array<ArrayBuffer>;
 }
 

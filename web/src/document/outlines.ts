@@ -1,10 +1,12 @@
 import { transformed, type Similarity } from '../geometry/similarity';
 import type { FramePoint } from '../geometry/points';
-import { onOutline, type Command, type Place } from './commands';
+import { onOutline } from './commands';
+import type { Command, Place } from './command';
 import { carriedSides } from './sides';
 import { markedStretch, type Stretch } from './stretch';
-import { cellOf, type ComponentName, type Doc, type Outline } from './types';
-import { texts } from '../texts';
+import { cellOf, type Doc, type Outline } from './types';
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 
 /** Commands that change an outline as a whole. */
 

@@ -1,4 +1,5 @@
-import type { ComponentName, Doc, FrameEntry, Outline } from './types';
+import type { Doc, FrameEntry, Outline } from './types';
+import type { ComponentName } from '../terms/component';
 
 /**
  * Outlines that came from files and wait for a person's word on which frame and component each is for. Nothing of the
@@ -8,7 +9,7 @@ export interface Proposal {
   readonly items: readonly ProposedItem[];
   /** Names of what the files say an outline is of (a category, a folder, a grey value), and the component meant by it. */
   readonly subjects: Readonly<Record<string, ComponentName | null>>;
-  readonly match: Match;
+  readonly match: FrameMatching;
   /** Masks: every pixel as it is, instead of few points. */
   readonly exact: boolean;
   /** Opens the files as frames after all; null where they cannot be frames. */
@@ -18,7 +19,7 @@ export interface Proposal {
 }
 
 /** How items find their frames. */
-export type Match = 'name' | 'order';
+export type FrameMatching = 'name' | 'order';
 
 export interface ProposedItem {
   /** As the person knows it: file, page, annotation. */
@@ -65,7 +66,7 @@ export function assignments(doc: Doc, { items, subjects, match }: Proposal): rea
   });
 }
 
-function destinationOf(doc: Doc, item: ProposedItem, component: ComponentName | null, match: Match): Destination {
+function destinationOf(doc: Doc, item: ProposedItem, component: ComponentName | null, match: FrameMatching): Destination {
   if (!component) return nowhere(`"${item.subject}" is left out`);
   const index = frameOf(doc, item, match);
   const frame = doc.frames[index];
@@ -83,7 +84,7 @@ function nowhere(reason: string): Destination {
 }
 
 /** -1 where there is none. */
-function frameOf(doc: Doc, item: ProposedItem, match: Match): number {
+function frameOf(doc: Doc, item: ProposedItem, match: FrameMatching): number {
   if (match === 'order') return item.order < doc.frames.length ? item.order : -1;
   const known = item.frameId === null ? -1 : doc.frames.findIndex((frame) => frame.id === item.frameId);
   return known >= 0 ? known : frameNamed(doc, item.image);
@@ -114,7 +115,7 @@ function lastNumber(stem: string): number | null {
 }
 
 /** By order where no image has the name of a frame and there are as many of one as of the other, else by name. */
-export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): Match {
+export function likelyMatch(doc: Doc, items: readonly ProposedItem[]): FrameMatching {
   if (items.some((item) => frameOf(doc, item, 'name') >= 0)) return 'name';
   const most = Math.max(0, ...items.map(({ order }) => order + 1));
   return most === doc.frames.length ? 'order' : 'name';

@@ -1,6 +1,8 @@
-import type { Command, Place } from './commands';
-import { cellKey, cellOf, chosenCandidate, COMPONENT_NAMES, type Doc, type PoseNumbers } from './types';
-import { texts } from '../texts';
+import type { Command, Place } from './command';
+import { cellKey, cellOf, chosenCandidate, type Doc } from './types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import { COMPONENT_NAMES } from '../terms/component';
+import { texts } from '../texts/texts';
 
 /** The set of poses to compare with: those of a file that was opened, or what was on view when somebody kept them. */
 

@@ -22,7 +22,7 @@ export function sidesAfterDeletion({ points, unknownSides }: Outline, index: num
 }
 
 /** Part of the outline's length that is unknown, 0 to 1. */
-export function unknownShare({ points, unknownSides }: Outline): number {
+export function unknownFraction({ points, unknownSides }: Outline): number {
   const lengths = points.map((point, side) => {
     const next = points[(side + 1) % points.length] ?? point;
     return Math.hypot(next.column - point.column, next.row - point.row);

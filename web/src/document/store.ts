@@ -1,12 +1,13 @@
 import type { Viewport } from '../geometry/viewport';
-import { USUAL_OPTIONS, type AidOptions } from '../interaction/aid';
-import type { ToolName } from '../interaction/tools';
-import type { Command, Place } from './commands';
+import { type TracingOptions, USUAL_OPTIONS } from '../terms/tracing';
+import type { ToolName } from '../terms/tool';
+import type { Command, Place } from './command';
 import * as history from './history';
 import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
-import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from './seeing';
-import { cellOf, EMPTY_DOC, type Cell, type ComponentName, type Doc, type FrameEntry } from './types';
+import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
+import { type Cell, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
+import type { ComponentName } from '../terms/component';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
 export interface State {
@@ -22,12 +23,12 @@ export interface Ui {
   readonly viewport: Viewport | null;
   readonly selectedPoint: number | null;
   readonly overlayOpacity: number;
-  /** How things are shown; `view/taste.ts` remembers it. */
+  /** How things are shown; `keep/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
-  readonly aids: AidOptions;
+  readonly tracing: TracingOptions;
   /** The threshold that was taken and can still be moved, grey values. */
-  readonly aidLevel: AidLevel | null;
+  readonly thresholdLevel: ThresholdLevel | null;
   /** Space is held: outlines and overlays step aside. */
   readonly overlaysHidden: boolean;
   readonly popover: Popover | null;
@@ -53,7 +54,7 @@ export type Theme = 'dark' | 'light';
 
 export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video';
 
-export interface AidLevel {
+export interface ThresholdLevel {
   readonly level: number;
   readonly least: number;
   readonly greatest: number;
@@ -106,8 +107,8 @@ const EMPTY_UI: Ui = {
   overlayOpacity: 0.35,
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
-  aids: USUAL_OPTIONS,
-  aidLevel: null,
+  tracing: USUAL_OPTIONS,
+  thresholdLevel: null,
   overlaysHidden: false,
   popover: null,
   notice: null,
@@ -124,7 +125,7 @@ const EMPTY_UI: Ui = {
 
 const LOG_LENGTH = 200;
 
-/** The one store. Listeners are told after every change, synchronously. */
+/** The one store. Listeners are called after every change, synchronously. */
 export class Store {
   #state: State = { history: history.startHistory(EMPTY_DOC), ui: EMPTY_UI };
   readonly #listeners = new Set<() => void>();
@@ -210,8 +211,8 @@ export class Store {
     this.show({ seeing: { ...this.ui.seeing, ...change } });
   }
 
-  setAids(change: Partial<AidOptions>): void {
-    this.show({ aids: { ...this.ui.aids, ...change } });
+  setTracing(change: Partial<TracingOptions>): void {
+    this.show({ tracing: { ...this.ui.tracing, ...change } });
   }
 
   setHand(change: Partial<HandSettings>): void {

@@ -1,4 +1,6 @@
 import type { FramePoint } from '../geometry/points';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
 import type { Distortion } from './distortion';
 
 /**
@@ -19,7 +21,7 @@ export interface Doc {
   readonly reference: Reference | null;
   /** What people noted about cells, by `cellKey`. */
   readonly marks: Readonly<Record<string, Mark>>;
-  /** How frames or outlines are straightened; null: they are straight. */
+  /** How frames or outlines are undistorted; null: they stay as they were taken. */
   readonly distortion: Distortion | null;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
   readonly work: string;
@@ -41,9 +43,6 @@ export interface Reference {
 }
 
 export type Side = 'left' | 'right' | 'unknown';
-
-export const COMPONENT_NAMES = ['femur', 'tibia'] as const;
-export type ComponentName = (typeof COMPONENT_NAMES)[number];
 
 /** One image; a file may hold many. */
 export interface FrameEntry {
@@ -75,7 +74,7 @@ export interface FileReference {
   readonly sha256: string;
 }
 
-/** Which views a library holds: degrees round the nominal view, millimetres to the focus, canonical pixels. */
+/** Which views a library holds: degrees around the nominal view, millimetres to the focus, canonical pixels. */
 export interface LibrarySpec {
   readonly nominalX: number;
   readonly nominalY: number;
@@ -143,15 +142,6 @@ export interface Candidate {
   readonly deviations: PoseNumbers | null;
 }
 
-export interface PoseNumbers {
-  readonly x: number;
-  readonly y: number;
-  readonly z: number;
-  readonly zRot: number;
-  readonly xRot: number;
-  readonly yRot: number;
-}
-
 /** Grey values shown from black to white: centre -+ width / 2. */
 export interface GreyWindow {
   readonly centre: number;
@@ -209,9 +199,4 @@ export function isByHand(result: Result | null): boolean {
 /** Were the poses brought onto the outline, or are they the library's? */
 export function isRefined(result: Result | null): boolean {
   return result?.kind === 'posed' && result.candidates.some((candidate) => candidate.residual !== null);
-}
-
-/** The name of a component as a word at the start of a sentence or on a button. */
-export function titleOf(component: ComponentName): string {
-  return component === 'femur' ? 'Femur' : 'Tibia';
 }

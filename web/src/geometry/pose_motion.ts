@@ -1,5 +1,4 @@
-import type { Locks } from '../document/seeing';
-import type { PoseNumbers } from '../document/types';
+import type { Locks, PoseNumbers } from './pose_numbers';
 
 /**
  * Motions of a pose as a hand makes them. Camera frame: x right, y up, looking along -z; millimetres and degrees;
@@ -60,8 +59,8 @@ export function shifted(pose: PoseNumbers, right: number, up: number, locks: Loc
 export function movedInDepth(pose: PoseNumbers, by: number, middle: Vector, locks: Locks): PoseNumbers {
   if (locks.z) return pose;
   const [x, y, z] = inCamera(pose, middle);
-  const share = Math.min(by, -z - NEAREST) / z;
-  return kept(pose, { ...pose, x: pose.x + x * share, y: pose.y + y * share, z: pose.z + z * share }, locks);
+  const fraction = Math.min(by, -z - NEAREST) / z;
+  return kept(pose, { ...pose, x: pose.x + x * fraction, y: pose.y + y * fraction, z: pose.z + z * fraction }, locks);
 }
 
 /** The model does not come nearer to the focus than this, mm. */
@@ -71,7 +70,7 @@ const NEAREST = 10;
  * Turns by a small rotation vector in camera axes, degrees. Where rotations are locked, the others come as near to it as
  * they can.
  */
-export function turned(pose: PoseNumbers, by: Vector, middle: Vector, locks: Locks): PoseNumbers {
+export function rotated(pose: PoseNumbers, by: Vector, middle: Vector, locks: Locks): PoseNumbers {
   const fields = (['zRot', 'xRot', 'yRot'] as const).filter((field) => !locks[field]);
   const axes = axesOf(pose);
   const steps = leastSquares(fields.map((field) => axes[field]), by);

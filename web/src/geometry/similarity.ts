@@ -15,7 +15,7 @@ export function moved(columns: number, rows: number): Similarity {
   return { pivot: framePoint(0, 0), angle: 0, scale: 1, by: { columns, rows } };
 }
 
-export function turned(pivot: FramePoint, angle: number): Similarity {
+export function rotated(pivot: FramePoint, angle: number): Similarity {
   return { pivot, angle, scale: 1, by: NOWHERE };
 }
 
@@ -34,7 +34,7 @@ export function transformed({ pivot, angle, scale, by }: Similarity, points: rea
   });
 }
 
-/** The upright rectangle round some points. */
+/** The upright rectangle around some points. */
 export interface Bounds {
   readonly left: number;
   readonly top: number;

@@ -1,27 +1,13 @@
+import type { HandSituation } from './hand_situation';
 import { setPoseByHand } from '../document/hand_poses';
-import type { Locks } from '../document/seeing';
-import type { PoseNumbers } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 import { canvasPoint, distance, framePoint, type CanvasPoint } from '../geometry/points';
-import { inCamera, movedInDepth, projected, shifted, turned, type Pinhole, type Vector } from '../geometry/pose_motion';
+import { inCamera, movedInDepth, projected, shifted, rotated } from '../geometry/pose_motion';
 import { canvasFromFrame, type Viewport } from '../geometry/viewport';
-import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
-import { texts } from '../texts';
+import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Situation } from './machine';
+import { texts } from '../texts/texts';
 
-/** What a hand on the model needs to know. */
-export interface HandScene {
-  /** Where the model is, or where it would be placed. */
-  readonly pose: PoseNumbers;
-  /** The model is not there yet: the first press places it. */
-  readonly absent: boolean;
-  /** The middle of the model in its own coordinates, mm. */
-  readonly middle: Vector;
-  readonly camera: Pinhole;
-  readonly locks: Locks;
-  /** The mouse moves the model a fifth as far. */
-  readonly fine: boolean;
-}
-
-/** In the image plane, round the line of sight, round lines across it, along it. */
+/** In the image plane, around the line of sight, around lines across it, along it. */
 export type Motion = 'move' | 'turn' | 'tilt' | 'depth';
 
 export type AdjustState =
@@ -30,22 +16,22 @@ export type AdjustState =
 
 const IDLE: AdjustState = { name: 'idle' };
 
-/** Dragging a model: in the plane, or by its handles or with keys held round its axes. */
+/** Dragging a model: in the plane, or by its handles or with keys held around its axes. */
 export const adjust: Machine<AdjustState> = { start: IDLE, next };
 
-function next(state: AdjustState, input: Input, scene: Scene): Outcome<AdjustState> {
+function next(state: AdjustState, input: Input, situation: Situation): Outcome<AdjustState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
-  const { hand } = scene;
+  const { hand } = situation;
   if (!hand) return outcome(IDLE);
-  return state.name === 'idle' ? press(input, scene, hand) : whileDragging(state, input, scene, hand);
+  return state.name === 'idle' ? press(input, situation, hand) : whileDragging(state, input, situation, hand);
 }
 
-function press(input: Input, scene: Scene, hand: HandScene): Outcome<AdjustState> {
+function press(input: Input, situation: Situation, hand: HandSituation): Outcome<AdjustState> {
   if (input.type !== 'down' || input.button !== 'primary') return outcome(IDLE);
-  const motion = heldMotion(input) ?? handleAt(hand, scene.viewport, input.at) ?? 'move';
+  const motion = heldMotion(input) ?? handleAt(hand, situation.viewport, input.at) ?? 'move';
   const state = { name: 'dragging', motion, last: input.at, pose: hand.pose, moved: false } as const;
   if (!hand.absent) return outcome(state);
-  return outcome({ ...state, moved: true }, { type: 'preview', command: setPoseByHand(scene.place, hand.pose, texts.steps.placeModel) });
+  return outcome({ ...state, moved: true }, { type: 'preview', command: setPoseByHand(situation.place, hand.pose, texts.steps.placeModel) });
 }
 
 /** Keys held with the mouse: Shift tilts, Ctrl turns in the plane, both move along the view. */
@@ -58,13 +44,13 @@ function heldMotion({ ctrl, shift }: Input): Motion | null {
 function whileDragging(
   state: Extract<AdjustState, { name: 'dragging' }>,
   input: Input,
-  scene: Scene,
-  hand: HandScene,
+  situation: Situation,
+  hand: HandSituation,
 ): Outcome<AdjustState> {
   if (input.type === 'up' && !state.moved) return outcome(IDLE);
   if (!state.moved && distance(state.last, input.at) < DRAG_THRESHOLD) return outcome(state);
-  const pose = dragged(state, input.at, scene.viewport, hand);
-  const command = setPoseByHand(scene.place, pose, LABELS[state.motion]);
+  const pose = dragged(state, input.at, situation.viewport, hand);
+  const command = setPoseByHand(situation.place, pose, LABELS[state.motion]);
   if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
   if (input.type !== 'move') return outcome(state);
   return outcome({ ...state, last: input.at, pose, moved: true }, { type: 'preview', command });
@@ -77,10 +63,10 @@ const LABELS: Readonly<Record<Motion, string>> = {
   depth: texts.steps.modelAlongView,
 };
 
-/** A model tilts by this much a CSS pixel, degrees, and moves along the view by this share of its depth. */
+/** A model tilts by this much a CSS pixel, degrees, and moves along the view by this fraction of its depth. */
 const TILT = 0.25;
 const DEPTH = 0.001;
-/** The mouse in fine steps, as a share of the usual. */
+/** The mouse in fine steps, as a fraction of the usual. */
 const FINE = 0.2;
 
 /** The pose after the pointer went from the last place to `to`. */
@@ -88,10 +74,10 @@ function dragged(
   { motion, last, pose }: { motion: Motion; last: CanvasPoint; pose: PoseNumbers },
   to: CanvasPoint,
   viewport: Viewport,
-  { middle, camera, locks, fine }: HandScene,
+  { middle, camera, locks, fine }: HandSituation,
 ): PoseNumbers {
-  const share = fine ? FINE : 1;
-  const [right, down] = [(to.x - last.x) * share, (to.y - last.y) * share];
+  const fraction = fine ? FINE : 1;
+  const [right, down] = [(to.x - last.x) * fraction, (to.y - last.y) * fraction];
   const depth = -inCamera(pose, middle)[2];
   switch (motion) {
     case 'move': {
@@ -99,10 +85,10 @@ function dragged(
       return shifted(pose, (right * perPixel) / camera.fx, (-down * perPixel) / camera.fy, locks);
     }
     case 'tilt':
-      return turned(pose, [down * TILT, right * TILT, 0], middle, locks);
+      return rotated(pose, [down * TILT, right * TILT, 0], middle, locks);
     case 'turn': {
       const centre = centreOf({ pose, middle, camera }, viewport);
-      return centre ? turned(pose, [0, 0, share * angleBetween(centre, last, to)], middle, locks) : pose;
+      return centre ? rotated(pose, [0, 0, fraction * angleBetween(centre, last, to)], middle, locks) : pose;
     }
     case 'depth':
       return movedInDepth(pose, down * DEPTH * depth, middle, locks);
@@ -118,13 +104,13 @@ function angleBetween(centre: CanvasPoint, from: CanvasPoint, to: CanvasPoint): 
 
 // --- Handles: what a finger or a pen can take hold of --------------------------------------------------------------------
 
-/** CSS pixels: the ring round the middle of the model, and how near a press must be. */
+/** CSS pixels: the ring around the middle of the model, and how near a press must be. */
 export const RING = 64;
 const KNOB_REACH = 14;
 const RING_REACH = 7;
 
 /** Where the middle of the model is on the canvas. */
-export function centreOf({ pose, middle, camera }: Pick<HandScene, 'pose' | 'middle' | 'camera'>, viewport: Viewport): CanvasPoint | null {
+export function centreOf({ pose, middle, camera }: Pick<HandSituation, 'pose' | 'middle' | 'camera'>, viewport: Viewport): CanvasPoint | null {
   const at = projected(camera, inCamera(pose, middle));
   return at && canvasFromFrame(viewport, framePoint(at.column, at.row));
 }
@@ -139,7 +125,7 @@ export function knobs(centre: CanvasPoint): Readonly<Record<Exclude<Motion, 'mov
 }
 
 /** Which handle lies under the pointer. */
-export function handleAt(hand: HandScene, viewport: Viewport, at: CanvasPoint): Motion | null {
+export function handleAt(hand: HandSituation, viewport: Viewport, at: CanvasPoint): Motion | null {
   const centre = hand.absent ? null : centreOf(hand, viewport);
   if (!centre) return null;
   const places = Object.entries(knobs(centre)) as [Motion, CanvasPoint][];

@@ -1,13 +1,13 @@
 import { adjust } from './adjust';
 import { brush } from './brush';
 import { edit } from './edit';
-import type { Effect, Input, Machine, Scene } from './machine';
+import type { Effect, Input, Machine, Situation } from './machine';
 import { drag, gestureOf, hand, windowing, type DragState } from './navigate';
 import { oneClick } from './one_click';
 import { ruler } from './ruler';
 import { stretch } from './stretch';
 import { threshold } from './threshold';
-import type { ToolName } from './tools';
+import type { ToolName } from '../terms/tool';
 import { trace } from './trace';
 import { transform } from './transform';
 import { wire, wireBusy } from './wire';
@@ -33,10 +33,10 @@ export class Controller {
     ruler: new Held(ruler),
   };
 
-  handle(tool: ToolName | 'ruler', input: Input, scene: Scene, spaceHeld: boolean): readonly Effect[] {
+  handle(tool: ToolName | 'ruler', input: Input, situation: Situation, spaceHeld: boolean): readonly Effect[] {
     const navigation = this.#navigation ?? this.#beginNavigation(input, spaceHeld);
-    if (navigation) return this.#navigate(navigation, input, scene);
-    return this.#tools[tool].handle(input, scene);
+    if (navigation) return this.#navigate(navigation, input, situation);
+    return this.#tools[tool].handle(input, situation);
   }
 
   /** Is a gesture under way? Then keys do not change tools under it. */
@@ -52,16 +52,16 @@ export class Controller {
   #navigate(
     navigation: { kind: 'panning' | 'windowing'; state: DragState },
     input: Input,
-    scene: Scene,
+    situation: Situation,
   ): readonly Effect[] {
-    const { state, effects } = drag(navigation.state, input, scene, navigation.kind);
+    const { state, effects } = drag(navigation.state, input, situation, navigation.kind);
     this.#navigation = state.name === 'idle' ? null : { kind: navigation.kind, state };
     return effects;
   }
 }
 
 interface Running {
-  handle(input: Input, scene: Scene): readonly Effect[];
+  handle(input: Input, situation: Situation): readonly Effect[];
   readonly busy: boolean;
 }
 
@@ -81,8 +81,8 @@ class Held<State extends { readonly name: string }> implements Running {
     return this.#isBusy(this.#state);
   }
 
-  handle(input: Input, scene: Scene): readonly Effect[] {
-    const { state, effects } = this.#machine.next(this.#state, input, scene);
+  handle(input: Input, situation: Situation): readonly Effect[] {
+    const { state, effects } = this.#machine.next(this.#state, input, situation);
     this.#state = state;
     return effects;
   }

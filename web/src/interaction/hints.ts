@@ -1,8 +1,8 @@
-import { aidHint, type AidSituation } from './aid_hints';
+import { tracingHint, type TracingSituation } from './tracing_hints';
 import type { Outline } from '../document/types';
 import { FEWEST_POINTS, type Hit } from './hit';
-import type { ToolName } from './tools';
-import { texts } from '../texts';
+import type { ToolName } from '../terms/tool';
+import { texts } from '../texts/texts';
 
 /** One line: what the next click does. */
 export function hint(
@@ -10,10 +10,10 @@ export function hint(
   component: string,
   outline: Outline | null,
   hit: Hit,
-  aid: AidSituation = { erase: false, adjusting: false },
+  situation: TracingSituation = { erase: false, adjusting: false },
 ): string {
-  const aided = aidHint(tool, component, outline, hit, aid);
-  if (aided !== null) return aided;
+  const ofTool = tracingHint(tool, component, outline, hit, situation);
+  if (ofTool !== null) return ofTool;
   switch (tool) {
     case 'hand':
       return texts.hints.hand;

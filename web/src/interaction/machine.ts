@@ -1,12 +1,12 @@
-import type { HandScene } from './adjust';
-import type { AidIntent } from './aid';
+import type { HandSituation } from './hand_situation';
+import type { TracingIntent } from './tracing_intent';
 import type { CanvasPoint, FramePoint } from '../geometry/points';
 import type { Size, Viewport } from '../geometry/viewport';
-import type { Command, Place } from '../document/commands';
+import type { Command, Place } from '../document/command';
 import type { GreyWindow, Outline } from '../document/types';
 
 /**
- * Interactions are state machines without a DOM: an input and the scene go in, the next state and effects come out.
+ * Interactions are state machines without a DOM: an input and the situation go in, the next state and effects come out.
  * Tests drive them with plain values.
  */
 export type Button = 'primary' | 'middle' | 'secondary';
@@ -22,7 +22,7 @@ export interface Input {
   readonly ctrl?: boolean;
 }
 
-export interface Scene {
+export interface Situation {
   readonly viewport: Viewport;
   readonly frame: Size;
   readonly place: Place;
@@ -31,7 +31,7 @@ export interface Scene {
   /** The brush takes away; with Alt held the other way round. */
   readonly erase: boolean;
   /** Null where no model can be adjusted: it, the calibration or the frame is missing. */
-  readonly hand?: HandScene | null;
+  readonly hand?: HandSituation | null;
 }
 
 export type Effect =
@@ -42,7 +42,7 @@ export type Effect =
   | { readonly type: 'select'; readonly index: number | null }
   | { readonly type: 'viewport'; readonly viewport: Viewport }
   | { readonly type: 'mark'; readonly at: FramePoint; readonly begins: boolean }
-  | { readonly type: 'aid'; readonly intent: AidIntent };
+  | { readonly type: 'tracing'; readonly intent: TracingIntent };
 
 export interface Outcome<State> {
   readonly state: State;
@@ -51,7 +51,7 @@ export interface Outcome<State> {
 
 export interface Machine<State> {
   readonly start: State;
-  readonly next: (state: State, input: Input, scene: Scene) => Outcome<State>;
+  readonly next: (state: State, input: Input, situation: Situation) => Outcome<State>;
 }
 
 export function outcome<State>(state: State, ...effects: readonly Effect[]): Outcome<State> {

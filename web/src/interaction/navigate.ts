@@ -2,7 +2,7 @@ import { setWindow } from '../document/commands';
 import type { GreyWindow } from '../document/types';
 import { canvasPoint, type CanvasPoint } from '../geometry/points';
 import { pan, zoomAt, type Viewport } from '../geometry/viewport';
-import { outcome, type Effect, type Input, type Machine, type Outcome, type Scene } from './machine';
+import { outcome, type Effect, type Input, type Machine, type Outcome, type Situation } from './machine';
 
 /** Panning and window/level by dragging, whatever the tool; and as tools of their own. */
 export type DragState =
@@ -12,11 +12,11 @@ export type DragState =
 
 const IDLE: DragState = { name: 'idle' };
 
-export const hand: Machine<DragState> = { start: IDLE, next: (state, input, scene) => drag(state, input, scene, 'panning') };
+export const hand: Machine<DragState> = { start: IDLE, next: (state, input, situation) => drag(state, input, situation, 'panning') };
 
 export const windowing: Machine<DragState> = {
   start: IDLE,
-  next: (state, input, scene) => drag(state, input, scene, 'windowing'),
+  next: (state, input, situation) => drag(state, input, situation, 'windowing'),
 };
 
 /** What a press begins by itself, before the tool is asked: the middle button pans, the right one windows. */
@@ -29,7 +29,7 @@ export function gestureOf(input: Input, spaceHeld: boolean): 'panning' | 'window
 export function drag(
   state: DragState,
   input: Input,
-  scene: Scene,
+  situation: Situation,
   kind: 'panning' | 'windowing',
 ): Outcome<DragState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
@@ -38,14 +38,14 @@ export function drag(
     return outcome(
       kind === 'panning'
         ? { name: 'panning', last: input.at }
-        : { name: 'windowing', from: input.at, window: scene.window },
+        : { name: 'windowing', from: input.at, window: situation.window },
     );
   }
-  return state.name === 'panning' ? whilePanning(state.last, input, scene) : whileWindowing(state, input);
+  return state.name === 'panning' ? whilePanning(state.last, input, situation) : whileWindowing(state, input);
 }
 
-function whilePanning(last: CanvasPoint, input: Input, scene: Scene): Outcome<DragState> {
-  const viewport = pan(scene.viewport, input.at.x - last.x, input.at.y - last.y);
+function whilePanning(last: CanvasPoint, input: Input, situation: Situation): Outcome<DragState> {
+  const viewport = pan(situation.viewport, input.at.x - last.x, input.at.y - last.y);
   const effect: Effect = { type: 'viewport', viewport };
   return input.type === 'up' ? outcome(IDLE, effect) : outcome({ name: 'panning', last: input.at }, effect);
 }

@@ -5,7 +5,7 @@ import type { Outline } from '../document/types';
 import { distance, nearestOnSegment, type CanvasPoint } from '../geometry/points';
 import { canvasFromFrame, type Viewport } from '../geometry/viewport';
 import { reachOf } from './hit';
-import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
+import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Situation } from './machine';
 
 /** Marking a stretch of a closed outline as unknown by dragging along it; as known again where it began on unknown. */
 export type StretchState =
@@ -31,13 +31,13 @@ const SLACK = 24;
 
 export const stretch: Machine<StretchState> = { start: IDLE, next };
 
-function next(state: StretchState, input: Input, scene: Scene): Outcome<StretchState> {
+function next(state: StretchState, input: Input, situation: Situation): Outcome<StretchState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
-  const { outline } = scene;
+  const { outline } = situation;
   if (!outline?.closed) return outcome(IDLE);
-  if (state.name === 'dragging') return whileDragging(state, input, scene, outline);
+  if (state.name === 'dragging') return whileDragging(state, input, situation, outline);
   if (input.type !== 'down' || input.button !== 'primary') return outcome(state);
-  const hold = holdOf(outline, scene.viewport, input.at);
+  const hold = holdOf(outline, situation.viewport, input.at);
   if (!hold || hold.away > reachOf(input) * STRETCH_REACH) return outcome(state);
   return outcome({
     name: 'dragging',
@@ -53,16 +53,16 @@ function next(state: StretchState, input: Input, scene: Scene): Outcome<StretchS
 function whileDragging(
   state: Extract<StretchState, { name: 'dragging' }>,
   input: Input,
-  scene: Scene,
+  situation: Situation,
   shown: Outline,
 ): Outcome<StretchState> {
   const meant = state.meant || distance(state.from, input.at) >= DRAG_THRESHOLD;
   if (!meant) {
     if (input.type !== 'up') return outcome(state);
-    return outcome(IDLE, { type: 'perform', command: toggleUnknownSide(scene.place, state.side) });
+    return outcome(IDLE, { type: 'perform', command: toggleUnknownSide(situation.place, state.side) });
   }
-  const followed = follow(state, input.at, shown, scene.viewport);
-  const command = markStretch(scene.place, followed, state.unknown);
+  const followed = follow(state, input.at, shown, situation.viewport);
+  const command = markStretch(situation.place, followed, state.unknown);
   if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
   if (input.type !== 'move') return outcome(state);
   return outcome({ ...state, meant, last: input.at, stretch: followed }, { type: 'preview', command });

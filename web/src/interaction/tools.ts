@@ -1,4 +1,5 @@
-import { texts } from '../texts';
+import type { ToolName } from '../terms/tool';
+import { texts } from '../texts/texts';
 
 /** The tools of the rail, each with its one-letter key. */
 export const TOOLS = [
@@ -13,6 +14,4 @@ export const TOOLS = [
   { name: 'pose', key: 'a', title: texts.keys.tools.pose, cursor: 'move' },
   { name: 'hand', key: 'h', title: texts.keys.tools.hand, cursor: 'grab' },
   { name: 'window', key: 'w', title: texts.keys.tools.window, cursor: 'ns-resize' },
-] as const;
-
-export type ToolName = (typeof TOOLS)[number]['name'];
+] as const satisfies readonly { readonly name: ToolName; readonly key: string; readonly title: string; readonly cursor: string }[];

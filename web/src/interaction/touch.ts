@@ -1,20 +1,20 @@
 import { canvasPoint, distance, type CanvasPoint } from '../geometry/points';
 import { pan, zoomAt, type Viewport } from '../geometry/viewport';
 
-/** What becomes of a touch: the tool has it, the film moves under it, or nothing (a palm, a third finger). */
-export type Use = 'tool' | 'film' | 'nothing';
+/** What becomes of a touch: the tool has it, the frame moves under it, or nothing (a palm, a third finger). */
+export type Use = 'tool' | 'view' | 'nothing';
 
 /**
- * Fingers on the film. One draws, two move and zoom the film; once a pen was seen a single finger moves the film too,
+ * Fingers on the frame. One draws, two move and zoom the frame; once a pen was seen a single finger moves the frame too,
  * because a hand rests on the screen while its pen draws.
  */
 export class Touches {
   readonly #fingers = new Map<number, CanvasPoint>();
   #penSeen = false;
-  /** The film moves until all fingers are up: the last one of a pinch must not draw. */
+  /** The frame moves until all fingers are up: the last one of a pinch must not draw. */
   #moving = false;
 
-  /** A pen touches the film. */
+  /** A pen touches the frame. */
   pen(): void {
     this.#penSeen = true;
   }
@@ -23,15 +23,15 @@ export class Touches {
     return this.#moving;
   }
 
-  /** What the finger is for; `film` may take the film from a tool that had the first finger. */
+  /** What the finger is for; `view` may take it from a tool that had the first finger. */
   down(id: number, at: CanvasPoint): Use {
     this.#fingers.set(id, at);
     if (this.#fingers.size > 2) return 'nothing';
     this.#moving ||= this.#penSeen || this.#fingers.size === 2;
-    return this.#moving ? 'film' : 'tool';
+    return this.#moving ? 'view' : 'tool';
   }
 
-  /** The film after a finger has moved; null where the tool has the finger. */
+  /** The frame after a finger has moved; null where the tool has the finger. */
   move(id: number, at: CanvasPoint, viewport: Viewport): Viewport | null {
     const before = this.#fingers.get(id);
     if (!before) return null;
@@ -44,7 +44,7 @@ export class Touches {
     return pinched(viewport, [before, at], other);
   }
 
-  /** True when the finger belonged to the film. */
+  /** True when the finger belonged to the frame. */
   up(id: number): boolean {
     const known = this.#fingers.delete(id);
     const moving = known && this.#moving;

@@ -1,12 +1,12 @@
 import { transformOutline } from '../document/outlines';
 import { canvasPoint, distance, framePoint, type CanvasPoint, type FramePoint } from '../geometry/points';
-import { boundsOf, middleOf, moved, scaled, turned, type Bounds, type Similarity } from '../geometry/similarity';
+import { boundsOf, middleOf, moved, scaled, rotated, type Bounds, type Similarity } from '../geometry/similarity';
 import { canvasFromFrame, frameFromCanvas, type Viewport } from '../geometry/viewport';
 import { reachOf } from './hit';
-import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Scene } from './machine';
-import { texts } from '../texts';
+import { DRAG_THRESHOLD, outcome, type Input, type Machine, type Outcome, type Situation } from './machine';
+import { texts } from '../texts/texts';
 
-/** Moving, turning and scaling a whole outline by the frame of handles round it. */
+/** Moving, turning and scaling a whole outline by the box of handles around it. */
 export const CORNERS = ['top-left', 'top-right', 'bottom-right', 'bottom-left'] as const;
 export type Corner = (typeof CORNERS)[number];
 export type Handle = Corner | 'turn' | 'inside';
@@ -32,24 +32,24 @@ const STALK = 28;
 
 export const transform: Machine<TransformState> = { start: IDLE, next };
 
-function next(state: TransformState, input: Input, scene: Scene): Outcome<TransformState> {
+function next(state: TransformState, input: Input, situation: Situation): Outcome<TransformState> {
   if (input.type === 'cancel') return outcome(IDLE, { type: 'cancel-preview' });
-  if (state.name === 'dragging') return whileDragging(state, input, scene);
-  const bounds = boundsOf(scene.outline?.points ?? []);
+  if (state.name === 'dragging') return whileDragging(state, input, situation);
+  const bounds = boundsOf(situation.outline?.points ?? []);
   if (!bounds || input.type !== 'down' || input.button !== 'primary') return outcome(state);
-  const handle = handleAt(bounds, scene.viewport, input.at, reachOf(input));
+  const handle = handleAt(bounds, situation.viewport, input.at, reachOf(input));
   return outcome(handle ? { name: 'dragging', handle, from: input.at, bounds, meant: false } : state);
 }
 
 function whileDragging(
   state: Extract<TransformState, { name: 'dragging' }>,
   input: Input,
-  scene: Scene,
+  situation: Situation,
 ): Outcome<TransformState> {
   const meant = state.meant || distance(state.from, input.at) >= DRAG_THRESHOLD;
   if (!meant) return outcome(input.type === 'up' ? IDLE : state);
-  const similarity = similarityOf(state, input, scene.viewport);
-  const command = transformOutline(scene.place, LABELS[kindOf(state.handle)], similarity);
+  const similarity = similarityOf(state, input, situation.viewport);
+  const command = transformOutline(situation.place, LABELS[kindOf(state.handle)], similarity);
   if (input.type === 'up') return outcome(IDLE, { type: 'commit', command });
   return input.type === 'move' ? outcome({ ...state, meant }, { type: 'preview', command }) : outcome(state);
 }
@@ -70,7 +70,7 @@ function similarityOf(
   const [start, end] = [frameFromCanvas(viewport, from), frameFromCanvas(viewport, at)];
   if (handle === 'inside') return moved(end.column - start.column, end.row - start.row);
   const middle = middleOf(bounds);
-  if (handle === 'turn') return turned(middle, directionOf(middle, end) - directionOf(middle, start));
+  if (handle === 'turn') return rotated(middle, directionOf(middle, end) - directionOf(middle, start));
   const pivot = alt ? middle : cornerOf(bounds, opposite(handle));
   const factor = away(pivot, end) / Math.max(away(pivot, start), 1e-6);
   return scaled(pivot, Math.min(MOST_SCALED, Math.max(1 / MOST_SCALED, factor)));

@@ -1,5 +1,5 @@
-import type { ComponentName } from '../document/types';
-import { aids } from './en_aids';
+import type { ComponentName } from '../terms/component';
+import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { hand } from './en_hand';
@@ -12,7 +12,7 @@ import { steps } from './en_steps';
 /** English, as the page speaks it. Grouped as the page is. */
 export const en = {
   program: 'fluoropose',
-  aids,
+  tracing,
   calibrate,
   files,
   hand,
@@ -67,17 +67,17 @@ export const en = {
     savedAt: (time: string) => `saved ${time}`,
     theme: 'Light page',
     themeDoes: 'Light page, or dark again',
-    themeTitle: 'Light page, for projectors; the film stays dark (Shift+L)',
+    themeTitle: 'Light page, for projectors; the frame stays dark (Shift+L)',
     update: 'Update',
     updateTitle: 'A newer version is here. It takes over when the page is next opened; this button does it now, and asks first if work is not saved.',
     updateSaid: 'A newer version of the page is ready. Nothing changes until the page is opened again, or Update is pressed.',
   },
 
   stage: {
-    region: 'Film',
+    region: 'Frame',
     noFrame: 'No frame',
     label: (name: string, frame: number, count: number, component: string) => `${name}, frame ${frame} of ${count}, tracing the ${component}`,
-    film: (label: string, component: string) => `${label}. ${component} outline`,
+    canvas: (label: string, component: string) => `${label}. ${component} outline`,
     absent: (name: string) => `${name} is not here: drop the file on the page.`,
     drop: 'Drop to open',
   },
@@ -159,7 +159,7 @@ export const en = {
     refused: (why: string) => `Not to be followed: ${why}`,
     noStep: 'Not a step was needed.',
     summary: (poses: number, renders: number) =>
-      `${poses} poses, the model drawn ${renders} times. Each stage looks less far round the outline and trusts what is far off less.`,
+      `${poses} poses, the model drawn ${renders} times. Each stage looks less far around the outline and trusts what is far off less.`,
     region: 'Steps of refinement',
     table: 'Poses on the way',
     columns: ['Stage', 'Drawn', 'Residual px', 'x mm', 'y mm', 'z mm', 'z rot °', 'x rot °', 'y rot °'],
@@ -169,9 +169,9 @@ export const en = {
   },
 
   hints: {
-    hand: 'Drag to move the film, wheel to zoom at the cursor, 0 to see all of it.',
-    window: 'Drag sideways for contrast, up and down for brightness; R goes back to what the film suggests.',
-    noOutline: (component: string) => `No outline of the ${component} here: press P and click round it.`,
+    hand: 'Drag to move the frame, wheel to zoom at the cursor, 0 to see all of it.',
+    window: 'Drag sideways for contrast, up and down for brightness; R goes back to what the frame suggests.',
+    noOutline: (component: string) => `No outline of the ${component} here: press P and click around it.`,
     onPoint: (point: number) => `Point ${point}: drag to move it; Alt-click or Delete removes it.`,
     onSide: 'Click to insert a point here; U marks this side unknown, or known again.',
     open: 'The outline is open: press P to go on tracing, Enter to close it.',

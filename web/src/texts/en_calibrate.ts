@@ -6,11 +6,11 @@ export const calibrate = {
   kinds: { grid: 'Bead grid', ruler: 'Ruler' },
   gridMeaning:
     'A flat plate of round beads or holes in a square pattern. On the detector it shows the distortion; at a known distance from the source it shows the pixel pitch.',
-  rulerMeaning: 'Click two marks of the ruler on the film (zoom in first), or type their places. The ruler lies parallel to the detector.',
+  rulerMeaning: 'Click two marks of the ruler on the frame (zoom in first), or type their places. The ruler lies parallel to the detector.',
   find: 'Find the beads',
   radius: 'Bead radius',
   anyRadius: 'any',
-  bright: 'Beads are brighter than what is round them',
+  bright: 'Beads are brighter than what is around them',
   noFrame: 'There is no frame to look at: open the frame of the grid first.',
   searching: 'Looking for beads',
   found: (beads: number, marks: number) =>
@@ -21,7 +21,7 @@ export const calibrate = {
   distortion: 'Distortion',
   noDistortion: (why: string) => `No correction: ${why}.`,
   fitted: (before: string, after: string, order: number, dropped: number) =>
-    `The beads lie ${before} px (RMS) off a straight lattice, and ${after} px after a correction of order ${order}${
+    `The beads lie ${before} px (RMS) off a regular lattice, and ${after} px after a correction of order ${order}${
       dropped > 0 ? `; ${dropped} beads far off were left out` : ''
     }.`,
   validated: (orders: string) => `Cross-validated residual: ${orders}.`,
@@ -29,17 +29,17 @@ export const calibrate = {
   largest: (shift: string) => `The largest shift of a pixel inside the grid is ${shift} px; outside it the correction is extrapolated.`,
   small: 'That is hardly more than the error of the bead centres: a correction is not worth it.',
   map: (times: number) => `Residuals of the beads before (thin) and after (thick) correction, ${times} times as long`,
-  toFrames: 'Straighten the frames',
-  toFramesTitle: 'Frames are shown straight; outlines that were traced go with them',
-  toOutlines: 'Straighten outlines only',
-  toOutlinesTitle: 'Frames stay as they were taken; outlines are straightened when a pose is worked out',
+  toFrames: 'Undistort the frames',
+  toFramesTitle: 'Frames are shown undistorted; outlines that were traced go with them',
+  toOutlines: 'Undistort outlines only',
+  toOutlinesTitle: 'Frames stay as they were taken; outlines are undistorted when a pose is worked out',
   remove: 'Take the correction away',
   removed: 'The correction of distortion is taken away.',
   saveFile: 'Save the correction (.json)',
   openFile: 'Open a correction',
   applied: {
-    frames: 'Frames are shown straight; outlines went with them.',
-    outlines: 'Outlines are straightened before poses are worked out; frames stay as they were taken.',
+    frames: 'Frames are shown undistorted; outlines went with them.',
+    outlines: 'Outlines are undistorted before poses are worked out; frames stay as they were taken.',
   },
   otherSizes: (count: number, width: number, height: number) =>
     `${count === 1 ? 'One frame has' : `${count} frames have`} another size than ${width} x ${height} px and stay as they are.`,
@@ -47,8 +47,8 @@ export const calibrate = {
     frames: (name: string, order: number, after: string) => `In use on frames: order ${order} from ${name}, ${after} px left.`,
     outlines: (name: string, order: number, after: string) => `In use on outlines: order ${order} from ${name}, ${after} px left.`,
   },
-  bentFilm:
-    'outlines alone are straightened, and this looks at the film, which is not. Choose "Straighten the frames" in the calibration helper first',
+  distortedFrame:
+    'outlines alone are undistorted, and this looks at the frame, which is not. Choose "Undistort the frames" in the calibration helper first',
   opened: (name: string) => `the correction of distortion ${name}`,
 
   camera: 'Camera',
@@ -66,7 +66,7 @@ export const calibrate = {
     `principal point: the frame's middle. A plate this level (${tilt}°) does not show it; tilt the plate by 20° or more in both directions, or type it in the calibration.`,
   pointOfRuler: 'The principal point is taken to be the frame’s middle: a ruler does not show it.',
   residual: (residual: string, beads: number) => `${beads} beads lie ${residual} px (RMS) from where this camera sees them.`,
-  bentFirst: (before: string) => `The picture is bent by ${before} px (RMS): correct the distortion first, or the pitch is that of the middle at best.`,
+  distortedFirst: (before: string) => `The picture is distorted by ${before} px (RMS): correct the distortion first, or the pitch is that of the middle at best.`,
   distancesMatter: 'An error of either distance goes into the pitch in proportion.',
   needs: 'Type the lengths to see the camera.',
   use: 'Use as calibration',

@@ -1,4 +1,4 @@
-import type { PoseNumbers } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
 
 /** English of poses set by hand. */
 export const hand = {
@@ -9,9 +9,9 @@ export const hand = {
   end: 'Done',
   endTitle: 'Back to the outline (Esc)',
   place: 'Place the model',
-  placeTitle: 'As in the nearest frame with a pose, or in the middle of the film (Enter)',
+  placeTitle: 'As in the nearest frame with a pose, or in the middle of the frame (Enter)',
   refine: 'Refine from here',
-  refineTitle: 'Bring the model from this pose onto the outline, or onto the film where there is none (Enter)',
+  refineTitle: 'Bring the model from this pose onto the outline, or onto the frame where there is none (Enter)',
   drop: 'Back to the page’s pose',
   dropTitle: 'Drops the pose set by hand: the page finds the pose of the outline again',
   number: (name: string, unit: string) => `${name} (${unit})`,
@@ -38,13 +38,13 @@ export const hand = {
     changed: 'The pose was changed while it was being refined; the answer was for the old one and is not used.',
     noPose: 'There is no pose to refine from: Enter or the mouse places the model.',
     noLibrary: (component: string) => `Refining needs the library of the ${component}; it is not ready yet.`,
-    noFilm: 'Without an outline the film itself is refined against, and it is not here: drop its file on the page.',
+    noPixels: 'Without an outline the frame itself is refined against, and it is not here: drop its file on the page.',
   },
   job: (component: string) => `Refining the ${component}`,
   /** Completes by what was held. */
   fitOutline: (residual: string) => `Refined from the pose set by hand, against the outline: ${residual} px.`,
-  fitFilm: (residual: string, bright: boolean) =>
-    `Refined from the pose set by hand, against the ${bright ? 'bright' : 'dark'} edges of the film: ${residual} px.`,
+  fitFrame: (residual: string, bright: boolean) =>
+    `Refined from the pose set by hand, against the ${bright ? 'bright' : 'dark'} edges of the frame: ${residual} px.`,
   held: (names: string) => `Held: ${names}.`,
   source: 'Set by hand; the page does not change it.',
   candidate: 'By hand',
@@ -53,7 +53,7 @@ export const hand = {
     absent: (component: string) => `No pose of the ${component} here: click where it is, or press Enter, to place the model.`,
     over: {
       move: 'Drag to move; Shift tilts, Ctrl turns, both go nearer; arrows move, Enter refines from here.',
-      turn: 'Drag round the ring to turn in the image plane (Ctrl + left and right).',
+      turn: 'Drag around the ring to turn in the image plane (Ctrl + left and right).',
       tilt: 'Drag to tilt: sideways about the upright, up and down about the level axis (Shift + arrows).',
       depth: 'Drag down to bring the model nearer, up to push it away (Ctrl + up and down).',
     },
@@ -72,7 +72,7 @@ export const hand = {
     noneHere: 'no pose here',
     nothingHere: (name: string) => `${name} has no pose here.`,
     difference: (name: string, text: string, unit: string) => `${name} differs by ${text} ${unit} from the reference`,
-    rotation: (text: string) => `turned by ${text}°`,
+    rotation: (text: string) => `rotated by ${text}°`,
     said: (name: string) => `Compared with ${name}: its outline is dotted, differences stand beside the numbers.`,
     kept: (count: number) => `${count === 1 ? '1 pose' : `${count} poses`} kept to compare with.`,
   },

@@ -10,7 +10,7 @@ export const keys = {
     transform: 'Move, turn, scale the outline',
     stretch: 'Mark a stretch unknown',
     pose: 'Adjust pose',
-    hand: 'Move the film',
+    hand: 'Move the frame',
     window: 'Window and level',
   },
 
@@ -30,22 +30,22 @@ export const keys = {
   save: 'Save the session',
   open: 'Open files',
   sheet: 'This sheet',
-  fit: 'Fit the film to the window',
+  fit: 'Fit the frame to the window',
   zoomIn: 'Zoom in',
   zoomOut: 'Zoom out',
-  resetWindow: 'Window and level as the film suggests',
+  resetWindow: 'Window and level as the frame suggests',
 
   mouse: {
-    space: { shown: 'Space held', does: 'Hide outlines and overlays; dragging moves the film' },
+    space: { shown: 'Space held', does: 'Hide outlines and overlays; dragging moves the frame' },
     wheel: { shown: 'Wheel', does: 'Zoom at the cursor' },
-    middle: { shown: 'Middle drag', does: 'Move the film' },
+    middle: { shown: 'Middle drag', does: 'Move the frame' },
     right: { shown: 'Right drag', does: 'Window (sideways) and level (up and down)' },
     altClick: { shown: 'Alt + click on a point', does: 'Delete the point' },
     edge: { shown: 'Click on an edge', does: 'Insert a point (closed outline, or Edit points)' },
     double: { shown: 'Double click', does: 'Close the outline' },
   },
 
-  aids: {
+  tracing: {
     snap: 'Snap the outline to the edges',
     shape: 'Simplify or smooth the outline',
     copyPrevious: 'Copy the outline of the previous frame',
@@ -88,10 +88,10 @@ export const keys = {
   },
 
   seeing: {
-    original: 'The film as it is',
-    inverted: 'The film inverted',
-    edges: 'The film’s edges',
-    equalised: 'The film with its contrast equalised',
+    original: 'The frame as it is',
+    inverted: 'The frame inverted',
+    edges: 'The frame’s edges',
+    equalised: 'The frame with its contrast equalised',
     outline: 'The model as an outline',
     fill: 'The model as a translucent fill',
     shaded: 'The model shaded',

@@ -1,4 +1,4 @@
-/** The rail on the left and the panel on the right: the pose, how far to trust it, how the film is shown. */
+/** The rail on the left and the panel on the right: the pose, how far to trust it, how the frame is shown. */
 export const panel = {
   region: 'Pose',
   component: 'Component',
@@ -12,8 +12,8 @@ export const panel = {
     region: 'Tools',
     markSide: 'Mark a side unknown or known',
     markSideTitle: 'Mark the side after the selected point unknown, or known again (U)',
-    fit: 'Fit the film to the window',
-    fitTitle: 'Fit the film to the window (0)',
+    fit: 'Fit the frame to the window',
+    fitTitle: 'Fit the frame to the window (0)',
   },
 
   pose: {
@@ -54,7 +54,7 @@ export const panel = {
     candidate: (name: string) => `${name} candidate`,
     rivalTitle: 'Another pose that explains the outline nearly as well (X switches)',
     bestTitle: 'The pose that was chosen; the reason stands below (X switches)',
-    turned: (x: string, y: string) => `x ${x}, y ${y}`,
+    rotations: (x: string, y: string) => `x ${x}, y ${y}`,
     none: 'none',
     pixels: (count: string) => `${count} px`,
     drawn: (count: string) => `${count} px drawn`,

@@ -4,9 +4,9 @@ export const said = {
   selectedPoint: (point: number, count: number) => `Point ${point} of ${count}: Delete removes it; U marks the side after it unknown.`,
   closeFirst: 'Sides can be marked unknown once the outline is closed.',
   whichSide: 'Point at a side of the outline, or select the point before it with , and . keys, then press U.',
-  sideUnknown: (side: number, count: number, reach: number, share: number) =>
-    `Side ${side} of ${count} is unknown: what lies within ${reach} px of it is ignored. ${share} % of the outline is unknown.`,
-  sideKnown: (side: number, count: number, share: number) => `Side ${side} of ${count} is known. ${share} % of the outline is unknown.`,
+  sideUnknown: (side: number, count: number, reach: number, fraction: number) =>
+    `Side ${side} of ${count} is unknown: what lies within ${reach} px of it is ignored. ${fraction} % of the outline is unknown.`,
+  sideKnown: (side: number, count: number, fraction: number) => `Side ${side} of ${count} is known. ${fraction} % of the outline is unknown.`,
   sessionSaved: 'Session saved, with every file it needs.',
   sessionSavedWithoutFiles: 'Session saved; its files are named by digest, keep them.',
   posesSaved: (component: string, frames: number, without: number) =>

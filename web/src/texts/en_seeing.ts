@@ -1,20 +1,20 @@
-import type { FilmLook, OverlayLook, PictureName } from '../document/seeing';
+import type { Preprocessing, OverlayStyle, PictureName } from '../terms/seeing';
 
 /** English of how things are shown. */
 export const seeing = {
   sheet: 'View',
   open: 'View',
-  openTitle: 'All of how film, model and aids are shown (9)',
-  film: 'Film',
-  films: {
+  openTitle: 'How frame and model are shown, and what else is (9)',
+  preprocessing: 'Frame',
+  preprocessings: {
     original: 'Original',
     inverted: 'Inverted',
     edges: 'Edges',
     equalised: 'Equalised',
-  } satisfies Record<FilmLook, string>,
+  } satisfies Record<Preprocessing, string>,
   overlay: 'Model',
-  overlays: { outline: 'Outline', fill: 'Fill', shaded: 'Shaded' } satisfies Record<OverlayLook, string>,
-  aids: 'Aids',
+  overlays: { outline: 'Outline', fill: 'Fill', shaded: 'Shaded' } satisfies Record<OverlayStyle, string>,
+  besides: 'Also shown',
   magnifier: 'Magnifier',
   scaleBar: 'Scale bar',
   ghosts: 'Neighbouring outlines',

@@ -20,7 +20,7 @@ const FIREFOX: &str = "browser: the page in Firefox";
 /// What is driven in Firefox too: the ways from opening to a pose, every tool, and the keys. Of the rest its driver has no
 /// words for downloads and dropped files.
 const IN_FIREFOX: [&str; 4] = [
-    "aids.test.mjs",
+    "tracing_tools.test.mjs",
     "firefox.test.mjs",
     "keys.test.mjs",
     "tracing.test.mjs",

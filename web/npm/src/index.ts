@@ -1,0 +1,119 @@
+import { decodeModel } from './decode.js';
+import { buildLibrary } from './library.js';
+import init, { Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
+import { read } from './read.js';
+import type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size } from './types.js';
+
+export type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Views } from './types.js';
+
+let ready: Promise<unknown> | undefined;
+
+/**
+ * Opens an implant for frames of one camera. Rendering its library takes some seconds; `Implant.library` spares the
+ * next time that. Rejects with a sentence about whatever is wrong with model, calibration or library.
+ */
+export async function openImplant(options: ImplantOptions): Promise<Implant> {
+  const address = new URL('./pkg/core/fluoropose_wasm_bg.wasm', import.meta.url);
+  await (ready ??= init({ module_or_path: read(address) }));
+  const { model, calibration, frame, signal } = options;
+  signal?.throwIfAborted();
+  const mesh = isMesh(model) ? model : await decodeModel(new Uint8Array(model));
+  const library = options.library ?? (await buildLibrary(mesh, options));
+  return new Implant(mesh, library, calibration, frame);
+}
+
+/** One component with its library. Its memory is WebAssembly's: call `close` when it is no longer wanted. */
+export class Implant {
+  /** The library's bytes, to be kept for the next time. */
+  readonly library: Uint8Array;
+  readonly #matcher: Matcher;
+  readonly #calibration: string;
+  readonly #frame: Size;
+
+  /** Use `openImplant`. */
+  constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size) {
+    this.library = library;
+    this.#matcher = new Matcher(library);
+    this.#matcher.lendModel(mesh.vertices, mesh.triangles);
+    this.#calibration = calibration;
+    this.#frame = frame;
+  }
+
+  /**
+   * The pose that brings the model's outline onto a traced one, refined: about a second. Throws a sentence about an
+   * outline from which no pose can be found.
+   */
+  pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
+    const around = surroundings(hints);
+    try {
+      return this.#look(outline, hints, (traced) => this.#matcher.refineOutline(traced, around));
+    } finally {
+      around.free();
+    }
+  }
+
+  /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
+  preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
+    return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
+  }
+
+  close(): void {
+    this.#matcher.free();
+  }
+
+  #look(outline: readonly Point[], { unknownSides = [] }: Hints, find: (traced: Traced) => Match): FoundPose {
+    const { width, height } = this.#frame;
+    const sides = Uint32Array.from(unknownSides);
+    const traced = new Traced(Float64Array.from(outline.flat()), sides, this.#calibration, width, height);
+    try {
+      return copied(find(traced));
+    } finally {
+      traced.free();
+    }
+  }
+}
+
+function isMesh(model: ImplantOptions['model']): model is Mesh {
+  return 'vertices' in model;
+}
+
+function surroundings({ femur, tibia, neighbours = [] }: Hints): Surroundings {
+  const around = new Surroundings();
+  if (femur) around.setFemur(numbers(femur));
+  if (tibia) around.setTibia(numbers(tibia));
+  for (const pose of neighbours) around.addNeighbour(numbers(pose));
+  return around;
+}
+
+/** Copies what was found out of WebAssembly's memory and frees it there. */
+function copied(match: Match): FoundPose {
+  try {
+    const { decided, partial, reason = null } = match;
+    const candidates = Array.from({ length: match.count }, (_, index) => candidate(match, index));
+    const [best] = candidates;
+    if (!best) throw new Error('No view of the library explains this outline');
+    return { pose: best.pose, candidates, decided, reason, partial };
+  } finally {
+    match.free();
+  }
+}
+
+function candidate(match: Match, index: number): Candidate {
+  const deviations = match.deviations(index);
+  return {
+    pose: pose(match.pose(index) ?? []),
+    deviations: deviations ? pose(deviations) : null,
+    residual: match.residual(index) ?? null,
+    unmatched: match.unmatched(index) ?? null,
+    atBorder: match.atBorder(index) ?? false,
+  };
+}
+
+function numbers({ x, y, z, zRot, xRot, yRot }: Pose): Float64Array {
+  return Float64Array.of(x, y, z, zRot, xRot, yRot);
+}
+
+function pose(values: ArrayLike<number>): Pose {
+  const [x = 0, y = 0, z = 0, zRot = 0, xRot = 0, yRot = 0] = Array.from(values);
+  return { x, y, z, zRot, xRot, yRot };
+}

@@ -1,0 +1,95 @@
+/** Column and row on the frame, pixels: columns grow to the right, rows down, the first pixel covers 0 to 1. */
+export type Point = readonly [column: number, row: number];
+
+/** Pixels. */
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+/**
+ * Where the model is: `X_camera = Rz * Rx * Ry * X_model + (x, y, z)`. Millimetres and degrees. The camera is at the
+ * X-ray focus, x to the right, y up, looking along -z: whatever is in view has negative z.
+ */
+export interface Pose {
+  readonly x: number;
+  readonly y: number;
+  readonly z: number;
+  readonly zRot: number;
+  readonly xRot: number;
+  readonly yRot: number;
+}
+
+/** A surface of triangles. */
+export interface Mesh {
+  /** x, y, z of each vertex, millimetres. */
+  readonly vertices: Float32Array;
+  /** Three vertex numbers for each triangle, from 0. */
+  readonly triangles: Uint32Array;
+}
+
+/** Which views of the model are rendered: rotations out of the image plane, degrees, round a nominal view. */
+export interface Views {
+  /** Rotation about x and about y of the nominal view. */
+  readonly nominal: readonly [x: number, y: number];
+  /** From, to and step about x. */
+  readonly x: readonly [from: number, to: number, step: number];
+  /** From, to and step about y. */
+  readonly y: readonly [from: number, to: number, step: number];
+  /** From the focus to the object, mm; left out, nine tenths of the calibration's principal distance. */
+  readonly distance?: number;
+}
+
+export interface ImplantOptions {
+  /** The CAD model of the very size: a file's bytes (STL, OBJ or PLY in mm), or its triangles. */
+  readonly model: Uint8Array | ArrayBuffer | Mesh;
+  /** The text of a `JT_INTCALIB` or MayaCam 2.0 file. */
+  readonly calibration: string;
+  readonly frame: Size;
+  /** A library made before (`Implant.library`): nothing needs to be rendered. It is refused when it is of another model. */
+  readonly library?: Uint8Array;
+  /** Left out: 15 degrees about x and 20 about y to either side of 0, in steps of 1. */
+  readonly views?: Partial<Views>;
+  /** Told while the library is rendered. */
+  readonly onProgress?: (done: number, total: number) => void;
+  /** Ends the rendering; `openImplant` then rejects with the signal's reason. */
+  readonly signal?: AbortSignal;
+}
+
+/** What else is known of an outline and of what is round it. */
+export interface Hints {
+  /** Sides of the outline that are not to be trusted, from 0: side `i` runs from point `i` to the next. */
+  readonly unknownSides?: readonly number[];
+  /** Pose of the femoral component in the same frame, for a tibial one. */
+  readonly femur?: Pose;
+  /** Pose of the tibial component in the same frame, for a femoral one. */
+  readonly tibia?: Pose;
+  /** Poses of the same component in the frames before and after. */
+  readonly neighbours?: readonly Pose[];
+}
+
+/** One pose that explains an outline. */
+export interface Candidate {
+  readonly pose: Pose;
+  /** One standard deviation of each number; null where the outline does not determine it, and for poses of the library. */
+  readonly deviations: Pose | null;
+  /** What remains between the outlines, px; null for a pose of the library. */
+  readonly residual: number | null;
+  /** Unmatched pixels of 15 000 in the canonical frame; null where a part of the outline led to the pose. */
+  readonly unmatched: number | null;
+  /** The best view lies at the border of the library: the truth may lie beyond it. */
+  readonly atBorder: boolean;
+}
+
+export interface FoundPose {
+  /** The pose of the first candidate. */
+  readonly pose: Pose;
+  /** The chosen one first, then its rivals. */
+  readonly candidates: readonly Candidate[];
+  /** Whether anything spoke for the first one besides a slightly smaller residual. */
+  readonly decided: boolean;
+  /** Why the first one was chosen, a sentence; null for poses of the library. */
+  readonly reason: string | null;
+  /** Only a part of the outline was known: pieces of it led to the poses. */
+  readonly partial: boolean;
+}

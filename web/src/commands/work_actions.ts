@@ -1,0 +1,95 @@
+import { canBeChecked, checkState, markOf, setNote, toggleChecked, toggleFlagged } from '../document/marks';
+import { nextTask } from '../results/progress';
+import type { Place } from '../document/command';
+import { currentPlace, type Store } from '../document/store';
+import { cellOf } from '../document/types';
+import { poseKeys } from '../results/keys';
+import { startAnew } from '../keep/restore';
+import type { Services } from '../jobs/services';
+import type { WorkCommand } from './work_keys';
+import { texts } from '../texts/texts';
+
+/** Going through the work: what is next, what was checked, flags and notes. */
+export class WorkActions {
+  readonly #services: Services;
+  readonly #store: Store;
+  /** Set by the timeline: the field for notes on the cell that is selected. */
+  noteField: HTMLInputElement | null = null;
+
+  constructor(services: Services) {
+    this.#services = services;
+    this.#store = services.store;
+  }
+
+  run(command: WorkCommand): boolean {
+    const place = currentPlace(this.#store.state);
+    switch (command) {
+      case 'next-unfinished':
+        return this.#goToNext(1);
+      case 'previous-unfinished':
+        return this.#goToNext(-1);
+      case 'toggle-checked':
+        return place !== null && this.toggleChecked(place);
+      case 'toggle-flagged':
+        return place !== null && this.toggleFlagged(place);
+      case 'write-note':
+        this.noteField?.focus();
+        return this.noteField !== null;
+      case 'work-list':
+        this.#store.show({ popover: this.#store.ui.popover === 'work' ? null : 'work' });
+        return true;
+      case 'start-anew':
+        startAnew(this.#services);
+        return true;
+    }
+  }
+
+  toggleChecked(place: Place): boolean {
+    const { doc } = this.#store;
+    const cell = cellOf(doc, place.frameId, place.component);
+    if (!canBeChecked(cell) && checkState(cell, markOf(doc, place)) === 'no') {
+      this.#store.say('info', texts.work.nothingToCheck);
+      return true;
+    }
+    this.#store.perform(toggleChecked(place));
+    const now = checkState(cell, markOf(this.#store.doc, place)) === 'yes';
+    this.#say(place, now ? texts.work.saidChecked : texts.work.saidUnchecked);
+    return true;
+  }
+
+  toggleFlagged(place: Place): boolean {
+    this.#store.perform(toggleFlagged(place));
+    this.#say(place, markOf(this.#store.doc, place).flagged ? texts.work.saidFlagged : texts.work.saidUnflagged);
+    return true;
+  }
+
+  setNote(place: Place, note: string): void {
+    this.#store.perform(setNote(place, note));
+  }
+
+  goTo({ frameId, component }: Place): void {
+    this.#store.goTo(this.#store.doc.frames.findIndex(({ id }) => id === frameId));
+    this.#store.selectComponent(component);
+  }
+
+  #goToNext(step: 1 | -1): boolean {
+    const { doc, ui } = this.#store;
+    if (doc.frames.length === 0) return false;
+    const next = nextTask(doc, poseKeys(doc), { index: ui.frameIndex, component: ui.component }, step);
+    if (!next) {
+      this.#store.say('info', texts.work.allDone);
+      return true;
+    }
+    const { place, index, progress } = next.entry;
+    this.goTo(place);
+    const component = texts.component[place.component];
+    const unfinished = texts.work.nextUnfinished(index + 1, component, texts.work.stages[progress.stage]);
+    this.#store.say('info', next.filter === 'unfinished' ? unfinished : texts.work.nextUnchecked(index + 1, component));
+    return true;
+  }
+
+  #say({ frameId, component }: Place, sentence: (frame: number, component: string) => string): void {
+    const number = 1 + this.#store.doc.frames.findIndex(({ id }) => id === frameId);
+    this.#store.say('info', sentence(number, texts.component[component]));
+  }
+}

@@ -1,0 +1,263 @@
+import { framePoint, type FramePoint } from '../../geometry/points';
+import { readAudit, type Audit } from './audit';
+import { readDistortion } from '../distortion';
+import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
+import type {
+  Calibration,
+  Candidate,
+  Cell,
+  Component,
+  Doc,
+  Failed,
+  FileReference,
+  FrameEntry,
+  GreyWindow,
+  LibrarySpec,
+  Mark,
+  Outline,
+  Posed,
+  Reference,
+  Result,
+} from '../types';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+
+/**
+ * A session file: the whole document as JSON, every file it needs named by its SHA-256 and, unless the person chose
+ * otherwise, included.
+ */
+export interface Session {
+  readonly doc: Doc;
+  readonly view: SessionView;
+  readonly files: readonly SessionFile[];
+  /** What gave the results, by digest; null in sessions of version 1. */
+  readonly audit: Audit | null;
+}
+
+export interface SessionView {
+  readonly frameIndex: number;
+  readonly component: 'femur' | 'tibia';
+  readonly overlayOpacity: number;
+}
+
+/** `bytes` is null for a file that is only referenced. */
+export interface SessionFile {
+  readonly name: string;
+  readonly sha256: string;
+  readonly bytes: Uint8Array<ArrayBuffer> | null;
+}
+
+export const SESSION_KIND = 'fluoropose-session';
+export const SESSION_VERSION = 2;
+/** Version 1 had neither marks nor an audit. */
+const OLDEST_VERSION = 1;
+
+/** Parts of a blob: one long text may be more than a text can hold. */
+export function writeSession(session: Session, program: string, savedAt: Date): string[] {
+  const head = {
+    kind: SESSION_KIND,
+    version: SESSION_VERSION,
+    program,
+    savedAt: savedAt.toISOString(),
+    view: session.view,
+    audit: session.audit,
+    document: plainDoc(session.doc),
+  };
+  const opening = `${JSON.stringify(head).slice(0, -1)},\n"files":[`;
+  const files = session.files.map((file, index) => `${index === 0 ? '' : ','}\n${writeFile(file)}`);
+  return [opening, ...files, '\n]}\n'];
+}
+
+export function readSession(json: string): Session {
+  const value = parse(json);
+  if (value['kind'] !== SESSION_KIND) throw new ReadError('this JSON is not a fluoropose session (no "kind")');
+  const version = number(value['version'], 'version');
+  if (version < OLDEST_VERSION || version > SESSION_VERSION) {
+    throw new ReadError(
+      `this session has version ${version}; this page reads versions ${OLDEST_VERSION} to ${SESSION_VERSION}: open it with a newer page`,
+    );
+  }
+  return {
+    doc: readDoc(value['document'], 'document'),
+    view: readView(value['view'], 'view'),
+    files: list(readFile)(value['files'], 'files'),
+    audit: optional(readAudit)(value['audit'], 'audit'),
+  };
+}
+
+function parse(json: string): Record<string, unknown> {
+  try {
+    const value: unknown = JSON.parse(json);
+    if (typeof value === 'object' && value !== null) return value as Record<string, unknown>;
+  } catch (error) {
+    throw new ReadError(`the session is cut short or damaged (${(error as Error).message})`);
+  }
+  throw new ReadError('the session is not a JSON object');
+}
+
+// --- Points are written as pairs: shorter, and easy to read elsewhere ----------------------------------------------
+
+/** The document as JSON has it. Which work it is in this browser is of no use elsewhere. */
+export function plainDoc({ work: _, ...doc }: Doc): Record<string, unknown> {
+  const cells = Object.entries(doc.cells).map(([key, cell]) => [key, plainCell(cell)]);
+  return { ...doc, cells: Object.fromEntries(cells) };
+}
+
+export function plainCell({ outline, result, resultOf }: Cell): unknown {
+  return { outline: plainOutline(outline), result, resultIsCurrent: result !== null && resultOf === outline };
+}
+
+function plainOutline(outline: Outline | null): unknown {
+  return outline && { ...outline, points: outline.points.map((point) => [point.column, point.row]) };
+}
+
+const readPoint: Reader<FramePoint> = (value, path) => {
+  const [column, row, ...rest] = list(number)(value, path);
+  if (column === undefined || row === undefined || rest.length > 0) {
+    throw new ReadError(`${path} should be a pair of numbers, column and row`);
+  }
+  return framePoint(column, row);
+};
+
+// --- The document --------------------------------------------------------------------------------------------------
+
+const readOutline: Reader<Outline> = (value, path) => {
+  // Sessions from before sides could be marked have none.
+  const sides = missingAs<readonly number[]>([], list(count));
+  const outline = object<Outline>({ points: list(readPoint), closed: flag, unknownSides: sides })(value, path);
+  const beyond = outline.unknownSides.find((side) => side >= outline.points.length);
+  if (beyond !== undefined) throw new ReadError(`${path}.unknownSides names side ${beyond} of ${outline.points.length}`);
+  return outline;
+};
+
+const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
+
+const readCandidate = object<Candidate>({
+  pose: readPose,
+  unmatched: nullable(number),
+  drawn: nullable(number),
+  // Sessions from before poses were refined do not have them.
+  residual: optional(number),
+  deviations: optional(readPose),
+});
+
+const readPosedParts = object<Omit<Posed, 'program'>>({
+  kind: oneOf('posed'),
+  from: oneOf('outline', 'file', 'hand'),
+  origin: text,
+  candidates: list(readCandidate),
+  chosen: count,
+  reason: optional(text),
+  decided: missingAs(false, flag),
+});
+
+const readPosed: Reader<Posed> = (value, path) => {
+  const { program } = object({ program: optional(text) })(value, path);
+  return { ...readPosedParts(value, path), ...(program !== null && { program }) };
+};
+
+const readFailed = object<Failed>({ kind: oneOf('failed'), origin: text, sentence: text });
+
+const readResult: Reader<Result> = (value, path) => {
+  const kind = object({ kind: oneOf('posed', 'failed') })(value, path).kind;
+  return kind === 'posed' ? readPosed(value, path) : readFailed(value, path);
+};
+
+const readPlainCell = object<{ outline: Outline | null; result: Result | null; resultIsCurrent: boolean }>({
+  outline: nullable(readOutline),
+  result: nullable(readResult),
+  resultIsCurrent: flag,
+});
+
+const readCell: Reader<Cell> = (value, path) => {
+  const { outline, result, resultIsCurrent } = readPlainCell(value, path);
+  return { outline, result, resultOf: resultIsCurrent ? outline : null };
+};
+
+const readFrame = object<FrameEntry>({
+  id: text,
+  name: text,
+  source: text,
+  indexInSource: count,
+  width: count,
+  height: count,
+});
+
+const readReference = object<FileReference>({ name: text, sha256: text });
+
+const readSpec = object<LibrarySpec>({
+  nominalX: number,
+  nominalY: number,
+  xFrom: number,
+  xTo: number,
+  xStep: number,
+  yFrom: number,
+  yTo: number,
+  yStep: number,
+  distance: nullable(number),
+  area: count,
+});
+
+const readComponent = object<Component>({
+  model: nullable(readReference),
+  libraryFile: nullable(readReference),
+  librarySpec: readSpec,
+});
+
+/** Sessions from before poses could be compared have none. */
+const readPosesToCompare = optional(object<Reference>({ name: text, poses: dictionary(readPose) }));
+
+const readMark = object<Mark>({ checked: nullable(text), flagged: flag, note: text });
+
+const readDocParts = object<Omit<Doc, 'work'>>({
+  name: text,
+  side: oneOf('left', 'right', 'unknown'),
+  frames: list(readFrame),
+  calibration: nullable(object<Calibration>({ name: text, text })),
+  components: object({ femur: readComponent, tibia: readComponent }),
+  cells: dictionary(readCell),
+  window: nullable(object<GreyWindow>({ centre: number, width: number })),
+  reference: readPosesToCompare,
+  marks: missingAs({}, dictionary(readMark)),
+  // Sessions from before distortion could be corrected have none.
+  distortion: optional(readDistortion),
+});
+
+/** The reverse of `plainDoc`. */
+export const readDoc: Reader<Doc> = (value, path) => ({ ...readDocParts(value, path), work: '' });
+
+export const readView = object<SessionView>({
+  frameIndex: count,
+  component: oneOf('femur', 'tibia'),
+  overlayOpacity: number,
+});
+
+// --- Files ---------------------------------------------------------------------------------------------------------
+
+function writeFile(file: SessionFile): string {
+  const base64 = file.bytes && encodeBase64(file.bytes);
+  return JSON.stringify({ name: file.name, sha256: file.sha256, base64 });
+}
+
+const readFile: Reader<SessionFile> = (value, path) => {
+  const { name, sha256, base64 } = object({ name: text, sha256: text, base64: nullable(text) })(value, path);
+  return { name, sha256, bytes: base64 === null ? null : decodeBase64(base64, `${path} (${name})`) };
+};
+
+/** Pieces whose length is a multiple of three can be encoded apart. */
+const PIECE = 3 * 8192;
+
+export function encodeBase64(bytes: Uint8Array): string {
+  const pieces: string[] = [];
+  for (let start = 0; start < bytes.length; start += PIECE) {
+    pieces.push(btoa(String.fromCharCode(...bytes.subarray(start, start + PIECE))));
+  }
+  return pieces.join('');
+}
+
+export function decodeBase64(base64: string, path: string): Uint8Array<ArrayBuffer> {
+  try {
+    return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+  } catch {
+    throw new ReadError(`${path}: the included file is damaged (not base64)`);
+  }
+}

@@ -1,0 +1,67 @@
+import { cellOf, chosenCandidate, type Doc, isRefined, type Posed, type Result } from '../types';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
+
+const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies readonly (keyof PoseNumbers)[];
+
+const HEAD = [
+  'frame',
+  'file',
+  'x_mm',
+  'y_mm',
+  'z_mm',
+  'z_rot_deg',
+  'x_rot_deg',
+  'y_rot_deg',
+  'sd_x_mm',
+  'sd_y_mm',
+  'sd_z_mm',
+  'sd_z_rot_deg',
+  'sd_x_rot_deg',
+  'sd_y_rot_deg',
+  'residual_px',
+  'method',
+  'candidate',
+  'candidates',
+  'reason',
+];
+
+/**
+ * Poses of a component as a table with commas (RFC 4180): a row a frame, the chosen pose, one standard deviation of
+ * each number, and why it was chosen. What is not known is empty.
+ */
+export function poseTable(doc: Doc, component: ComponentName): string {
+  const rows = doc.frames.map((frame, index) => {
+    const cell = cellOf(doc, frame.id, component);
+    const candidate = chosenCandidate(cell);
+    const pose = FIELDS.map((field) => candidate?.pose[field] ?? null);
+    const deviations = FIELDS.map((field) => candidate?.deviations?.[field] ?? null);
+    return [index + 1, frame.name, ...pose, ...deviations, candidate?.residual ?? null, ...choiceOf(cell.result)];
+  });
+  return [HEAD, ...rows].map((row) => `${row.map(field).join(',')}\r\n`).join('');
+}
+
+/** Method, number of the candidate from 1, how many there are, and the reason. */
+function choiceOf(result: Result | null): (string | number | null)[] {
+  if (result?.kind !== 'posed') return [null, null, null, result?.sentence ?? null];
+  const reason = result.chosen === 0 ? result.reason : 'Chosen by hand.';
+  return [methodOf(result), result.chosen + 1, result.candidates.length, reason];
+}
+
+/** How a pose was found, in a few words. */
+export function methodOf(result: Posed): string {
+  const refined = isRefined(result);
+  switch (result.from) {
+    case 'file':
+      return `file ${result.origin}`;
+    case 'hand':
+      return refined ? 'by hand, refined' : 'by hand';
+    case 'outline':
+      return refined ? 'refined' : 'library';
+  }
+}
+
+function field(value: string | number | null): string {
+  const text = value === null ? '' : String(value);
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}

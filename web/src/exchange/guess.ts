@@ -1,0 +1,25 @@
+import type { State } from '../document/store';
+import type { ComponentName } from '../terms/component';
+
+/**
+ * Which component a file is for: what the person said, else what its name says, else the component that is selected,
+ * unless that one has such a file and the other has none.
+ */
+export function componentFor(
+  state: State,
+  file: { readonly name: string; readonly component?: ComponentName | undefined },
+  isTaken: (component: ComponentName) => boolean,
+): ComponentName {
+  const said = file.component ?? namedIn(file.name);
+  if (said) return said;
+  const selected = state.ui.component;
+  const other = selected === 'femur' ? 'tibia' : 'femur';
+  return isTaken(selected) && !isTaken(other) ? other : selected;
+}
+
+function namedIn(name: string): ComponentName | null {
+  const femur = /fem/i.test(name);
+  const tibia = /tib|tray/i.test(name);
+  if (femur === tibia) return null;
+  return femur ? 'femur' : 'tibia';
+}

@@ -1,0 +1,176 @@
+import { readCoco } from './coco';
+import { readOutlines } from './outline_file';
+import { componentNamed, likelyMatch, type ProposedItem } from '../document/proposal';
+import type { Outline } from '../document/types';
+import type { ComponentName } from '../terms/component';
+import { framePoint } from '../geometry/points';
+import { texts } from '../texts/texts';
+import { Aborted } from '../workers/bridge';
+import type { Incoming } from './incoming';
+import { asJob, sentenceOf, type Services } from '../jobs/services';
+import { masksWorker } from '../workers/start';
+import type { MaskLabel, MaskPage } from '../workers/protocol/masks';
+
+/** Files of outlines, as they were recognised. */
+export interface OutlineFile extends Incoming {
+  readonly kind: 'mask' | 'outlines' | 'coco';
+}
+
+/** How far a simplified outline may leave the middle of a mask's border, px: less than the border is known by. */
+const TOLERANCE = 0.4;
+
+/**
+ * Reads outlines and masks and shows which frame and component each would be for; nothing of the document changes
+ * before the person says so.
+ */
+export async function propose(services: Services, files: readonly OutlineFile[], asFrames: (() => void) | null): Promise<void> {
+  const { store } = services;
+  const items: ProposedItem[] = [];
+  const remarks: string[] = [];
+  const failed = (file: Incoming, error: unknown) => remarks.push(`${file.name}: ${sentenceOf(error)}`);
+  for (const file of files.filter(({ kind }) => kind !== 'mask')) {
+    try {
+      const read = readText(file);
+      items.push(...read.items);
+      remarks.push(...read.remarks.map((remark) => `${file.name}: ${remark}`));
+    } catch (error) {
+      failed(file, error);
+    }
+  }
+  const masks = files.filter(({ kind }) => kind === 'mask').sort((a, b) => byPath(pathOf(a), pathOf(b)));
+  items.push(...(await readMasks(services, masks, remarks)));
+  if (items.length === 0) {
+    for (const remark of remarks) store.say('error', remark);
+    if (remarks.length === 0) store.say('error', texts.exchange.nothing);
+    return;
+  }
+  const match = likelyMatch(store.doc, items);
+  store.show({
+    proposal: { items, subjects: subjectsOf(items, store.ui.component), match, exact: false, asFrames, remarks },
+    popover: 'import',
+  });
+}
+
+function readText(file: OutlineFile): ReturnType<typeof readCoco> {
+  const json = new TextDecoder().decode(file.bytes);
+  return file.kind === 'coco' ? readCoco(json) : { items: readOutlines(json), remarks: [] };
+}
+
+/** By name; where there is but one subject and its name says nothing, it is the component that is selected. */
+function subjectsOf(items: readonly ProposedItem[], selected: ComponentName): Record<string, ComponentName | null> {
+  const subjects = [...new Set(items.map(({ subject }) => subject))];
+  const only = subjects.length === 1 ? selected : null;
+  return Object.fromEntries(subjects.map((subject) => [subject, componentNamed(subject) ?? only]));
+}
+
+// --- Masks --------------------------------------------------------------------------------------------------------
+
+async function readMasks(services: Services, files: readonly OutlineFile[], remarks: string[]): Promise<ProposedItem[]> {
+  if (files.length === 0) return [];
+  const abort = new AbortController();
+  const worker = masksWorker();
+  const pages: { file: OutlineFile; name: string; page: MaskPage }[] = [];
+  const job = { title: texts.exchange.reading, unit: texts.exchange.files, total: files.length, cancel: () => abort.abort() };
+  try {
+    await asJob(services.store, job, async (report) => {
+      for (const [index, file] of files.entries()) {
+        try {
+          const { bytes, name } = file;
+          const found = await worker.call('read', { bytes, name, tolerance: TOLERANCE }, { signal: abort.signal });
+          found.forEach((page, at) => pages.push({ file, name: found.length === 1 ? name : `${name} #${at + 1}`, page }));
+        } catch (error) {
+          if (error instanceof Aborted) throw error;
+          remarks.push(`${file.name}: ${sentenceOf(error)}`);
+        }
+        report(index + 1, files.length);
+      }
+    });
+  } finally {
+    worker.dispose();
+  }
+  return itemsOf(pages, remarks);
+}
+
+function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPage }[], remarks: string[]): ProposedItem[] {
+  const several = pages.some(({ page }) => page.labels.length > 1);
+  const places = new Map<string, number>();
+  return pages.flatMap(({ file, name, page }) => {
+    if (page.labels.length === 0) remarks.push(texts.exchange.emptyMask(name));
+    const folder = componentNamed(pathOf(file)) ?? texts.exchange.unnamed;
+    return page.labels.map((label) => {
+      const subject = several ? texts.exchange.value(label.value) : folder;
+      const order = places.get(subject) ?? 0;
+      places.set(subject, order + 1);
+      const { width, height } = page;
+      return {
+        label: several ? `${pathOf(file)}, ${subject}` : pathOf(file),
+        image: name,
+        order,
+        frameId: null,
+        subject,
+        size: { width, height },
+        outline: closed(label.points),
+        exactOutline: closed(label.exact),
+        notes: notesOf(label),
+      };
+    });
+  });
+}
+
+function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {
+  const { exchange } = texts;
+  const fraction = (100 * differing) / Math.max(1, area);
+  return [
+    specks > 0 ? exchange.specks(specks) : null,
+    holes > 0 ? exchange.holes(holes) : null,
+    fraction >= 0.5 ? exchange.differing(fraction.toFixed(1)) : null,
+  ].filter((note) => note !== null);
+}
+
+function closed(numbers: Float64Array): Outline {
+  const points = Array.from({ length: numbers.length / 2 }, (_, at) => framePoint(numbers[2 * at]!, numbers[2 * at + 1]!));
+  return { points, closed: true, unknownSides: [] };
+}
+
+function pathOf({ path, name }: Incoming): string {
+  return (path ?? name).replace(/^\//, '');
+}
+
+function byPath(a: string, b: string): number {
+  return a.localeCompare(b, undefined, { numeric: true });
+}
+
+// --- Recognising --------------------------------------------------------------------------------------------------
+
+/** Which of some images are masks. Cheap for frames: what is packed less than a mask would be is not looked at. */
+export async function masksAmong(files: readonly Incoming[]): Promise<ReadonlySet<Incoming>> {
+  const candidates = files.filter(({ bytes }) => mayBeMask(bytes));
+  const masks = new Set<Incoming>();
+  if (candidates.length === 0) return masks;
+  const worker = masksWorker();
+  try {
+    for (const file of candidates) {
+      // What cannot be decoded is a frame's trouble, and told there.
+      const labels = await worker.call('look', { bytes: file.bytes, name: file.name }).catch(() => null);
+      if (labels !== null) masks.add(file);
+    }
+  } finally {
+    worker.dispose();
+  }
+  return masks;
+}
+
+/** A PNG of fewer bits a pixel than an X-ray ever packs to, or any TIFF. */
+export function mayBeMask(bytes: Uint8Array<ArrayBuffer>): boolean {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length < 33) return false;
+  const first = view.getUint32(0);
+  if (first === 0x49492a00 || first === 0x4d4d002a) return true;
+  if (first !== 0x89504e47) return false;
+  const pixels = view.getUint32(16) * view.getUint32(20);
+  return bytes.length < MASK_OVERHEAD + pixels * MASK_BYTES;
+}
+
+/** Headers of a small PNG, and bytes a pixel of a large one. */
+const MASK_OVERHEAD = 200;
+const MASK_BYTES = 0.1;

@@ -1,0 +1,279 @@
+import { decodeFrames, holdModel } from './bring_files';
+import type { Incoming } from './incoming';
+import * as commands from '../document/commands';
+import { readDistortionFile } from '../document/distortion';
+import type { FrameEntry } from '../document/types';
+import { Aborted } from '../workers/bridge';
+import { texts } from '../texts/texts';
+import { componentFor } from './guess';
+import type { OutlineFile } from './importer';
+import { takeDistortion } from '../jobs/take_distortion';
+import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
+import { asJob, sentenceOf, type Services } from '../jobs/services';
+import { mismatchOf, openSession } from './session_opener';
+
+interface Recognised extends Incoming {
+  readonly kind: FileKind;
+}
+
+/**
+ * Opens whatever it is given: each file is recognised by its content. A file that cannot be read is named and the
+ * others are opened all the same.
+ */
+export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
+  const recognised: Recognised[] = [];
+  for (const file of files) recognised.push({ ...file, kind: await recognise(services, file) });
+  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
+  const opened: string[] = [];
+  const failed: string[] = [];
+  for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
+    const sentence = await mismatchOf(services, file);
+    if (sentence) failed.push(sentence);
+  }
+  const outlines = await outlineFiles(services, recognised);
+  const others = recognised.filter((file) => !outlines.some(({ bytes }) => bytes === file.bytes));
+  const frames = others.filter((file) => file.kind === 'frames');
+  // Of a whole folder what is not recognised is told in one sentence.
+  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.bytes.length > 0) : [];
+  const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
+  for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
+  if (frames.length > 0) await openFrames(services, frames, opened, failed);
+  for (const file of recognised.filter((file) => file.kind === 'poses')) {
+    await attempt(file, () => openPoses(services, file), opened, failed);
+  }
+  if (strangers.length > 0) failed.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
+  await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
+  tell(services, opened, failed);
+  offerStated(services, frames.length > 0);
+  if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** Frames, poses and videos have their own time. */
+const LATER: readonly FileKind[] = ['frames', 'poses', 'video'];
+
+/** What opens the first of the videos that were given. */
+export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
+
+async function beginFirstVideo(videos: readonly Recognised[], begin: BeginVideo, failed: string[]): Promise<void> {
+  const [first, ...others] = videos;
+  if (!first) return;
+  await attempt(first, async () => ((await begin(first)), ''), [], failed);
+  if (others.length > 0) failed.push(texts.files.video.oneAtATime);
+}
+
+/** A few names, and how many more there are. */
+function fewNames(files: readonly Incoming[]): string {
+  const names = files.slice(0, 3).map(({ name, path }) => path?.replace(/^\//, '') ?? name);
+  const rest = files.length - names.length;
+  return texts.listed(rest > 0 ? [...names, texts.files.andMore(rest)] : names);
+}
+
+/** Frames that state sizes and distances: said once, with a button to look at them. Nothing is taken by itself. */
+function offerStated({ store, studio }: Services, framesCame: boolean): void {
+  const frame = store.doc.frames[store.ui.frameIndex];
+  if (!framesCame || !frame || store.doc.calibration) return;
+  const count = statesSomething(studio.statedGeometry(frame.id));
+  if (count === 0) return;
+  const { notice } = store.ui;
+  const said = notice?.kind === 'info' ? `${notice.text} ` : '';
+  if (notice?.kind === 'error') return;
+  const look = () => store.show({ popover: 'calibration' });
+  store.say('info', said + texts.calibrate.stated.offer(count), { label: texts.calibrate.stated.look, take: look });
+}
+
+/** How many values there are that a calibration may begin with. */
+export function statesSomething(stated: StatedGeometry | null): number {
+  return stated ? [stated.detectorSpacing, stated.scannedSpacing, stated.sourceToDetector].filter((value) => value !== null).length : 0;
+}
+
+/**
+ * Files of outlines among others: those that say so, and images with no more grey values than a mask has, where there
+ * are frames that they can be masks of.
+ */
+async function outlineFiles({ store }: Services, files: readonly Recognised[]): Promise<readonly OutlineFile[]> {
+  const told = files.flatMap((file): OutlineFile[] => {
+    const { kind } = file;
+    return kind === 'outlines' || kind === 'coco' ? [{ ...file, kind }] : [];
+  });
+  const images = files.filter(({ kind }) => kind === 'frames');
+  if (images.length === 0) return told;
+  const { masksAmong } = await import('./importer');
+  const masks = await masksAmong(images);
+  const frames = store.doc.frames.length + images.length - masks.size;
+  const found = images.filter((file) => masks.has(file)).map((file): OutlineFile => ({ ...file, kind: 'mask' }));
+  return frames === 0 ? told : [...told, ...found];
+}
+
+async function proposeOutlines(services: Services, outlines: readonly OutlineFile[], files: readonly Incoming[]): Promise<void> {
+  const { store } = services;
+  if (store.doc.frames.length === 0) {
+    return store.say('error', texts.said.of(outlines[0]?.name ?? '', texts.said.outlinesNeedFrames));
+  }
+  const { propose } = await import('./importer');
+  const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ bytes }) => bytes);
+  const images = files.filter(({ bytes }) => masks.includes(bytes));
+  const asFrames = () => {
+    void openAsFrames(services, images);
+  };
+  await propose(services, outlines, images.length > 0 ? asFrames : null);
+}
+
+/** Opens images as frames, whatever they look like. */
+async function openAsFrames(services: Services, files: readonly Incoming[]): Promise<void> {
+  const opened: string[] = [];
+  const failed: string[] = [];
+  await openFrames(services, files, opened, failed);
+  tell(services, opened, failed);
+}
+
+/** A session first: it replaces everything. Frames before poses: poses are for frames. */
+const ORDER: readonly FileKind[] = [
+  'session', 'calibration', 'distortion', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
+];
+
+function byName(a: string, b: string): number {
+  return a.localeCompare(b, undefined, { numeric: true });
+}
+
+/** A file is told by so much of its beginning and its length, bytes (`SNIFFED` in `wasm/decode/src/sniff.rs`). */
+const SNIFFED = 1 << 16;
+
+async function recognise({ decoder }: Services, { bytes, name }: Incoming): Promise<FileKind> {
+  const head = bytes.slice(0, SNIFFED);
+  return decoder.call('sniff', { head, length: bytes.length, name }, { transfer: [head.buffer] });
+}
+
+async function attempt(
+  file: Incoming,
+  open: () => Promise<string>,
+  opened: string[],
+  failed: string[],
+): Promise<void> {
+  try {
+    opened.push(await open());
+  } catch (error) {
+    if (!(error instanceof Aborted)) failed.push(named(file.name, sentenceOf(error)));
+  }
+}
+
+/** The sentence with the file's name, which some begin with already. */
+function named(name: string, sentence: string): string {
+  return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
+}
+
+function tell({ store }: Services, opened: readonly string[], failed: readonly string[]): void {
+  if (opened.length > 0) store.say('info', texts.said.opened(opened.join(', ')));
+  for (const sentence of failed) store.say('error', sentence);
+}
+
+/** Says what was opened; what is amiss all the same goes to `remarks`. */
+async function openOne(services: Services, file: Recognised, remarks: string[]): Promise<string> {
+  switch (file.kind) {
+    case 'calibration':
+      return openCalibration(services, file);
+    case 'model':
+      return openModel(services, file);
+    case 'library':
+      return openLibrary(services, file);
+    case 'session':
+      return openSession(services, file, remarks);
+    case 'distortion':
+      return openDistortion(services, file);
+    default:
+      if (file.bytes.length === 0) throw new Error(texts.said.emptyFile);
+      throw new Error(texts.said.notRecognised);
+  }
+}
+
+// --- Each kind ----------------------------------------------------------------------------------------------------
+
+async function openCalibration({ store, studio }: Services, { name, bytes }: Incoming): Promise<string> {
+  const text = new TextDecoder().decode(bytes);
+  // Against the frames' size, where it is known.
+  studio.calibrationFacts(text, store.doc.frames[0] ?? null);
+  store.perform(commands.setCalibration({ name, text }));
+  return texts.said.theCalibration(name);
+}
+
+async function openDistortion(services: Services, { name, bytes }: Incoming): Promise<string> {
+  takeDistortion(services, readDistortionFile(new TextDecoder().decode(bytes)));
+  return texts.calibrate.opened(name);
+}
+
+async function openModel(services: Services, file: Incoming): Promise<string> {
+  const { store, assets } = services;
+  const asset = await assets.add(file.name, file.bytes);
+  const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
+  const notes = await holdModel(services, asset);
+  const known = store.doc.components[component].model?.sha256 === asset.sha256;
+  if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
+  const opened = texts.said.asModel(file.name, texts.component[component]);
+  return notes.length === 0 ? opened : texts.files.modelNotes(opened, notes.join(' '));
+}
+
+async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {
+  studio.checkLibrary(file.bytes);
+  const asset = await assets.add(file.name, file.bytes);
+  const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
+  store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
+  return texts.said.asLibrary(file.name, texts.component[component]);
+}
+
+async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
+  const poses = studio.readPoses(new TextDecoder().decode(file.bytes));
+  const frames = store.doc.frames.length;
+  if (frames === 0) throw new Error(texts.said.posesNeedFrames);
+  const component = componentFor(store.state, file, () => false);
+  store.perform(commands.loadPoses(component, poses, file.name));
+  const { asPoses, asPosesInOrder } = texts.said;
+  const of = texts.component[component];
+  return poses.length === frames ? asPoses(file.name, of) : asPosesInOrder(file.name, of, poses.length, frames);
+}
+
+// --- Frames -------------------------------------------------------------------------------------------------------
+
+async function openFrames(
+  services: Services,
+  files: readonly Incoming[],
+  opened: string[],
+  failed: string[],
+): Promise<void> {
+  const abort = new AbortController();
+  const entries: FrameEntry[] = [];
+  const job = {
+    title: texts.said.openingFrames(files.length),
+    unit: files.length === 1 ? texts.said.frames : texts.said.files,
+    total: files.length,
+    cancel: () => abort.abort(),
+  };
+  await asJob(services.store, job, async (report) => {
+    for (const [index, file] of files.entries()) {
+      const reportFrames = (done: number, total: number) => files.length === 1 && report(done, total);
+      await attempt(
+        file,
+        async () => {
+          const asset = await services.assets.add(file.name, file.bytes);
+          entries.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
+          return '';
+        },
+        [],
+        failed,
+      );
+      if (files.length > 1) report(index + 1, files.length);
+    }
+  });
+  if (entries.length === 0) return;
+  addToDocument(services, entries);
+  opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
+}
+
+function addToDocument({ store }: Services, entries: readonly FrameEntry[]): void {
+  const first = store.doc.frames.length;
+  store.perform(commands.addFrames(entries));
+  if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: studyName(entries[0]!) }));
+  if (store.doc.frames.length > first) store.goTo(first);
+}
+
+function studyName(frame: FrameEntry): string {
+  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || texts.said.study;
+}

@@ -1,0 +1,91 @@
+import { withCell } from '../document/commands';
+import type { Place } from '../document/command';
+import { withItsOutline } from '../document/own_outlines';
+import type { Store } from '../document/store';
+import { type Candidate, type Cell, cellOf, isRefined, type Posed } from '../document/types';
+import { COMPONENT_NAMES } from '../terms/component';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import type { Choice, Surroundings } from '../workers/protocol/match';
+import { sentenceOf } from './services';
+import { surroundingsOf } from '../results/surroundings';
+import { texts } from '../texts/texts';
+
+interface Open {
+  readonly place: Place;
+  readonly result: Posed;
+  readonly around: Surroundings;
+}
+
+/**
+ * Chooses anew between rivals of which none was decided, whenever more has become known around them: the femur was posed
+ * after the tibia, or the frame before after this one. What was decided stays so, and what a person chose by hand is
+ * left alone, so this comes to an end.
+ */
+export class Chooser {
+  readonly #store: Store;
+  readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  /** What was known around a result when its choice was last made. */
+  readonly #knownThen = new WeakMap<readonly Candidate[], string>();
+  #busy = false;
+
+  constructor(store: Store, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+    this.#store = store;
+    this.#worker = worker;
+    store.subscribe(() => void this.#next());
+  }
+
+  async #next(): Promise<void> {
+    if (this.#busy) return;
+    const open = this.#find();
+    if (!open) return;
+    this.#busy = true;
+    this.#knownThen.set(open.result.candidates, JSON.stringify(open.around));
+    try {
+      const { place, result, around } = open;
+      const candidates = result.candidates.map(({ pose, residual }) => ({ pose, residual: residual ?? NaN }));
+      const choice = await this.#worker.call('choose', { component: place.component, candidates, around });
+      if (choice) this.#apply(open, choice);
+    } catch (error) {
+      if (!(error instanceof Aborted)) this.#store.say('error', texts.said.noChoice(sentenceOf(error)));
+    } finally {
+      this.#busy = false;
+      queueMicrotask(() => void this.#next());
+    }
+  }
+
+  #find(): Open | null {
+    const { doc } = this.#store;
+    for (const frame of doc.frames) {
+      for (const component of COMPONENT_NAMES) {
+        const cell = cellOf(doc, frame.id, component);
+        if (!isOpen(cell)) continue;
+        const around = surroundingsOf(doc, frame.id, component);
+        if (around.counterpart === null && around.neighbours.length === 0) continue;
+        if (this.#knownThen.get(cell.result.candidates) === JSON.stringify(around)) continue;
+        return { place: { frameId: frame.id, component }, result: cell.result, around };
+      }
+    }
+    return null;
+  }
+
+  #apply({ place, result }: Open, { index, decided, reason }: Choice): void {
+    this.#store.amend((doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      if (cell.result !== result) return doc;
+      const first = result.candidates[index];
+      const others = result.candidates.filter((candidate) => candidate !== first);
+      const candidates = index === 0 || !first ? result.candidates : [first, ...others];
+      const known = this.#knownThen.get(result.candidates);
+      if (known !== undefined) this.#knownThen.set(candidates, known);
+      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason } });
+    });
+  }
+}
+
+/** Refined rivals of which none was decided, nor chosen by hand. */
+function isOpen(cell: Cell): cell is Cell & { result: Posed } {
+  const { result, outline, resultOf } = cell;
+  if (result?.kind !== 'posed' || result.from !== 'outline' || resultOf !== outline) return false;
+  return result.candidates.length > 1 && result.chosen === 0 && !result.decided && isRefined(result);
+}

@@ -1,0 +1,114 @@
+import type { Place } from '../document/command';
+import { bare, takeHandFit, type HandFit } from '../document/hand_poses';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
+import type { Locks, PoseNumbers } from '../geometry/pose_numbers';
+import { COMPONENT_NAMES } from '../terms/component';
+import { texts } from '../texts/texts';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { FitFacts } from '../workers/protocol/by_hand';
+import { cameraOf } from '../results/keys';
+import { flatten } from './poser';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import { asJob, sentenceOf, type Services } from './services';
+
+/** The six numbers in the order in which they cross into WASM. */
+export const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies readonly (keyof PoseNumbers)[];
+
+/**
+ * Refines from the pose on view: against the closed outline, or against the frame where there is none. The answer is a
+ * command, so that it can be undone, and is dropped when the pose was changed meanwhile.
+ */
+export class FromHere {
+  readonly #services: Services;
+  readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  #abort: AbortController | null = null;
+
+  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+    this.#services = services;
+    this.#worker = worker;
+  }
+
+  async refine(place: Place): Promise<void> {
+    const { store } = this.#services;
+    const start = chosenCandidate(cellOf(store.doc, place.frameId, place.component));
+    if (!start) return store.say('info', texts.hand.said.noPose);
+    if (store.ui.libraries[place.component].state !== 'ready') {
+      return store.say('info', texts.hand.said.noLibrary(texts.component[place.component]));
+    }
+    this.#abort?.abort();
+    const abort = (this.#abort = new AbortController());
+    try {
+      const { locks } = store.ui.hand;
+      const fit = await this.#ask(place, start, locks, abort);
+      this.#take(place, start, fit);
+    } catch (error) {
+      if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
+    }
+  }
+
+  #ask(place: Place, start: Candidate, locks: Locks, abort: AbortController): Promise<HandFit> {
+    const title = texts.hand.job(texts.component[place.component]);
+    const job = { title, unit: '', total: 0, cancel: () => abort.abort() };
+    return asJob(this.#services.store, job, async () => {
+      const { doc } = this.#services.store;
+      const { outline } = cellOf(doc, place.frameId, place.component);
+      const fit = outline?.closed ? await this.#onOutline(place, start, locks, abort.signal) : await this.#onFrame(place, start, locks, abort.signal);
+      const against = outline?.closed
+        ? texts.hand.fitOutline(fit.residual.toFixed(2))
+        : texts.hand.fitFrame(fit.residual.toFixed(2), fit.bright);
+      return { candidate: candidateOf(fit), reason: against + heldWords(locks) };
+    });
+  }
+
+  #onOutline(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
+    const { doc } = this.#services.store;
+    const { outline } = cellOf(doc, place.frameId, place.component);
+    const camera = cameraOf(doc, frameOf(doc, place));
+    if (!outline || !camera) throw new Error(texts.hand.said.noModel(texts.component[place.component]));
+    const { component } = place;
+    const input = { component, ...flatten(outline), camera, start: pose, locked: flagsOf(locks) };
+    return this.#worker.call('refineFrom', input, { signal });
+  }
+
+  #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
+    const { store, studio } = this.#services;
+    const { component, frameId } = place;
+    const camera = cameraOf(store.doc, frameOf(store.doc, place));
+    const pixels = studio.framePixels(frameId);
+    if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
+    if (!pixels) throw new Error(texts.hand.said.noPixels);
+    if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
+    const { width, height } = camera;
+    const others = COMPONENT_NAMES.flatMap((other) => {
+      const there = other !== component && store.ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(store.doc, frameId, other));
+      return there ? [{ component: other, pose: there.pose }] : [];
+    });
+    const input = { component, camera, frame: { pixels, width, height }, start: pose, locked: flagsOf(locks), others };
+    return this.#worker.call('refineOnFrame', input, { signal, transfer: [pixels.buffer] });
+  }
+
+  #take(place: Place, start: Candidate, fit: HandFit): void {
+    const { store } = this.#services;
+    const cell: Cell = cellOf(store.doc, place.frameId, place.component);
+    if (chosenCandidate(cell) !== start) return store.say('info', texts.hand.said.changed);
+    store.perform(takeHandFit(place, fit));
+    store.say('info', fit.reason);
+  }
+}
+
+function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {
+  return { ...bare(pose), residual, drawn, deviations };
+}
+
+function frameOf(doc: Doc, place: Place): FrameEntry | null {
+  return doc.frames.find((frame) => frame.id === place.frameId) ?? null;
+}
+
+function flagsOf(locks: Locks): boolean[] {
+  return FIELDS.map((field) => locks[field]);
+}
+
+function heldWords(locks: Locks): string {
+  const held = FIELDS.filter((field) => locks[field]).map((field) => texts.hand.names[field]);
+  return held.length > 0 ? ` ${texts.hand.held(texts.listed(held))}` : '';
+}

@@ -1,0 +1,40 @@
+import { Assets } from '../document/assets';
+import type { Store } from '../document/store';
+import { work } from '../workers/activity';
+import type { Bridge } from '../workers/bridge';
+import type { DecodeProtocol } from '../workers/protocol/decode';
+import type { Studio } from '../films/studio';
+
+/** What the jobs of the page share. */
+export interface Services {
+  readonly store: Store;
+  readonly studio: Studio;
+  readonly assets: Assets;
+  readonly decoder: Bridge<DecodeProtocol>;
+}
+
+let lastJob = 0;
+
+/** Shows a job in the page while `task` runs; `task` reports how far it is. */
+export async function asJob<T>(
+  store: Store,
+  job: { readonly title: string; readonly unit: string; readonly total: number; readonly cancel: () => void },
+  task: (report: (done: number, total: number) => void, id: number) => Promise<T>,
+): Promise<T> {
+  const id = ++lastJob;
+  const over = work.begin();
+  const startedAt = performance.now();
+  const report = (done: number, total: number) => store.setJob({ ...job, id, startedAt, done, total });
+  report(0, job.total);
+  try {
+    return await task(report, id);
+  } finally {
+    over();
+    store.endJob(id);
+  }
+}
+
+/** The sentence of whatever was thrown. */
+export function sentenceOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}

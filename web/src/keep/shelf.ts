@@ -1,0 +1,159 @@
+import { openDB, type DBSchema, type IDBPDatabase } from 'idb';
+import type { Asset } from '../document/assets';
+import type { SessionView } from '../document/session/session';
+import type { FileReference } from '../document/types';
+
+/** A piece of work in the browser's storage, without its cells and the bytes of its files. */
+export interface KeptWork {
+  readonly id: string;
+  readonly name: string;
+  readonly frames: number;
+  /** Milliseconds since 1970. */
+  readonly savedAt: number;
+  /** Left for other work: still here, but not what the next page begins with. */
+  readonly putAside: boolean;
+  /** What wrote it, and the version of a session file that its parts are like. */
+  readonly program: string;
+  readonly version: number;
+  /** As in a session file, with no cells. */
+  readonly document: Readonly<Record<string, unknown>>;
+  readonly view: SessionView;
+  readonly files: readonly FileReference[];
+}
+
+/** As in a session file; null deletes the cell. */
+export interface CellChange {
+  readonly key: string;
+  readonly cell: unknown;
+}
+
+interface Schema extends DBSchema {
+  works: { key: string; value: KeptWork };
+  cells: { key: [work: string, cell: string]; value: unknown };
+  files: { key: string; value: Asset };
+}
+
+const NAME = 'fluoropose';
+const VERSION = 1;
+
+/**
+ * The browser's storage: works, their cells one by one, so that a change writes little, and the bytes of files by
+ * their SHA-256, once however many works name them.
+ */
+export class Shelf {
+  readonly #database: IDBPDatabase<Schema>;
+
+  private constructor(database: IDBPDatabase<Schema>) {
+    this.#database = database;
+  }
+
+  /** `onLost` hears of it when the browser takes the storage away. */
+  static async open(onLost: () => void): Promise<Shelf> {
+    const database = await openDB<Schema>(NAME, VERSION, {
+      upgrade: (fresh) => {
+        fresh.createObjectStore('works', { keyPath: 'id' });
+        fresh.createObjectStore('cells');
+        fresh.createObjectStore('files', { keyPath: 'sha256' });
+      },
+      // A page of a newer version waits for this one to let go.
+      blocking: (_from, _to, event) => {
+        (event.target as IDBDatabase).close();
+        onLost();
+      },
+      terminated: onLost,
+    });
+    return new Shelf(database);
+  }
+
+  /** The latest first. */
+  async works(): Promise<KeptWork[]> {
+    const works = await this.#database.getAll('works');
+    return works.sort((a, b) => b.savedAt - a.savedAt);
+  }
+
+  async work(id: string): Promise<KeptWork | null> {
+    return (await this.#database.get('works', id)) ?? null;
+  }
+
+  /** By cell key, as in a session file. */
+  async cells(id: string): Promise<Record<string, unknown>> {
+    const transaction = this.#database.transaction('cells');
+    const range = ofWork(id);
+    const [keys, values] = await Promise.all([transaction.store.getAllKeys(range), transaction.store.getAll(range)]);
+    return Object.fromEntries(keys.map(([, cell], index) => [cell, values[index]]));
+  }
+
+  /** All of it or nothing: a page that is killed in between leaves what was there before. */
+  async write(work: KeptWork, changes: readonly CellChange[]): Promise<void> {
+    const transaction = this.#database.transaction(['works', 'cells'], 'readwrite', { durability: 'relaxed' });
+    const cells = transaction.objectStore('cells');
+    await settled(transaction, () => {
+      const writes: Promise<unknown>[] = [transaction.objectStore('works').put(work)];
+      for (const { key, cell } of changes) {
+        const place: [string, string] = [work.id, key];
+        writes.push(cell === null ? cells.delete(place) : cells.put(cell, place));
+      }
+      return writes;
+    });
+  }
+
+  async putAside(id: string, putAside: boolean): Promise<void> {
+    const transaction = this.#database.transaction('works', 'readwrite');
+    const work = await transaction.store.get(id);
+    if (work && work.putAside !== putAside) await transaction.store.put({ ...work, putAside });
+    await transaction.done;
+  }
+
+  async delete(id: string): Promise<void> {
+    const transaction = this.#database.transaction(['works', 'cells'], 'readwrite');
+    await transaction.objectStore('works').delete(id);
+    await transaction.objectStore('cells').delete(ofWork(id));
+    await transaction.done;
+  }
+
+  // --- Files ----------------------------------------------------------------------------------------------------
+
+  async hasFile(sha256: string): Promise<boolean> {
+    return (await this.#database.count('files', sha256)) > 0;
+  }
+
+  async file(sha256: string): Promise<Asset | null> {
+    return (await this.#database.get('files', sha256)) ?? null;
+  }
+
+  async addFile(asset: Asset): Promise<void> {
+    const transaction = this.#database.transaction('files', 'readwrite', { durability: 'relaxed' });
+    await settled(transaction, () => [transaction.store.put(asset)]);
+  }
+
+  /** Deletes files that no work names. A work names its files before they are added, so none is taken from under it. */
+  async sweep(): Promise<void> {
+    const transaction = this.#database.transaction(['works', 'files'], 'readwrite');
+    const works = await transaction.objectStore('works').getAll();
+    const named = new Set(works.flatMap((work) => work.files.map(({ sha256 }) => sha256)));
+    const files = transaction.objectStore('files');
+    for (const sha256 of await files.getAllKeys()) if (!named.has(sha256)) await files.delete(sha256);
+    await transaction.done;
+  }
+
+  close(): void {
+    this.#database.close();
+  }
+}
+
+/** Waits for writes and their transaction; of what is refused the transaction knows why, its requests only that it was. */
+async function settled(
+  transaction: { readonly done: Promise<void>; readonly error: DOMException | null },
+  write: () => readonly Promise<unknown>[],
+): Promise<void> {
+  try {
+    await Promise.all([...write(), transaction.done]);
+  } catch (error) {
+    throw transaction.error ?? error;
+  }
+}
+
+/** Everything under a work: an array sorts after every text. */
+function ofWork(id: string): IDBKeyRange {
+  return IDBKeyRange.bound([id], [id, []]);
+}

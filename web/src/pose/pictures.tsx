@@ -1,0 +1,23 @@
+import { PICTURES } from '../terms/seeing';
+import type { State } from '../document/store';
+import { texts } from '../texts/texts';
+import { useApp } from '../commands/app';
+import { Landscape } from './landscape';
+import { Segments } from '../controls/segments';
+import { Space } from './space';
+import { Unmatched } from './unmatched';
+
+/** One of three pictures: what differs, what else might fit, and how it stands in space. */
+export function Pictures({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const { picture } = state.ui.seeing;
+  const options = PICTURES.map((value) => ({ value, title: texts.seeing.picture[value] }));
+  return (
+    <div class="pictures">
+      <Segments label={texts.seeing.pictures} options={options} value={picture} onChoose={(chosen) => store.see({ picture: chosen })} />
+      {picture === 'unmatched' && <Unmatched state={state} />}
+      {picture === 'landscape' && <Landscape state={state} />}
+      {picture === 'space' && <Space state={state} />}
+    </div>
+  );
+}

@@ -1,0 +1,216 @@
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { referencePose } from '../document/reference';
+import { currentPlace } from '../document/store';
+import { chosenCandidate, isByHand, type Cell } from '../document/types';
+import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
+import { inWords } from '../results/missing';
+import { isFollowing, type Findings } from '../jobs/poser';
+import { wrapped } from '../geometry/pose_motion';
+import { work } from '../workers/activity';
+import { texts } from '../texts/texts';
+import { useApp } from '../commands/app';
+import { HandNumbers } from './hand_numbers';
+import { QUANTITIES, unitWord, type Quantity } from './quantities';
+
+interface PoseNumbersCardProps {
+  readonly cell: Cell;
+  /** What a new pose would need. */
+  readonly missing: readonly string[];
+  readonly outdated: boolean;
+}
+
+export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProps) {
+  const { pose = null, deviations = null } = chosenCandidate(cell) ?? {};
+  const { poser } = useApp();
+  const findings = poser.findings(cell.outline);
+  const source = outdated
+    ? texts.panel.pose.outdated(needs(cell, missing))
+    : sourceOf(cell, findings);
+  const { store } = useApp().services;
+  const adjusting = store.ui.tool === 'pose';
+  const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
+  return (
+    <section class="card pose" aria-label={texts.panel.pose.region}>
+      {adjusting ? (
+        <HandNumbers pose={pose} />
+      ) : (
+        <dl class="numbers">
+          {QUANTITIES.map((quantity) => (
+            <NumberRow
+              key={quantity.field}
+              quantity={quantity}
+              value={pose && pose[quantity.field]}
+              deviation={deviations && deviations[quantity.field]}
+              difference={pose && reference && pose[quantity.field] - reference[quantity.field]}
+            />
+          ))}
+        </dl>
+      )}
+      <p class="card-note pose-note">{pose ? source : needs(cell, missing)}</p>
+      <HandButtons cell={cell} adjusting={adjusting} />
+    </section>
+  );
+}
+
+/** To take the model in hand, and what can be done with it there. */
+function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
+  const { hand } = useApp();
+  const { residual = null, pose = null } = chosenCandidate(cell) ?? {};
+  const words = texts.hand;
+  const droppable = isByHand(cell.result) && cell.outline?.closed;
+  return (
+    <div class="pose-buttons">
+      {adjusting ? (
+        <>
+          <button type="button" class="button small primary" aria-keyshortcuts="Enter" title={pose ? words.refineTitle : words.placeTitle} onClick={() => hand.refine()}>
+            {pose ? words.refine : words.place}
+          </button>
+          <button type="button" class="button small" title={words.endTitle} onClick={() => hand.end()}>
+            {words.end}
+          </button>
+        </>
+      ) : (
+        <button type="button" class="button small" title={words.beginTitle} onClick={() => hand.begin()}>
+          {words.begin}
+        </button>
+      )}
+      {droppable && (
+        <button type="button" class="button small" title={words.dropTitle} onClick={() => hand.drop()}>
+          {words.drop}
+        </button>
+      )}
+      {!adjusting && <ConvergenceButton disabled={residual === null || isByHand(cell.result)} />}
+    </div>
+  );
+}
+
+/** Where the pose that is shown comes from. */
+function sourceOf(cell: Cell, findings: Findings | null): string {
+  if (cell.result?.kind !== 'posed') return '';
+  if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
+  if (cell.result.from === 'hand') return texts.hand.source;
+  const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
+  const words = texts.panel.pose;
+  if (residual !== null && isFollowing(cell.result, findings)) return words.follows(residual.toFixed(2));
+  if (residual !== null) return words.refined(residual.toFixed(2), deviations !== null);
+  return findings?.refusal ? words.notRefined(findings.refusal) : words.library;
+}
+
+function needs(cell: Cell, missing: readonly string[]): string {
+  if (missing.length > 0) return texts.panel.pose.needs(inWords(missing));
+  return cell.result?.kind === 'failed' ? texts.panel.pose.noneFromOutline : texts.panel.pose.finding;
+}
+
+interface NumberRowProps {
+  readonly quantity: Quantity;
+  readonly value: number | null;
+  /** One standard deviation. */
+  readonly deviation: number | null;
+  /** From the set to compare with; it takes the deviation's place. */
+  readonly difference: number | null;
+}
+
+function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
+  const { store } = useApp().services;
+  const decimals = decimalsFor(deviation, quantity.decimals);
+  const text = value === null ? '–' : formatNumber(value, decimals);
+  const unit = unitWord(quantity.unit);
+  const flashing = useFlash(text);
+  const copy = () => {
+    if (value === null) return;
+    void navigator.clipboard.writeText(String(value)).then(
+      () => store.say('info', texts.panel.pose.copied(quantity.name, value)),
+      () => store.say('error', texts.panel.pose.notCopied),
+    );
+  };
+  return (
+    <div class="number">
+      <dt>{quantity.label}</dt>
+      <dd>
+        <button
+          type="button"
+          class={flashing ? 'value flash' : 'value'}
+          aria-label={texts.panel.pose.number(quantity.name, text, unit)}
+          title={texts.panel.pose.copyTitle}
+          disabled={value === null}
+          onClick={copy}
+        >
+          {text}
+        </button>
+        {difference !== null ? (
+          <Difference name={quantity.name} unit={unit} text={signed(quantity.unit === '°' ? wrapped(difference) : difference, quantity.decimals)} />
+        ) : (
+          <Deviation name={quantity.name} unit={unit} text={value === null || deviation === null ? null : formatDeviation(deviation, decimals)} />
+        )}
+        <span class="unit">{quantity.unit}</span>
+      </dd>
+    </div>
+  );
+}
+
+function Difference({ name, unit, text }: { name: string; unit: string; text: string }) {
+  return (
+    <span class="deviation difference" role="group" aria-label={texts.hand.compare.difference(name, text, unit)}>
+      {text}
+    </span>
+  );
+}
+
+/** With its sign, so that it is not taken for the number itself. */
+function signed(value: number, decimals: number): string {
+  const text = formatNumber(value, decimals);
+  return Number(text.replace('\u2212', '-')) > 0 ? `+${text}` : text;
+}
+
+/** Its place is kept while there is none: nothing jumps when it comes. */
+function Deviation({ name, unit, text }: { name: string; unit: string; text: string | null }) {
+  if (text === null) return <span class="deviation" />;
+  return (
+    <span class="deviation" role="group" aria-label={texts.panel.pose.deviation(name, text, unit)} title={texts.panel.pose.deviationTitle}>
+      ±{text}
+    </span>
+  );
+}
+
+function ConvergenceButton({ disabled }: { disabled: boolean }) {
+  const { store } = useApp().services;
+  const open = store.ui.popover === 'convergence';
+  return (
+    <button
+      type="button"
+      class="button small"
+      aria-haspopup="dialog"
+      aria-expanded={open}
+      title={texts.panel.pose.convergenceTitle}
+      disabled={disabled}
+      onClick={() => store.show({ popover: open ? null : 'convergence' })}
+    >
+      {texts.panel.pose.convergence}
+    </button>
+  );
+}
+
+/** True for a moment after a change that was not part of a stream of changes. */
+function useFlash(text: string): boolean {
+  const [flashing, setFlashing] = useState(false);
+  const last = useRef({ text, at: 0 });
+  useEffect(() => {
+    if (last.current.text === text) return undefined;
+    const now = performance.now();
+    const quiet = now - last.current.at > FLASH_PAUSE;
+    last.current = { text, at: now };
+    if (!quiet || text === '–') return undefined;
+    setFlashing(true);
+    // Not cleared when the text changes again: the flash ends all the same.
+    const over = work.begin();
+    setTimeout(() => {
+      setFlashing(false);
+      over();
+    }, FLASH_LENGTH);
+    return undefined;
+  }, [text]);
+  return flashing;
+}
+
+const FLASH_PAUSE = 400;
+const FLASH_LENGTH = 350;

@@ -1,0 +1,56 @@
+import { distortionKey, fits, numbersOf, type Distortion } from '../document/distortion';
+import type { Doc, FrameEntry } from '../document/types';
+import type { ComponentName } from '../terms/component';
+import type { DistortionInput, CameraInput } from '../workers/protocol/camera';
+
+/**
+ * A key names the inputs of a result; two results with the same key are the same. It is a readable text, kept with
+ * each pose, so that a session tells what made it.
+ */
+export function libraryKey(doc: Doc, component: ComponentName): string | null {
+  const { model, libraryFile, librarySpec } = doc.components[component];
+  if (libraryFile) return `library ${libraryFile.sha256}${model ? ` model ${model.sha256}` : ''}`;
+  const camera = cameraOf(doc, doc.frames[0] ?? null);
+  if (!model || !camera) return null;
+  const { width, height, text } = camera;
+  return `model ${model.sha256} views ${JSON.stringify(librarySpec)} frame ${width}x${height} camera ${JSON.stringify(text)}`;
+}
+
+/** What a pose in this frame is found with. */
+export function poseKey(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
+  const library = libraryKey(doc, component);
+  const camera = cameraOf(doc, frame);
+  if (!library || !camera) return null;
+  const straightened = fits(doc.distortion, frame) ? ` straightened ${distortionKey(doc.distortion)}` : '';
+  return `${library}; frame ${camera.width}x${camera.height} camera ${JSON.stringify(camera.text)}${straightened}`;
+}
+
+/** The same for many cells of one document: keys are long texts, and frames of a sequence share them. */
+export function poseKeys(doc: Doc): (component: ComponentName, frame: FrameEntry) => string | null {
+  const known = new Map<string, string | null>();
+  return (component, frame) => {
+    const kind = `${component} ${frame.width} ${frame.height}`;
+    let key = known.get(kind);
+    if (key === undefined) known.set(kind, (key = poseKey(doc, component, frame)));
+    return key;
+  };
+}
+
+export function cameraOf(doc: Doc, frame: FrameEntry | null): CameraInput | null {
+  if (!doc.calibration || !frame) return null;
+  const camera = { text: doc.calibration.text, width: frame.width, height: frame.height };
+  const distortion = distortionInputOf(doc.distortion);
+  return distortion && fits(doc.distortion, frame) ? { ...camera, distortion } : camera;
+}
+
+const inputs = new WeakMap<Distortion, DistortionInput>();
+
+/** Null where frames themselves are undistorted, or nothing is. */
+function distortionInputOf(distortion: Distortion | null): DistortionInput | null {
+  if (distortion?.appliesTo !== 'outlines') return null;
+  const known = inputs.get(distortion);
+  if (known) return known;
+  const input = { key: distortionKey(distortion), numbers: numbersOf(distortion) };
+  inputs.set(distortion, input);
+  return input;
+}

@@ -1,0 +1,56 @@
+import { progressOf } from './progress';
+import { NO_MARK } from '../document/marks';
+import { cellOf, chosenCandidate, type Doc } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
+
+/** The six numbers of a joint, as the core gives them: mm, then degrees. */
+export interface Motion {
+  readonly anterior: number;
+  readonly superior: number;
+  readonly lateral: number;
+  readonly flexion: number;
+  readonly abduction: number;
+  readonly internal: number;
+}
+
+export const QUANTITIES = ['flexion', 'abduction', 'internal', 'anterior', 'superior', 'lateral'] as const satisfies readonly (keyof Motion)[];
+export type Quantity = (typeof QUANTITIES)[number];
+
+/** A frame in which both components have a pose. */
+export interface JointPoint {
+  /** Of the frame, from 0. */
+  readonly index: number;
+  readonly motion: Motion;
+  /** Both poses are decided. */
+  readonly sure: boolean;
+}
+
+type MotionOf = (femur: PoseNumbers, tibia: PoseNumbers, side: 'left' | 'right') => Motion;
+
+/** Empty while the side of the body is not known: signs depend on it. */
+export function jointMotion(doc: Doc, motionOf: MotionOf): readonly JointPoint[] {
+  const { side } = doc;
+  if (side === 'unknown') return [];
+  return doc.frames.flatMap((frame, index) => {
+    const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => cellOf(doc, frame.id, component));
+    const [a, b] = [femur && chosenCandidate(femur), tibia && chosenCandidate(tibia)];
+    if (!a || !b) return [];
+    return [{ index, motion: motionOf(a.pose, b.pose, side), sure: isSure(doc, frame.id, 'femur') && isSure(doc, frame.id, 'tibia') }];
+  });
+}
+
+function isSure(doc: Doc, frameId: string, component: ComponentName): boolean {
+  return !progressOf(cellOf(doc, frameId, component), NO_MARK, null).ambiguous;
+}
+
+/** Points in runs of frames that follow each other: a line is drawn through a run, none across a gap. */
+export function runsOf(points: readonly JointPoint[]): readonly (readonly JointPoint[])[] {
+  const runs: JointPoint[][] = [];
+  for (const point of points) {
+    const run = runs.at(-1);
+    if (run && run.at(-1)!.index === point.index - 1) run.push(point);
+    else runs.push([point]);
+  }
+  return runs;
+}

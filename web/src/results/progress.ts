@@ -1,0 +1,129 @@
+import type { Place } from '../document/command';
+import { checkState, markOf, type CheckState } from '../document/marks';
+import { type Cell, cellOf, type Doc, type FrameEntry, isByHand, isRefined, type Mark } from '../document/types';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+
+/** How far a cell is, from nothing to a refined pose. */
+export type Stage = 'empty' | 'draft' | 'traced' | 'posed' | 'refined' | 'by hand' | 'pose loaded' | 'no pose';
+
+/** All that a list says of a cell. */
+export interface Progress {
+  readonly stage: Stage;
+  /** Model, calibration or library have changed since the pose was found. */
+  readonly outdated: boolean;
+  /** Several poses fit, and nothing but a slightly smaller residual spoke for the first. */
+  readonly ambiguous: boolean;
+  /** A pose of what is there now. */
+  readonly posed: boolean;
+  readonly check: CheckState;
+  readonly flagged: boolean;
+  readonly note: string;
+}
+
+/** `key`: what a pose of this cell would be found with now (`poseKey`); null where something is missing. */
+export function progressOf(cell: Cell, mark: Mark, key: string | null): Progress {
+  const stage = stageOf(cell);
+  const outdated = isOutdatedResult(cell, key);
+  return {
+    stage,
+    outdated,
+    ambiguous: isAmbiguous(cell),
+    posed: POSED.includes(stage) && !outdated,
+    check: checkState(cell, mark),
+    flagged: mark.flagged,
+    note: mark.note,
+  };
+}
+
+const POSED: readonly Stage[] = ['posed', 'refined', 'by hand', 'pose loaded'];
+
+function stageOf({ outline, result }: Cell): Stage {
+  if (result?.kind === 'failed') return 'no pose';
+  if (result?.kind !== 'posed') return outline ? (outline.closed ? 'traced' : 'draft') : 'empty';
+  if (result.from === 'file') return 'pose loaded';
+  if (isByHand(result)) return 'by hand';
+  return isRefined(result) ? 'refined' : 'posed';
+}
+
+function isOutdatedResult({ result }: Cell, key: string | null): boolean {
+  return result?.kind === 'posed' && result.from === 'outline' && result.origin !== key;
+}
+
+function isAmbiguous({ result }: Cell): boolean {
+  if (result?.kind !== 'posed' || result.from !== 'outline' || !isRefined(result)) return false;
+  return result.candidates.length > 1 && result.chosen === 0 && !result.decided;
+}
+
+// --- Lists ----------------------------------------------------------------------------------------------------------
+
+/** A cell with its place in the sequence. */
+export interface Entry {
+  readonly place: Place;
+  readonly frame: FrameEntry;
+  /** From 0. */
+  readonly index: number;
+  readonly progress: Progress;
+}
+
+type KeyOf = (component: ComponentName, frame: FrameEntry) => string | null;
+
+/** Component by component, as a sequence is traced. */
+export function entriesOf(doc: Doc, keyOf: KeyOf, components: readonly ComponentName[] = COMPONENT_NAMES): readonly Entry[] {
+  return components.flatMap((component) =>
+    doc.frames.map((frame, index) => {
+      const place = { frameId: frame.id, component };
+      const progress = progressOf(cellOf(doc, frame.id, component), markOf(doc, place), keyOf(component, frame));
+      return { place, frame, index, progress };
+    }),
+  );
+}
+
+export const FILTERS = ['all', 'unfinished', 'unchecked', 'ambiguous', 'flagged'] as const;
+export type Filter = (typeof FILTERS)[number];
+
+export function passes({ progress }: Entry, filter: Filter): boolean {
+  switch (filter) {
+    case 'all':
+      return true;
+    case 'unfinished':
+      return !progress.posed;
+    case 'unchecked':
+      return progress.posed && progress.check !== 'yes';
+    case 'ambiguous':
+      return progress.ambiguous;
+    case 'flagged':
+      return progress.flagged;
+  }
+}
+
+/** Components that somebody works on: with a model, a library, an outline or a pose. */
+export function componentsInWork(doc: Doc, selected: ComponentName): readonly ComponentName[] {
+  const has = (component: ComponentName) => {
+    const { model, libraryFile } = doc.components[component];
+    return model !== null || libraryFile !== null || doc.frames.some((frame) => isBegun(cellOf(doc, frame.id, component)));
+  };
+  const found = COMPONENT_NAMES.filter((component) => component === selected || has(component));
+  return found;
+}
+
+function isBegun({ outline, result }: Cell): boolean {
+  return outline !== null || result !== null;
+}
+
+/** The next thing to do from a place, around the whole list: what has no pose; once all have one, what nobody checked. */
+export function nextTask(
+  doc: Doc,
+  keyOf: KeyOf,
+  from: { readonly index: number; readonly component: ComponentName },
+  step: 1 | -1,
+): { readonly entry: Entry; readonly filter: 'unfinished' | 'unchecked' } | null {
+  const entries = entriesOf(doc, keyOf, componentsInWork(doc, from.component));
+  const here = entries.findIndex(({ index, place }) => index === from.index && place.component === from.component);
+  for (const filter of ['unfinished', 'unchecked'] as const) {
+    for (let away = 1; away <= entries.length; away++) {
+      const entry = entries[(((here + step * away) % entries.length) + entries.length) % entries.length];
+      if (entry && passes(entry, filter)) return { entry, filter };
+    }
+  }
+  return null;
+}

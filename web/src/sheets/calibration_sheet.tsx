@@ -1,0 +1,91 @@
+import { useState } from 'preact/hooks';
+import * as commands from '../document/commands';
+import { currentFrame, type State } from '../document/store';
+import type { CalibrationFacts } from '../workers/protocol/camera';
+import { sentenceOf } from '../jobs/services';
+import { useApp } from '../commands/app';
+import { NumberField } from '../controls/number_field';
+import { StatedGeometry } from './stated_geometry';
+import { texts } from '../texts/texts';
+
+/** Calibration from a file, or typed: the four numbers of `JT_INTCALIB`. The frame size comes from the frame. */
+export function CalibrationSheet({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const { store, studio } = services;
+  const frame = currentFrame(state);
+  const facts = factsOf(state, studio.calibrationFacts.bind(studio));
+  const [typed, setTyped] = useState({
+    distance: facts?.principal?.distance ?? NaN,
+    pitch: facts?.principal?.pitch ?? NaN,
+    offsetX: facts?.principal?.offsetX ?? 0,
+    offsetY: facts?.principal?.offsetY ?? 0,
+  });
+  const [trouble, setTrouble] = useState('');
+  const set = (field: keyof typeof typed) => (value: number) => setTyped({ ...typed, [field]: value });
+  const use = () => {
+    try {
+      const size = frame ?? { width: 1024, height: 1024 };
+      const text = studio.calibrationText(typed.distance, typed.offsetX, typed.offsetY, typed.pitch, size);
+      store.perform(commands.setCalibration({ name: texts.calibration.typedName, text }));
+      setTrouble('');
+      store.show({ popover: null });
+    } catch (error) {
+      setTrouble(sentenceOf(error));
+    }
+  };
+  return (
+    <form
+      class="sheet-body"
+      onSubmit={(event) => {
+        event.preventDefault();
+        use();
+      }}
+    >
+      <p class="sheet-text">{describe(state, facts)}</p>
+      <div class="fields">
+        <NumberField label={texts.calibration.distance} unit="mm" value={typed.distance} onChange={set('distance')} />
+        <NumberField label={texts.calibration.pitch} unit="mm" value={typed.pitch} onChange={set('pitch')} />
+        <NumberField label={texts.calibration.pointX} unit="mm" value={typed.offsetX} onChange={set('offsetX')} />
+        <NumberField label={texts.calibration.pointY} unit="mm" value={typed.offsetY} onChange={set('offsetY')} />
+      </div>
+      <p class="sheet-text quiet">
+        {texts.calibration.meaning} {frame ? texts.calibration.frameSize(frame.width, frame.height) : ''}
+      </p>
+      <StatedGeometry state={state} onDistance={set('distance')} onPitch={set('pitch')} />
+      <p class="sheet-trouble" role="alert">
+        {trouble}
+      </p>
+      <div class="sheet-buttons">
+        <button type="submit" class="button primary">
+          {texts.calibration.use}
+        </button>
+        <button type="button" class="button" onClick={() => void actions.openPicked()}>
+          {texts.calibration.open}
+        </button>
+        <button type="button" class="button" onClick={() => store.show({ popover: 'calibrate' })}>
+          {texts.calibrate.open}
+        </button>
+      </div>
+    </form>
+  );
+}
+
+function factsOf(state: State, read: (text: string, frame: ReturnType<typeof currentFrame>) => CalibrationFacts) {
+  const { calibration } = state.history.present;
+  if (!calibration) return null;
+  try {
+    return read(calibration.text, currentFrame(state));
+  } catch {
+    // A calibration for frames of another size: its chip and the pose say so; the form stays usable.
+    return read(calibration.text, null);
+  }
+}
+
+function describe(state: State, facts: CalibrationFacts | null): string {
+  const { calibration } = state.history.present;
+  if (!calibration || !facts) return texts.calibration.none;
+  if (!facts.camera) return texts.calibration.nameOnly(calibration.name);
+  const { fx, fy, cx, cy } = facts.camera;
+  const focal = fx === fy ? fx.toFixed(1) : `${fx.toFixed(1)} x ${fy.toFixed(1)}`;
+  return texts.calibration.facts(calibration.name, focal, cx.toFixed(1), cy.toFixed(1));
+}

@@ -1,0 +1,90 @@
+import { useEffect } from 'preact/hooks';
+import { actionFor } from '../commands/bindings';
+import { texts } from '../texts/texts';
+import { useApp, useAppState } from '../commands/app';
+import { useDropTarget } from '../steps/open/drop';
+import { runHandOrSeeingKey } from './hand_keys';
+import { Panel } from './panel';
+import { Popovers } from './popovers';
+import { Rail } from './rail';
+import { Stage } from '../stage/stage';
+import { StatusLine } from './status_line';
+import { Timeline } from '../strip/timeline';
+import { ToolStrip } from './tool_strip';
+import { TopBar } from './top_bar';
+
+export function Page() {
+  const state = useAppState();
+  const dropping = useDropTarget();
+  const { actions } = useApp();
+  useKeys();
+  // The mouse leaves the keyboard with the frame; who works by keyboard keeps the focus where it is.
+  const giveBack = (event: MouseEvent) => {
+    const target = event.target instanceof Element ? event.target.closest('button, input[type=range]') : null;
+    const elsewhere = target?.closest('[role=dialog]') || target?.hasAttribute('aria-haspopup');
+    if (target && !elsewhere && event.detail > 0) actions.stage?.focus();
+  };
+  return (
+    <div class={dropping ? 'page dropping' : 'page'} data-drop={texts.stage.drop} onClick={giveBack}>
+      <TopBar state={state} />
+      <Rail state={state} />
+      <ToolStrip state={state} />
+      <Stage state={state} />
+      <Panel state={state} />
+      <Timeline state={state} />
+      <StatusLine state={state} />
+      <Popovers state={state} />
+    </div>
+  );
+}
+
+/** Keys for the whole page; a field that is being typed in keeps its own. */
+function useKeys(): void {
+  const app = useApp();
+  const { actions, services } = app;
+  useEffect(() => {
+    const { store } = services;
+    const onDown = (event: KeyboardEvent) => {
+      if (event.key === ' ' && !typing(event.target) && !onControl(event.target)) {
+        event.preventDefault();
+        if (!store.ui.overlaysHidden) store.show({ overlaysHidden: true });
+        return;
+      }
+      if (handle(event)) event.preventDefault();
+    };
+    const onUp = (event: KeyboardEvent) => {
+      if (event.key === ' ' && store.ui.overlaysHidden) store.show({ overlaysHidden: false });
+    };
+    const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
+    const handle = (event: KeyboardEvent): boolean => {
+      const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
+      if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
+      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
+      if (!action) return false;
+      const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
+      if (typing(target) && !everywhere) return false;
+      // Enter belongs to the control that has the focus.
+      if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
+      if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
+      store.quiet();
+      return actions.run(action);
+    };
+    window.addEventListener('keydown', onDown);
+    window.addEventListener('keyup', onUp);
+    window.addEventListener('blur', onBlur);
+    return () => {
+      window.removeEventListener('keydown', onDown);
+      window.removeEventListener('keyup', onUp);
+      window.removeEventListener('blur', onBlur);
+    };
+  }, [app, actions, services]);
+}
+
+function typing(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) return target.type !== 'range' && target.type !== 'checkbox';
+  return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+}
+
+function onControl(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.closest('button, input, select, textarea, a') !== null;
+}

@@ -1,0 +1,59 @@
+import { currentCell, currentFrame, type State } from '../document/store';
+import { cellOf } from '../document/types';
+import { COMPONENT_NAMES, titleOf } from '../terms/component';
+import { isOutdated, missingForPose } from '../results/missing';
+import { useApp } from '../commands/app';
+import { Display } from './display';
+import { PoseNumbersCard } from '../pose/pose_card';
+import { Candidates } from '../pose/candidates';
+import { CompareCard } from '../pose/compare_card';
+import { Pictures } from '../pose/pictures';
+import { texts } from '../texts/texts';
+
+/** The right side: the selected component's pose, how far to trust it, and how the frame is shown. */
+export function Panel({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const { component } = state.ui;
+  const cell = currentCell(state);
+  const frame = currentFrame(state);
+  return (
+    <aside class={`panel ${component}`} aria-label={texts.panel.region}>
+      <div class="switch" role="radiogroup" aria-label={texts.panel.component}>
+        {COMPONENT_NAMES.map((name) => (
+          <button
+            key={name}
+            type="button"
+            role="radio"
+            class={`switch-side ${name}`}
+            aria-checked={component === name}
+            title={texts.panel.switchTitle(titleOf(name))}
+            onClick={() => services.store.selectComponent(name)}
+          >
+            <span class={`state-dot ${dotOf(state, name)}`} aria-hidden="true" />
+            {titleOf(name)}
+          </button>
+        ))}
+      </div>
+      <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
+      <CompareCard state={state} />
+      <Candidates cell={cell} />
+      <Pictures state={state} />
+      <Display state={state} />
+      <div class="panel-foot">
+        <button type="button" class="button" title={texts.panel.savePosesTitle} disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
+          {texts.panel.savePoses(texts.component[component])}
+        </button>
+        <button type="button" class="button" disabled={!frame || !cell.outline} title={texts.panel.deleteOutlineTitle} onClick={() => actions.deleteOutline()}>
+          {texts.panel.deleteOutline}
+        </button>
+      </div>
+    </aside>
+  );
+
+  function dotOf(state: State, name: (typeof COMPONENT_NAMES)[number]): string {
+    const { outline, result } = cellOf(state.history.present, frame?.id, name);
+    if (result?.kind === 'failed') return 'failed';
+    if (result) return 'posed';
+    return outline ? 'traced' : 'none';
+  }
+}

@@ -1,0 +1,99 @@
+import type { ComponentChildren } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Popover, State } from '../document/store';
+import { titleOf } from '../terms/component';
+import { useApp } from '../commands/app';
+import { CalibrateSheet } from '../sheets/calibrate_sheet';
+import { CalibrationSheet } from '../sheets/calibration_sheet';
+import { ComponentSheet } from '../sheets/component_sheet';
+import { ConvergenceSheet } from '../sheets/convergence_sheet';
+import { Icon } from '../controls/icons';
+import { KeySheet } from '../sheets/key_sheet';
+import { LogSheet } from '../sheets/log_sheet';
+import { ShapeSheet } from '../sheets/shape_sheet';
+import { SessionSheet } from '../sheets/session_sheet';
+import { WorkSheet } from '../sheets/work_sheet';
+import { VideoSheet } from '../steps/open/video_sheet';
+import { ViewSheet } from '../sheets/view_sheet';
+import { ImportSheet } from '../steps/open/import_sheet';
+import { texts } from '../texts/texts';
+
+/** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
+export function Popovers({ state }: { state: State }) {
+  const { popover } = state.ui;
+  if (!popover) return null;
+  return (
+    <Sheet key={popover} name={popover} title={TITLES[popover]}>
+      {contents(popover, state)}
+    </Sheet>
+  );
+}
+
+const TITLES: Readonly<Record<Popover, string>> = {
+  calibration: texts.sheets.calibration,
+  femur: titleOf('femur'),
+  tibia: titleOf('tibia'),
+  keys: texts.sheets.keys,
+  log: texts.sheets.log,
+  session: texts.sheets.session,
+  convergence: texts.sheets.convergence,
+  work: texts.work.list,
+  import: texts.exchange.title,
+  shape: texts.tracing.shape.title,
+  view: texts.seeing.sheet,
+  calibrate: texts.calibrate.sheet,
+  video: texts.files.video.sheet,
+};
+
+function contents(popover: Popover, state: State): ComponentChildren {
+  switch (popover) {
+    case 'calibration':
+      return <CalibrationSheet state={state} />;
+    case 'femur':
+    case 'tibia':
+      return <ComponentSheet state={state} component={popover} />;
+    case 'keys':
+      return <KeySheet />;
+    case 'log':
+      return <LogSheet state={state} />;
+    case 'session':
+      return <SessionSheet state={state} />;
+    case 'work':
+      return <WorkSheet state={state} />;
+    case 'import':
+      return <ImportSheet state={state} />;
+    case 'convergence':
+      return <ConvergenceSheet state={state} />;
+    case 'shape':
+      return <ShapeSheet state={state} />;
+    case 'calibrate':
+      return <CalibrateSheet state={state} />;
+    case 'video':
+      return <VideoSheet state={state} />;
+    case 'view':
+      return <ViewSheet state={state} />;
+  }
+}
+
+function Sheet({ name, title, children }: { name: Popover; title: string; children: ComponentChildren }) {
+  const { store } = useApp().services;
+  const sheet = useRef<HTMLElement>(null);
+  useEffect(() => {
+    const before = document.activeElement;
+    sheet.current?.focus();
+    return () => {
+      if (before instanceof HTMLElement) before.focus();
+    };
+  }, []);
+  return (
+    <section ref={sheet} class={`sheet ${name}-sheet`} role="dialog" aria-label={title} tabIndex={-1}>
+      <div class="sheet-head">
+        <h2>{title}</h2>
+        <button type="button" class="button square small" aria-label={texts.close(title)} title={texts.closeTitle} onClick={() => store.show({ popover: null })}>
+          <Icon name="close" />
+        </button>
+      </div>
+      {children}
+    </section>
+  );
+}

@@ -1,0 +1,106 @@
+import { useEffect } from 'preact/hooks';
+import { currentCell, currentFrame, type Job, type State } from '../document/store';
+import { chosenCandidate } from '../document/types';
+import type { Motion } from '../interaction/adjust';
+import { handHint } from '../commands/hand_bindings';
+import { hint } from '../interaction/hints';
+import { useApp } from '../commands/app';
+import { usePointer } from '../commands/pointer';
+import { texts } from '../texts/texts';
+
+/** One line: what the next click does, or what just went wrong and what to do. */
+export function StatusLine({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const pointer = usePointer();
+  const { text, kind } = message(state, pointer?.hit ?? { kind: 'nothing' }, pointer?.motion ?? null);
+  useInfoExpires(state);
+  return (
+    <footer class="status" aria-label={texts.status.region}>
+      <p class={`status-text ${kind}`} role="status" aria-live="polite" title={text}>
+        {text}
+      </p>
+      <OfferButton state={state} />
+      {state.ui.jobs.map((job) => (
+        <JobBar key={job.id} job={job} />
+      ))}
+      <PointerReadout state={state} />
+      <button
+        type="button"
+        class="button small"
+        aria-haspopup="dialog"
+        aria-expanded={state.ui.popover === 'log'}
+        onClick={() => store.show({ popover: state.ui.popover === 'log' ? null : 'log' })}
+      >
+        {texts.status.log}
+      </button>
+    </footer>
+  );
+}
+
+function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion | null): { text: string; kind: 'hint' | 'info' | 'error' } {
+  const { notice, tool, component } = state.ui;
+  if (notice) return notice;
+  const { outline, result } = currentCell(state);
+  if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
+  if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
+  if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
+  return { text: hint(tool, component, outline, hit, { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null }), kind: 'hint' };
+}
+
+/** News passes; errors stay until something is done. */
+function useInfoExpires(state: State): void {
+  const { store } = useApp().services;
+  const { notice } = state.ui;
+  useEffect(() => {
+    // What offers something waits for an answer.
+    if (notice?.kind !== 'info' || notice.offer) return undefined;
+    const timer = setTimeout(() => store.ui.notice === notice && store.quiet(), INFO_LENGTH);
+    return () => clearTimeout(timer);
+  }, [notice, store]);
+}
+
+const INFO_LENGTH = 6000;
+
+/** What can be done about the news. */
+function OfferButton({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const offer = state.ui.notice?.offer;
+  if (!offer) return null;
+  const take = () => {
+    store.quiet();
+    offer.take();
+  };
+  return (
+    <button type="button" class="button small" onClick={take}>
+      {offer.label}
+    </button>
+  );
+}
+
+function JobBar({ job }: { job: Job }) {
+  const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
+  const count = job.total > 0 ? texts.status.count(job.done, job.total, job.unit) : texts.status.preparing;
+  return (
+    <div class="job">
+      <span class="job-text">
+        {texts.status.job(job.title, count, seconds)}
+      </span>
+      <progress aria-label={job.title} value={job.total > 0 ? job.done : undefined} max={job.total > 0 ? job.total : 1} />
+      <button type="button" class="button small" aria-label={texts.status.cancelJob(job.title)} onClick={job.cancel}>
+        {texts.cancel}
+      </button>
+    </div>
+  );
+}
+
+function PointerReadout({ state }: { state: State }) {
+  const { studio } = useApp().services;
+  const pointer = usePointer();
+  const frame = currentFrame(state);
+  if (!frame || !pointer) return <span class="readout" />;
+  const { column, row } = pointer.at;
+  const grey = studio.greyAt(frame.id, column, row);
+  return (
+    <span class="readout">{texts.status.pointer(column.toFixed(1), row.toFixed(1), grey)}</span>
+  );
+}

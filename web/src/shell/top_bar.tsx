@@ -1,0 +1,163 @@
+import * as commands from '../document/commands';
+import { nextRedo, nextUndo } from '../document/history';
+import type { Popover, State } from '../document/store';
+import type { Side } from '../document/types';
+import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
+import { useApp } from '../commands/app';
+import { Icon } from '../controls/icons';
+import { SavedState } from './saved_state';
+import { texts } from '../texts/texts';
+
+const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
+
+export function TopBar({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  const undoStep = nextUndo(state.history);
+  const redoStep = nextRedo(state.history);
+  return (
+    <header class="top-bar" aria-label={texts.top.region}>
+      <h1 class="for-readers">{texts.program}</h1>
+      <StudyName state={state} />
+      <div class="chips">
+        <CalibrationChip state={state} />
+        {COMPONENT_NAMES.map((component) => (
+          <ComponentChip key={component} state={state} component={component} />
+        ))}
+      </div>
+      <div class="bar-buttons">
+        <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
+        <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
+        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
+          <Icon name="open" /> {texts.top.open}
+        </button>
+        <button
+          type="button"
+          class="button"
+          aria-label={texts.top.saveLabel}
+          title={texts.top.saveTitle}
+          aria-haspopup="dialog"
+          aria-expanded={state.ui.popover === 'session'}
+          onClick={() => toggle(services.store, 'session')}
+        >
+          <Icon name="save" /> {texts.top.save}
+        </button>
+        <SavedState state={state} />
+        {state.ui.update ? (
+          <button type="button" class="button update" title={texts.top.updateTitle} onClick={state.ui.update}>
+            {texts.top.update}
+          </button>
+        ) : null}
+        <button
+          type="button"
+          class="button square"
+          aria-label={texts.top.theme}
+          aria-pressed={state.ui.theme === 'light'}
+          aria-keyshortcuts="Shift+L"
+          title={texts.top.themeTitle}
+          onClick={() => actions.run({ name: 'theme' })}
+        >
+          <Icon name="theme" />
+        </button>
+        <button
+          type="button"
+          class="button round"
+          aria-label={texts.top.keys}
+          title={texts.top.keysTitle}
+          aria-haspopup="dialog"
+          aria-expanded={state.ui.popover === 'keys'}
+          onClick={() => toggle(services.store, 'keys')}
+        >
+          {texts.top.keysSign}
+        </button>
+      </div>
+    </header>
+  );
+}
+
+function StudyName({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const { name, side } = state.history.present;
+  return (
+    <div class="study">
+      <input
+        class="study-name"
+        aria-label={texts.top.studyName}
+        placeholder={texts.program}
+        value={name}
+        onInput={(event) => store.perform(commands.rename(event.currentTarget.value))}
+      />
+      <select
+        class="side"
+        aria-label={texts.top.side}
+        value={side}
+        onChange={(event) => store.perform(commands.setSide(event.currentTarget.value as Side))}
+      >
+        {SIDES.map((side) => (
+          <option key={side} value={side}>
+            {texts.top.sides[side]}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}
+
+function CalibrationChip({ state }: { state: State }) {
+  const { calibration } = state.history.present;
+  const text = calibration ? calibration.name : texts.top.noCalibration;
+  return <Chip state={state} popover="calibration" label={texts.top.calibration} text={text} missing={!calibration} />;
+}
+
+function ComponentChip({ state, component }: { state: State; component: ComponentName }) {
+  const { model, libraryFile } = state.history.present.components[component];
+  const library = state.ui.libraries[component];
+  const text = model?.name ?? libraryFile?.name ?? texts.top.noModel;
+  const suffix = library.state === 'building' ? ` · ${texts.top.building}` : library.state === 'stopped' ? ` · ${texts.top.noLibrary}` : '';
+  return <Chip state={state} popover={component} label={titleOf(component)} text={text + suffix} missing={!model && !libraryFile} tint={component} />;
+}
+
+interface ChipProps {
+  readonly state: State;
+  readonly popover: Popover;
+  readonly label: string;
+  readonly text: string;
+  readonly missing: boolean;
+  readonly tint?: ComponentName;
+}
+
+function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
+  const { store } = useApp().services;
+  return (
+    <button
+      type="button"
+      class={`chip${missing ? ' missing' : ''}${tint ? ` ${tint}` : ''}`}
+      aria-haspopup="dialog"
+      aria-expanded={state.ui.popover === popover}
+      title={texts.top.chip(label, text)}
+      onClick={() => toggle(store, popover)}
+    >
+      <span class="chip-label">{label}:</span>{' '}
+      <span class="chip-text">{text}</span>
+    </button>
+  );
+}
+
+interface IconButtonProps {
+  readonly icon: 'undo' | 'redo';
+  readonly label: string;
+  readonly keys: string;
+  readonly disabled: boolean;
+  readonly onClick: () => void;
+}
+
+function IconButton({ icon, label, keys, disabled, onClick }: IconButtonProps) {
+  return (
+    <button type="button" class="button square" aria-label={label} title={texts.withKey(label, keys)} disabled={disabled} onClick={onClick}>
+      <Icon name={icon} />
+    </button>
+  );
+}
+
+function toggle(store: { ui: { popover: Popover | null }; show(change: { popover: Popover | null }): void }, popover: Popover): void {
+  store.show({ popover: store.ui.popover === popover ? null : popover });
+}

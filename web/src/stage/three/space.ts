@@ -1,0 +1,93 @@
+import { PerspectiveCamera, Vector3, WebGLRenderer } from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { ComponentName } from '../../terms/component';
+import { inCamera, type Vector } from '../../geometry/pose_motion';
+import { ModelScene, radiusOf, type PlacedModel } from './models';
+
+/** Where one looks from, with what is upwards there. */
+const SIDES = {
+  camera: { from: [0, 0, 1], up: [0, 1, 0] },
+  side: { from: [1, 0, 0], up: [0, 1, 0] },
+  above: { from: [0, 1, 0], up: [0, 0, -1] },
+} as const satisfies Record<string, { from: Vector; up: Vector }>;
+
+export type Side = keyof typeof SIDES;
+
+const FIELD_OF_VIEW = 30;
+
+/** Models in space, to be turned with the mouse or by keys. Drawn when something changes, never else. */
+export class SpaceView {
+  readonly #renderer: WebGLRenderer;
+  readonly #models = new ModelScene();
+  readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 1, 10_000);
+  readonly #controls: OrbitControls;
+  readonly #canvas: HTMLCanvasElement;
+  #shown: ComponentName | null = null;
+  #radius = 50;
+  #scheduled = 0;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#controls = new OrbitControls(this.#camera, canvas);
+    this.#controls.enableDamping = false;
+    this.#controls.enablePan = false;
+    this.#controls.addEventListener('change', () => this.#schedule());
+  }
+
+  /** `middle` is that of the selected model, in its own coordinates. */
+  show(models: readonly PlacedModel[], selected: ComponentName, middle: Vector): void {
+    const model = models.find(({ component }) => component === selected) ?? models[0];
+    if (!model) return;
+    this.#models.show(models);
+    const target = new Vector3().fromArray(inCamera(model.pose, middle));
+    const moved = target.clone().sub(this.#controls.target);
+    this.#controls.target.copy(target);
+    this.#camera.position.add(moved);
+    this.#radius = radiusOf(model.mesh);
+    if (this.#shown === null) this.look('camera');
+    this.#shown = selected;
+    this.#controls.update();
+    this.#schedule();
+  }
+
+  look(side: Side): void {
+    const { from, up } = SIDES[side];
+    const away = (1.6 * this.#radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
+    this.#camera.up.fromArray(up);
+    this.#camera.position.copy(this.#controls.target).addScaledVector(new Vector3().fromArray(from), away);
+    this.#camera.lookAt(this.#controls.target);
+    this.#controls.update();
+    this.#schedule();
+  }
+
+  /** Goes around what is looked at, degrees to the right and upwards. */
+  turn(right: number, up: number): void {
+    const axisUp = this.#camera.up.clone().normalize();
+    const offset = this.#camera.position.clone().sub(this.#controls.target);
+    const across = new Vector3().crossVectors(axisUp, offset).normalize();
+    offset.applyAxisAngle(axisUp, (right * Math.PI) / 180).applyAxisAngle(across, (-up * Math.PI) / 180);
+    this.#camera.position.copy(this.#controls.target).add(offset);
+    this.#controls.update();
+    this.#schedule();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#scheduled);
+    this.#controls.dispose();
+    this.#renderer.dispose();
+  }
+
+  #schedule(): void {
+    this.#scheduled ||= requestAnimationFrame(() => {
+      this.#scheduled = 0;
+      const { clientWidth: width, clientHeight: height } = this.#canvas;
+      if (width === 0 || height === 0) return;
+      this.#renderer.setPixelRatio(window.devicePixelRatio || 1);
+      this.#renderer.setSize(width, height, false);
+      this.#camera.aspect = width / height;
+      this.#camera.updateProjectionMatrix();
+      this.#renderer.render(this.#models.scene, this.#camera);
+    });
+  }
+}

@@ -1,0 +1,114 @@
+import { useMemo } from 'preact/hooks';
+import { markOf } from '../document/marks';
+import { progressOf, type Progress } from '../results/progress';
+import type { State } from '../document/store';
+import { type Cell, cellOf, chosenCandidate } from '../document/types';
+import { type ComponentName, titleOf } from '../terms/component';
+import { poseKeys } from '../results/keys';
+import { texts } from '../texts/texts';
+import { useApp } from '../commands/app';
+
+/** One component's cells, a column a frame. */
+export function CellRow({ state, component }: { state: State; component: ComponentName }) {
+  const doc = state.history.present;
+  const { frameIndex } = state.ui;
+  const keyOf = poseKeys(doc);
+  return (
+    <tr class={component}>
+      <th scope="row">{titleOf(component)}</th>
+      {doc.frames.map((frame, index) => (
+        <CellButton
+          key={frame.id}
+          component={component}
+          index={index}
+          cell={cellOf(doc, frame.id, component)}
+          mark={markOf(doc, { frameId: frame.id, component })}
+          poseKey={keyOf(component, frame)}
+          column={index === frameIndex}
+          selected={index === frameIndex && component === state.ui.component}
+        />
+      ))}
+    </tr>
+  );
+}
+
+interface CellButtonProps {
+  readonly component: ComponentName;
+  /** From 0. */
+  readonly index: number;
+  readonly cell: Cell;
+  readonly mark: ReturnType<typeof markOf>;
+  readonly poseKey: string | null;
+  /** In the current frame. */
+  readonly column: boolean;
+  readonly selected: boolean;
+}
+
+/** Made again only when something of it changes: a film has hundreds. */
+function CellButton({ component, index, cell, mark, poseKey, column, selected }: CellButtonProps) {
+  const { store } = useApp().services;
+  return useMemo(() => {
+    const progress = progressOf(cell, mark, poseKey);
+    const name = texts.work.cell(index + 1, texts.component[component], nameOf(progress));
+    const go = () => {
+      store.goTo(index);
+      store.selectComponent(component);
+    };
+    return (
+      <td>
+        <button
+          type="button"
+          class={classOf(progress, column)}
+          aria-label={name}
+          aria-current={selected ? 'true' : undefined}
+          title={[name, ...detailsOf(progress, cell)].join('; ')}
+          onClick={go}
+        >
+          <CellSigns progress={progress} />
+        </button>
+      </td>
+    );
+  }, [store, component, index, cell, mark, poseKey, column, selected]);
+}
+
+/** Everything that is marked has a sign of its own: none is told by colour alone. */
+export function CellSigns({ progress }: { progress: Progress }) {
+  const { stage, check, ambiguous, outdated, flagged, note } = progress;
+  const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : ambiguous ? '?' : outdated ? '!' : '';
+  return (
+    <>
+      {sign && <span class="cell-sign">{sign}</span>}
+      {flagged && <span class="cell-flag" />}
+      {note !== '' && <span class="cell-note" />}
+    </>
+  );
+}
+
+/** The look of a stage: how full the cell is. */
+export function lookOf({ stage }: Pick<Progress, 'stage'>): string {
+  return `is-${stage.replaceAll(' ', '-')}`;
+}
+
+function classOf(progress: Progress, column: boolean): string {
+  return ['cell', lookOf(progress), column ? 'column' : ''].filter(Boolean).join(' ');
+}
+
+/** Whether a pose was refined is a detail; that there is one is what a list is looked through for. */
+function nameOf({ stage, check, flagged }: Progress): string {
+  const word = stage === 'refined' || stage === 'by hand' ? texts.work.stages.posed : texts.work.stages[stage];
+  const checked = check === 'yes' ? texts.work.checked : check === 'changed since' ? texts.work.changedSince : null;
+  return [word, checked, flagged ? texts.work.flagged : null].filter((part) => part !== null).join(', ');
+}
+
+/** What the name leaves out, for the cell's description. */
+export function detailsOf(progress: Progress, cell: Cell): readonly string[] {
+  const { work } = texts;
+  const residual = chosenCandidate(cell)?.residual ?? null;
+  return [
+    progress.stage === 'refined' || progress.stage === 'by hand' ? work.stages[progress.stage] : null,
+    residual === null ? null : work.residual(residual.toFixed(2)),
+    progress.ambiguous ? work.ambiguous : null,
+    progress.outdated ? work.outdated : null,
+    progress.note === '' ? null : work.note(progress.note),
+  ].filter((part) => part !== null);
+}

@@ -1,0 +1,127 @@
+import { work } from './activity';
+import type { FromWorker, Protocol, ToWorker } from './protocol/messages';
+import { texts } from '../texts/texts';
+
+/** The half of `Worker` that the bridge needs; tests supply their own. */
+export interface WorkerPort {
+  postMessage(message: ToWorker, transfer: Transferable[]): void;
+  onmessage: ((event: MessageEvent<FromWorker>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+  terminate(): void;
+}
+
+export interface CallOptions<Progress> {
+  readonly signal?: AbortSignal | undefined;
+  readonly transfer?: Transferable[];
+  readonly onProgress?: (progress: Progress) => void;
+}
+
+interface Waiting {
+  readonly method: string;
+  readonly input: unknown;
+  readonly options: CallOptions<never>;
+  readonly resolve: (output: never) => void;
+  readonly reject: (error: Error) => void;
+}
+
+/** A call was aborted: by its own signal, so nobody needs to hear of it. */
+export class Aborted extends Error {
+  constructor() {
+    super('aborted');
+  }
+}
+
+/**
+ * Calls into a worker, one at a time in the order asked. A call aborted in the queue never reaches the worker; one
+ * that is running is told, and what it still sends is dropped.
+ */
+export class Bridge<P extends Protocol<P>> {
+  readonly #start: () => WorkerPort;
+  #port: WorkerPort | null = null;
+  #queue: Waiting[] = [];
+  #running: { id: number; call: Waiting } | null = null;
+  #lastId = 0;
+
+  /** Called when the worker has stopped by itself and what it held is gone. */
+  onCrash: () => void = () => undefined;
+
+  /** The worker starts with the first call. */
+  constructor(start: () => WorkerPort) {
+    this.#start = start;
+  }
+
+  call<K extends keyof P & string>(
+    method: K,
+    input: P[K]['input'],
+    options: CallOptions<P[K]['progress']> = {},
+  ): Promise<P[K]['output']> {
+    const over = work.begin();
+    const answer = new Promise<P[K]['output']>((resolve, reject) => {
+      if (options.signal?.aborted) return reject(new Aborted());
+      const waiting = { method, input, options, resolve, reject } as Waiting;
+      options.signal?.addEventListener('abort', () => this.#abort(waiting), { once: true });
+      this.#queue.push(waiting);
+      this.#sendNext();
+    });
+    return answer.finally(over);
+  }
+
+  dispose(): void {
+    this.#port?.terminate();
+    this.#port = null;
+    this.#failAll(new Aborted());
+  }
+
+  #sendNext(): void {
+    if (this.#running) return;
+    const call = this.#queue.shift();
+    if (!call) return;
+    const id = ++this.#lastId;
+    this.#running = { id, call };
+    const { method, input, options } = call;
+    this.#openPort().postMessage({ type: 'call', id, method, input }, options.transfer ?? []);
+  }
+
+  #openPort(): WorkerPort {
+    if (this.#port) return this.#port;
+    const port = this.#start();
+    port.onmessage = (event) => this.#receive(event.data);
+    port.onerror = (event) => this.#crashed(event.message || texts.said.notLoaded);
+    this.#port = port;
+    return port;
+  }
+
+  #receive(message: FromWorker): void {
+    const running = this.#running;
+    if (!running || message.id !== running.id) return;
+    if (message.type === 'progress') {
+      (running.call.options as CallOptions<unknown>).onProgress?.(message.progress);
+      return;
+    }
+    this.#running = null;
+    if (message.type === 'done') running.call.resolve(message.output as never);
+    else running.call.reject(new Error(message.sentence));
+    this.#sendNext();
+  }
+
+  #abort(call: Waiting): void {
+    this.#queue = this.#queue.filter((other) => other !== call);
+    if (this.#running?.call === call) this.#port?.postMessage({ type: 'abort', id: this.#running.id }, []);
+    call.reject(new Aborted());
+  }
+
+  /** A trap in WASM leaves the worker's memory in doubt: the next call starts a new one. */
+  #crashed(reason: string): void {
+    this.#port?.terminate();
+    this.#port = null;
+    this.#failAll(new Error(texts.said.workerStopped(reason)));
+    this.onCrash();
+  }
+
+  #failAll(error: Error): void {
+    const calls = [...(this.#running ? [this.#running.call] : []), ...this.#queue];
+    this.#running = null;
+    this.#queue = [];
+    for (const call of calls) call.reject(error);
+  }
+}

@@ -1,0 +1,72 @@
+import { HiddenPixels, type HandFit, type Landscape, type Matcher, type Traced } from '../../pkg/core/fluoropose_wasm.js';
+import type { ComponentName } from '../../terms/component';
+import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
+import { poseArray, poseFrom } from '../protocol/pose_array';
+import type { MatchInput } from '../protocol/match';
+import { imageOf } from './frame_pixels';
+import type { Handlers } from './serve';
+
+/** What the handlers share with those that hold the libraries. */
+export interface Held {
+  readonly withTraced: <T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T) => Promise<T>;
+  readonly matcherOf: (component: ComponentName) => Promise<Matcher>;
+}
+
+export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> {
+  return {
+    refineFrom: ({ start, locked, ...input }) =>
+      withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
+    refineOnFrame: async ({ component, camera, frame, start, locked, others }) => {
+      const matcher = await matcherOf(component);
+      const image = imageOf(frame);
+      const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
+      try {
+        for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
+        return factsOf(matcher.refineOnFilm(image, hidden, numbers(poseArray(start)), flags(locked)));
+      } finally {
+        hidden.free();
+        image.free();
+      }
+    },
+    landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),
+    viewPose: ({ view, ...input }) =>
+      withTraced(input, (matcher, traced) => {
+        const found = matcher.viewPose(traced, view);
+        const { unmatched } = found;
+        const pose = poseFrom(found.pose);
+        found.free();
+        return { pose, unmatched };
+      }),
+  };
+}
+
+function factsOf(fit: HandFit): FitFacts {
+  const { residual, drawn = null, deviations, bright } = fit;
+  const pose = poseFrom(fit.pose);
+  fit.free();
+  return { pose, residual, drawn, deviations: deviations ? poseFrom(deviations) : null, bright };
+}
+
+function landscapeOf(landscape: Landscape): LandscapeFacts {
+  const [x0 = 0, xStep = 1, xCount = 0, y0 = 0, yStep = 1, yCount = 0] = landscape.axes;
+  const axis = (first: number, step: number, count: number): GridAxis => ({ first, step, count });
+  const scores = landscape.scores as Uint32Array<ArrayBuffer>;
+  const minima = triples(landscape.minima).map(([x, y, unmatched]): Minimum => ({ x, y, unmatched }));
+  landscape.free();
+  return { x: axis(x0, xStep, xCount), y: axis(y0, yStep, yCount), scores, minima };
+}
+
+function triples(values: Float64Array): [number, number, number][] {
+  return Array.from({ length: values.length / 3 }, (_, at) => {
+    const [a = 0, b = 0, c = 0] = values.subarray(3 * at, 3 * at + 3);
+    return [a, b, c];
+  });
+}
+
+function numbers(values: readonly number[]): Float64Array {
+  return Float64Array.from(values);
+}
+
+function flags(values: readonly boolean[]): Uint8Array {
+  return Uint8Array.from(values, Number);
+}

@@ -1,0 +1,106 @@
+import init, { decode_model, FrameFile, sniff, type DecodedFrame as RawFrame } from '../../pkg/decode/fluoropose_decode.js';
+import wasmAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
+import type { DecodedFrame, DecodeProtocol, FileKind, StatedGeometry } from '../protocol/decode';
+import { serve, type Context } from './serve';
+
+/** Image and model files, decoded away from the page. */
+const ready = init({ module_or_path: wasmAddress });
+
+type FrameProgress = DecodeProtocol['frames']['progress'];
+
+serve<DecodeProtocol>({
+  sniff: async ({ head, length, name }) => {
+    await ready;
+    return kindOf(sniff(head, length, name));
+  },
+  frames: async ({ bytes, name }, context) => {
+    await ready;
+    const file = new FrameFile(bytes, name);
+    try {
+      await decodeAll(file, context);
+      return file.count;
+    } finally {
+      file.free();
+    }
+  },
+  model: async ({ bytes, name }) => {
+    await ready;
+    const model = decode_model(bytes, name);
+    const vertices = model.vertices as Float32Array<ArrayBuffer>;
+    const triangles = model.triangles as Uint32Array<ArrayBuffer>;
+    const { notes } = model;
+    model.free();
+    return { vertices, triangles, notes };
+  },
+});
+
+async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Promise<void> {
+  const total = file.count;
+  for (let index = 0; index < total; index++) {
+    const raw = file.frame(index);
+    const frame = copied(raw);
+    raw.free();
+    context.report({ index, total, frame });
+    await context.breathe();
+  }
+}
+
+function copied(raw: RawFrame): DecodedFrame {
+  const { width, height, windowCentre: centre, windowWidth, notes } = raw;
+  const stated = centre !== undefined && windowWidth !== undefined;
+  return {
+    width,
+    height,
+    pixels: raw.pixels as DecodedFrame['pixels'],
+    window: stated ? { centre, width: windowWidth } : null,
+    notes,
+    geometry: geometryOf(raw),
+  };
+}
+
+function geometryOf(raw: RawFrame): StatedGeometry {
+  const { columnSpacingMm, rowSpacingMm, pixelSpacingCalibration } = raw;
+  return {
+    detectorSpacing: pairOf([columnSpacingMm, rowSpacingMm]),
+    pixelSpacing: pairOf(Array.from(raw.pixelSpacingMm)),
+    pixelSpacingCalibration: (pixelSpacingCalibration as 'geometry' | 'fiducial' | undefined) ?? null,
+    scannedSpacing: pairOf(Array.from(raw.scannedSpacingMm)),
+    sourceToDetector: raw.sourceToDetectorMm ?? null,
+    sourceToPatient: raw.sourceToPatientMm ?? null,
+    sourceToIsocentre: raw.sourceToIsocentreMm ?? null,
+    magnification: raw.magnification ?? null,
+  };
+}
+
+function pairOf([across, along]: readonly (number | undefined)[]): readonly [number, number] | null {
+  return across === undefined || along === undefined ? null : [across, along];
+}
+
+function kindOf(word: string): FileKind {
+  switch (word) {
+    case 'png':
+    case 'jpeg':
+    case 'jpeg2000':
+    case 'tiff':
+    case 'dicom':
+      return 'frames';
+    case 'stl':
+    case 'obj':
+    case 'ply':
+      return 'model';
+    case 'jts':
+      return 'poses';
+    case 'calibration':
+    case 'mayacam':
+      return 'calibration';
+    case 'library':
+    case 'session':
+    case 'outlines':
+    case 'coco':
+    case 'distortion':
+    case 'video':
+      return word;
+    default:
+      return 'unknown';
+  }
+}

@@ -1,0 +1,64 @@
+import { OneClick, type Film as FrameImage, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
+import type { ComponentName } from '../../terms/component';
+import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
+import type { Match, Surroundings } from '../protocol/match';
+import { imageOf } from './frame_pixels';
+import type { Context, Handlers } from './serve';
+
+/** What the handler shares with those that hold the libraries. */
+export interface Held {
+  readonly ready: Promise<unknown>;
+  readonly matcherOf: (component: ComponentName) => Promise<Matcher>;
+  readonly withSurroundings: <T>(component: ComponentName, around: Surroundings, work: (raw: RawSurroundings) => T) => T;
+  readonly read: (match: RawMatch, matcher: Matcher, milliseconds: number) => Match;
+}
+
+/** In steps of some tens of milliseconds, so that it can be called off between them. */
+export function oneClick(held: Held): Handlers<OneClickProtocol> {
+  return {
+    oneClick: async (input, context) => {
+      await held.ready;
+      const matcher = input.withModel ? await held.matcherOf(input.component) : null;
+      const image = imageOf(input.frame);
+      try {
+        return await search(held, input, image, matcher, context);
+      } finally {
+        image.free();
+      }
+    },
+  };
+}
+
+type Progress = Context<OneClickProtocol['oneClick']['progress']>;
+
+async function search(held: Held, input: OneClickInput, image: FrameImage, matcher: Matcher | null, context: Progress): Promise<OneClickFacts> {
+  const startedAt = performance.now();
+  const work = new OneClick(image, input.camera.text, input.prompt, input.bright);
+  try {
+    if (input.avoid) work.avoid(input.avoid);
+    while (matcher ? work.step(matcher) : work.stepAlone()) {
+      context.report({ fraction: work.progress, doing: work.doing });
+      await context.breathe();
+    }
+    const answer = matcher
+      ? held.withSurroundings(input.component, input.around, (raw) => work.finish(matcher, raw))
+      : work.finishAlone();
+    return facts(held, answer, matcher, performance.now() - startedAt);
+  } finally {
+    work.free();
+  }
+}
+
+function facts(held: Held, answer: OneClickAnswer, matcher: Matcher | null, milliseconds: number): OneClickFacts {
+  try {
+    const outlines = Array.from({ length: answer.count }, (_, index) => answer.outline(index) as Float64Array<ArrayBuffer> | undefined);
+    const match = answer.fromModel && matcher ? answer.takeMatch() : undefined;
+    return {
+      outlines: outlines.filter((outline) => outline !== undefined),
+      match: match && matcher ? held.read(match, matcher, milliseconds) : null,
+      sentence: answer.sentence,
+    };
+  } finally {
+    answer.free();
+  }
+}

@@ -1,0 +1,150 @@
+import { choosePose, Matcher, Straightener as Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import type { ComponentName } from '../../terms/component';
+import { poseArray, poseFrom } from '../protocol/pose_array';
+import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
+import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
+import type { DistortionInput } from '../protocol/camera';
+import { byHand } from './by_hand';
+import { oneClick } from './one_click';
+import { loadCore } from './core_module';
+import { serve } from './serve';
+
+/** Holds both components' libraries and finds poses in them. */
+const ready = loadCore();
+const matchers = new Map<ComponentName, Matcher>();
+
+serve<PoseProtocol>({
+  ...byHand({ withTraced, matcherOf }),
+  ...oneClick({ ready, matcherOf, withSurroundings, read }),
+  open: async ({ component, bytes, mesh }) => {
+    await ready;
+    const matcher = new Matcher(bytes);
+    if (mesh) matcher.lendModel(mesh.vertices, mesh.triangles);
+    matchers.get(component)?.free();
+    matchers.set(component, matcher);
+    return { views: matcher.views, bytes: bytes.length };
+  },
+  match: ({ before, ...input }) =>
+    withTraced(input, (matcher, traced) => found(matcher, () => followed(matcher, traced, before) ?? matcher.matchOutline(traced))),
+  refine: ({ around, ...input }) =>
+    withTraced(input, (matcher, traced) =>
+      withSurroundings(input.component, around, (raw) => found(matcher, () => matcher.refineOutline(traced, raw))),
+    ),
+  converge: ({ start, ...input }) =>
+    withTraced(input, (matcher, traced) => stepsOf(matcher.convergence(traced, Float64Array.from(poseArray(start))))),
+  choose: async ({ component, candidates, around }) => {
+    await ready;
+    const { poses, residuals } = numbersOf(candidates);
+    const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
+    if (!chosen) return null;
+    const { index, decided, sentence: reason } = chosen;
+    chosen.free();
+    return { index, decided, reason };
+  },
+});
+
+async function matcherOf(component: ComponentName): Promise<Matcher> {
+  await ready;
+  const matcher = matchers.get(component);
+  if (!matcher) throw new Error(`The library of the ${component} is not open`);
+  return matcher;
+}
+
+let undistorter: { readonly key: string; readonly tool: Undistorter } | null = null;
+
+/** Outlines of frames that are shown as they were taken: their points are undistorted before they are looked at. */
+function undistorted({ key, numbers }: DistortionInput, outline: Float64Array): Float64Array {
+  if (undistorter?.key !== key) {
+    undistorter?.tool.free();
+    undistorter = { key, tool: new Undistorter(numbers) };
+  }
+  return undistorter.tool.straight(outline);
+}
+
+async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
+  const { component, outline, unknownSides, camera } = input;
+  const matcher = await matcherOf(component);
+  const points = camera.distortion ? undistorted(camera.distortion, outline) : outline;
+  const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
+  try {
+    return work(matcher, traced);
+  } finally {
+    traced.free();
+  }
+}
+
+function withSurroundings<T>(component: ComponentName, around: Surroundings, work: (raw: RawSurroundings) => T): T {
+  const raw = new RawSurroundings();
+  try {
+    const { counterpart, neighbours } = around;
+    const array = counterpart && Float64Array.from(poseArray(counterpart));
+    if (array) component === 'tibia' ? raw.setFemur(array) : raw.setTibia(array);
+    for (const pose of neighbours) raw.addNeighbour(Float64Array.from(poseArray(pose)));
+    return work(raw);
+  } finally {
+    raw.free();
+  }
+}
+
+function numbersOf(refined: readonly Refined[]): { poses: Float64Array; residuals: Float64Array } {
+  return {
+    poses: Float64Array.from(refined.flatMap(({ pose }) => poseArray(pose))),
+    residuals: Float64Array.from(refined, ({ residual }) => residual),
+  };
+}
+
+function followed(matcher: Matcher, traced: Traced, before: readonly Refined[]): RawMatch | undefined {
+  if (before.length === 0) return undefined;
+  const { poses, residuals } = numbersOf(before);
+  return matcher.follow(traced, poses, residuals);
+}
+
+function found(matcher: Matcher, find: () => RawMatch): Match {
+  const startedAt = performance.now();
+  return read(find(), matcher, performance.now() - startedAt);
+}
+
+function read(match: RawMatch, matcher: Matcher, milliseconds: number): Match {
+  try {
+    return copied(match, matcher, milliseconds);
+  } finally {
+    match.free();
+  }
+}
+
+function copied(found: RawMatch, matcher: Matcher, milliseconds: number): Match {
+  const { canonicalSize, canonicalArea } = matcher;
+  const { clipped, partial, reason = null, decided } = found;
+  const candidates = Array.from({ length: found.count }, (_, index) => candidateOf(found, index, canonicalSize));
+  return { candidates, canonicalSize, canonicalArea, clipped, partial, reason, decided, milliseconds };
+}
+
+function candidateOf(found: RawMatch, index: number, size: number): MatchedCandidate {
+  const deviations = found.deviations(index);
+  const start = found.start(index);
+  return {
+    pose: poseFrom(found.pose(index) ?? []),
+    unmatched: found.unmatched(index) ?? null,
+    drawn: found.drawn(index) ?? null,
+    residual: found.residual(index) ?? null,
+    deviations: deviations ? poseFrom(deviations) : null,
+    start: start ? poseFrom(start) : null,
+    atBorder: found.atBorder(index) ?? false,
+    picture: pictureOf(found, index, size),
+  };
+}
+
+function pictureOf(found: RawMatch, index: number, size: number): Picture | null {
+  const [input, view] = [found.inputBits(index), found.viewBits(index)] as (Uint8Array<ArrayBuffer> | undefined)[];
+  return input?.length && view?.length ? { size, input, view } : null;
+}
+
+/** Numbers of a step of convergence. */
+const STEP = 10;
+
+function stepsOf(numbers: Float64Array): ConvergenceStep[] {
+  return Array.from({ length: numbers.length / STEP }, (_, at) => {
+    const [stage = 0, renders = 0, loss = 0, residual = 0, ...pose] = numbers.subarray(STEP * at, STEP * (at + 1));
+    return { stage, renders, loss, residual, pose: poseFrom(pose) };
+  });
+}

@@ -1,0 +1,72 @@
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
+import type { MatchInput } from './match';
+import type { CameraInput } from './camera';
+import type { FramePixels } from './frame_pixels';
+
+/** What the pose worker does with a pose that somebody set, and with all views of a library. */
+
+/** Where refinement starts, and which of the six numbers stay, in the order of `poseArray`. */
+export interface HandStart {
+  readonly start: PoseNumbers;
+  readonly locked: readonly boolean[];
+}
+
+export interface FitFacts {
+  readonly pose: PoseNumbers;
+  /** Px. */
+  readonly residual: number;
+  /** Frame pixels that differ from the outline; null without one. */
+  readonly drawn: number | null;
+  /** Null where numbers were locked, or the pose is not determined. */
+  readonly deviations: PoseNumbers | null;
+  /** The implant was taken to be brighter than what surrounds it; of the frame alone. */
+  readonly bright: boolean;
+}
+
+/** A grid of views: the rotation of the first, degrees, the step, and how many. */
+export interface GridAxis {
+  readonly first: number;
+  readonly step: number;
+  readonly count: number;
+}
+
+/** Unmatched canonical pixels of every view for an outline. */
+export interface LandscapeFacts {
+  readonly x: GridAxis;
+  readonly y: GridAxis;
+  /** x rotations run fastest. */
+  readonly scores: Uint32Array<ArrayBuffer>;
+  /** Best first, between the views. */
+  readonly minima: readonly Minimum[];
+}
+
+export interface Minimum {
+  /** Degrees. */
+  readonly x: number;
+  readonly y: number;
+  readonly unmatched: number;
+}
+
+export interface HandProtocol {
+  /** From a start onto the outline. */
+  refineFrom: { input: MatchInput & HandStart; output: FitFacts; progress: never };
+  /** From a start onto the edges of the frame; those of the other components at their poses do not count. */
+  refineOnFrame: {
+    input: HandStart & {
+      readonly component: ComponentName;
+      readonly camera: CameraInput;
+      readonly frame: FramePixels;
+      readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
+    };
+    output: FitFacts;
+    progress: never;
+  };
+  /** Throws for an outline of which only a part is known. */
+  landscape: { input: MatchInput; output: LandscapeFacts; progress: never };
+  viewPose: {
+    input: MatchInput & { readonly view: number };
+    output: { readonly pose: PoseNumbers; readonly unmatched: number };
+    progress: never;
+  };
+}

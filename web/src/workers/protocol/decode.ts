@@ -1,0 +1,46 @@
+export interface ModelMesh {
+  /** x, y, z of each vertex, millimetres. */
+  readonly vertices: Float32Array<ArrayBuffer>;
+  /** Three vertices each. */
+  readonly triangles: Uint32Array<ArrayBuffer>;
+  /** What was left out of the file, a sentence each. */
+  readonly notes?: readonly string[];
+}
+
+export interface DecodedFrame {
+  readonly width: number;
+  readonly height: number;
+  readonly pixels: Uint8Array<ArrayBuffer> | Uint16Array<ArrayBuffer>;
+  /** As the file suggests, if it does. */
+  readonly window: { readonly centre: number; readonly width: number } | null;
+  /** What was done to the pixels on the way, a sentence each. */
+  readonly notes: readonly string[];
+  /** What the file says of sizes and distances. */
+  readonly geometry: StatedGeometry;
+}
+
+/** Lengths in mm as a file states them; null where it does not. Pairs: along a row, then from row to row. */
+export interface StatedGeometry {
+  readonly detectorSpacing: readonly [number, number] | null;
+  readonly pixelSpacing: readonly [number, number] | null;
+  readonly pixelSpacingCalibration: 'geometry' | 'fiducial' | null;
+  readonly scannedSpacing: readonly [number, number] | null;
+  readonly sourceToDetector: number | null;
+  readonly sourceToPatient: number | null;
+  readonly sourceToIsocentre: number | null;
+  readonly magnification: number | null;
+}
+
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'video' | 'unknown';
+
+export interface DecodeProtocol {
+  /** By the file's beginning and its length, bytes. */
+  sniff: { input: { head: Uint8Array<ArrayBuffer>; length: number; name: string }; output: FileKind; progress: never };
+  /** Frames arrive one by one as progress. */
+  frames: {
+    input: { bytes: Uint8Array<ArrayBuffer>; name: string };
+    output: number;
+    progress: { readonly index: number; readonly total: number; readonly frame: DecodedFrame };
+  };
+  model: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: ModelMesh; progress: never };
+}

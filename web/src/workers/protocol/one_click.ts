@@ -1,0 +1,38 @@
+import type { ComponentName } from '../../terms/component';
+import type { FramePixels } from './frame_pixels';
+import type { Match, Surroundings } from './match';
+import type { CameraInput } from './camera';
+
+/** A first outline and pose from a click or a box. */
+export interface OneClickInput {
+  readonly component: ComponentName;
+  readonly camera: CameraInput;
+  readonly frame: FramePixels;
+  /** Column and row of a click inside the implant, or left, top, right and bottom of a rough box. */
+  readonly prompt: Float64Array<ArrayBuffer>;
+  /** Metal is brighter than what surrounds it. */
+  readonly bright: boolean;
+  /** The outline of the other component, whose pixels are left out; columns and rows by turns. */
+  readonly avoid: Float64Array<ArrayBuffer> | null;
+  /** Without library and model only the region and its edges lead to an outline. */
+  readonly withModel: boolean;
+  readonly around: Surroundings;
+}
+
+export interface OneClickFacts {
+  /** One for each candidate, the chosen first; columns and rows by turns. */
+  readonly outlines: readonly Float64Array<ArrayBuffer>[];
+  /** The candidates' poses; null where no model led to the outline. */
+  readonly match: Match | null;
+  /** What was done and how sure it is. */
+  readonly sentence: string;
+}
+
+export interface OneClickProtocol {
+  oneClick: {
+    input: OneClickInput;
+    output: OneClickFacts;
+    /** 0 to 1, and what is being done. */
+    progress: { readonly fraction: number; readonly doing: string };
+  };
+}

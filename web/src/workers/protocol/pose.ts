@@ -1,0 +1,44 @@
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
+import type { HandProtocol } from './by_hand';
+import type { ModelMesh } from './decode';
+import type { LibraryFacts } from './library';
+import type { Choice, Match, MatchInput, Refined, Surroundings } from './match';
+import type { OneClickProtocol } from './one_click';
+
+/** A pose on the way of refinement. */
+export interface ConvergenceStep {
+  readonly stage: number;
+  /** Times the model was drawn so far. */
+  readonly renders: number;
+  /** Square px; each stage has its own scale. */
+  readonly loss: number;
+  /** Px. */
+  readonly residual: number;
+  readonly pose: PoseNumbers;
+}
+
+export interface PoseProtocol extends HandProtocol, OneClickProtocol {
+  /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
+  open: {
+    input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer>; mesh: ModelMesh | null };
+    output: LibraryFacts;
+    progress: never;
+  };
+  /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */
+  match: { input: MatchInput & { readonly before: readonly Refined[] }; output: Match; progress: never };
+  /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */
+  refine: { input: MatchInput & { readonly around: Surroundings }; output: Match; progress: never };
+  /** Chooses anew among refined poses when more is known around them; null where there are none. */
+  choose: {
+    input: {
+      component: ComponentName;
+      candidates: readonly Refined[];
+      around: Surroundings;
+    };
+    output: Choice | null;
+    progress: never;
+  };
+  /** The way of refinement from a start. */
+  converge: { input: MatchInput & { readonly start: PoseNumbers }; output: readonly ConvergenceStep[]; progress: never };
+}

@@ -1,0 +1,126 @@
+import { describe, expect, it } from 'vitest';
+import { decodeBase64, encodeBase64, readSession, writeSession, type Session } from '../../src/document/session/session';
+import { cellKey, EMPTY_DOC, type Cell, type Doc, type Outline } from '../../src/document/types';
+import { framePoint } from '../../src/geometry/points';
+
+const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true, unknownSides: [0, 2] };
+const pose = { x: 4.605862, y: -17.13854, z: -1083.741, zRot: 7.91024, xRot: 5.66783, yRot: -1.187261 };
+
+const deviations = { x: 0.021, y: 0.02, z: 0.31, zRot: 0.03, xRot: 0.05, yRot: 0.06 };
+
+const posed: Cell = {
+  outline,
+  result: {
+    kind: 'posed',
+    from: 'outline',
+    origin: 'k',
+    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations }],
+    chosen: 0,
+    reason: 'The only pose found.',
+    decided: true,
+  },
+  resultOf: outline,
+};
+const stale: Cell = { outline, result: { kind: 'failed', origin: 'k', sentence: 'crosses itself' }, resultOf: null };
+const loaded: Cell = {
+  outline: null,
+  result: {
+    kind: 'posed',
+    from: 'file',
+    origin: 'fem.jts',
+    candidates: [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }],
+    chosen: 0,
+    reason: null,
+    decided: true,
+  },
+  resultOf: null,
+};
+
+const doc: Doc = {
+  ...EMPTY_DOC,
+  name: 'Knie "7" – süß',
+  side: 'left',
+  frames: [{ id: 'ab:0', name: 'film.tif #1', source: 'ab', indexInSource: 0, width: 1024, height: 1000 }],
+  calibration: { name: 'c.txt', text: 'JT_INTCALIB\n1198\n0\n0\n0.373\n' },
+  cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
+  window: { centre: 2000, width: 4095 },
+  marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
+};
+
+const bytes = Uint8Array.from({ length: 70_001 }, (_, i) => (i * 31) & 255);
+const session: Session = {
+  doc,
+  view: { frameIndex: 0, component: 'tibia', overlayOpacity: 0.35 },
+  audit: null,
+  files: [
+    { name: 'film.tif', sha256: 'ab', bytes },
+    { name: 'fem.stl', sha256: 'cd', bytes: null },
+  ],
+};
+
+const written = () => writeSession(session, 'fluoropose 0', new Date(0)).join('');
+
+describe('session', () => {
+  it('loses nothing', () => {
+    expect(readSession(written())).toEqual(session);
+  });
+
+  it('reads candidates that were saved before poses were refined', () => {
+    const old = written().replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
+    expect(old).not.toMatch(/residual|deviations/);
+    const result = readSession(old).doc.cells['ab:0/femur']?.result;
+    expect(result?.kind === 'posed' && result.candidates[0]).toMatchObject({ pose, residual: null, deviations: null });
+  });
+
+  it('reads outlines and choices that were saved before sides could be marked and choices had reasons', () => {
+    const old = written().replace(/,"(unknownSides|reason|decided)":(\[[^\]]*\]|"[^"]*"|\w+)/g, '');
+    expect(old).not.toMatch(/unknownSides|reason|decided/);
+    const cell = readSession(old).doc.cells['ab:0/femur'];
+    expect(cell?.outline).toEqual({ ...outline, unknownSides: [] });
+    expect(cell?.result).toMatchObject({ reason: null, decided: false, chosen: 0 });
+  });
+
+  it('knows which results belong to their outlines', () => {
+    const { cells } = readSession(written()).doc;
+    const [first, second] = [cells['ab:0/femur'], cells['ab:0/tibia']];
+    expect(first?.resultOf).toBe(first?.outline);
+    expect(second?.resultOf).toBeNull();
+  });
+
+  it('names kind, version and program', () => {
+    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 2, program: 'fluoropose 0' });
+  });
+
+  it('refuses a file that is cut at any of many places', () => {
+    const text = written();
+    for (let length = 0; length < text.length - 2; length += 997) {
+      expect(() => readSession(text.slice(0, length))).toThrow(/cut short|damaged|not a JSON/);
+    }
+  });
+
+  it.each([
+    ['"version":2', '"version":3', /version 3.*newer page/],
+    ['fluoropose-session', 'something', /not a fluoropose session/],
+    ['"width":1024', '"width":"1024"', /document\.frames\[0\]\.width should be a finite number/],
+    ['"closed":true', '"closed":1', /closed should be true or false but is 1/],
+    ['[1.25,2]', '[1.25]', /points\[0\] should be a pair/],
+    ['"unknownSides":[0,2]', '"unknownSides":[0,3]', /unknownSides names side 3 of 3/],
+    ['"centre":2000', '"center":2000', /document\.window\.centre should be a finite number but is missing/],
+    ['"tibia","overlayOpacity"', '"patella","overlayOpacity"', /"femur" or "tibia"/],
+  ])('says where it is wrong: %s as %s', (from, to, sentence) => {
+    const text = written();
+    expect(text).toContain(from);
+    expect(() => readSession(text.replace(from, to))).toThrow(sentence);
+  });
+});
+
+describe('base64', () => {
+  it.each([0, 1, 2, 3, 24_575, 24_576, 24_577])('round trip of %i bytes', (length) => {
+    const part = bytes.subarray(0, length);
+    expect(decodeBase64(encodeBase64(part), 'x')).toEqual(part);
+  });
+
+  it('names the file that is damaged', () => {
+    expect(() => decodeBase64('?', 'files[0] (a.png)')).toThrow(/a\.png/);
+  });
+});

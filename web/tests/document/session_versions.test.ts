@@ -1,0 +1,79 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { auditOf, auditTroubles } from '../../src/document/session/audit';
+import { readSession, SESSION_VERSION, writeSession } from '../../src/document/session/session';
+import { cellKey, cellOf, chosenCandidate } from '../../src/document/types';
+
+/** One file of each version there ever was: what somebody saved stays readable. */
+const file = (version: number) => readFileSync(new URL(`fixtures/session-v${version}.fluoropose.json`, import.meta.url), 'utf8');
+
+describe('sessions of earlier versions', () => {
+  it.each(Array.from({ length: SESSION_VERSION }, (_, index) => index + 1))('version %i is read', (version) => {
+    const { doc, view, files } = readSession(file(version));
+    expect(doc.name).toBe(`version ${version}`);
+    expect(doc.side).toBe('right');
+    expect(doc.frames.map(({ name }) => name)).toEqual(['film.tif #1', 'film.tif #2']);
+    expect(view).toEqual({ frameIndex: 1, component: 'tibia', overlayOpacity: 0.5 });
+    expect(files.map(({ name, bytes }) => [name, bytes?.length ?? null])).toEqual([['film.tif', 40], ['fem.stl', null]]);
+    const [first, second] = doc.frames.map(({ id }) => id);
+    const posed = cellOf(doc, first, 'femur');
+    expect(posed.outline?.unknownSides).toEqual([1]);
+    expect(posed.resultOf).toBe(posed.outline);
+    expect(chosenCandidate(posed)?.pose.x).toBe(4.605862);
+    expect(cellOf(doc, second, 'femur').result).toMatchObject({ from: 'file', origin: 'fem.jts' });
+    expect(cellOf(doc, first, 'tibia').result).toMatchObject({ kind: 'failed' });
+    expect(cellOf(doc, second, 'tibia').outline).toMatchObject({ closed: false });
+  });
+
+  it('version 1 has no marks and no audit', () => {
+    const { doc, audit } = readSession(file(1));
+    expect(doc.marks).toEqual({});
+    expect(audit).toBeNull();
+  });
+
+  it('version 2 has marks, and an audit that fits', async () => {
+    const { doc, audit } = readSession(file(2));
+    const key = cellKey(doc.frames[0]!.id, 'femur');
+    expect(doc.marks[key]).toMatchObject({ flagged: true, note: 'cement over the rim' });
+    expect(audit?.results.map(({ method, program }) => [method, program])).toEqual([
+      ['refined', 'fluoropose 0.1.0'],
+      ['file fem.jts', null],
+    ]);
+    expect(await auditTroubles(doc, audit!)).toEqual([]);
+  });
+});
+
+describe('audit', () => {
+  const session = () => readSession(file(2));
+
+  it('names every input with its digest', async () => {
+    const { doc } = session();
+    const { inputs } = await auditOf(doc);
+    expect(inputs.map(({ role, name }) => `${role} ${name}`)).toEqual(['frames film.tif', 'calibration c.txt', 'femur model fem.stl']);
+    for (const { sha256 } of inputs) expect(sha256).toMatch(/^[0-9a-f]{64}$/);
+  });
+
+  it.each([
+    ['[1.25,2]', '[1.26,2]', /^Frame 1 \(film\.tif #1\), femur: the outline was changed after the session was saved$/],
+    ['JT_INTCALIB\\n1198', 'JT_INTCALIB\\n1199', /^The calibration c\.txt: SHA-256 \w{12}\.\.\. in the session, \w{12}\.\.\. when its results were saved$/],
+  ])('says what was changed: %s to %s', async (from, to, sentence) => {
+    const [head, tail] = file(2).split('"document":') as [string, string];
+    const changed = readSession(`${head}"document":${tail.replace(from, to)}`);
+    const troubles = await auditTroubles(changed.doc, changed.audit!);
+    expect(troubles.join('\n')).toMatch(sentence);
+  });
+
+  it('tells a pose that was changed by hand in the file', async () => {
+    const [head, tail] = file(2).split('"document":') as [string, string];
+    const changed = readSession(`${head}"document":${tail.replace('"x":4.605862', '"x":4.7')}`);
+    expect(await auditTroubles(changed.doc, changed.audit!)).toEqual([
+      'Frame 1 (film.tif #1), femur: the pose was changed after the session was saved',
+    ]);
+  });
+
+  it('is lost in no round trip', async () => {
+    const { doc, view, files, audit } = session();
+    const again = readSession(writeSession({ doc, view, files, audit }, 'fluoropose 0.1.0', new Date(0)).join(''));
+    expect(again.audit).toEqual(await auditOf(doc));
+  });
+});

@@ -1,0 +1,201 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { Assets } from '../../src/document/assets';
+import { addFrames, addPoint, closeOutline, deleteOutline } from '../../src/document/commands';
+import type { Place } from '../../src/document/command';
+import { Store } from '../../src/document/store';
+import { EMPTY_DOC } from '../../src/document/types';
+import { Claims } from '../../src/keep/claims';
+import { changedCells, Keeper, WAIT } from '../../src/keep/keeper';
+import type { CellChange, KeptWork, Shelf } from '../../src/keep/shelf';
+import { framePoint } from '../../src/geometry/points';
+
+const PLACE: Place = { frameId: 'f', component: 'femur' };
+const SETTLE = 10;
+
+/** A shelf in memory; `refuse` makes it throw, as a full disk would. */
+function memory() {
+  const works = new Map<string, KeptWork>();
+  const cells = new Map<string, Map<string, unknown>>();
+  const files = new Set<string>();
+  const writes: { work: KeptWork; changes: readonly CellChange[] }[] = [];
+  const trouble: { refuse: Error | null } = { refuse: null };
+  const shelf = {
+    write: async (work: KeptWork, changes: readonly CellChange[]) => {
+      if (trouble.refuse) throw trouble.refuse;
+      writes.push({ work, changes });
+      works.set(work.id, work);
+      const of = cells.get(work.id) ?? new Map<string, unknown>();
+      for (const { key, cell } of changes) cell === null ? of.delete(key) : of.set(key, cell);
+      cells.set(work.id, of);
+    },
+    putAside: async (id: string, putAside: boolean) => {
+      const work = works.get(id);
+      if (work) works.set(id, { ...work, putAside });
+    },
+    hasFile: async (sha256: string) => files.has(sha256),
+    addFile: async ({ sha256 }: { sha256: string }) => void files.add(sha256),
+  };
+  return { shelf: shelf as unknown as Shelf, works, cells, files, writes, trouble };
+}
+
+/** Locks of a browser with as many tabs as ask. */
+function locks(): LockManager {
+  const held = new Set<string>();
+  const request = async (name: string, _options: unknown, callback: (lock: unknown) => unknown) => {
+    if (held.has(name)) return callback(null);
+    held.add(name);
+    return callback({ name });
+  };
+  return { request } as unknown as LockManager;
+}
+
+async function bench(manager = locks()) {
+  const store = new Store();
+  const assets = new Assets();
+  const kept = memory();
+  const keeper = new Keeper({ store, assets }, new Claims(manager), async () => kept.shelf);
+  const { sha256 } = await assets.add('f.png', Uint8Array.of(1, 2, 3));
+  const open = () => store.perform(addFrames([{ id: 'f', name: 'f.png', source: sha256, indexInSource: 0, width: 9, height: 9 }]));
+  return { store, keeper, open, sha256, ...kept };
+}
+
+const point = (column: number) => addPoint(PLACE, framePoint(column, 1));
+const passes = (milliseconds: number) => vi.advanceTimersByTimeAsync(milliseconds);
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+describe('keeper', () => {
+  it('writes nothing while there is nothing', async () => {
+    const { store, writes } = await bench();
+    store.show({ tool: 'edit' });
+    await passes(10 * WAIT);
+    expect(writes).toEqual([]);
+    expect(store.ui.keeping).toEqual({ state: 'nothing' });
+  });
+
+  it('writes work and files soon after a change, and then only the cells that differ', async () => {
+    const { store, open, writes, files, sha256 } = await bench();
+    open();
+    expect(store.ui.keeping.state).toBe('pending');
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(files).toEqual(new Set([sha256]));
+    expect(writes).toHaveLength(1);
+    expect(writes[0]!.work).toMatchObject({ frames: 1, putAside: false, files: [{ sha256, name: 'f.png' }] });
+    for (const column of [1, 2, 3]) store.perform(point(column));
+    await passes(WAIT + SETTLE);
+    expect(writes).toHaveLength(2);
+    expect(writes[1]!.changes.map(({ key }) => key)).toEqual(['f/femur']);
+    expect(writes[1]!.changes[0]!.cell).toMatchObject({ outline: { closed: false, points: [[1, 1], [2, 1], [3, 1]] } });
+    await passes(10 * WAIT);
+    expect(writes).toHaveLength(2);
+  });
+
+  it('goes on writing while somebody never rests', async () => {
+    const { store, open, writes } = await bench();
+    open();
+    for (let step = 0; step < 40; step++) {
+      store.preview(point(step));
+      await passes(WAIT / 4);
+    }
+    expect(writes.length).toBeGreaterThan(5);
+  });
+
+  it('what comes while it writes is written after it', async () => {
+    const { store, open, writes, cells } = await bench();
+    open();
+    await passes(WAIT + SETTLE);
+    store.perform(point(1));
+    await passes(WAIT - 1);
+    store.perform(point(2));
+    await passes(1);
+    store.perform(point(3));
+    await passes(WAIT + SETTLE);
+    expect(writes.length).toBeLessThanOrEqual(3);
+    expect(cells.get(store.doc.work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1], [2, 1], [3, 1]] } });
+  });
+
+  it('flushes at once', async () => {
+    const { store, keeper, open, writes } = await bench();
+    open();
+    store.perform(point(1));
+    keeper.flush();
+    await passes(0);
+    expect(writes).toHaveLength(1);
+    expect(store.ui.keeping.state).toBe('kept');
+  });
+
+  it('says once that the storage is full, tries again, and says when it is kept again', async () => {
+    const { store, open, writes, trouble } = await bench();
+    trouble.refuse = new DOMException('no room', 'QuotaExceededError');
+    open();
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('refused');
+    expect(store.ui.notice?.text).toMatch(/no room left/);
+    const said = store.ui.log.length;
+    store.perform(point(1));
+    await passes(5 * WAIT);
+    expect(store.ui.log.length).toBe(said);
+    trouble.refuse = null;
+    await passes(10_000);
+    expect(writes).toHaveLength(1);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(store.ui.notice?.text).toMatch(/again/);
+  });
+
+  it('puts aside what is left for other work, and takes it up again by undo', async () => {
+    const { store, open, works } = await bench();
+    open();
+    await passes(WAIT + SETTLE);
+    const first = store.doc.work;
+    store.perform({ label: 'start anew', apply: () => EMPTY_DOC });
+    await passes(WAIT + SETTLE);
+    expect(works.get(first)?.putAside).toBe(true);
+    expect(store.ui.keeping.state).toBe('nothing');
+    store.undo();
+    await passes(WAIT + SETTLE);
+    expect(store.doc.work).toBe(first);
+    expect(works.get(first)?.putAside).toBe(false);
+    expect(works.size).toBe(1);
+  });
+
+  it('does not write what another tab has', async () => {
+    const manager = locks();
+    const one = await bench(manager);
+    const other = await bench(manager);
+    one.open();
+    await passes(WAIT + SETTLE);
+    other.store.amend(() => one.store.doc);
+    await passes(WAIT + SETTLE);
+    expect(other.writes).toEqual([]);
+    expect(other.store.ui.keeping).toMatchObject({ state: 'refused' });
+    expect(other.store.ui.notice?.text).toMatch(/open in another tab/);
+  });
+
+  it('is no unit of undo', async () => {
+    const { store, open } = await bench();
+    open();
+    const units = store.state.history.past.length;
+    await passes(WAIT + SETTLE);
+    expect(store.state.history.past.length).toBe(units);
+    store.undo();
+    expect(store.doc.frames).toEqual([]);
+  });
+});
+
+describe('cells that changed', () => {
+  it('are those that came, differ or went', () => {
+    const store = new Store();
+    store.perform(addFrames([{ id: 'f', name: 'f', source: 's', indexInSource: 0, width: 9, height: 9 }]));
+    const docs = [store.doc];
+    for (const column of [1, 2, 3]) store.perform(point(column));
+    docs.push(store.doc);
+    store.perform(closeOutline(PLACE));
+    docs.push(store.doc);
+    store.perform(deleteOutline(PLACE));
+    const keys = (before: number, after: number) => changedCells(docs[before]!, docs[after]!).map(({ key }) => key);
+    expect([keys(0, 1), keys(1, 2), keys(2, 2)]).toEqual([['f/femur'], ['f/femur'], []]);
+    expect(changedCells(docs[1]!, docs[0]!)).toEqual([{ key: 'f/femur', cell: null }]);
+  });
+});
