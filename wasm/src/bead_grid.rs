@@ -7,8 +7,8 @@ use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
 use wasm_bindgen::prelude::*;
 
-use crate::error::sentence;
-use crate::grid::beads_of;
+use fluoropose_page::distortion::beads_of;
+use fluoropose_page::error::sentence;
 
 /// The beads of a grid that was found in a picture.
 #[wasm_bindgen]

@@ -24,8 +24,8 @@ struct Module {
 const MODULES: [Module; 3] = [
     // What the page's own thread needs, and has to load first.
     Module {
-        package: "fluoropose-wasm",
-        features: &["--no-default-features"],
+        package: "fluoropose-page",
+        features: &[],
         folder: "page",
         with_simd: false,
     },

@@ -23,14 +23,14 @@ use wasm_bindgen::prelude::*;
 
 use super::from_here::model_of;
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
-use crate::calibration::camera;
 use crate::choice::{Chosen, Surroundings};
-use crate::error::sentence;
 use crate::exchange::simplified;
-use crate::film::Film;
 use crate::found::{Candidate, Match, deviation_numbers};
-use crate::pose_numbers::to_numbers;
 use answer::told;
+use fluoropose_page::calibration::camera;
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::to_numbers;
 
 /// The outline that is handed out stays so near to the silhouette, pixels.
 const TOLERANCE: f64 = 0.5;
@@ -55,7 +55,7 @@ fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
 /// The work from a click or a box on a film to outlines and poses.
 #[wasm_bindgen]
 pub struct OneClick {
-    film: Film,
+    film: FrameImage,
     camera: Camera,
     polarity: Polarity,
     prompt: Prompt,
@@ -114,7 +114,7 @@ impl OneClick {
     /// A sentence about the calibration or the prompt.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        film: &Film,
+        film: &FrameImage,
         calibration: &str,
         prompt: &[f64],
         bright_implant: bool,

@@ -12,8 +12,8 @@ use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
 use crate::calibration::camera;
+use crate::distortion::Undistorter;
 use crate::error::sentence;
-use crate::grid::Straightener;
 use crate::paint::{Rgba, opaque, put};
 use crate::pose_numbers::from_numbers;
 
@@ -118,7 +118,7 @@ impl Model {
 
     /// Moves the corners of the border to where they lie on a frame as it was taken.
     #[wasm_bindgen(js_name = bendBorder)]
-    pub fn bend_border(&mut self, straightener: &Straightener) {
+    pub fn bend_border(&mut self, straightener: &Undistorter) {
         straightener.bend(&mut self.corners);
     }
 
@@ -213,6 +213,8 @@ fn bounds_all(border: &[Point], mask: &Mask<'_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::distortion::beads_of;
+    use fluoropose_distortion::correction::fit;
 
     /// A square plate of two triangles at 200 mm from the focus, with others of the same size beside or behind it.
     fn plates(offsets: &[[f32; 3]]) -> Model {
@@ -245,19 +247,18 @@ mod tests {
     }
 
     /// Bends what lies off the middle of a frame of 256 x 256 outwards.
-    #[cfg(feature = "workers")]
-    fn pin_cushion() -> Straightener {
+    fn pin_cushion() -> Undistorter {
         let beads = (0..11 * 11).flat_map(|bead| {
             let place = [bead % 11, bead / 11].map(|at| f64::from(at - 5));
             let stretch = 22.0 * (1.0 + 0.001 * (place[0].powi(2) + place[1].powi(2)));
             let [column, row] = place.map(|at| 128.0 + stretch * at);
             [column, row, place[0], place[1]]
         });
-        let fit = crate::fit_distortion(&beads.collect::<Vec<_>>(), 256, 256).unwrap();
-        Straightener::new(&fit.numbers()).unwrap()
+        let mut beads = beads_of(&beads.collect::<Vec<_>>());
+        let corrected = fit(&mut beads, (256, 256)).unwrap();
+        Undistorter::new(&corrected.distortion.numbers()).unwrap()
     }
 
-    #[cfg(feature = "workers")]
     #[test]
     fn a_border_is_bent_where_it_lies_as_any_points_are() {
         let mut model = plates(&[[0.0; 3]]);

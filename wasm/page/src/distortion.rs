@@ -9,12 +9,13 @@ use fluoropose_distortion::ruler::scale;
 use wasm_bindgen::prelude::*;
 
 use crate::error::sentence;
-use crate::film::{Film, Pixels};
+use crate::frame_image::{FrameImage, Pixels};
 
 /// Four numbers a bead: column, row, number to the right, number down.
 const PER_BEAD: usize = 4;
 
-pub(crate) fn beads_of(flat: &[f64]) -> Vec<Bead> {
+/// Beads from four numbers each: column and row (px), number to the right, number down.
+pub fn beads_of(flat: &[f64]) -> Vec<Bead> {
     flat.as_chunks::<PER_BEAD>()
         .0
         .iter()
@@ -24,20 +25,20 @@ pub(crate) fn beads_of(flat: &[f64]) -> Vec<Bead> {
 
 /// Applies a stored correction.
 #[wasm_bindgen]
-pub struct Straightener {
+pub struct Undistorter {
     distortion: Distortion,
     /// Where each pixel of the straight frame is in the frame as taken; made when the first frame is.
     map: Vec<[f32; 2]>,
 }
 
 #[wasm_bindgen]
-impl Straightener {
+impl Undistorter {
     /// From the stored numbers.
     ///
     /// # Errors
     /// The core's sentence for numbers that are no correction.
     #[wasm_bindgen(constructor)]
-    pub fn new(numbers: &[f64]) -> Result<Straightener, JsError> {
+    pub fn new(numbers: &[f64]) -> Result<Undistorter, JsError> {
         let distortion = Distortion::from_numbers(numbers).map_err(sentence)?;
         Ok(Self {
             distortion,
@@ -63,7 +64,7 @@ impl Straightener {
     ///
     /// # Errors
     /// A sentence when the frame has another size than the correction is for.
-    pub fn film(&mut self, film: &Film) -> Result<Film, JsError> {
+    pub fn film(&mut self, film: &FrameImage) -> Result<FrameImage, JsError> {
         let (width, height) = self.distortion.size();
         if film.size() != (width, height) {
             let (columns, rows) = film.size();
@@ -79,12 +80,16 @@ impl Straightener {
         }
         let (columns, rows) = (width as u32, height as u32);
         match film.pixels() {
-            Pixels::Eight(pixels) => {
-                Film::from_eight_bit(resampled(pixels, &self.map, width, height)?, columns, rows)
-            }
-            Pixels::Sixteen(pixels) => {
-                Film::from_sixteen_bit(resampled(pixels, &self.map, width, height)?, columns, rows)
-            }
+            Pixels::Eight(pixels) => FrameImage::from_eight_bit(
+                resampled(pixels, &self.map, width, height)?,
+                columns,
+                rows,
+            ),
+            Pixels::Sixteen(pixels) => FrameImage::from_sixteen_bit(
+                resampled(pixels, &self.map, width, height)?,
+                columns,
+                rows,
+            ),
         }
     }
 
@@ -111,9 +116,9 @@ impl Straightener {
     }
 }
 
-impl Straightener {
+impl Undistorter {
     /// Moves points, columns and rows by turns, as `bent` does.
-    pub(crate) fn bend(&self, points: &mut [f64]) {
+    pub fn bend(&self, points: &mut [f64]) {
         for point in points.as_chunks_mut::<2>().0 {
             *point = self.distortion.bent(*point).unwrap_or(*point);
         }

@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{hand_of_side, inside_of, points_of};
 use crate::error::sentence;
-use crate::film::{Film, Pixels};
+use crate::frame_image::{FrameImage, Pixels};
 
 /// Paths along the edges of one film.
 #[wasm_bindgen]
@@ -34,7 +34,7 @@ pub struct LiveWire {
 
 /// What is needed until the edges are worked out.
 struct Preparing {
-    film: Film,
+    film: FrameImage,
     fine: Vec<u16>,
     coarse: Vec<u16>,
     magnitude: Vec<u16>,
@@ -46,7 +46,7 @@ impl LiveWire {
     /// a part, and 6 more until all is prepared.
     #[wasm_bindgen(constructor)]
     #[must_use]
-    pub fn new(film: &Film, dark_inside: bool) -> Self {
+    pub fn new(film: &FrameImage, dark_inside: bool) -> Self {
         let (width, height) = film.size();
         let count = width * height;
         Self {

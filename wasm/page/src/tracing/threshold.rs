@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{Reshaped, inside_of};
 use crate::error::sentence;
-use crate::film::Film;
+use crate::frame_image::FrameImage;
 
 /// A film smoothed once, of which regions are taken at any level.
 #[wasm_bindgen]
@@ -36,7 +36,7 @@ impl ThresholdAid {
     /// # Errors
     /// The core's sentence about the film.
     #[wasm_bindgen(constructor)]
-    pub fn new(film: &Film, dark_inside: bool) -> Result<ThresholdAid, JsError> {
+    pub fn new(film: &FrameImage, dark_inside: bool) -> Result<ThresholdAid, JsError> {
         let (width, height) = film.size();
         let mut cells = vec![0; width * height];
         let scale = film.smooth(&mut cells)?;

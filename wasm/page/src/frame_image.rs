@@ -9,24 +9,24 @@ use wasm_bindgen::prelude::*;
 use web_sys::CanvasRenderingContext2d;
 
 use crate::error::sentence;
-use crate::looks;
 use crate::paint::{Rgba, put};
+use crate::preprocessing;
 
 /// One frame's pixels.
 #[wasm_bindgen]
-pub struct Film {
+pub struct FrameImage {
     /// Of all that look at this film: nobody changes them.
     pixels: Rc<Pixels>,
     width: usize,
     height: usize,
     /// The picture that was last shown instead of the film itself.
-    derived: Option<(FilmLook, Vec<u8>)>,
+    derived: Option<(Derived, Vec<u8>)>,
 }
 
 /// A picture made from a frame.
 #[wasm_bindgen]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FilmLook {
+pub enum Derived {
     /// Strength of edges.
     Edges,
     /// Contrast equalised region by region.
@@ -34,8 +34,10 @@ pub enum FilmLook {
 }
 
 /// Grey values as they came.
-pub(crate) enum Pixels {
+pub enum Pixels {
+    /// Of 8 bits.
     Eight(Vec<u8>),
+    /// Of 9 to 16 bits.
     Sixteen(Vec<u16>),
 }
 
@@ -43,13 +45,13 @@ pub(crate) enum Pixels {
 const CLIPPED: f64 = 0.005;
 
 #[wasm_bindgen]
-impl Film {
+impl FrameImage {
     /// Takes 8-bit pixels, row by row.
     ///
     /// # Errors
     /// The core's sentence when the shape does not fit the pixels.
     #[wasm_bindgen(js_name = fromEightBit)]
-    pub fn from_eight_bit(pixels: Vec<u8>, width: u32, height: u32) -> Result<Film, JsError> {
+    pub fn from_eight_bit(pixels: Vec<u8>, width: u32, height: u32) -> Result<FrameImage, JsError> {
         check(&pixels, width, height)?;
         Ok(Self {
             pixels: Rc::new(Pixels::Eight(pixels)),
@@ -64,7 +66,11 @@ impl Film {
     /// # Errors
     /// The core's sentence when the shape does not fit the pixels.
     #[wasm_bindgen(js_name = fromSixteenBit)]
-    pub fn from_sixteen_bit(pixels: Vec<u16>, width: u32, height: u32) -> Result<Film, JsError> {
+    pub fn from_sixteen_bit(
+        pixels: Vec<u16>,
+        width: u32,
+        height: u32,
+    ) -> Result<FrameImage, JsError> {
         check(&pixels, width, height)?;
         Ok(Self {
             pixels: Rc::new(Pixels::Sixteen(pixels)),
@@ -124,7 +130,7 @@ impl Film {
     pub fn paint_derived(
         &mut self,
         context: &CanvasRenderingContext2d,
-        look: FilmLook,
+        look: Derived,
         centre: f64,
         width: f64,
     ) -> Result<(), JsValue> {
@@ -170,13 +176,14 @@ impl Film {
     }
 }
 
-impl Film {
-    pub(crate) fn pixels(&self) -> &Pixels {
+impl FrameImage {
+    /// Row by row.
+    pub fn pixels(&self) -> &Pixels {
         &self.pixels
     }
 
     /// The same pixels, not copied: the page may let go of its film while work on it goes on.
-    pub(crate) fn shared(&self) -> Self {
+    pub fn shared(&self) -> Self {
         Self {
             pixels: Rc::clone(&self.pixels),
             width: self.width,
@@ -197,7 +204,7 @@ impl Film {
     ///
     /// # Errors
     /// The core's sentence where there are fewer.
-    pub(crate) fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
+    pub fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
         let (width, height) = (self.width, self.height);
         let smoothed = match self.pixels() {
             Pixels::Eight(pixels) => {
@@ -213,7 +220,7 @@ impl Film {
     }
 
     /// Columns and rows.
-    pub(crate) fn size(&self) -> (usize, usize) {
+    pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
@@ -221,7 +228,7 @@ impl Film {
     ///
     /// # Errors
     /// That of `with`.
-    pub(crate) fn look<T>(
+    pub fn look<T>(
         &self,
         with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
@@ -236,19 +243,19 @@ impl Film {
         }
     }
 
-    fn derive(pixels: &Pixels, look: FilmLook, width: usize, height: usize) -> Vec<u8> {
+    fn derive(pixels: &Pixels, look: Derived, width: usize, height: usize) -> Vec<u8> {
         match (pixels, look) {
-            (Pixels::Eight(pixels), FilmLook::Edges) => {
-                looks::edges(&pixels[..width * height], width, height)
+            (Pixels::Eight(pixels), Derived::Edges) => {
+                preprocessing::edges(&pixels[..width * height], width, height)
             }
-            (Pixels::Eight(pixels), FilmLook::Equalised) => {
-                looks::equalised(&pixels[..width * height], width, height)
+            (Pixels::Eight(pixels), Derived::Equalised) => {
+                preprocessing::equalised(&pixels[..width * height], width, height)
             }
-            (Pixels::Sixteen(pixels), FilmLook::Edges) => {
-                looks::edges(&pixels[..width * height], width, height)
+            (Pixels::Sixteen(pixels), Derived::Edges) => {
+                preprocessing::edges(&pixels[..width * height], width, height)
             }
-            (Pixels::Sixteen(pixels), FilmLook::Equalised) => {
-                looks::equalised(&pixels[..width * height], width, height)
+            (Pixels::Sixteen(pixels), Derived::Equalised) => {
+                preprocessing::equalised(&pixels[..width * height], width, height)
             }
         }
     }
@@ -335,7 +342,9 @@ mod tests {
 
     #[test]
     fn who_shares_a_film_reads_its_pixels_where_they_are() {
-        let film = Film::from_eight_bit(vec![1, 2, 3, 4], 2, 2).ok().unwrap();
+        let film = FrameImage::from_eight_bit(vec![1, 2, 3, 4], 2, 2)
+            .ok()
+            .unwrap();
         assert!(std::ptr::eq(film.pixels(), film.shared().pixels()));
     }
 

@@ -68,12 +68,13 @@ impl Traced {
 }
 
 impl Traced {
-    pub(crate) fn camera(&self) -> Camera {
+    /// The camera that the outline is seen by.
+    pub fn camera(&self) -> Camera {
         self.camera
     }
 
     /// Whether sides were marked unknown.
-    pub(crate) fn is_marked(&self) -> bool {
+    pub fn is_marked(&self) -> bool {
         self.unknown.is_some()
     }
 
@@ -81,7 +82,7 @@ impl Traced {
     ///
     /// # Errors
     /// That of `with`.
-    pub(crate) fn look<T>(
+    pub fn look<T>(
         &self,
         with: impl FnOnce(&Silhouette<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use wasm_bindgen::JsError;
 
 /// An `Error` with the sentence of `error`, its first letter large.
-pub(crate) fn sentence(error: impl Display) -> JsError {
+pub fn sentence(error: impl Display) -> JsError {
     let text = error.to_string();
     let mut letters = text.chars();
     let text = match letters.next() {

@@ -4,9 +4,10 @@ use fluoropose::pose::EulerPose;
 use wasm_bindgen::JsError;
 
 /// x, y, z (mm), then z, x and y rotation (degrees).
-pub(crate) type PoseNumbers = [f64; 6];
+pub type PoseNumbers = [f64; 6];
 
-pub(crate) fn to_numbers(pose: &EulerPose) -> PoseNumbers {
+/// The six numbers of a pose.
+pub fn to_numbers(pose: &EulerPose) -> PoseNumbers {
     [
         pose.x_mm,
         pose.y_mm,
@@ -17,7 +18,11 @@ pub(crate) fn to_numbers(pose: &EulerPose) -> PoseNumbers {
     ]
 }
 
-pub(crate) fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
+/// The pose of six numbers.
+///
+/// # Errors
+/// A sentence where there are not six.
+pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
     match *numbers {
         [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]
             if numbers.iter().all(|n| n.is_finite()) =>

@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{Reshaped, hand_of_side, inside_of, points_of};
 use crate::error::sentence;
-use crate::film::{Film, Pixels};
+use crate::frame_image::{FrameImage, Pixels};
 
 /// Pulls a closed outline to edges of a film within `reach` pixels of it, and simplifies it by at most `tolerance` pixels.
 /// Where there is no edge it stays.
@@ -22,7 +22,7 @@ use crate::film::{Film, Pixels};
 /// The core's sentence about the outline or the settings.
 #[wasm_bindgen(js_name = snapOutline)]
 pub fn snap_outline(
-    film: &Film,
+    film: &FrameImage,
     points: &[f64],
     dark_inside: bool,
     reach: f64,
@@ -45,7 +45,7 @@ pub fn snap_outline(
 /// The core's sentence about the path or the settings.
 #[wasm_bindgen(js_name = snapPath)]
 pub fn snap_path(
-    film: &Film,
+    film: &FrameImage,
     path: &[f64],
     side: i32,
     dark_inside: bool,
@@ -62,7 +62,7 @@ pub fn snap_path(
     snapped(film, &points_of(path), &settings)
 }
 
-fn snapped(film: &Film, points: &[Point], settings: &Snap) -> Result<Reshaped, JsError> {
+fn snapped(film: &FrameImage, points: &[Point], settings: &Snap) -> Result<Reshaped, JsError> {
     let (samples, slopes) = snap_needed(points, settings.closed);
     let mut places = vec![Vertex::default(); samples];
     let mut out = List::new(&mut places);

@@ -7,12 +7,12 @@ use wasm_bindgen::prelude::*;
 use crate::error::sentence;
 
 /// The camera of a calibration text for frames of `width` x `height` pixels.
-pub(crate) fn camera(text: &str, width: u32, height: u32) -> Result<Camera, JsError> {
+pub fn camera(text: &str, width: u32, height: u32) -> Result<Camera, JsError> {
     calibration_of(text, width, height).map(|(_, camera)| camera)
 }
 
 /// A calibration text with its camera for frames of `width` x `height` pixels.
-pub(crate) fn calibration_of(
+pub fn calibration_of(
     text: &str,
     width: u32,
     height: u32,
