@@ -14,7 +14,9 @@ use crate::render::winding;
 /// edges.
 #[must_use]
 pub fn scratch_needed(model: &Model<'_>) -> usize {
-    let edges = model.edges().map_or(0, |_| winding::room_needed());
+    let edges = model
+        .edges()
+        .map_or(0, |edges| winding::room_needed(&edges));
     model.vertices().len() + edges
 }
 
