@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Missing, announce, command};
+use super::{Missing, command};
+use crate::clock::timed;
 use crate::workspace::Stamp;
 
 /// The oldest Node.js the page's tools run on (major version).
@@ -72,11 +73,14 @@ pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     if stamp.is_current() {
         return Ok(());
     }
-    announce(&format!("installing the npm packages of {name}/ (npm ci)"));
     let mut ci = Command::new(npm);
     ci.args(["ci", "--no-audit", "--no-fund", "--loglevel=error"])
         .current_dir(folder);
-    command::output(&mut ci).map_err(missing)?;
+    timed(
+        &format!("installing the npm packages of {name}/ (npm ci)"),
+        || command::output(&mut ci),
+    )
+    .map_err(missing)?;
     stamp.write().map_err(missing)
 }
 

@@ -7,9 +7,10 @@ use anyhow::{Result, ensure};
 
 use super::counts;
 use super::report::Report;
+use crate::page::{self, Build};
 use crate::setup::{command, node, programs};
 use crate::static_server::Server;
-use crate::{package, page, workspace};
+use crate::{package, workspace};
 
 const TYPES: &str = "browser: types of the page";
 const UNITS: &str = "browser: unit tests of the page";
@@ -29,7 +30,7 @@ const IN_FIREFOX: [&str; 4] = [
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
     if !report.step("browser: page built", || {
-        page::build().map(|_| String::new())
+        page::build(Build::Shipped).map(|_| String::new())
     }) {
         for name in [TYPES, UNITS, PACKAGES, CHROMIUM, FIREFOX] {
             report.skip(name, "the page was not built");
