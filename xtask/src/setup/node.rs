@@ -50,6 +50,7 @@ fn major_version(text: &str) -> Option<u32> {
 /// Installs exactly the packages that a folder's lock file names, if that has not been done for this lock file.
 pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     let npm = npm()?;
+    let _turn = super::NPM.turn();
     let name = folder
         .file_name()
         .unwrap_or_default()
