@@ -3,6 +3,7 @@
 
 mod bench;
 mod ci;
+mod clock;
 mod demo;
 mod firmware;
 mod laboratory;
@@ -72,6 +73,7 @@ enum Verb {
 }
 
 fn main() -> std::process::ExitCode {
+    clock::since_the_command();
     match run(Cli::parse().verb) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {

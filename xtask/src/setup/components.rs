@@ -7,6 +7,7 @@ use super::{Missing, announce, command};
 
 /// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
 pub(crate) fn ensure(subcommand: &str) -> Result<(), Missing> {
+    let _turn = super::RUSTUP.turn();
     if works(subcommand) {
         return Ok(());
     }

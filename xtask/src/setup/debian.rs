@@ -36,6 +36,7 @@ pub(crate) fn install(what: &str, packages: &[&str]) -> Result<(), Missing> {
     if let Some(missing) = refusal(access(), what, packages) {
         return Err(missing);
     }
+    let _turn = super::APT.turn();
     announce(&format!(
         "installing {what} (apt-get install {})",
         packages.join(" ")

@@ -11,6 +11,7 @@ pub(crate) mod programs;
 pub(crate) mod rust_target;
 
 use std::fmt;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Something needed that is not on this machine and could not be got.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,7 +35,28 @@ impl fmt::Display for Missing {
 
 impl std::error::Error for Missing {}
 
-/// Says on standard error what is being done now: every slow step has such a line.
+/// Says what is being done now: every slow step has such a line.
 pub(crate) fn announce(what: &str) {
-    eprintln!("==> {what}");
+    command::say(&format!("==> {what}"));
 }
+
+/// What only one step at a time may do where several run side by side.
+struct Alone(Mutex<()>);
+
+impl Alone {
+    const fn new() -> Self {
+        Self(Mutex::new(()))
+    }
+
+    /// Waits for its turn, which lasts as long as what is returned.
+    fn turn(&self) -> MutexGuard<'_, ()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Changing the Rust toolchain.
+static RUSTUP: Alone = Alone::new();
+/// Installing packages of the system.
+static APT: Alone = Alone::new();
+/// Installing packages of npm.
+static NPM: Alone = Alone::new();
