@@ -20,10 +20,13 @@ const FIREFOX: &str = "browser: the page in Firefox";
 
 /// What is driven in Firefox too: the ways from opening to a pose, every tool, and the keys. Of the rest its driver has no
 /// words for downloads and dropped files.
-const IN_FIREFOX: [&str; 4] = [
-    "tracing_tools.test.mjs",
+const IN_FIREFOX: [&str; 7] = [
+    "edges.test.mjs",
     "firefox.test.mjs",
     "keys.test.mjs",
+    "new_user.test.mjs",
+    "outline_tools.test.mjs",
+    "tool_keys.test.mjs",
     "tracing.test.mjs",
 ];
 
@@ -79,8 +82,8 @@ fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<Said> {
     let server = Server::start(dist, 0)?;
     let mut tests = Command::new(node);
     tests
-        // A page waits for its workers half of the time.
-        .args(["--test", "--test-reporter=spec", "--test-concurrency=2"])
+        // On two cores: most of the time a page waits for a screen frame, or a hand for the page.
+        .args(["--test", "--test-reporter=spec", "--test-concurrency=4"])
         .current_dir(&folder)
         .env("FLUOROPOSE_URL", server.url())
         .env("FLUOROPOSE_PACKAGE", package::usual_folder());
