@@ -156,6 +156,18 @@ impl Bench {
         polarity: Polarity,
         with_component: bool,
     ) -> Result<(OneClick, Vec<Word>), OneClickError> {
+        self.work_with_reserve(pixels, prompt, polarity, with_component, 0)
+    }
+
+    /// The same in memory that is longer than needed by `reserve` and not empty.
+    fn work_with_reserve(
+        &self,
+        pixels: &[u16],
+        prompt: Prompt,
+        polarity: Polarity,
+        with_component: bool,
+        reserve: usize,
+    ) -> Result<(OneClick, Vec<Word>), OneClickError> {
         let (model, camera) = (self.model(), camera());
         let library = Library::open(&self.library).expect("valid");
         let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
@@ -174,13 +186,13 @@ impl Bench {
         let mut work = OneClick::new(prompt, &camera, component)?;
         let (needs, locating) = (work.needs(&camera), workspace_needed(&library));
         let mut memory = OneClickMemory {
-            grey: &mut std::vec![0; needs.pixels],
-            reached: &mut std::vec![0; needs.pixels],
-            distance: &mut std::vec![0; needs.pixels],
-            marks: &mut std::vec![0; needs.pixels],
-            links: &mut std::vec![0; needs.links],
-            statistics: &mut std::vec![0; needs.statistics],
-            words: &mut std::vec![0; needs.words],
+            grey: &mut std::vec![3; needs.pixels + reserve],
+            reached: &mut std::vec![3; needs.pixels + reserve],
+            distance: &mut std::vec![3; needs.pixels + reserve],
+            marks: &mut std::vec![3; needs.pixels + reserve],
+            links: &mut std::vec![3; needs.links + reserve],
+            statistics: &mut std::vec![3; needs.statistics + reserve],
+            words: &mut std::vec![3; needs.words + reserve],
             workspace: Workspace {
                 canonical: &mut std::vec![0; locating.words],
                 turned: &mut std::vec![0; locating.words],
@@ -195,15 +207,10 @@ impl Bench {
                 border: &mut std::vec![BorderPixel::default(); 4096],
             },
         };
-        let mut before = 0.0;
-        while work.step(&observation, component, &mut memory)? {
-            let (Progress::Regions(done) | Progress::Poses(done)) = work.progress() else {
-                panic!("there is more to do");
-            };
-            assert!((before..1.0).contains(&done), "{before} {done}");
-            before = done;
-        }
-        assert_eq!(work.progress(), Progress::Done);
+        let step = |work: &mut OneClick, memory: &mut OneClickMemory<'_>| {
+            work.step(&observation, component, memory)
+        };
+        until_done(&mut work, &mut memory, step)?;
         let region = match component {
             Some(_) => Vec::new(),
             None => work
@@ -213,6 +220,24 @@ impl Bench {
         };
         Ok((work, region))
     }
+}
+
+/// Takes all steps; progress never falls.
+fn until_done(
+    work: &mut OneClick,
+    memory: &mut OneClickMemory<'_>,
+    step: impl Fn(&mut OneClick, &mut OneClickMemory<'_>) -> Result<bool, OneClickError>,
+) -> Result<(), OneClickError> {
+    let mut before = 0.0;
+    while step(work, memory)? {
+        let (Progress::Regions(done) | Progress::Poses(done)) = work.progress() else {
+            panic!("there is more to do");
+        };
+        assert!((before..1.0).contains(&done), "{before} {done}");
+        before = done;
+    }
+    assert_eq!(work.progress(), Progress::Done);
+    Ok(())
 }
 
 fn overlap(a: &[Word], b: &[Word]) -> f64 {
@@ -280,6 +305,21 @@ fn without_a_component_the_region_is_the_outline() {
         assert!(work.answers().is_empty());
         let iou = overlap(&region, &silhouette(&model, &pose()));
         assert!(iou > 0.95, "{prompt:?}: {iou}");
+    }
+}
+
+#[test]
+fn longer_memory_gives_the_same() {
+    let bench = Bench::new();
+    let pixels = drawn(&bench.model(), true);
+    for (prompt, with_component) in [(prompts()[0], true), (prompts()[2], false)] {
+        let [exact, longer] = [0, 1000].map(|reserve| {
+            let polarity = Polarity::DarkImplant;
+            bench.work_with_reserve(&pixels, prompt, polarity, with_component, reserve)
+        });
+        let [(a, region), (b, other)] = [exact.expect("done"), longer.expect("done")];
+        assert_eq!((a.answers(), a.starts()), (b.answers(), b.starts()));
+        assert_eq!(region, other);
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::costs::tests::edges_of;
-use crate::polyline::distance;
+use crate::polyline::{distance, squared_distance};
 use crate::side::Inside;
 use crate::synthetic::{Random, SyntheticFrame, circle};
 use std::vec::Vec;
@@ -97,6 +97,27 @@ fn every_pixel_has_the_cost_of_the_definition() {
     }
 }
 
+#[test]
+fn longer_memory_gives_the_same_paths() {
+    let (width, height) = (60, 50);
+    // Edges of no strength everywhere: many paths of the same cost.
+    let edges = std::vec![Edge::default(); width * height];
+    let costs = Costs::new(&edges, width, height).expect("fits");
+    let states = [1, 4].map(|times| {
+        let mut memory = Memory::new(times * width * height);
+        let seed = Point::new(30.5, 25.5);
+        let mut wire = Wire::start(&costs, seed, Hand::Either, &mut memory.borrow()).expect("fits");
+        let all = usize::MAX;
+        let expanded = wire.expand(&costs, &mut memory.borrow(), all, None);
+        assert_eq!(expanded, Ok(true));
+        memory.nodes[..width * height]
+            .iter()
+            .map(|node| node.0)
+            .collect::<Vec<u32>>()
+    });
+    assert_eq!(states[0], states[1]);
+}
+
 /// Each path begins at the seed, takes single steps, and costs what is said.
 fn check_paths(wire: &Wire, costs: &Costs<'_>, nodes: &[Node], wanted: &[u32]) {
     let mut places = std::vec![0; wanted.len()];
@@ -146,7 +167,7 @@ fn a_straight_way_takes_single_steps_to_its_end() {
         let [a, b] = [from, to].map(|pixel| wire.centre(pixel as u32));
         let off = |&pixel: &usize| {
             let at = wire.centre(pixel as u32);
-            crate::polyline::squared_distance(at, (a, b)).sqrt()
+            squared_distance(at, (a, b)).sqrt()
         };
         assert!(way.iter().map(off).fold(0.0, f64::max) < 0.75);
     }
