@@ -1,7 +1,7 @@
 //! Calibration from the beads of a grid or from a ruler, and distortion corrected, for the page.
 
 use fluoropose::image::frame::{Frame, Pixel};
-use fluoropose_distortion::distortion::Distortion;
+use fluoropose_distortion::Distortion;
 use fluoropose_distortion::lattice::Bead;
 use fluoropose_distortion::plate::{Distances, camera};
 use fluoropose_distortion::resample::{map_row, resample_row};
@@ -50,7 +50,7 @@ impl Undistorter {
     pub fn straight(&self, points: &[f64]) -> Vec<f64> {
         let points = points.as_chunks::<2>().0.iter();
         points
-            .flat_map(|&point| self.distortion.straight(point))
+            .flat_map(|&point| self.distortion.undistorted(point))
             .collect()
     }
 
@@ -102,7 +102,7 @@ impl Undistorter {
             for column in 0..width {
                 let [c, r] = self
                     .distortion
-                    .straight([column as f64 + 0.5, row as f64 + 0.5]);
+                    .undistorted([column as f64 + 0.5, row as f64 + 0.5]);
                 let inside = (0.0..width as f64).contains(&c) && (0.0..height as f64).contains(&r);
                 let index = if inside {
                     r as usize * width + c as usize
@@ -120,7 +120,7 @@ impl Undistorter {
     /// Moves points, columns and rows by turns, as `bent` does.
     pub fn bend(&self, points: &mut [f64]) {
         for point in points.as_chunks_mut::<2>().0 {
-            *point = self.distortion.bent(*point).unwrap_or(*point);
+            *point = self.distortion.distorted(*point).unwrap_or(*point);
         }
     }
 }

@@ -11,8 +11,7 @@ pub use reshape::{brush_outline, simplify_outline, smooth_outline, snap_outline,
 pub use threshold::ThresholdAid;
 
 use fluoropose::image::contour::Point;
-use fluoropose_tracing::wire::Hand;
-use fluoropose_tracing::{ShapeError, Vertex, threshold::Inside};
+use fluoropose_tracing::{Hand, Inside, ShapeError, Vertex};
 use wasm_bindgen::prelude::*;
 
 /// What an aid made of an outline.

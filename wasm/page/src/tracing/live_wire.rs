@@ -5,8 +5,8 @@ use fluoropose::image::frame::Frame;
 use fluoropose_tracing::cooling::Cooling as CoreCooling;
 use fluoropose_tracing::costs::{CostBuilder, CostMemory, Costs, Edge};
 use fluoropose_tracing::follow::{Cursor, Follower, common_length};
-use fluoropose_tracing::list::List;
 use fluoropose_tracing::wire::{Node, Waiting, Wire, WireMemory, hand_of};
+use fluoropose_tracing::{List, TracingError};
 use wasm_bindgen::prelude::*;
 
 use super::{hand_of_side, inside_of, points_of};
@@ -120,7 +120,7 @@ impl LiveWire {
     /// A sentence where the film's edges are not worked out yet.
     pub fn seed(&mut self, column: f64, row: f64, side: i32) -> Result<(), JsError> {
         if self.preparing.is_some() {
-            return Err(sentence(fluoropose_tracing::AidError::NotPrepared));
+            return Err(sentence(TracingError::NotPrepared));
         }
         let costs = Costs::new(&self.edges, self.width, self.height).map_err(sentence)?;
         let mut memory = WireMemory {

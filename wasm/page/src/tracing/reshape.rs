@@ -3,12 +3,10 @@
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
 use fluoropose_tracing::brush::{Brush, BrushMemory, Cut, brush, brush_needed};
-use fluoropose_tracing::list::List;
 use fluoropose_tracing::simplify::{Simplify, as_vertices, simplify};
 use fluoropose_tracing::snap::{Sample, Snap, SnapMemory, snap, snap_needed};
 use fluoropose_tracing::soften::{SoftenMemory, soften, soften_needed};
-use fluoropose_tracing::wire::Hand;
-use fluoropose_tracing::{ShapeError, Vertex};
+use fluoropose_tracing::{Hand, List, ShapeError, Vertex};
 use wasm_bindgen::prelude::*;
 
 use super::{Reshaped, hand_of_side, inside_of, points_of};

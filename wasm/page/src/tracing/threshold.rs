@@ -2,12 +2,11 @@
 
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::Word;
-use fluoropose_tracing::list::List;
 use fluoropose_tracing::smoothed::{Scale, Smoothed};
 use fluoropose_tracing::threshold::{
-    Inside, Threshold, ThresholdMemory, region_at, suggested_level, threshold_needed,
+    Threshold, ThresholdMemory, region_at, suggested_level, threshold_needed,
 };
-use fluoropose_tracing::{ShapeError, Vertex};
+use fluoropose_tracing::{Inside, List, ShapeError, Vertex};
 use wasm_bindgen::prelude::*;
 
 use super::{Reshaped, inside_of};

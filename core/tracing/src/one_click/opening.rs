@@ -1,28 +1,28 @@
-//! One region: cut out at a threshold, freed of thin bridges, its specks filled.
+//! One region: cut out at a threshold, opened with a disc, its small holes filled.
 //!
-//! A bridge is cut by an opening with a disc: what is nowhere as wide as the disc goes, and of
-//! what remains the part nearest to the seed stays. Distances are those of the chamfer 3-4
-//! (Borgefors, *Distance transformations in digital images*, CVGIP 34, 1986).
+//! The opening cuts bridges: what is nowhere as wide as the disc is removed, and of what remains the part nearest to the
+//! seed stays. Distances are those of the chamfer 3-4 (Borgefors, *Distance transformations in digital images*, CVGIP 34,
+//! 1986).
 
 use super::window::{LEVELS, Window};
 use fluoropose::image::mask::MaskMut;
 
-/// Chamfer length of a step to the side, and across a corner.
+/// Chamfer lengths of a step to the side, and across a corner.
 const SIDE: u16 = 3;
 const CORNER: u16 = 4;
 
-/// Flags of a pixel: at or below the threshold, kept by the opening, reached from the window's
-/// border round the region, in a hole that was looked at.
+/// Flags of a pixel: at or below the threshold; kept by the opening; outside of the region and connected with the window's
+/// border; in a hole that was measured.
 const LEVEL: u8 = 1;
 const KEPT: u8 = 2;
-const ROUND: u8 = 4;
+const OUTSIDE: u8 = 4;
 const HOLE: u8 = 8;
 
-/// Holes smaller than this part of the region are filled.
+/// Holes smaller than this fraction of the region are filled.
 const SPECK: f64 = 0.02;
 
-/// Working memory: one number a pixel each.
-pub(super) struct Shaper<'m> {
+/// An opening, with working memory of one number for each pixel of the window.
+pub(super) struct Opening<'m> {
     pub(super) window: Window,
     pub(super) reached: &'m [u16],
     pub(super) distance: &'m mut [u16],
@@ -30,10 +30,10 @@ pub(super) struct Shaper<'m> {
     pub(super) stack: &'m mut [u32],
 }
 
-impl Shaper<'_> {
-    /// Shapes the region of a threshold round `seed`, opened with a disc of `radius` pixels, and
-    /// draws it to `region`; to `doubt` what the opening took away. Both are masks of the frame.
-    pub(super) fn shape(
+impl Opening<'_> {
+    /// Draws the region of a threshold around `seed`, opened with a disc of `radius` pixels, to `region`, and what the
+    /// opening removed to `doubt`. Both are masks of the frame.
+    pub(super) fn draw(
         &mut self,
         seed: usize,
         level: u16,
@@ -65,8 +65,7 @@ impl Shaper<'_> {
         }
     }
 
-    /// Keeps what a disc covers that fits into the region and hangs together with the one nearest
-    /// to the seed.
+    /// Keeps what is covered by discs that fit into the region and are connected with the disc nearest to the seed.
     fn open(&mut self, seed: usize, reach: u16) {
         self.measure(|mark| mark & LEVEL == 0);
         let Some(start) = self.nearest_core(seed, reach) else {
@@ -81,13 +80,13 @@ impl Shaper<'_> {
         }
     }
 
-    /// A distance of so many pixels as `distance` holds it.
+    /// A length in pixels as `distance` holds it.
     fn length(pixels: f64) -> u16 {
         (pixels * f64::from(SIDE)) as u16
     }
 
-    /// The pixel at or below a threshold that is farthest from all others and from the window's
-    /// border, if there is any.
+    /// The pixel at or below a threshold that is farthest from all pixels above it and from the window's border; `None`
+    /// where there is no such pixel.
     pub(super) fn thickest(&mut self, level: u16) -> Option<usize> {
         let (width, height) = (self.window.width, self.window.height);
         for index in 0..self.window.pixels() {
@@ -124,8 +123,7 @@ impl Shaper<'_> {
         (0..self.window.pixels()).filter(deep).min_by_key(away)
     }
 
-    /// Writes the chamfer distance to the nearest pixel that `is_source`. The world beyond the
-    /// window holds none.
+    /// Writes the chamfer distance to the nearest pixel for which `is_source` is true. There is none beyond the window.
     fn measure(&mut self, is_source: impl Fn(u8) -> bool) {
         for (distance, &mark) in self.distance.iter_mut().zip(&*self.marks) {
             *distance = if is_source(mark) { 0 } else { u16::MAX };
@@ -166,8 +164,8 @@ impl Shaper<'_> {
         }
     }
 
-    /// Sets a flag on all pixels that hang together with `start` of which the flags `of` are `are`
-    /// and which lie deeper than `reach`, where that is not 0; how many they are.
+    /// Sets the flag `set` on all pixels connected with `start` whose flags `of` are `are` and which, unless `reach` is 0,
+    /// lie deeper than `reach`. Returns their number.
     fn flood(&mut self, start: usize, [of, are]: [u8; 2], set: u8, reach: u16) -> usize {
         let (marks, stack) = (&mut *self.marks, &mut *self.stack);
         let (distance, window) = (&*self.distance, self.window);
@@ -192,18 +190,18 @@ impl Shaper<'_> {
         count
     }
 
-    /// Fills small holes: light that shines through between two pixels, not the shape's own.
+    /// Fills small holes, which noise makes and no implant has.
     fn fill_specks(&mut self) {
         let (width, height) = (self.window.width, self.window.height);
         for index in 0..self.window.pixels() {
             let (column, row) = self.window.place(index);
             if column == 0 || row == 0 || column + 1 == width || row + 1 == height {
-                self.flood(index, [KEPT | ROUND, 0], ROUND, 0);
+                self.flood(index, [KEPT | OUTSIDE, 0], OUTSIDE, 0);
             }
         }
         let area = self.marks.iter().filter(|mark| **mark & KEPT != 0).count();
         for index in 0..self.window.pixels() {
-            let hole = self.flood(index, [KEPT | ROUND | HOLE, 0], HOLE, 0);
+            let hole = self.flood(index, [KEPT | OUTSIDE | HOLE, 0], HOLE, 0);
             if hole > 0 && (hole as f64) < SPECK * area as f64 {
                 self.flood(index, [HOLE | KEPT, HOLE], KEPT, 0);
             }
@@ -211,7 +209,7 @@ impl Shaper<'_> {
     }
 }
 
-/// Mean step of grey across the border of the region that was shaped last, by its `marks`.
+/// Mean difference of levels across the border of the region that was drawn last, given by its `marks`.
 pub(super) fn sharpness(window: &Window, grey: &[u16], marks: &[u8]) -> f64 {
     let (mut sides, mut sum) = (0u64, 0i64);
     for (index, _) in marks
@@ -249,7 +247,7 @@ mod tests {
         (block(4, 26) || block(40, 60) || bar) && !speck && !hole
     }
 
-    fn shaped(radius: f64, seed: (usize, usize)) -> [std::vec::Vec<u32>; 2] {
+    fn opened(radius: f64, seed: (usize, usize)) -> [std::vec::Vec<u32>; 2] {
         let window = Window {
             left: 0,
             top: 0,
@@ -259,7 +257,7 @@ mod tests {
         let reached: std::vec::Vec<u16> = (0..WIDTH * HEIGHT)
             .map(|k| if dark(k % WIDTH, k / WIDTH) { 7 } else { 500 })
             .collect();
-        let mut shaper = Shaper {
+        let mut opening = Opening {
             window,
             reached: &reached,
             distance: &mut std::vec![0; reached.len()],
@@ -271,13 +269,13 @@ mod tests {
         let mut region = MaskMut::new(region, WIDTH, HEIGHT).expect("fits");
         let mut doubt = MaskMut::new(doubt, WIDTH, HEIGHT).expect("fits");
         let seed = seed.1 * WIDTH + seed.0;
-        shaper.shape(seed, 7, radius, &mut region, &mut doubt);
+        opening.draw(seed, 7, radius, &mut region, &mut doubt);
         words
     }
 
     #[test]
     fn without_a_radius_the_region_stays_but_for_specks() {
-        let [region, doubt] = shaped(0.0, (5, 10));
+        let [region, doubt] = opened(0.0, (5, 10));
         let region = Mask::new(&region, WIDTH, HEIGHT).expect("valid");
         for (column, row) in (0..WIDTH * HEIGHT).map(|k| (k % WIDTH, k / WIDTH)) {
             let filled = dark(column, row) || (column, row) == (12, 12);
@@ -289,7 +287,7 @@ mod tests {
     #[test]
     fn a_bridge_is_cut_on_the_side_of_the_seed() {
         for (seed, other) in [((6, 10), (50, 20)), ((50, 20), (6, 10))] {
-            let [region, doubt] = shaped(2.0, seed);
+            let [region, doubt] = opened(2.0, seed);
             let region = Mask::new(&region, WIDTH, HEIGHT).expect("valid");
             let doubt = Mask::new(&doubt, WIDTH, HEIGHT).expect("valid");
             assert!(region.get(seed.0, seed.1) && !region.get(other.0, other.1));
@@ -301,7 +299,7 @@ mod tests {
 
     #[test]
     fn where_no_disc_fits_nothing_is_kept() {
-        let [region, doubt] = shaped(20.0, (6, 10));
+        let [region, doubt] = opened(20.0, (6, 10));
         assert!(region.iter().all(|&word| word == 0));
         let doubt = Mask::new(&doubt, WIDTH, HEIGHT).expect("valid");
         assert!(doubt.get(6, 10));

@@ -1,33 +1,33 @@
-//! Films for the tests of tracing aids: shapes of known outline on a bright ground.
+//! Frames drawn for the tests of tracing tools: shapes of known outline on a uniform background.
 
 use fluoropose::image::contour::Point;
 use std::vec::Vec;
 
-/// A film being drawn.
-pub(crate) struct Film {
+/// A frame that is being drawn.
+pub(crate) struct SyntheticFrame {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) grey: Vec<f64>,
 }
 
-impl Film {
-    pub(crate) fn new(width: usize, height: usize, ground: f64) -> Self {
+impl SyntheticFrame {
+    pub(crate) fn new(width: usize, height: usize, background: f64) -> Self {
         Self {
             width,
             height,
-            grey: std::vec![ground; width * height],
+            grey: std::vec![background; width * height],
         }
     }
 
-    /// Draws what lies inside of a signed distance (negative inside) in one grey; the edge is 2 pixels wide and half way
-    /// between the two greys where the distance is 0.
+    /// Draws the inside of a shape, given by its signed distance (negative inside), in one grey. The edge is 2 pixels wide,
+    /// and where the distance is 0 the grey is half way between the two.
     pub(crate) fn draw(&mut self, grey: f64, distance: impl Fn(f64, f64) -> f64) {
         for row in 0..self.height {
             for column in 0..self.width {
                 let away = distance(column as f64 + 0.5, row as f64 + 0.5);
-                let share = (0.5 - away / 2.0).clamp(0.0, 1.0);
+                let fraction = (0.5 - away / 2.0).clamp(0.0, 1.0);
                 let pixel = &mut self.grey[row * self.width + column];
-                *pixel += share * (grey - *pixel);
+                *pixel += fraction * (grey - *pixel);
             }
         }
     }
@@ -36,7 +36,7 @@ impl Film {
         self.draw(grey, |column, row| (column - x).hypot(row - y) - radius);
     }
 
-    /// A plate of `half` sizes about a middle, turned by an angle in radians.
+    /// A rectangle of half sides `half` around a centre, rotated by an angle in radians.
     pub(crate) fn plate(&mut self, [x, y]: [f64; 2], half: [f64; 2], angle: f64, grey: f64) {
         self.draw(grey, |column, row| {
             let (right, down) = (column - x, row - y);
@@ -48,12 +48,12 @@ impl Film {
         });
     }
 
-    /// Adds noise that is about normal, of a standard deviation in grey values.
+    /// Adds approximately normal noise with a standard deviation in grey values.
     pub(crate) fn add_noise(&mut self, sigma: f64, seed: u32) {
         let mut random = Random(seed);
         for pixel in &mut self.grey {
             // Twelve uniform numbers have the variance 1.
-            let sum: f64 = (0..12).map(|_| random.share()).sum();
+            let sum: f64 = (0..12).map(|_| random.uniform()).sum();
             *pixel += sigma * (sum - 6.0);
         }
     }
@@ -67,12 +67,12 @@ impl Film {
     }
 }
 
-/// Numbers that look random and are the same every time.
+/// A generator of pseudo-random numbers; the field is its seed.
 pub(crate) struct Random(pub(crate) u32);
 
 impl Random {
-    /// From 0 to 1.
-    pub(crate) fn share(&mut self) -> f64 {
+    /// A number from 0 to 1.
+    pub(crate) fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         f64::from(self.0 >> 8) / f64::from(1u32 << 24)
     }

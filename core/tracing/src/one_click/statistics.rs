@@ -1,39 +1,38 @@
-//! How large the regions of all thresholds are and how sharply they end, and which of them are
-//! worth a look.
+//! Area and border of the regions of all thresholds, and which thresholds are worth trying.
 
 use heapless::Vec;
 
-use super::grow::NEVER;
+use super::flooding::NEVER;
 use super::window::{LEVELS, Window};
 use fluoropose::shortlist;
 
-/// Numbers of working memory.
-pub(super) const TALLIES: usize = 3 * LEVELS;
+/// Length of the working memory.
+pub(super) const STATISTICS: usize = 3 * LEVELS;
 
-/// Thresholds that are looked at, at most.
+/// The greatest number of thresholds that are tried.
 pub(super) const CHOSEN: usize = 6;
 
-/// A region that grows by more than this factor from one threshold to the next has met another.
+/// A region that grows by more than this factor from one threshold to the next has merged with another.
 const LEAP: f64 = 1.1;
-/// Thresholds between the seed's own grey and that of the sharpest border that are tried as well.
+/// Further thresholds that are tried, as fractions of the way from the seed's level to that of the sharpest border.
 const BETWEEN: [f64; 2] = [0.35, 0.65];
-/// Thresholds whose regions differ by less than this part in size are one.
+/// Thresholds whose regions differ in area by less than this fraction count as one.
 const SAME: f64 = 0.02;
 
-/// Size and border of the regions of all thresholds.
-pub(super) struct Tally<'m> {
+/// Area and border of the regions of all thresholds.
+pub(super) struct ThresholdStatistics<'m> {
     area: &'m [u32],
-    /// Sides between a pixel of the region and one outside.
+    /// Number of sides between a pixel of the region and one outside.
     sides: &'m [u32],
-    /// Sum of the steps of grey across them.
+    /// Sum of the differences of levels across them.
     contrast: &'m [u32],
     base: usize,
 }
 
-impl<'m> Tally<'m> {
-    /// Counts the regions that `reached` tells, for a seed that is reached at `base`. Each side
-    /// between two pixels belongs to the border of the thresholds from the lower to the greater
-    /// of theirs: it is entered where it begins and taken back where it ends.
+impl<'m> ThresholdStatistics<'m> {
+    /// Measures the regions in `reached`, for a seed that is reached at `base`. Each side between two pixels belongs to
+    /// the border at the thresholds from the lower to the greater of the two: it is added at the first and subtracted at
+    /// the last.
     pub(super) fn new(
         grey: &[u16],
         reached: &[u16],
@@ -79,12 +78,12 @@ impl<'m> Tally<'m> {
         }
     }
 
-    /// Pixels of a threshold's region.
+    /// Number of pixels of a threshold's region.
     pub(super) fn area(&self, level: usize) -> f64 {
         f64::from(self.area.get(level).copied().unwrap_or(0))
     }
 
-    /// Mean step of grey across the border of a threshold's region; 0 where it has none.
+    /// Mean difference of levels across the border of a threshold's region; 0 where it has no border.
     pub(super) fn sharpness(&self, level: usize) -> f64 {
         let at = |counts: &[u32]| f64::from(counts.get(level).copied().unwrap_or(0));
         let sides = at(self.sides);
@@ -110,9 +109,9 @@ impl<'m> Tally<'m> {
         self.sharpest(self.possible(sizes))
     }
 
-    /// Thresholds worth a look: of every stretch in which the region grows steadily the one with
-    /// the sharpest border, the sharpest stretches first, and some below the sharpest of all,
-    /// where two parts that touch are still apart. Each region once.
+    /// Thresholds worth trying, each region once: that of the sharpest border; some below it, where two things that touch
+    /// are still apart; and, for each range in which the region grows steadily, that of its sharpest border, the sharpest
+    /// range first.
     pub(super) fn levels(&self, sizes: [f64; 2]) -> Vec<u16, CHOSEN> {
         let mut chosen = Vec::new();
         let Some(peak) = self.peak(sizes) else {
@@ -122,13 +121,13 @@ impl<'m> Tally<'m> {
             let area = self.area(level);
             let same = |other: &u16| (area / self.area(usize::from(*other)) - 1.0).abs() < SAME;
             if !chosen.iter().any(same) {
-                // Of more thresholds than are looked at the first stay.
+                // If there are more thresholds than are tried, the first stay.
                 let _ = chosen.push(level as u16);
             }
         };
         keep(peak);
-        for share in BETWEEN {
-            keep(self.base + (share * (peak - self.base) as f64) as usize);
+        for fraction in BETWEEN {
+            keep(self.base + (fraction * (peak - self.base) as f64) as usize);
         }
         let mut rest: Vec<usize, CHOSEN> = Vec::new();
         let mut from = self.base;
@@ -150,13 +149,13 @@ impl<'m> Tally<'m> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::grow::{grow, links_needed};
+    use super::super::flooding::{flood, links_needed};
     use super::*;
 
     const SIDE: usize = 40;
 
-    /// Two dark discs on a bright ground, joined by a bridge that is less dark.
-    fn film() -> std::vec::Vec<u16> {
+    /// Two dark discs on a bright background, joined by a bridge that is less dark.
+    fn frame() -> std::vec::Vec<u16> {
         let inside = |column: usize, row: usize, middle: [f64; 2], radius: f64| {
             libm::hypot(column as f64 - middle[0], row as f64 - middle[1]) < radius
         };
@@ -176,57 +175,63 @@ mod tests {
             .collect()
     }
 
-    fn tally(memory: &mut [u32]) -> Tally<'_> {
+    fn statistics(memory: &mut [u32]) -> ThresholdStatistics<'_> {
         let window = Window {
             left: 0,
             top: 0,
             width: SIDE,
             height: SIDE,
         };
-        let grey = film();
+        let grey = frame();
         let mut reached = std::vec![0; grey.len()];
         let mut links = std::vec![0; links_needed(grey.len())];
         let seed = 20 * SIDE + 10;
-        grow(&grey, &window, seed, &mut reached, &mut links);
-        Tally::new(&grey, &reached, &window, grey[seed], memory)
+        flood(&grey, &window, seed, &mut reached, &mut links);
+        ThresholdStatistics::new(&grey, &reached, &window, grey[seed], memory)
     }
 
     #[test]
     fn areas_and_borders_are_those_of_the_regions() {
-        let mut memory = [0; TALLIES];
-        let tally = tally(&mut memory);
-        let disc = film().iter().filter(|&&grey| grey == 100).count() as f64;
-        let dark = film().iter().filter(|&&grey| grey < 800).count() as f64;
-        assert_eq!([99, 100, 299].map(|l| tally.area(l)), [0.0, disc, disc]);
-        assert_eq!([300, 799].map(|l| tally.area(l)), [dark, dark]);
-        assert_eq!(tally.area(800), (SIDE * SIDE) as f64);
-        // Every side of the union but none between its parts leads to the bright ground.
-        let sharp = tally.sharpness(300);
+        let mut memory = [0; STATISTICS];
+        let statistics = statistics(&mut memory);
+        let disc = frame().iter().filter(|&&grey| grey == 100).count() as f64;
+        let dark = frame().iter().filter(|&&grey| grey < 800).count() as f64;
+        assert_eq!(
+            [99, 100, 299].map(|l| statistics.area(l)),
+            [0.0, disc, disc]
+        );
+        assert_eq!([300, 799].map(|l| statistics.area(l)), [dark, dark]);
+        assert_eq!(statistics.area(800), (SIDE * SIDE) as f64);
+        // Every side of the union but none between its parts leads to the bright background.
+        let sharp = statistics.sharpness(300);
         assert!(sharp > 500.0 && sharp < 700.0, "{sharp}");
         // The disc ends at the bridge or the ground.
-        assert!((tally.sharpness(200) - 650.0).abs() < 50.0);
-        assert_eq!(tally.sharpness(800), 0.0);
+        assert!((statistics.sharpness(200) - 650.0).abs() < 50.0);
+        assert_eq!(statistics.sharpness(800), 0.0);
     }
 
     #[test]
-    fn one_threshold_for_each_region_is_looked_at() {
-        let mut memory = [0; TALLIES];
-        let tally = tally(&mut memory);
-        let levels = tally.levels([50.0, 1000.0]);
+    fn one_threshold_for_each_region_is_tried() {
+        let mut memory = [0; STATISTICS];
+        let statistics = statistics(&mut memory);
+        let levels = statistics.levels([50.0, 1000.0]);
         let mut areas: std::vec::Vec<f64> = levels
             .iter()
-            .map(|&level| tally.area(usize::from(level)))
+            .map(|&level| statistics.area(usize::from(level)))
             .collect();
         areas.sort_by(f64::total_cmp);
-        assert_eq!(areas, [tally.area(100), tally.area(300)]);
-        assert!(tally.levels([2000.0, 3000.0]).is_empty());
-        let sharper = if tally.sharpness(300) > tally.sharpness(100) {
+        assert_eq!(areas, [statistics.area(100), statistics.area(300)]);
+        assert!(statistics.levels([2000.0, 3000.0]).is_empty());
+        let sharper = if statistics.sharpness(300) > statistics.sharpness(100) {
             300
         } else {
             100
         };
         // No threshold lets the whole frame in.
-        let peak = tally.peak([0.0, 1000.0]);
-        assert_eq!(peak.map(|l| tally.area(l)), Some(tally.area(sharper)));
+        let peak = statistics.peak([0.0, 1000.0]);
+        assert_eq!(
+            peak.map(|l| statistics.area(l)),
+            Some(statistics.area(sharper))
+        );
     }
 }

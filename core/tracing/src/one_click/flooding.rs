@@ -1,25 +1,24 @@
-//! Every region that a threshold could cut out round a place, in one pass.
+//! Every region that a threshold could cut out around a seed, in one pass.
 //!
-//! `reached` of a pixel is the least threshold at which it is joined to the seed: the greatest
-//! grey on the darkest way there. The regions of all thresholds are nested in it, the branch of
-//! the component tree (Matas et al., *Robust wide-baseline stereo from maximally stable extremal
-//! regions*, BMVC 2002) that holds the seed. Pixels leave a queue of buckets in rising order,
-//! so each is looked at once.
+//! `reached` of a pixel is the least threshold that connects it with the seed: the greatest level on the darkest way there.
+//! It holds the nested regions of all thresholds, that is the branch of the component tree with the seed (Matas et al.,
+//! *Robust wide-baseline stereo from maximally stable extremal regions*, BMVC 2002). Pixels leave a queue of buckets in
+//! rising order, so that each is visited once.
 
 use super::window::{BLOCKED, LEVELS, Window};
 
-/// Threshold of pixels that are never reached.
+/// The threshold of pixels that are never reached.
 pub(super) const NEVER: u16 = u16::MAX;
 
 /// End of a list of pixels.
 const NONE: u32 = u32::MAX;
 
-/// Numbers of working memory for a window of `pixels`.
+/// Length of the working memory for a window of `pixels` pixels.
 pub(super) const fn links_needed(pixels: usize) -> usize {
     pixels + LEVELS
 }
 
-/// Lists of pixels by their grey, linked through lent memory.
+/// Lists of pixels by their level, linked through borrowed memory.
 struct Buckets<'m> {
     heads: &'m mut [u32],
     links: &'m mut [u32],
@@ -41,9 +40,9 @@ impl Buckets<'_> {
     }
 }
 
-/// Writes for every pixel of the window the least threshold that joins it to `seed`. Blocked
-/// pixels are never reached. `links` has [`links_needed`] numbers, the others one a pixel.
-pub(super) fn grow(
+/// Writes for every pixel of the window the least threshold that connects it with `seed`. Blocked pixels are never
+/// reached. `links` has [`links_needed`] numbers, the other slices one for each pixel.
+pub(super) fn flood(
     grey: &[u16],
     window: &Window,
     seed: usize,
@@ -126,7 +125,7 @@ mod tests {
             let window = Window { left: 3, top: 5, width: WIDTH, height: HEIGHT };
             let mut reached = std::vec![0; grey.len()];
             let mut links = std::vec![0; links_needed(grey.len())];
-            grow(&grey, &window, seed, &mut reached, &mut links);
+            flood(&grey, &window, seed, &mut reached, &mut links);
             prop_assert_eq!(reached, naive(&grey, &window, seed));
         }
     }

@@ -1,43 +1,49 @@
-//! How regions, poses and frame are held against each other.
+//! How well a pose agrees with a region, with the frame's edges and with the prompt, and its refinement.
 
 use heapless::Vec;
 
-use super::candidates::{Answer, Find, Region, Start};
-use super::expect::Expected;
+use super::candidates::{Answer, LocatedPose, Region, Start};
+use super::error::OneClickError;
+use super::expected::Expected;
+use super::memory::OneClickMemory;
+use super::observation::{Component, Observation};
+use super::prompt::Prompt;
 use super::support::support;
-use super::{OneClickError, OneClickMemory, Part, Prompt, Scene};
 use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::locate;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{ImageTarget, RefineOptions, View, refine};
 
-/// Poses of a region that are looked at.
+/// Number of poses that are located for a region.
 const MINIMA: usize = 3;
-/// How far from the outline of a first pose an edge is looked for, in parts of the size.
+/// How far from the outline of a first pose edges are searched, as a fraction of the expected size.
 const NEAR: f64 = 0.04;
-/// Edges are looked for so near to a refined outline, pixels.
+/// How far from a refined outline edges are searched, pixels.
 const CLOSE: f64 = 1.5;
-/// A start of which so much lies near edges, and that covers so much of its region, needs not be
-/// brought onto the region first.
+/// A first pose whose outline lies near edges by at least this fraction, and that covers its region by at least this
+/// fraction, is not brought onto the region first.
 const GOOD: f64 = 0.9;
-/// Loss of an outline no piece of which has an edge near by, square pixels: that of refinement on a
-/// frame, Tukey's with a scale of 2.5 pixels.
+/// Loss of an outline without any edge near it, square pixels: Tukey's loss with a scale of 2.5 pixels, as in refinement on
+/// a frame.
 const WORST: f64 = 2.5 * 2.5 / 6.0;
 
-/// What is looked at, for what, and what was pointed at.
-pub(super) struct Eye<'e> {
-    pub(super) scene: &'e Scene<'e>,
-    pub(super) part: &'e Part<'e>,
-    pub(super) prompt: &'e Prompt,
-    pub(super) expected: &'e Expected,
+/// Everything that a pose is compared with.
+pub(super) struct PoseScorer<'s> {
+    pub(super) observation: &'s Observation<'s>,
+    pub(super) component: &'s Component<'s>,
+    pub(super) prompt: &'s Prompt,
+    pub(super) expected: &'s Expected,
     /// Slope of an edge of metal, grey values a pixel.
     pub(super) slope: f64,
 }
 
-impl Eye<'_> {
+impl PoseScorer<'_> {
     fn size(&self) -> (usize, usize) {
-        (self.scene.camera.width(), self.scene.camera.height())
+        (
+            self.observation.camera.width(),
+            self.observation.camera.height(),
+        )
     }
 
     /// The masks of the region that was drawn last and of what is in doubt of it.
@@ -48,52 +54,54 @@ impl Eye<'_> {
     }
 
     /// The poses that the library has for the region that was drawn last.
-    pub(super) fn find(
+    pub(super) fn locate(
         &self,
         region: Region,
         memory: &mut OneClickMemory<'_>,
-    ) -> Result<Vec<Find, MINIMA>, OneClickError> {
+    ) -> Result<Vec<LocatedPose, MINIMA>, OneClickError> {
         let [shape, _] = self.masks(memory.words)?;
-        let (camera, library) = (self.scene.camera, self.part.library);
+        let (camera, library) = (self.observation.camera, self.component.library);
         let work = memory.workspace.lend();
         let Ok(found) = locate::<MINIMA>(&shape, camera, library, work) else {
             // A shapeless region has no pose.
             return Ok(Vec::new());
         };
         let area = f64::from(library.info().canonical.area());
-        let finds = found.poses.iter().map(|located| Find {
+        let located_poses = found.poses.iter().map(|located| LocatedPose {
             pose: located.pose,
             region: Some(region),
             mismatch: f64::from(located.fine.unmatched) / area,
         });
-        Ok(finds.filter(|find| self.is_possible(&find.pose)).collect())
+        let possible = located_poses.filter(|located| self.is_possible(&located.pose));
+        Ok(possible.collect())
     }
 
-    /// Whether the part stands where it can be.
+    /// Whether the component stands at a possible distance from the focus.
     fn is_possible(&self, pose: &Pose) -> bool {
-        let [_, _, z] = pose.transform(&self.part.model.bounds().centre);
+        let [_, _, z] = pose.transform(&self.component.model.bounds().centre);
         let [near, far] = self.expected.depths;
         (near..=far).contains(&-z)
     }
 
-    /// Judges a find by the region that was drawn last, the frame's edges and the prompt; `None`
-    /// where the model cannot be drawn.
-    pub(super) fn judge(
+    /// Scores a located pose by the region that was drawn last, the frame's edges and the prompt; `None` where the model
+    /// cannot be drawn.
+    pub(super) fn score(
         &self,
-        find: &Find,
+        located: &LocatedPose,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Option<Start>, OneClickError> {
         let [shape, _] = self.masks(memory.words)?;
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
-        let (scene, model) = (self.scene, self.part.model);
-        let Ok(support) = support(scene, model, &find.pose, how, &mut memory.refine) else {
+        let (observation, model) = (self.observation, self.component.model);
+        let Ok(support) = support(observation, model, &located.pose, how, &mut memory.refine)
+        else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
-        let overlap = find.region.map_or(1.0, |_| overlap(&shape, &drawn));
+        let overlap = located.region.map_or(1.0, |_| overlap(&shape, &drawn));
         Ok(Some(Start {
-            pose: find.pose,
-            region: find.region,
+            pose: located.pose,
+            region: located.region,
             overlap,
             support,
             score: self.prompt.agreement(&drawn) * (overlap + support.strength),
@@ -107,22 +115,22 @@ impl Eye<'_> {
         Ok(Mask::new(words.unwrap_or_default(), width, height)?)
     }
 
-    /// Brings a start onto the outline of its region, which was drawn last, where it is not near
-    /// edges already, and then onto the frame.
+    /// Brings a first pose onto the outline of its region, which was drawn last, unless it is near edges already, and then
+    /// onto the edges of the frame.
     pub(super) fn refine(
         &self,
         start: &Start,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Option<Answer>, OneClickError> {
         let mut from = *start;
-        if start.region.is_some() && (start.support.share < GOOD || start.overlap < GOOD) {
+        if start.region.is_some() && (start.support.fraction < GOOD || start.overlap < GOOD) {
             let [shape, doubt] = self.masks(memory.words)?;
             let silhouette = Silhouette::new(&shape, &doubt)?;
-            let view = View::only(self.scene.camera, silhouette);
-            let (model, options) = (self.part.model, RefineOptions::default());
+            let view = View::only(self.observation.camera, silhouette);
+            let (model, options) = (self.component.model, RefineOptions::default());
             let onto = refine(model, &[view], &start.pose, options, &mut memory.refine);
             if let Ok(onto) = onto
-                && let Some(better) = self.judge(&find_of(&onto.pose, start), memory)?
+                && let Some(better) = self.score(&located_at(&onto.pose, start), memory)?
                 && better.score > start.score
             {
                 from = better;
@@ -131,25 +139,31 @@ impl Eye<'_> {
         self.onto_frame(&from.pose, memory)
     }
 
-    /// Refines a pose on the frame and judges what comes of it; `None` where it leads nowhere.
+    /// Refines a pose on the edges of the frame and scores the result; `None` where refinement leads nowhere.
     pub(super) fn onto_frame(
         &self,
         pose: &Pose,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<Option<Answer>, OneClickError> {
         let target = ImageTarget {
-            frame: self.scene.frame,
-            unknown: self.scene.excluded,
-            polarity: self.scene.polarity,
+            frame: self.observation.frame,
+            unknown: self.observation.excluded,
+            polarity: self.observation.polarity,
         };
-        let view = View::only(self.scene.camera, target);
-        let (model, options) = (self.part.model, RefineOptions::default());
+        let view = View::only(self.observation.camera, target);
+        let (model, options) = (self.component.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);
         let Some(refined) = refined.ok().filter(|found| self.is_possible(&found.pose)) else {
             return Ok(None);
         };
         let how = (CLOSE, self.slope);
-        let Ok(support) = support(self.scene, model, &refined.pose, how, &mut memory.refine) else {
+        let Ok(support) = support(
+            self.observation,
+            model,
+            &refined.pose,
+            how,
+            &mut memory.refine,
+        ) else {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
@@ -163,23 +177,29 @@ impl Eye<'_> {
         }))
     }
 
-    /// Part of the model's outline at a pose that lies on edges, strongly.
+    /// Strength of the edges near the model's outline at a pose; 0 where the model cannot be drawn.
     pub(super) fn strength(&self, pose: &Pose, memory: &mut OneClickMemory<'_>) -> f64 {
         let how = ((NEAR * self.expected.size).max(2.0), self.slope);
-        let found = support(self.scene, self.part.model, pose, how, &mut memory.refine);
+        let found = support(
+            self.observation,
+            self.component.model,
+            pose,
+            how,
+            &mut memory.refine,
+        );
         found.map_or(0.0, |support| support.strength)
     }
 }
 
-fn find_of(pose: &Pose, start: &Start) -> Find {
-    Find {
+fn located_at(pose: &Pose, start: &Start) -> LocatedPose {
+    LocatedPose {
         pose: *pose,
         region: start.region,
         mismatch: 0.0,
     }
 }
 
-/// Pixels in both masks divided by those in either.
+/// Number of pixels in both masks divided by that of pixels in either.
 fn overlap(a: &Mask<'_>, b: &Mask<'_>) -> f64 {
     let pairs = a.words().iter().zip(b.words());
     let (mut both, mut either) = (0u64, 0u64);
