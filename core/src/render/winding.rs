@@ -34,10 +34,10 @@ pub(crate) fn fill(
     room: &mut [FixedPoint],
     out: &mut MaskMut<'_>,
 ) -> bool {
-    let Some((told, room)) = room.split_first_mut() else {
+    let Some((count_slot, room)) = room.split_first_mut() else {
         return false;
     };
-    *told = NONE.into();
+    *count_slot = NONE.into();
     let Some((rows, room)) = room.split_at_mut_checked(out.height()) else {
         return false;
     };
@@ -58,7 +58,7 @@ pub(crate) fn fill(
         }
     }
     lists.fill(out);
-    *told = (count as u64).into();
+    *count_slot = (count as u64).into();
     true
 }
 

@@ -206,7 +206,7 @@ impl OneClickMemory<'_> {
             links: head(self.links, grow::links_needed(pixels)),
             tallies: &mut *self.tallies,
             words: &mut *self.words,
-            workspace: self.workspace.lend(),
+            workspace: self.workspace.reborrow(),
             refine: RefineMemory {
                 projected: &mut *self.refine.projected,
                 drawn: &mut *self.refine.drawn,

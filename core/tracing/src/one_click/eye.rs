@@ -10,7 +10,7 @@ use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::locate;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, RefineOptions, View, refine};
+use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, refine};
 
 /// Poses of a region that are looked at.
 const MINIMA: usize = 3;
@@ -55,7 +55,7 @@ impl Eye<'_> {
     ) -> Result<Vec<Find, MINIMA>, OneClickError> {
         let [shape, _] = self.masks(memory.words)?;
         let (camera, library) = (self.scene.camera, self.part.library);
-        let work = memory.workspace.lend();
+        let work = memory.workspace.reborrow();
         let Ok(found) = locate::<MINIMA>(&shape, camera, library, work) else {
             // A shapeless region has no pose.
             return Ok(Vec::new());
@@ -118,7 +118,7 @@ impl Eye<'_> {
         if start.region.is_some() && (start.support.share < GOOD || start.overlap < GOOD) {
             let [shape, doubt] = self.masks(memory.words)?;
             let silhouette = Silhouette::new(&shape, &doubt)?;
-            let view = View::only(self.scene.camera, silhouette);
+            let view = CameraView::only(self.scene.camera, silhouette);
             let (model, options) = (self.part.model, RefineOptions::default());
             let onto = refine(model, &[view], &start.pose, options, &mut memory.refine);
             if let Ok(onto) = onto
@@ -142,7 +142,7 @@ impl Eye<'_> {
             unknown: self.scene.excluded,
             polarity: self.scene.polarity,
         };
-        let view = View::only(self.scene.camera, target);
+        let view = CameraView::only(self.scene.camera, target);
         let (model, options) = (self.part.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);
         let Some(refined) = refined.ok().filter(|found| self.is_possible(&found.pose)) else {

@@ -2,7 +2,7 @@ use super::*;
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::MaskMut;
-use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::locate::workspace_needed;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::BorderPixel;
@@ -47,12 +47,12 @@ fn camera() -> Camera {
 }
 
 fn library(model: Model<'_>) -> Vec<u8> {
-    let axis = GridAxis {
+    let axis = ViewAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
-    let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
+    let (grid, canonical) = (ViewGrid { x: axis, y: axis }, CanonicalSpec::default());
     let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
@@ -179,7 +179,7 @@ impl Bench {
             words: &mut std::vec![0; needs.words],
             workspace: Workspace {
                 canonical: &mut std::vec![0; lent.words],
-                turned: &mut std::vec![0; lent.words],
+                rotated: &mut std::vec![0; lent.words],
                 scores: &mut std::vec![0; lent.scores],
                 bytes: &mut std::vec![0; lent.bytes],
                 kernels: Kernels::PORTABLE,
