@@ -21,6 +21,6 @@ pub use assemble::Assembly;
 pub use build::{Builder, ViewScratch};
 pub(crate) use compact::Sketches;
 pub use error::{BuildError, LibraryError};
-pub use info::{Grid, GridAxis, LibraryInfo, ViewRecord};
+pub use info::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 pub use open::Library;
 pub use wire::{HEADER_BYTES, MAGIC, PLAIN_VERSION, RECORD_BYTES, VERSION};

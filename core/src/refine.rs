@@ -45,4 +45,4 @@ pub use result::{Iterate, Refined};
 pub use run::{refine, refine_traced};
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::uncertainty;
-pub use view::{ImageTarget, Polarity, Target, View};
+pub use view::{CameraView, ImageTarget, Polarity, Target};

@@ -13,4 +13,4 @@ pub use catalogue::{
 };
 pub use exact::*;
 pub use query::{Query, query_bytes_needed};
-pub use scores::{Candidate, MatchError, Scores, scores_needed};
+pub use scores::{MatchError, Scores, ViewMatch, scores_needed};

@@ -15,7 +15,7 @@ use fluoropose::mesh::Model;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{
-    OutlineSample, RefineOptions, View, outline_samples, refine, uncertainty,
+    CameraView, OutlineSample, RefineOptions, outline_samples, refine, uncertainty,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::{MaskBuffer, owned};
@@ -134,7 +134,7 @@ fn samples_of_the_outline(bencher: Bencher<'_, '_>) {
 fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
     let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
     let mask = drawn.mask();
-    let views = [View::only(&camera, Silhouette::from(&mask))];
+    let views = [CameraView::only(&camera, Silhouette::from(&mask))];
     let mut refiner = Refiner::new(mesh, RefineOptions::default());
     let start = start();
     let found = refine(
@@ -161,7 +161,7 @@ fn refinement_from_a_library_pose(bencher: Bencher<'_, '_>) {
 fn region_of_95_percent(bencher: Bencher<'_, '_>) {
     let (mesh, camera, drawn) = (mesh(), camera(1024), drawn(1024));
     let mask = drawn.mask();
-    let views = [View::only(&camera, Silhouette::from(&mask))];
+    let views = [CameraView::only(&camera, Silhouette::from(&mask))];
     let mut refiner = Refiner::new(mesh, RefineOptions::default());
     let options = RefineOptions::default();
     let refined = refine(

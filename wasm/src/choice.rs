@@ -1,6 +1,6 @@
 //! Which of several refined poses is chosen, and why, in words.
 
-use fluoropose::finder::choice::{Candidate, Choice, Context, Counterpart, Reason, choose};
+use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
@@ -55,8 +55,8 @@ impl Surroundings {
 }
 
 impl Surroundings {
-    fn choose(&self, candidates: &[Candidate]) -> Option<Choice> {
-        let context = Context {
+    fn choose(&self, candidates: &[RivalPose]) -> Option<Choice> {
+        let context = ChoiceContext {
             counterpart: self.counterpart,
             neighbours: &self.neighbours,
         };
@@ -154,7 +154,7 @@ impl Chosen {
 }
 
 impl Chosen {
-    pub(crate) fn among(candidates: &[Candidate], around: &Surroundings) -> Option<Self> {
+    pub(crate) fn among(candidates: &[RivalPose], around: &Surroundings) -> Option<Self> {
         let choice = around.choose(candidates)?;
         let sentence = around.explain(&choice);
         Some(Self { choice, sentence })
@@ -181,7 +181,7 @@ pub fn choose_pose(
         .chunks(6)
         .zip(residuals)
         .map(|(pose, &residual_px)| {
-            Ok(Candidate {
+            Ok(RivalPose {
                 pose: from_numbers(pose)?.into(),
                 residual_px,
             })
@@ -195,7 +195,7 @@ mod tests {
     use super::*;
     use fluoropose::pose::EulerPose;
 
-    fn turned(x_rot_deg: f64) -> Candidate {
+    fn turned(x_rot_deg: f64) -> RivalPose {
         let pose = EulerPose {
             x_mm: 0.0,
             y_mm: 0.0,
@@ -204,7 +204,7 @@ mod tests {
             x_rot_deg,
             y_rot_deg: 0.0,
         };
-        Candidate {
+        RivalPose {
             pose: pose.into(),
             residual_px: 0.3,
         }

@@ -2,7 +2,7 @@
 
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::mask::Word;
-use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::render::Projected;
 use js_sys::Uint8Array;
@@ -27,8 +27,8 @@ const USUAL_DISTANCE: f64 = 0.9;
 /// Which views a library holds.
 #[wasm_bindgen]
 pub struct LibraryViews {
-    x: GridAxis,
-    y: GridAxis,
+    x: ViewAxis,
+    y: ViewAxis,
     distance: Option<f64>,
     area: u32,
 }
@@ -60,12 +60,12 @@ impl LibraryViews {
     }
 }
 
-fn axis(name: &str, range: &[f64]) -> Result<GridAxis, JsError> {
+fn axis(name: &str, range: &[f64]) -> Result<ViewAxis, JsError> {
     match *range {
         [first, last, step] if step > 0.0 && last >= first && (last - first) / step < 4096.0 => {
             // Half a thousandth of a step forgives the rounding of typed decimals.
             let count = ((last - first) / step + 5e-4).floor() as usize + 1;
-            Ok(GridAxis { first, step, count })
+            Ok(ViewAxis { first, step, count })
         }
         _ => Err(JsError::new(&format!(
             "The library's {name} rotations need a first value, a last one that is not smaller, and a positive step"
@@ -105,7 +105,7 @@ impl LibraryBuilder {
         let (calibration, camera) = calibration_of(calibration, width, height)?;
         let canonical =
             CanonicalSpec::new(CanonicalSpec::default().size(), views.area).map_err(sentence)?;
-        let grid = Grid {
+        let grid = ViewGrid {
             x: views.x,
             y: views.y,
         };

@@ -12,11 +12,11 @@ pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;
-use fluoropose::finder::choice::Candidate as Contender;
+use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::locate::partial::known_share;
+use fluoropose::locate::partial::known_fraction;
 use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::search::kernels::Kernels;
@@ -227,7 +227,7 @@ impl Matcher {
             }
             return self.locate_whole(traced, silhouette);
         };
-        if known_share(silhouette).is_partial() {
+        if known_fraction(silhouette).is_partial() {
             return Ok(Sight {
                 ranked: model.locate_pieces(library, &camera, silhouette)?,
                 clipped: false,
@@ -280,7 +280,7 @@ impl Matcher {
         let library = self.library.borrow_dependent();
         let work = Workspace {
             canonical: &mut self.canonical,
-            turned: &mut self.turned,
+            rotated: &mut self.turned,
             scores: &mut self.scores,
             bytes: &mut self.bytes,
             kernels: Kernels::PORTABLE,

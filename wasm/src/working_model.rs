@@ -8,15 +8,15 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
 use fluoropose::locate::partial::{PartialBuffers, locate_partial};
-use fluoropose::locate::rerank::{Verified, unmatched_at};
+use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{
-    Iterate, Polarity, RefineBuffers, RefineMemory, RefineOptions, Refined, View, outline_samples,
-    refine, refine_traced, uncertainty,
+    CameraView, Iterate, Polarity, RefineBuffers, RefineMemory, RefineOptions, Refined,
+    outline_samples, refine, refine_traced, uncertainty,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::JsError;
@@ -65,7 +65,7 @@ impl Ranked {
         }
     }
 
-    fn by_pieces(Verified { located, unmatched }: Verified) -> Self {
+    fn by_pieces(Reranked { located, unmatched }: Reranked) -> Self {
         Self {
             by_pieces: true,
             drawn: Some(unmatched),
@@ -160,7 +160,7 @@ impl WorkingModel {
     ) -> Result<Vec<Ranked>, JsError> {
         let drawn = ranked.iter().filter(|rival| rival.drawn.is_some());
         let drawn: Vec<Ranked> = drawn.copied().collect();
-        let verified: Vec<Verified> = drawn.iter().map(Verified::from).collect();
+        let verified: Vec<Reranked> = drawn.iter().map(Reranked::from).collect();
         let worth = worth_refining(&verified);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
         let model = self.owned.as_model();
@@ -168,7 +168,7 @@ impl WorkingModel {
             .planes
             .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec())
             .clone();
-        let view = View::only(camera, *silhouette);
+        let view = CameraView::only(camera, *silhouette);
         let mut memory = self.buffers.borrow(&model, camera);
         let options = RefineOptions::default();
         let answers = refine_rivals(&model, &[view], &starts, &planes, options, &mut memory)
@@ -215,7 +215,7 @@ impl WorkingModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Option<Deviations>, JsError> {
-        self.deviations_in(refined, View::only(camera, *silhouette))
+        self.deviations_in(refined, CameraView::only(camera, *silhouette))
     }
 
     /// The same for what any camera saw.
@@ -225,7 +225,7 @@ impl WorkingModel {
     pub(crate) fn deviations_in(
         &mut self,
         refined: &Refined,
-        view: View<'_>,
+        view: CameraView<'_>,
     ) -> Result<Option<Deviations>, JsError> {
         let model = self.owned.as_model();
         let mut memory = self.buffers.borrow(&model, view.camera);
@@ -241,7 +241,7 @@ impl WorkingModel {
     pub(crate) fn refine_from(
         &mut self,
         start: &Pose,
-        view: View<'_>,
+        view: CameraView<'_>,
         options: RefineOptions,
     ) -> Result<Refined, JsError> {
         let model = self.owned.as_model();
@@ -301,7 +301,7 @@ impl WorkingModel {
         silhouette: &Silhouette<'_>,
     ) -> Result<Vec<Iterate>, JsError> {
         let model = self.owned.as_model();
-        let view = View::only(camera, *silhouette);
+        let view = CameraView::only(camera, *silhouette);
         let mut memory = self.buffers.borrow(&model, camera);
         let mut steps = Vec::new();
         let mut note = |step: &Iterate| steps.push(*step);
@@ -322,7 +322,7 @@ impl WorkingModel {
         self.drawn.resize(words_needed(width, height), 0);
         let model = self.owned.as_model();
         let mut drawn = MaskMut::new(&mut self.drawn, width, height).map_err(sentence)?;
-        Ok(unmatched_at(
+        Ok(unmatched_at_pose(
             &model,
             camera,
             pose,
@@ -334,7 +334,7 @@ impl WorkingModel {
     }
 }
 
-impl From<&Ranked> for Verified {
+impl From<&Ranked> for Reranked {
     fn from(ranked: &Ranked) -> Self {
         Self {
             located: ranked.located,

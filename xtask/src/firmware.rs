@@ -9,7 +9,7 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{MaskMut, words_needed};
-use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
@@ -59,12 +59,12 @@ pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
 
 /// 7 x 9 views, a degree apart: 63 x 8 KiB of flash.
 fn library(mesh: Model<'_>, camera: Camera) -> Result<Vec<u8>> {
-    let axis = |nominal: f64, count: usize| GridAxis {
+    let axis = |nominal: f64, count: usize| ViewAxis {
         first: nominal - (count / 2) as f64,
         step: 1.0,
         count,
     };
-    let grid = Grid {
+    let grid = ViewGrid {
         x: axis(NOMINAL_DEG[0], 7),
         y: axis(NOMINAL_DEG[1], 9),
     };

@@ -50,7 +50,7 @@ pub const CONTENDERS: usize = 8;
 
 /// A refined pose and how well it fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
+pub struct RivalPose {
     /// `camera_from_model`.
     pub pose: Pose,
     /// Root mean square of what remains between outlines, pixels (of a loss in square pixels, the
@@ -80,7 +80,7 @@ impl Counterpart {
 
 /// What is known besides the candidates themselves.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Context<'a> {
+pub struct ChoiceContext<'a> {
     /// The other component in the same frame.
     pub counterpart: Option<Counterpart>,
     /// The same component in neighbouring frames: that before, that after, or both.
@@ -178,7 +178,7 @@ impl fmt::Display for Reason {
 
 /// The best of the poses that nothing ruled out, besides the chosen one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Open {
+pub struct OpenRival {
     /// Its number among the candidates.
     pub index: usize,
     /// Residual of the chosen pose, pixels.
@@ -195,7 +195,7 @@ pub struct Choice {
     /// What ruled out others.
     pub reason: Reason,
     /// The best of what nothing ruled out: show it beside the chosen pose.
-    pub open: Option<Open>,
+    pub open: Option<OpenRival>,
 }
 
 impl Choice {
@@ -210,7 +210,7 @@ impl fmt::Display for Choice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.reason)?;
         match self.open {
-            Some(Open {
+            Some(OpenRival {
                 chosen_px,
                 other_px,
                 ..
@@ -225,7 +225,7 @@ impl fmt::Display for Choice {
 
 /// Chooses among the poses of one frame, which may come in any order; `None` where there is none.
 #[must_use]
-pub fn choose(candidates: &[Candidate], context: &Context<'_>) -> Option<Choice> {
+pub fn choose(candidates: &[RivalPose], context: &ChoiceContext<'_>) -> Option<Choice> {
     let mut contenders = Contenders::of(candidates, context.counterpart.as_ref());
     let turn = |pose: &Pose| mean_turn_deg(pose, context.neighbours);
     if let Some((chosen_deg, other_deg)) = contenders.narrow(turn, TURN_MARGIN_DEG) {
@@ -245,14 +245,14 @@ fn mean_turn_deg(pose: &Pose, neighbours: &[Pose]) -> f64 {
 
 /// Candidates that are still open, by rising residual, and why others are not.
 struct Contenders<'a> {
-    candidates: &'a [Candidate],
+    candidates: &'a [RivalPose],
     open: Vec<usize, CONTENDERS>,
     reason: Option<Reason>,
 }
 
 impl<'a> Contenders<'a> {
     /// What the candidates' residuals and the counterpart leave open.
-    fn of(candidates: &'a [Candidate], counterpart: Option<&Counterpart>) -> Self {
+    fn of(candidates: &'a [RivalPose], counterpart: Option<&Counterpart>) -> Self {
         let mut contenders = Self {
             candidates,
             open: Vec::new(),
@@ -273,7 +273,7 @@ impl<'a> Contenders<'a> {
     fn choice(&self) -> Option<Choice> {
         let index = self.first()?;
         let chosen_px = self.residual(index);
-        let open = self.open.get(1).map(|&index| Open {
+        let open = self.open.get(1).map(|&index| OpenRival {
             index,
             chosen_px,
             other_px: self.residual(index),

@@ -10,7 +10,7 @@ use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::moments::Moments;
 use crate::image::silhouette::Silhouette;
-use crate::locate::rerank::unmatched_at;
+use crate::locate::rerank::unmatched_at_pose;
 use crate::math::{
     Vector3, add, apply, atan2, multiply, norm, radians, rotation_by, scale, sqrt, subtract, wrap,
 };
@@ -52,7 +52,7 @@ pub fn nearby(
     let words = memory.drawn.get_mut(..words_needed(width, height));
     let drawn = MaskMut::new(words.unwrap_or_default(), width, height);
     if let (Ok(drawn), None) = (drawn, silhouette.unknown()) {
-        let mut search = Search {
+        let mut search = NearbySearch {
             model,
             camera,
             silhouette,
@@ -78,7 +78,7 @@ pub fn nearby(
     poses
 }
 
-struct Search<'s> {
+struct NearbySearch<'s> {
     model: &'s Model<'s>,
     camera: &'s Camera,
     silhouette: &'s Silhouette<'s>,
@@ -89,7 +89,7 @@ struct Search<'s> {
     drawn: MaskMut<'s>,
 }
 
-impl Search<'_> {
+impl NearbySearch<'_> {
     /// `start` turned, then moved onto the silhouette; how many pixels differ then.
     fn moved(&mut self, turn: Vector3, start: &Pose) -> Option<(u64, Pose)> {
         let mut pose = self.about_middle(start, &turn, [0.0; 3]);
@@ -98,7 +98,8 @@ impl Search<'_> {
         }
         let (model, camera) = (self.model, self.camera);
         let (scratch, drawn) = (&mut *self.scratch, &mut self.drawn);
-        let unmatched = unmatched_at(model, camera, &pose, self.silhouette, scratch, drawn).ok()?;
+        let unmatched =
+            unmatched_at_pose(model, camera, &pose, self.silhouette, scratch, drawn).ok()?;
         Some((unmatched, pose))
     }
 

@@ -4,13 +4,13 @@ use heapless::Vec;
 
 use crate::finder::nearby::nearby;
 use crate::image::mask::{MaskMut, words_needed};
-use crate::locate::rerank::{Verified, unmatched_at};
+use crate::locate::rerank::{Reranked, unmatched_at_pose};
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    Effort, RefineError, RefineMemory, RefineOptions, Refined, Target, View, refine,
+    CameraView, Effort, RefineError, RefineMemory, RefineOptions, Refined, Target, refine,
 };
 use crate::shortlist::keep;
 
@@ -25,7 +25,7 @@ pub const ANSWERS: usize = 4 * STARTS;
 const WORTH_REFINING: f64 = 4.0;
 
 /// A part looks symmetric when its mirrored pose leaves at most this part of the mask unmatched.
-const SYMMETRIC_SHARE: f64 = 0.15;
+const SYMMETRIC_FRACTION: f64 = 0.15;
 
 /// See [`is_split`]: least residual, pixels, and how many times the spread of the residuals it is.
 const SPLIT_PX: f64 = 0.1;
@@ -59,9 +59,9 @@ pub struct RefinedRival {
 }
 
 /// The first of `rivals` that are near enough to the best to be worth refining. They come best
-/// first, as [`crate::locate::rerank::verify`] puts them.
+/// first, as [`crate::locate::rerank::rerank`] puts them.
 #[must_use]
-pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
+pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
     let least = rivals.first().map_or(0, |best| best.unmatched);
     let limit = WORTH_REFINING * least as f64;
     let count = rivals.partition_point(|rival| rival.unmatched as f64 <= limit);
@@ -78,13 +78,13 @@ pub fn worth_refining(rivals: &[Verified]) -> &[Verified] {
 /// That of [`refine`] for the last start, when none can be refined.
 pub fn refine_rivals(
     model: &Model<'_>,
-    views: &[View<'_>],
+    views: &[CameraView<'_>],
     starts: &[Pose],
     planes: &[SymmetryPlane],
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
-    let mut search = Search {
+    let mut search = RivalRefinement {
         model,
         views,
         planes,
@@ -107,9 +107,9 @@ pub fn refine_rivals(
 }
 
 /// Refinement from ever more poses.
-struct Search<'s, 'm> {
+struct RivalRefinement<'s, 'm> {
     model: &'s Model<'s>,
-    views: &'s [View<'s>],
+    views: &'s [CameraView<'s>],
     planes: &'s [SymmetryPlane],
     options: RefineOptions,
     memory: &'s mut RefineMemory<'m>,
@@ -117,7 +117,7 @@ struct Search<'s, 'm> {
     answers: Vec<RefinedRival, ANSWERS>,
 }
 
-impl Search<'_, '_> {
+impl RivalRefinement<'_, '_> {
     fn refine(&mut self, pose: &Pose, start: usize, mirrored: bool) -> Result<(), RefineError> {
         let refined = refine(self.model, self.views, pose, self.options, self.memory)?;
         let answer = RefinedRival {
@@ -163,7 +163,7 @@ impl Search<'_, '_> {
         let turned =
             |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(turned) {
-            if let Some(found) = self.glance(start, &best.refined) {
+            if let Some(found) = self.probe(start, &best.refined) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
             }
@@ -171,9 +171,9 @@ impl Search<'_, '_> {
     }
 
     /// Where a start leads, unless that is back to the best pose or to a worse one. Most do.
-    fn glance(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
+    fn probe(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
         let options = RefineOptions {
-            effort: Effort::Glance,
+            effort: Effort::Probe,
             edge_offset: false,
             ..self.options
         };
@@ -186,16 +186,16 @@ impl Search<'_, '_> {
 /// Whether most of an outline fits exactly and a part does not at all, which noise does not do, or
 /// an outline without noise leaves more than rounding does.
 fn is_split(refined: &Refined) -> bool {
-    let (residual, spread) = (refined.residual_px, refined.spread_px);
-    let split = residual > SPLIT_PX && residual > SPLIT_RATIO * spread;
-    split || (spread < EXACT_PX && residual > INEXACT_PX)
+    let (residual, sigma) = (refined.residual_px, refined.robust_sigma_px);
+    let split = residual > SPLIT_PX && residual > SPLIT_RATIO * sigma;
+    split || (sigma < EXACT_PX && residual > INEXACT_PX)
 }
 
 /// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,
 /// or well by itself. A grey frame cannot say.
 fn is_near(
     model: &Model<'_>,
-    view: &View<'_>,
+    view: &CameraView<'_>,
     mirrored: &Pose,
     own: &Pose,
     memory: &mut RefineMemory<'_>,
@@ -209,12 +209,12 @@ fn is_near(
         let mut drawn = MaskMut::new(words, width, height).ok()?;
         let pose = view.placement.compose(pose);
         let scratch = &mut *memory.projected;
-        unmatched_at(model, view.camera, &pose, silhouette, scratch, &mut drawn).ok()
+        unmatched_at_pose(model, view.camera, &pose, silhouette, scratch, &mut drawn).ok()
     };
     let Some(there) = unmatched(mirrored) else {
         return false;
     };
-    let limit = SYMMETRIC_SHARE * silhouette.mask().area() as f64;
+    let limit = SYMMETRIC_FRACTION * silhouette.mask().area() as f64;
     there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
 

@@ -73,7 +73,7 @@ pub enum FrameError {
 
 /// A rectangle of whole pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Region {
+pub struct PixelRect {
     /// First column.
     pub column: usize,
     /// First row.
@@ -162,7 +162,7 @@ impl<'a, P: Pixel> Frame<'a, P> {
     /// # Errors
     /// [`FrameError::RegionOutside`] when it leaves the frame, [`FrameError::Empty`] when it
     /// has no pixel.
-    pub fn region(&self, region: Region) -> Result<Self, FrameError> {
+    pub fn region(&self, region: PixelRect) -> Result<Self, FrameError> {
         let fits = |from: usize, length: usize, whole: usize| {
             from.checked_add(length).is_some_and(|end| end <= whole)
         };
@@ -270,7 +270,7 @@ mod tests {
     fn a_region_shows_the_same_pixels() {
         let pixels: [u8; 24] = core::array::from_fn(|k| k as u8);
         let frame = Frame::new(&pixels, 5, 4, 6).expect("fits");
-        let region = Region {
+        let region = PixelRect {
             column: 2,
             row: 1,
             width: 3,
@@ -280,10 +280,10 @@ mod tests {
         assert_eq!(part.row(0), [8, 9, 10]);
         assert_eq!(part.row(1), [14, 15, 16]);
         assert_eq!(part.row(2), []);
-        assert!(frame.region(Region { width: 4, ..region }).is_err());
+        assert!(frame.region(PixelRect { width: 4, ..region }).is_err());
         assert!(
             frame
-                .region(Region {
+                .region(PixelRect {
                     column: usize::MAX,
                     ..region
                 })

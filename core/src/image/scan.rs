@@ -1,7 +1,7 @@
 //! Exact scan conversion: which pixel centres a polygon or triangle covers.
 //!
 //! Vertices are rounded to 1/4096 pixel and everything after that is integer arithmetic, so two
-//! triangles that share an edge neither overlap nor leave a gap, and every target fills the
+//! triangles that fraction an edge neither overlap nor leave a gap, and every target fills the
 //! same pixels. A pixel belongs to a shape when its centre does; a centre exactly on an edge
 //! belongs to the shape below or to the right of it (Foley et al., *Computer Graphics*, 3.6).
 
@@ -190,7 +190,7 @@ mod tests {
             a in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
             b in (-(1 << 29)..1 << 29, -(1 << 29)..1 << 29),
             near in any::<bool>(),
-            share in 0.0..1.0f64,
+            fraction in 0.0..1.0f64,
         ) {
             let point = |(column, row): (i32, i32)| FixedPoint { column, row };
             // Half the cases are short edges, as in a CAD model.
@@ -198,7 +198,7 @@ mod tests {
             let edge = Edge::new(point(a), point(b));
             let rows = edge.rows(1 << 17);
             prop_assume!(!rows.is_empty());
-            let row = rows.start + (share * rows.len() as f64) as usize;
+            let row = rows.start + (fraction * rows.len() as f64) as usize;
             let ((x, y), (to_x, to_y)) = if a.1 <= b.1 { (a, b) } else { (b, a) };
             let (down, right) = (i128::from(to_y) - i128::from(y), i128::from(to_x) - i128::from(x));
             let centre = row as i128 * i128::from(ONE) + i128::from(HALF) - i128::from(y);

@@ -21,7 +21,7 @@ use crate::memory::{TooLittleMemory, first};
 pub struct Assembly<'p> {
     info: LibraryInfo,
     packed: &'p [&'p [u8]],
-    ground: Ground,
+    common: CommonBlocks,
     /// Of the runs of all views.
     runs_bytes: usize,
 }
@@ -41,7 +41,7 @@ impl<'p> Assembly<'p> {
         Ok(Self {
             info: *info,
             packed,
-            ground: Ground::of(views.map(|view| view.counts)),
+            common: CommonBlocks::of(views.map(|view| view.counts)),
             runs_bytes,
         })
     }
@@ -66,9 +66,9 @@ impl<'p> Assembly<'p> {
 
     /// Before the runs.
     fn head_bytes(&self) -> usize {
-        let moving = self.ground.moving.len();
-        let view = SHORT_RECORD_BYTES + 4 + stride(moving);
-        HEADER_BYTES + self.packed.len() * view + blocks(&self.info.canonical) + 2 * moving
+        let varying = self.common.varying.len();
+        let view = SHORT_RECORD_BYTES + 4 + stride(varying);
+        HEADER_BYTES + self.packed.len() * view + blocks(&self.info.canonical) + 2 * varying
     }
 
     /// Writes the file. `words` is working memory for one view ([`crate::canonical::CanonicalSpec::words_needed`]).
@@ -102,7 +102,7 @@ impl<'p> Assembly<'p> {
         self.views().for_each(|view| runs_of_all.bytes(view.runs));
         let body = Body {
             version: VERSION,
-            blocks: self.ground.moving.len(),
+            blocks: self.common.varying.len(),
             bytes: (body.len() + runs.len()) as u64,
             crc: checksum([&*body, runs]),
         };
@@ -112,7 +112,7 @@ impl<'p> Assembly<'p> {
 
     /// Records, ends of runs, ground, places and sketches.
     fn write_head(&self, body: &mut [u8]) {
-        let sketches_bytes = self.packed.len() * stride(self.ground.moving.len());
+        let sketches_bytes = self.packed.len() * stride(self.common.varying.len());
         let (numbers, sketches) = body.split_at_mut(body.len() - sketches_bytes);
         let out = &mut Writer::new(numbers);
         self.views().for_each(|view| out.bytes(view.record));
@@ -121,13 +121,13 @@ impl<'p> Assembly<'p> {
             end += view.runs.len();
             out.u32(end);
         }
-        out.bytes(&self.ground.alike[..blocks(&self.info.canonical)]);
-        let moving = &self.ground.moving;
-        moving.iter().for_each(|&block| out.u16(block.into()));
+        out.bytes(&self.common.alike[..blocks(&self.info.canonical)]);
+        let varying = &self.common.varying;
+        varying.iter().for_each(|&block| out.u16(block.into()));
         sketches.fill(0);
-        let places = sketches.chunks_exact_mut(stride(moving.len()).max(1));
+        let places = sketches.chunks_exact_mut(stride(varying.len()).max(1));
         for (view, sketch) in self.views().zip(places) {
-            for (to, &block) in sketch.iter_mut().zip(moving) {
+            for (to, &block) in sketch.iter_mut().zip(varying) {
                 *to = view.counts[usize::from(block)];
             }
         }
@@ -146,14 +146,14 @@ fn views<'p>(
 
 /// The blocks of all views.
 #[derive(Clone, Debug)]
-struct Ground {
+struct CommonBlocks {
     /// Where they are alike; 0 elsewhere.
     alike: [u8; MOST_BLOCKS],
     /// Numbers of the others, rising.
-    moving: Vec<u16, MOST_BLOCKS>,
+    varying: Vec<u16, MOST_BLOCKS>,
 }
 
-impl Ground {
+impl CommonBlocks {
     fn of<'c>(mut views: impl Iterator<Item = &'c [u8]>) -> Self {
         let (mut alike, mut moves) = ([0; MOST_BLOCKS], [false; MOST_BLOCKS]);
         let first = views.next().unwrap_or_default();
@@ -163,14 +163,14 @@ impl Ground {
                 *moves |= first != count;
             }
         }
-        let moving: Vec<u16, MOST_BLOCKS> = (0..)
+        let varying: Vec<u16, MOST_BLOCKS> = (0..)
             .zip(moves)
             .filter_map(|(block, moves)| moves.then_some(block))
             .collect();
-        for &block in &moving {
+        for &block in &varying {
             alike[usize::from(block)] = 0;
         }
-        Self { alike, moving }
+        Self { alike, varying }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::assemble::{Assembly, write_bits, write_plain};
 use super::error::BuildError;
-use super::info::{Grid, LibraryInfo, ViewRecord};
+use super::info::{LibraryInfo, ViewGrid, ViewRecord};
 use super::open::{check_info, library_bytes};
 use super::pack::{pack, packed_most};
 use crate::camera::Camera;
@@ -51,7 +51,7 @@ impl<'m> Builder<'m> {
         model: Model<'m>,
         camera: Camera,
         canonical: CanonicalSpec,
-        grid: Grid,
+        grid: ViewGrid,
         distance: f64,
     ) -> Result<Self, BuildError> {
         let bounds = model.bounds();

@@ -31,7 +31,7 @@ pub(super) struct Compact<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sketches<'a> {
     /// Set pixels of the blocks that are alike in all views; 0 in the others.
-    pub(crate) ground: &'a [u8],
+    pub(crate) common: &'a [u8],
     places: &'a [u8],
     /// [`Self::stride`] bytes a view.
     pub(crate) all: &'a [u8],
@@ -71,18 +71,18 @@ impl<'a> Sketches<'a> {
         let mut sketch = self.of(view).iter();
         let mut places = self.places().peekable();
         let blocks_agree = self
-            .ground
+            .common
             .chunks_exact(across)
             .enumerate()
-            .all(|(row, ground)| {
+            .all(|(row, common)| {
                 let counts = block_row_of_runs(runs, row);
                 (row * across..)
-                    .zip(ground)
+                    .zip(common)
                     .zip(counts)
-                    .all(|((block, ground), count)| {
+                    .all(|((block, common), count)| {
                         let kept = match places.next_if_eq(&block) {
-                            Some(_) => sketch.next().copied().filter(|_| *ground == 0),
-                            None => Some(*ground),
+                            Some(_) => sketch.next().copied().filter(|_| *common == 0),
+                            None => Some(*common),
                         };
                         kept == Some(at_most_255(count))
                     })
@@ -93,18 +93,18 @@ impl<'a> Sketches<'a> {
 
 impl<'a> Compact<'a> {
     /// The parts of a body; `None` where it is too short for them.
-    pub(super) fn split(body: &'a [u8], info: &LibraryInfo, moving: usize) -> Option<Self> {
+    pub(super) fn split(body: &'a [u8], info: &LibraryInfo, varying: usize) -> Option<Self> {
         let views = info.grid.views();
         let (records, rest) = body.split_at_checked(views.checked_mul(SHORT_RECORD_BYTES)?)?;
         let (ends, rest) = rest.split_at_checked(views.checked_mul(4)?)?;
-        let (ground, rest) = rest.split_at_checked(blocks(&info.canonical))?;
-        let (places, rest) = rest.split_at_checked(2 * moving)?;
-        let (all, runs) = rest.split_at_checked(views.checked_mul(stride(moving))?)?;
+        let (common, rest) = rest.split_at_checked(blocks(&info.canonical))?;
+        let (places, rest) = rest.split_at_checked(2 * varying)?;
+        let (all, runs) = rest.split_at_checked(views.checked_mul(stride(varying))?)?;
         Some(Self {
             records,
             ends,
             sketches: Sketches {
-                ground,
+                common,
                 places,
                 all,
             },

@@ -7,21 +7,21 @@ use super::pack::{pack, packed_most};
 use super::wire::{
     Body, HEADER_BYTES, PLAIN_VERSION, RECORD_BYTES, checksum, write_header, write_record,
 };
-use super::{Assembly, Grid, GridAxis, Library, LibraryInfo, ViewRecord};
+use super::{Assembly, Library, LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Mask, MaskMut, Word};
 
 /// A plain library of these canonical masks: `columns` views along x.
 pub(crate) fn plain_library(views: &[Vec<Word>], columns: usize, spec: CanonicalSpec) -> Vec<u8> {
-    let axis = |count| GridAxis {
+    let axis = |count| ViewAxis {
         first: -2.0,
         step: 1.0,
         count,
     };
     let info = LibraryInfo {
         canonical: spec,
-        grid: Grid {
+        grid: ViewGrid {
             x: axis(columns),
             y: axis(views.len() / columns),
         },
@@ -107,7 +107,7 @@ mod tests {
 
     /// Set pixels of each block of a view, by its sketch and by its pixels.
     fn said(sketches: &Sketches<'_>, view: usize) -> Vec<u8> {
-        let mut counts = sketches.ground.to_vec();
+        let mut counts = sketches.common.to_vec();
         for (place, &count) in sketches.places().zip(sketches.of(view)) {
             counts[place] = count;
         }

@@ -7,7 +7,7 @@ use crate::mesh::ModelDigest;
 
 /// One axis of the grid of views: `first`, `first + step`, ... degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GridAxis {
+pub struct ViewAxis {
     /// First rotation, degrees.
     pub first: f64,
     /// Between neighbours, degrees; positive.
@@ -16,7 +16,7 @@ pub struct GridAxis {
     pub count: usize,
 }
 
-impl GridAxis {
+impl ViewAxis {
     /// The rotation at a place on the axis, degrees; between whole places too.
     #[must_use]
     pub fn at(&self, place: f64) -> f64 {
@@ -36,17 +36,17 @@ impl GridAxis {
 /// The grid of views: rotations about x and about y, `R = Rz Rx Ry`. View number
 /// `y * x_axis.count + x`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
+pub struct ViewGrid {
     /// Rotations about x.
-    pub x: GridAxis,
+    pub x: ViewAxis,
     /// Rotations about y.
-    pub y: GridAxis,
+    pub y: ViewAxis,
 }
 
-impl Default for Grid {
+impl Default for ViewGrid {
     /// The source's 31 x 41 = 1271 views: x from -15 to 15, y from -20 to 20 degrees.
     fn default() -> Self {
-        let axis = |reach: i32| GridAxis {
+        let axis = |reach: i32| ViewAxis {
             first: f64::from(-reach),
             step: 1.0,
             count: 2 * reach as usize + 1,
@@ -58,7 +58,7 @@ impl Default for Grid {
     }
 }
 
-impl Grid {
+impl ViewGrid {
     /// Number of views.
     #[must_use]
     pub fn views(&self) -> usize {
@@ -91,7 +91,7 @@ pub struct LibraryInfo {
     /// Canonical frame of every view.
     pub canonical: CanonicalSpec,
     /// Rotations of the views, degrees.
-    pub grid: Grid,
+    pub grid: ViewGrid,
     /// Distance from the focus to the reference point in every view, mm.
     pub distance: f64,
     /// The point of the model that stands on the optical axis in every view, model

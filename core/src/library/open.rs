@@ -2,7 +2,7 @@
 
 use super::compact::{self, Compact, Sketches};
 use super::error::LibraryError;
-use super::info::{Grid, LibraryInfo, ViewRecord};
+use super::info::{LibraryInfo, ViewGrid, ViewRecord};
 use super::runs::{bands, draw_runs, overlap, spans};
 use super::wire::{
     Body, HEADER_BYTES, HEADER_CRC_AT, MAGIC, PLAIN_VERSION, RECORD_BYTES, Reader, VERSION,
@@ -34,7 +34,7 @@ pub(super) fn view_bytes(canonical: &CanonicalSpec) -> usize {
 }
 
 /// Bytes of a whole library in the plain layout; `None` where that overflows.
-pub(super) fn library_bytes(canonical: &CanonicalSpec, grid: &Grid) -> Option<usize> {
+pub(super) fn library_bytes(canonical: &CanonicalSpec, grid: &ViewGrid) -> Option<usize> {
     let views = grid.x.count.checked_mul(grid.y.count)?;
     views
         .checked_mul(RECORD_BYTES + view_bytes(canonical))?
@@ -315,7 +315,7 @@ fn read_header(header: &[u8; HEADER_BYTES]) -> Result<(LibraryInfo, Body), Libra
 }
 
 pub(super) fn check_info(info: &LibraryInfo) -> Result<(), LibraryError> {
-    let axis = |axis: &super::GridAxis, reach: f64| {
+    let axis = |axis: &super::ViewAxis, reach: f64| {
         let last = axis.at(axis.count.saturating_sub(1) as f64);
         (1..=4096).contains(&axis.count) && axis.step > 0.0 && axis.first >= -reach && last <= reach
     };

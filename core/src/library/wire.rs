@@ -9,7 +9,7 @@
 
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use super::{Grid, GridAxis, LibraryInfo, ViewRecord};
+use super::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 
 /// First eight bytes of the file.
 pub const MAGIC: [u8; 8] = *b"FLUOROPL";
@@ -108,7 +108,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-fn write_axis(out: &mut Writer<'_>, axis: &GridAxis) {
+fn write_axis(out: &mut Writer<'_>, axis: &ViewAxis) {
     out.f64(axis.first);
     out.f64(axis.step);
 }
@@ -153,13 +153,13 @@ pub(super) fn write_header(header: &mut [u8; HEADER_BYTES], info: &LibraryInfo, 
     header[HEADER_CRC_AT..].copy_from_slice(&crc);
 }
 
-pub(super) fn read_grid(reader: &mut Reader<'_>, x_count: usize, y_count: usize) -> Grid {
-    let mut axis = |count| GridAxis {
+pub(super) fn read_grid(reader: &mut Reader<'_>, x_count: usize, y_count: usize) -> ViewGrid {
+    let mut axis = |count| ViewAxis {
         first: reader.f64(),
         step: reader.f64(),
         count,
     };
-    Grid {
+    ViewGrid {
         x: axis(x_count),
         y: axis(y_count),
     }

@@ -1,10 +1,10 @@
 //! Between the views: sub-degree rotation from the score surface, and the view's record there.
 
-use crate::library::{Grid, Library, ViewRecord};
+use crate::library::{Library, ViewGrid, ViewRecord};
 use crate::locate::bands::{self, lagrange, window};
 use crate::math::{solve_spd, wrap};
-use crate::search::Candidate;
-use crate::search::Search;
+use crate::search::ViewMatch;
+use crate::search::ViewSearch;
 
 /// A view between the views of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ const REACH: usize = 2;
 /// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
 /// is the minimum of a quadratic fitted to the scores.
 #[must_use]
-pub fn interpolate(search: &mut Search<'_, '_>, candidate: &Candidate) -> FineView {
+pub fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch) -> FineView {
     let library = search.library();
     let grid = &library.info().grid;
     let (x, y) = grid.place(candidate.view);
@@ -57,7 +57,12 @@ pub fn interpolate(search: &mut Search<'_, '_>, candidate: &Candidate) -> FineVi
 
 /// Offset in steps from the view at (x, y) to the minimum of the fitted quadratic; (0, 0) where
 /// the surface has none near.
-fn fit_minimum(grid: &Grid, mut score: impl FnMut(usize) -> u32, x: usize, y: usize) -> (f64, f64) {
+fn fit_minimum(
+    grid: &ViewGrid,
+    mut score: impl FnMut(usize) -> u32,
+    x: usize,
+    y: usize,
+) -> (f64, f64) {
     let mut normal = [[0.0; 6]; 6];
     let mut right = [0.0; 6];
     for v in window(y, grid.y.count, REACH) {
@@ -118,16 +123,16 @@ fn record_at(library: &Library<'_>, place: [f64; 2]) -> ViewRecord {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::library::GridAxis;
+    use crate::library::ViewAxis;
 
     #[test]
     fn the_minimum_of_a_bowl_is_found_between_the_views() {
-        let axis = |count| GridAxis {
+        let axis = |count| ViewAxis {
             first: -3.0,
             step: 1.0,
             count,
         };
-        let grid = Grid {
+        let grid = ViewGrid {
             x: axis(7),
             y: axis(9),
         };

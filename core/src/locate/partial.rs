@@ -25,12 +25,12 @@ mod field;
 mod find;
 mod fit;
 mod follow;
+mod fraction;
 mod hypothesis;
-mod ladder;
 mod memory;
 mod outline;
+mod scale_levels;
 mod search;
-mod share;
 mod similarity;
 mod slide;
 mod smooth;
@@ -42,11 +42,11 @@ mod view;
 pub use buffers::PartialBuffers;
 pub use error::PartialError;
 pub use find::locate_partial;
+pub use fraction::{KnownFraction, known_fraction};
 pub use hypothesis::Hypothesis;
 pub use memory::{PartialMemory, PartialNeeds, partial_needed};
 pub use outline::OutlinePoint;
-pub use share::{KnownShare, known_share};
-pub use trace::Side;
+pub use trace::PixelSide;
 
 #[cfg(test)]
 mod tests;

@@ -17,7 +17,7 @@ use crate::shortlist::keep;
 
 /// A located pose and how well the model drawn at it covers the silhouette.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Verified {
+pub struct Reranked {
     /// The pose and the view that led to it.
     pub located: Located,
     /// Known frame pixels in the silhouette or in the drawing but not in both.
@@ -29,7 +29,7 @@ pub struct Verified {
 ///
 /// # Errors
 /// Those of [`render`]; [`RenderError::Size`] also where `silhouette` has another size.
-pub fn unmatched_at(
+pub fn unmatched_at_pose(
     model: &Model<'_>,
     camera: &Camera,
     pose: &Pose,
@@ -48,20 +48,21 @@ pub fn unmatched_at(
 /// more than `K` poses the first `K` are looked at.
 ///
 /// # Errors
-/// Those of [`unmatched_at`].
-pub fn verify<const K: usize>(
+/// Those of [`unmatched_at_pose`].
+pub fn rerank<const K: usize>(
     poses: &[Located],
     model: &Model<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
-) -> Result<Vec<Verified, K>, RenderError> {
-    let mut verified: Vec<Verified, K> = Vec::new();
+) -> Result<Vec<Reranked, K>, RenderError> {
+    let mut verified: Vec<Reranked, K> = Vec::new();
     for located in poses.iter().take(K) {
-        let unmatched = unmatched_at(model, camera, &located.pose, silhouette, scratch, drawn)?;
+        let unmatched =
+            unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn)?;
         let located = *located;
-        keep(&mut verified, Verified { located, unmatched }, |other| {
+        keep(&mut verified, Reranked { located, unmatched }, |other| {
             other.unmatched
         });
     }

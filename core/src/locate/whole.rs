@@ -13,7 +13,7 @@ use crate::memory::first;
 use crate::pose::Pose;
 use crate::search::kernels::Kernels;
 use crate::search::{MatchError, Scores, scores_needed};
-use crate::search::{Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed};
+use crate::search::{Query, ViewSearch, ViewSearchMemory, query_bytes_needed, search_bytes_needed};
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -32,7 +32,7 @@ pub struct Workspace<'a> {
     /// [`crate::canonical::CanonicalSpec::words_needed`] words; afterwards the canonical mask.
     pub canonical: &'a mut [Word],
     /// As many words again.
-    pub turned: &'a mut [Word],
+    pub rotated: &'a mut [Word],
     /// [`scores_needed`] numbers.
     pub scores: &'a mut [u32],
     /// [`workspace_bytes_needed`] bytes.
@@ -43,10 +43,10 @@ pub struct Workspace<'a> {
 
 impl Workspace<'_> {
     /// The same memory, lent on.
-    pub fn lend(&mut self) -> Workspace<'_> {
+    pub fn reborrow(&mut self) -> Workspace<'_> {
         Workspace {
             canonical: self.canonical,
-            turned: self.turned,
+            rotated: self.rotated,
             scores: self.scores,
             bytes: self.bytes,
             kernels: self.kernels,
@@ -95,11 +95,11 @@ pub struct Located {
 
 /// What [`locate`] found.
 #[derive(Clone, Debug)]
-pub struct Found<const K: usize> {
+pub struct LocatedPoses<const K: usize> {
     /// What was taken away from the silhouette to reach canonical form.
     pub form: CanonicalForm,
     /// At most `K` poses, one for each local minimum of the score surface that is not hopeless
-    /// ([`Search::rivals`]), fewest unmatched pixels first. More than one with similar scores means that the silhouette is ambiguous.
+    /// ([`ViewSearch::rivals`]), fewest unmatched pixels first. More than one with similar scores means that the silhouette is ambiguous.
     pub poses: Vec<Located, K>,
 }
 
@@ -112,17 +112,17 @@ pub fn locate<const K: usize>(
     camera: &Camera,
     library: &Library<'_>,
     work: Workspace<'_>,
-) -> Result<Found<K>, LocateError> {
+) -> Result<LocatedPoses<K>, LocateError> {
     let info = library.info();
     let (form, [straight, rotated]) =
-        both_directions(mask, camera, &info.canonical, work.canonical, work.turned)?;
+        both_directions(mask, camera, &info.canonical, work.canonical, work.rotated)?;
     let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
     let query = Query::new(&info.canonical, straight, rotated, None, prepared)?;
-    let memory = SearchMemory {
+    let memory = ViewSearchMemory {
         bounds: work.scores,
         sketches,
     };
-    let mut search = Search::new(library, &query, &work.kernels, memory)?;
+    let mut search = ViewSearch::new(library, &query, &work.kernels, memory)?;
     let rivals: Vec<_, K> = search.rivals();
     let poses = rivals
         .iter()
@@ -135,7 +135,7 @@ pub fn locate<const K: usize>(
             }
         })
         .collect();
-    Ok(Found { form, poses })
+    Ok(LocatedPoses { form, poses })
 }
 
 /// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them
@@ -151,7 +151,7 @@ pub fn score_views<'w>(
 ) -> Result<(CanonicalForm, Scores<'w>), LocateError> {
     let spec = &library.info().canonical;
     let (form, [straight, rotated]) =
-        both_directions(mask, camera, spec, work.canonical, work.turned)?;
+        both_directions(mask, camera, spec, work.canonical, work.rotated)?;
     let (prepared, _) = split_bytes(work.bytes, spec)?;
     let query = Query::new(spec, straight, rotated, None, prepared)?;
     let scores = Scores::fill(library, work.scores, |view, reversed| {

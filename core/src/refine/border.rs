@@ -2,7 +2,7 @@
 
 /// What a reading along a normal found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Found {
+pub(super) enum NormalReading {
     /// The outline, at this distance in pixels along the outward normal from the middle of the
     /// sample's pixel; negative inwards.
     At(f64),
@@ -45,11 +45,11 @@ pub(super) enum Residual {
 
 impl Residual {
     /// What was found where `expected` would be none at all.
-    pub(super) fn of(found: Found, expected: f64) -> Self {
+    pub(super) fn of(found: NormalReading, expected: f64) -> Self {
         match found {
-            Found::Unknown => Self::Unknown,
-            Found::Nothing => Self::Missing,
-            Found::At(place) => Self::Px((place - expected) as f32),
+            NormalReading::Unknown => Self::Unknown,
+            NormalReading::Nothing => Self::Missing,
+            NormalReading::At(place) => Self::Px((place - expected) as f32),
         }
     }
 }

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use super::border::BorderPixel;
 use super::memory::RefineMemory;
-use super::view::View;
+use super::view::CameraView;
 use crate::camera::Camera;
 use crate::image::mask::{Word, words_needed};
 use crate::memory::grow;
@@ -31,7 +31,7 @@ impl RefineBuffers {
     }
 
     /// Memory for a model and the cameras of several views. It never shrinks.
-    pub fn borrow_for(&mut self, model: &Model<'_>, views: &[View<'_>]) -> RefineMemory<'_> {
+    pub fn borrow_for(&mut self, model: &Model<'_>, views: &[CameraView<'_>]) -> RefineMemory<'_> {
         for view in views {
             self.make_room(model, view.camera);
         }

@@ -10,12 +10,12 @@
 use core::ops::Range;
 
 use super::border::BorderPixel;
-use super::outline::{Depth, Outliner};
+use super::outline::{Depth, DrawnModel};
 use crate::image::scan::pixel_box;
 use crate::math::dot;
 use crate::render::{Projected, contour, for_each_span, project};
 
-impl Outliner<'_> {
+impl DrawnModel<'_> {
     /// Writes the depth behind each border pixel. `places` has the number of each in the list.
     pub(super) fn measure_depth(
         &self,
@@ -46,9 +46,9 @@ impl Outliner<'_> {
         // beside it. The last is the first of another edge.
         let steps = (along[0].abs().max(along[1].abs()) / 2.0) as usize + 1;
         for step in 0..steps {
-            let share = step as f32 / steps as f32;
-            let point = core::array::from_fn(|k| from[k] + share * along[k]);
-            let depth = depths[0] + share * (depths[1] - depths[0]);
+            let fraction = step as f32 / steps as f32;
+            let point = core::array::from_fn(|k| from[k] + fraction * along[k]);
+            let depth = depths[0] + fraction * (depths[1] - depths[0]);
             self.lay_point(depth, point, places, border);
         }
     }
@@ -255,7 +255,7 @@ mod tests {
         let mut drawn = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
         render(model, &camera, &pose, &mut scratch, &mut drawn).expect("in front");
         let drawn = drawn.into_mask();
-        let outliner = Outliner {
+        let outliner = DrawnModel {
             model,
             camera: &camera,
             pose: &pose,

@@ -4,7 +4,7 @@
 //! differentiated by the derivative of a Gaussian (Canny, IEEE PAMI 8, 1986). Of its maxima of
 //! the right sign the one is taken that is strongest after a Gaussian prior on the distance.
 
-use super::border::{BorderPixel, Found};
+use super::border::{BorderPixel, NormalReading};
 use super::view::{ImageTarget, Polarity};
 use crate::image::profile::{gaussian_derivative, grey_across};
 use crate::math::exp;
@@ -27,7 +27,7 @@ pub(super) fn edge(
     sample: &BorderPixel,
     expected: f64,
     range: f64,
-) -> Found {
+) -> NormalReading {
     let half = ((range / STEP) as usize).min(REACH - HALF_FILTER - 1);
     let mut profile = [0.0; 2 * REACH + 1];
     let reach = half + HALF_FILTER;
@@ -35,7 +35,7 @@ pub(super) fn edge(
         let t = expected + STEP * (index as f64 - reach as f64);
         match reading(image, sample, t) {
             Some(grey) => *value = grey,
-            None => return Found::Unknown,
+            None => return NormalReading::Unknown,
         }
     }
     let mut slopes = [0.0; 2 * REACH + 1];
@@ -74,20 +74,20 @@ fn differentiate(profile: &[f64], slopes: &mut [f64]) {
 
 /// The maximum of rising slopes that is greatest after the prior, to a part of a reading by a
 /// parabola.
-fn strongest(slopes: &[f64], half: usize, expected: f64) -> Found {
-    let spread = STEP * half as f64 / 2.0;
-    let mut best = (0.0, Found::Nothing);
+fn strongest(slopes: &[f64], half: usize, expected: f64) -> NormalReading {
+    let sigma = STEP * half as f64 / 2.0;
+    let mut best = (0.0, NormalReading::Nothing);
     for k in 1..slopes.len().saturating_sub(1) {
         let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
         if slope <= 0.0 || slope < before || slope <= after {
             continue;
         }
         let t = STEP * (k as f64 - half as f64);
-        let score = slope * exp(-t * t / (2.0 * spread * spread));
+        let score = slope * exp(-t * t / (2.0 * sigma * sigma));
         if score > best.0 {
             // Not flat: the slope is above the one after it.
             let part = 0.5 * (before - after) / (before - 2.0 * slope + after);
-            best = (score, Found::At(expected + t + STEP * part));
+            best = (score, NormalReading::At(expected + t + STEP * part));
         }
     }
     best.1

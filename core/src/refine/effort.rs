@@ -10,27 +10,27 @@ pub enum Effort {
     Full,
     /// Polishing ends twenty times sooner, where a step is below 0.02 degrees or 0.1 mm: for a pose
     /// that follows a hand and is refined again when it rests.
-    Swift,
+    Interactive,
     /// Six steps at most from a fifth of the border pixels, without polishing: tells which minimum a
     /// start leads to. The loss is that of these pixels.
-    Glance,
+    Probe,
 }
 
 impl Effort {
     /// One of so many border pixels is looked at.
     pub(super) fn every(self) -> usize {
         match self {
-            Self::Full | Self::Swift => 1,
-            Self::Glance => 5,
+            Self::Full | Self::Interactive => 1,
+            Self::Probe => 5,
         }
     }
 
     /// Steps tried in each stage at most.
     pub(super) fn steps(self) -> [usize; STAGES] {
         match self {
-            Self::Full | Self::Swift => [10, 8, 14, 10],
+            Self::Full | Self::Interactive => [10, 8, 14, 10],
             // It does not come from far.
-            Self::Glance => [4, 0, 0, 2],
+            Self::Probe => [4, 0, 0, 2],
         }
     }
 
@@ -39,8 +39,8 @@ impl Effort {
     pub(super) fn polished(self) -> Option<f64> {
         match self {
             Self::Full => Some(0.001),
-            Self::Swift => Some(0.02),
-            Self::Glance => None,
+            Self::Interactive => Some(0.02),
+            Self::Probe => None,
         }
     }
 }

@@ -170,7 +170,7 @@ impl Equations {
 
     /// The offset is worth having when the pose leaves it more than this part of its information
     /// and it exceeds this many of its standard deviations.
-    const OFFSET_SHARE: f64 = 0.1;
+    const OFFSET_FRACTION: f64 = 0.1;
     const OFFSET_DEVIATIONS: f64 = 3.0;
     /// Length of outline whose residuals count as one where they are not independent, pixels.
     const CORRELATED: f64 = 10.0;
@@ -179,17 +179,17 @@ impl Equations {
         let Some(covariance) = inverse_spd(&self.normal) else {
             return false;
         };
-        let share = 1.0 / (self.normal[OFFSET][OFFSET] * covariance[OFFSET][OFFSET]);
+        let fraction = 1.0 / (self.normal[OFFSET][OFFSET] * covariance[OFFSET][OFFSET]);
         let residual = self.residual_px();
         let variance = covariance[OFFSET][OFFSET] * residual * residual * Self::CORRELATED;
-        share >= Self::OFFSET_SHARE && offset.abs() > Self::OFFSET_DEVIATIONS * sqrt(variance)
+        fraction >= Self::OFFSET_FRACTION && offset.abs() > Self::OFFSET_DEVIATIONS * sqrt(variance)
     }
 
     /// Writes what the residuals say into a pose's record.
     pub(super) fn report(&self, state: &mut Refined) {
         state.loss = self.loss();
         state.residual_px = self.residual_px();
-        state.spread_px = self.spread_px();
+        state.robust_sigma_px = self.robust_sigma_px();
     }
 
     /// The pose of a record as a step on the way.
@@ -220,7 +220,7 @@ impl Equations {
 
     /// Standard deviation of the residuals, pixels, from their median absolute value as if they
     /// were normal: what lies far out does not count (Hampel, JASA 69, 1974).
-    pub(super) fn spread_px(&self) -> f64 {
+    pub(super) fn robust_sigma_px(&self) -> f64 {
         let half = self.used / 2.0;
         let mut below = 0.0;
         for (bin, &length) in self.histogram.iter().enumerate() {

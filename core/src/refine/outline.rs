@@ -34,7 +34,7 @@ impl Depth {
 }
 
 /// A model as drawn at a pose.
-pub(super) struct Outliner<'a> {
+pub(super) struct DrawnModel<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) camera: &'a Camera,
     pub(super) pose: &'a Pose,
@@ -44,7 +44,7 @@ pub(super) struct Outliner<'a> {
     pub(super) every: usize,
 }
 
-impl Outliner<'_> {
+impl DrawnModel<'_> {
     /// Fills `border` with as many border pixels as it holds and gives them. `scratch` is as drawing
     /// left it, `places` has a number for each pixel of the frame, any.
     pub(super) fn border<'b>(

@@ -1,6 +1,6 @@
 //! Where a silhouette's outline crosses a normal.
 
-use super::border::{BorderPixel, Found};
+use super::border::{BorderPixel, NormalReading};
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
 
@@ -11,7 +11,11 @@ const STEP: f64 = 0.5;
 ///
 /// The mask is read by bilinear interpolation between pixel centres; the outline is where it is
 /// one half. From inside the first crossing outwards is taken, from outside the first inwards.
-pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range: f64) -> Found {
+pub(super) fn crossing(
+    silhouette: &Silhouette<'_>,
+    sample: &BorderPixel,
+    range: f64,
+) -> NormalReading {
     let normal = sample.normal.map(f64::from);
     let at = |t: f64| {
         let column = f64::from(sample.column) + t * normal[0];
@@ -19,22 +23,22 @@ pub(super) fn crossing(silhouette: &Silhouette<'_>, sample: &BorderPixel, range:
         coverage(silhouette, column, row)
     };
     let Some(mut value) = at_centre(silhouette, sample) else {
-        return Found::Unknown;
+        return NormalReading::Unknown;
     };
     let direction = if value >= 0.5 { 1.0 } else { -1.0 };
     let steps = (range / STEP) as usize;
     for step in 1..=steps {
         let t = direction * STEP * step as f64;
         let Some(next) = at(t) else {
-            return Found::Unknown;
+            return NormalReading::Unknown;
         };
         if (next >= 0.5) != (value >= 0.5) {
             let share = (value - 0.5) / (value - next);
-            return Found::At(t - direction * STEP * (1.0 - share));
+            return NormalReading::At(t - direction * STEP * (1.0 - share));
         }
         value = next;
     }
-    Found::Nothing
+    NormalReading::Nothing
 }
 
 /// [`coverage`] at the middle of a sample's pixel: that of the pixel alone.

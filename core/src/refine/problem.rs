@@ -1,18 +1,18 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
-use super::border::{BorderPixel, Found, Residual};
+use super::border::{BorderPixel, NormalReading, Residual};
 use super::edge;
 use super::effort::Effort;
 use super::equations::Equations;
 use super::error::RefineError;
 use super::locks::{Hold, Locks};
 use super::memory::{RefineMemory, check_memory};
-use super::outline::{Depth, Outliner};
+use super::outline::{Depth, DrawnModel};
 use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, Stage};
 use super::step::Step;
-use super::view::{Target, View};
+use super::view::{CameraView, Target};
 use crate::image::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
 use crate::mesh::Model;
@@ -25,7 +25,7 @@ const GRAIN: f64 = 0.02;
 /// A model and what was seen of it.
 pub(super) struct Problem<'a> {
     pub(super) model: &'a Model<'a>,
-    pub(super) views: &'a [View<'a>],
+    pub(super) views: &'a [CameraView<'a>],
     /// Middle of the model: turns about it hardly move the image.
     pub(super) middle: Vector3,
     /// Numbers of the pose that do not change.
@@ -53,7 +53,7 @@ impl<'a> Problem<'a> {
     /// Where views, frames and memory do not belong together, or a mask is empty.
     pub(super) fn new(
         model: &'a Model<'a>,
-        views: &'a [View<'a>],
+        views: &'a [CameraView<'a>],
         memory: &mut RefineMemory<'_>,
     ) -> Result<Self, RefineError> {
         if views.is_empty() {
@@ -180,22 +180,22 @@ impl<'a> Problem<'a> {
         };
         let small = small * self.grain();
         let (mut next, mut seen) = (*state, seen);
-        let (mut share, mut last) = (1.0, f64::INFINITY);
+        let (mut fraction, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
             let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
                 break;
             };
             if step.size() > last {
-                share *= 0.6;
+                fraction *= 0.6;
             }
             last = step.size();
-            let step = step.scaled(share);
+            let step = step.scaled(fraction);
             next.converged = step.size() < small;
             if next.converged {
                 break;
             }
             next.pose = self.apply(&step, &next.pose);
-            next.offset_px += share * more;
+            next.offset_px += fraction * more;
             seen = self.look(&mut next, pass, memory)?;
         }
         state.renders = next.renders;
@@ -209,7 +209,7 @@ impl<'a> Problem<'a> {
 
     /// How coarse the loss is, against that of silhouettes.
     fn grain(&self) -> f64 {
-        let silhouette = |view: &View<'_>| matches!(view.target, Target::Silhouette(_));
+        let silhouette = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
         if self.views.iter().all(silhouette) {
             1.0
         } else {
@@ -228,7 +228,7 @@ impl<'a> Problem<'a> {
         let mut equations = Equations::new();
         let mut samples = None;
         for view in self.views {
-            let stage = Stage::of(&view.target, pass.index, pass.spread);
+            let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
             let (pose, offset) = (&state.pose, state.offset_px);
             samples =
                 Some(self.observe_view(view, pose, offset, &stage, memory, &mut equations)?);
@@ -240,7 +240,7 @@ impl<'a> Problem<'a> {
     /// silhouette, whose outline is where it is whatever the range.
     fn weigh_again(&self, before: &Seen, pass: &Pass, memory: &RefineMemory<'_>) -> Option<Seen> {
         let [
-            View {
+            CameraView {
                 target: target @ Target::Silhouette(_),
                 ..
             },
@@ -248,7 +248,7 @@ impl<'a> Problem<'a> {
         else {
             return None;
         };
-        let stage = Stage::of(target, pass.index, pass.spread);
+        let stage = Stage::of(target, pass.index, pass.sigma_px);
         let mut equations = Equations::new();
         for sample in memory.border.get(..before.samples?)? {
             equations.add_sample(sample, &stage);
@@ -275,7 +275,7 @@ impl<'a> Problem<'a> {
     /// the first so many places of `memory.border` hold its samples; gives their number.
     pub(super) fn observe_view(
         &self,
-        view: &View<'_>,
+        view: &CameraView<'_>,
         pose: &Pose,
         offset: f64,
         stage: &Stage,
@@ -288,7 +288,7 @@ impl<'a> Problem<'a> {
         let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
         render(self.model, view.camera, &pose, memory.projected, &mut drawn)?;
         let drawn = drawn.into_mask();
-        let outliner = Outliner {
+        let outliner = DrawnModel {
             model: self.model,
             camera: view.camera,
             pose: &pose,
@@ -301,7 +301,8 @@ impl<'a> Problem<'a> {
         let centre = pose.transform(&self.middle);
         let count = border.len();
         for sample in border.iter_mut().filter(|sample| sample.is_on_surface()) {
-            let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
+            let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE)
+            else {
                 continue;
             };
             let found = find(&view.target, sample, own + offset, stage.range);
@@ -320,7 +321,7 @@ impl<'a> Problem<'a> {
 }
 
 /// Where a target's outline crosses the normal of a sample, or where the frame has an edge.
-fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, range: f64) -> Found {
+fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, range: f64) -> NormalReading {
     match target {
         Target::Silhouette(silhouette) => probe::crossing(silhouette, sample, range),
         Target::Image(image) => edge::edge(image, sample, expected, range),

@@ -15,7 +15,7 @@ pub struct Refined {
     pub residual_px: f64,
     /// Standard deviation of the residuals as if they were normal, from their median: what lies
     /// far out does not count. Pixels.
-    pub spread_px: f64,
+    pub robust_sigma_px: f64,
     /// Robust loss by which rival poses are compared, square pixels.
     pub loss: f64,
     /// Times the model was drawn.

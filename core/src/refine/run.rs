@@ -6,7 +6,7 @@ use super::options::RefineOptions;
 use super::problem::Problem;
 use super::result::{Iterate, Refined};
 use super::stages::{Pass, STAGES};
-use super::view::View;
+use super::view::CameraView;
 use crate::mesh::Model;
 use crate::pose::Pose;
 
@@ -19,7 +19,7 @@ use crate::pose::Pose;
 /// [`RefineError`].
 pub fn refine(
     model: &Model<'_>,
-    views: &[View<'_>],
+    views: &[CameraView<'_>],
     start: &Pose,
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
@@ -33,7 +33,7 @@ pub fn refine(
 /// [`RefineError`].
 pub fn refine_traced(
     model: &Model<'_>,
-    views: &[View<'_>],
+    views: &[CameraView<'_>],
     start: &Pose,
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
@@ -46,7 +46,7 @@ pub fn refine_traced(
         pose: *start,
         offset_px: 0.0,
         residual_px: 0.0,
-        spread_px: 0.0,
+        robust_sigma_px: 0.0,
         loss: 0.0,
         renders: 0,
         converged: false,
@@ -56,7 +56,7 @@ pub fn refine_traced(
     for index in 1..STAGES {
         pass = Pass {
             index,
-            spread: state.spread_px,
+            sigma_px: state.robust_sigma_px,
             free: false,
         };
         seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;

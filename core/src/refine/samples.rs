@@ -1,9 +1,9 @@
 //! The occluding contour as samples: what bounds and tests need of it.
 
-use super::border::Found;
+use super::border::NormalReading;
 use super::error::RefineError;
 use super::memory::{RefineMemory, check_memory};
-use super::outline::{Depth, Outliner};
+use super::outline::{Depth, DrawnModel};
 use super::probe::{self, OWN_RANGE};
 use super::step::Step;
 use crate::camera::Camera;
@@ -46,7 +46,7 @@ pub fn outline_samples(
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
     render(model, camera, pose, memory.projected, &mut drawn)?;
     let drawn = drawn.into_mask();
-    let outliner = Outliner {
+    let outliner = DrawnModel {
         model,
         camera,
         pose,
@@ -58,7 +58,7 @@ pub fn outline_samples(
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
     let centre = pose.transform(&model.bounds().centre);
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
-        let Found::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
+        let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
             continue;
         };
         let normal = sample.normal.map(f64::from);

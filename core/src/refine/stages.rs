@@ -24,16 +24,16 @@ const EFFICIENT: f64 = 2.385;
 const SCALE: [f64; 2] = [1.0, 4.0];
 
 impl Stage {
-    /// The stage number `index` for a target; `spread` is the standard deviation of the
+    /// The stage number `index` for a target; `sigma_px` is the robust standard deviation of the
     /// residuals of the stage before, pixels.
-    pub(super) fn of(target: &Target<'_>, index: usize, spread: f64) -> Self {
+    pub(super) fn of(target: &Target<'_>, index: usize, sigma_px: f64) -> Self {
         let stage = |range, loss| Self { range, loss };
         match (target, index) {
             (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
             (Target::Silhouette(_), 1) => stage(16.0, Loss::Cauchy(2.5)),
             (Target::Silhouette(_), 2) => stage(10.0, Loss::Cauchy(1.0)),
             (Target::Silhouette(_), _) => {
-                let scale = (EFFICIENT * spread).clamp(SCALE[0], SCALE[1]);
+                let scale = (EFFICIENT * sigma_px).clamp(SCALE[0], SCALE[1]);
                 stage(10.0, Loss::Cauchy(scale))
             }
             (Target::Image(_), 0) => stage(10.0, Loss::Tukey(8.0)),
@@ -48,8 +48,8 @@ impl Stage {
 #[derive(Clone, Copy, Default)]
 pub(super) struct Pass {
     pub(super) index: usize,
-    /// Standard deviation of the residuals before, pixels.
-    pub(super) spread: f64,
+    /// Robust standard deviation of the residuals before, pixels.
+    pub(super) sigma_px: f64,
     /// Whether the offset is estimated.
     pub(super) free: bool,
 }

@@ -16,7 +16,7 @@ use super::memory::RefineMemory;
 use super::problem::Problem;
 use super::result::Refined;
 use super::stages::{Pass, STAGES, Stage};
-use super::view::View;
+use super::view::CameraView;
 use crate::mesh::Model;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
@@ -48,19 +48,19 @@ const LEAST_FREEDOM: f64 = 4.0;
 /// [`RefineError`] as of [`super::refine`].
 pub fn uncertainty(
     model: &Model<'_>,
-    views: &[View<'_>],
+    views: &[CameraView<'_>],
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Option<PoseCovariance>, RefineError> {
     let problem = Problem::new(model, views, memory)?;
     let pass = Pass {
         index: STAGES - 1,
-        spread: refined.spread_px,
+        sigma_px: refined.robust_sigma_px,
         free: false,
     };
     let mut sums = Sums::default();
     for view in views {
-        let stage = Stage::of(&view.target, pass.index, pass.spread);
+        let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
         let (pose, offset) = (&refined.pose, refined.offset_px);
         let mut equations = Equations::new();
         let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
@@ -204,8 +204,9 @@ impl Correlation {
         let mut taken = 0.0;
         let mut correlation = Self::cut(&raw, taken);
         for _ in 0..Self::ROUNDS {
-            let share = (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
-            taken = raw[0] * share / (1.0 - share);
+            let fraction =
+                (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
+            taken = raw[0] * fraction / (1.0 - fraction);
             correlation = Self::cut(&raw, taken);
         }
         correlation

@@ -8,7 +8,7 @@ use crate::pose::Pose;
 
 /// One camera and what it saw of the implant.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
+pub struct CameraView<'a> {
     /// The camera.
     pub camera: &'a Camera,
     /// `camera_from_world`: [`Pose::IDENTITY`] for the only camera, or for that whose frame is
@@ -18,7 +18,7 @@ pub struct View<'a> {
     pub target: Target<'a>,
 }
 
-impl<'a> View<'a> {
+impl<'a> CameraView<'a> {
     /// The only camera of a single-plane study: poses are `camera_from_model`.
     #[must_use]
     pub fn only(camera: &'a Camera, target: impl Into<Target<'a>>) -> Self {

@@ -162,10 +162,10 @@ impl<'a> FacingTest<'a> {
         let &MeshEdge { from, to, .. } = edge;
         let start = place(self.vertices, from);
         let along = subtract(&place(self.vertices, to), &start);
-        let sight = subtract(&start, &self.place);
+        let ray = subtract(&start, &self.place);
         [(edge.forth, 1.0), (edge.back, -1.0)].map(|(third, sign)| {
             let side = subtract(&place(self.vertices, third), &start);
-            let doubled = sign * dot(&cross(&along, &side), &sight);
+            let doubled = sign * dot(&cross(&along, &side), &ray);
             if doubled.abs() > self.edge_on(&along, &side) {
                 return doubled > 0.0;
             }

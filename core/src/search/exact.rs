@@ -12,13 +12,13 @@ use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, longest_sketch};
-use crate::search::scores::{Candidate, MatchError, neighbours, scores_needed};
+use crate::search::scores::{MatchError, ViewMatch, neighbours, scores_needed};
 use crate::shortlist::keep;
 
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
 
-/// See [`Search::rivals`]. A true pose is less than one step from the nearest view.
+/// See [`ViewSearch::rivals`]. A true pose is less than one step from the nearest view.
 const RIVAL_STEPS: u32 = 4;
 
 /// Directions of the principal axis that are looked at.
@@ -30,16 +30,16 @@ pub enum Directions {
     Both,
 }
 
-/// Working memory of a [`Search`].
+/// Working memory of a [`ViewSearch`].
 #[derive(Debug)]
-pub struct SearchMemory<'m> {
+pub struct ViewSearchMemory<'m> {
     /// [`crate::search::scores_needed`] numbers.
     pub bounds: &'m mut [u32],
     /// [`search_bytes_needed`] bytes.
     pub sketches: &'m mut [u8],
 }
 
-/// Bytes of [`SearchMemory::sketches`].
+/// Bytes of [`ViewSearchMemory::sketches`].
 #[must_use]
 pub const fn search_bytes_needed(spec: &CanonicalSpec) -> usize {
     2 * longest_sketch(spec)
@@ -48,7 +48,7 @@ pub const fn search_bytes_needed(spec: &CanonicalSpec) -> usize {
 /// A silhouette being looked for in a library: what is known of every view's score, bounds and
 /// exact numbers.
 #[derive(Debug)]
-pub struct Search<'s, 'm> {
+pub struct ViewSearch<'s, 'm> {
     library: &'s Library<'s>,
     query: &'s Query<'s>,
     kernels: Kernels,
@@ -56,7 +56,7 @@ pub struct Search<'s, 'm> {
     bounds: &'m mut [u32],
 }
 
-impl<'s, 'm> Search<'s, 'm> {
+impl<'s, 'm> ViewSearch<'s, 'm> {
     /// Bounds the scores of all views. `query` was made for the library's own canonical frame.
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl<'s, 'm> Search<'s, 'm> {
         library: &'s Library<'s>,
         query: &'s Query<'s>,
         kernels: &Kernels,
-        memory: SearchMemory<'m>,
+        memory: ViewSearchMemory<'m>,
     ) -> Result<Self, MatchError> {
         let spec = library.info().canonical;
         if *query.spec() != spec {
@@ -163,10 +163,10 @@ impl<'s, 'm> Search<'s, 'm> {
         view + if reversed { views } else { 0 }
     }
 
-    fn candidate(&mut self, place: usize) -> Candidate {
+    fn candidate(&mut self, place: usize) -> ViewMatch {
         let views = self.library.views();
         let (view, reversed) = (place % views, place >= views);
-        Candidate {
+        ViewMatch {
             view,
             reversed,
             unmatched: self.score(view, reversed),
@@ -175,7 +175,7 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
     /// straight direction first.
-    pub fn best<const K: usize>(&mut self, directions: Directions) -> Vec<Candidate, K> {
+    pub fn best<const K: usize>(&mut self, directions: Directions) -> Vec<ViewMatch, K> {
         let places = match directions {
             Directions::Straight => self.library.views(),
             Directions::Both => scores_needed(self.library.views()),
@@ -203,13 +203,13 @@ impl<'s, 'm> Search<'s, 'm> {
 
     /// The best `K` local minima of the score surfaces, both directions: views that none of their
     /// eight neighbours beats. These are the rival poses; the views beside a minimum are not.
-    pub fn minima<const K: usize>(&mut self) -> Vec<Candidate, K> {
+    pub fn minima<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
         self.minima_up_to(u32::MAX)
     }
 
     /// Of these minima those that leave no more unmatched pixels than the best and four steps of the grid at it: what
     /// is farther off explains nothing, whatever view lies beside it.
-    pub fn rivals<const K: usize>(&mut self) -> Vec<Candidate, K> {
+    pub fn rivals<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
         let best = self.best::<1>(Directions::Both);
         let Some(best) = best.first() else {
             return Vec::new();
@@ -225,7 +225,7 @@ impl<'s, 'm> Search<'s, 'm> {
         self.minima_up_to(best.unmatched.saturating_add(beyond))
     }
 
-    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<Candidate, K> {
+    fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<ViewMatch, K> {
         let places = scores_needed(self.library.views());
         let mut minima = Shortlist::up_to(most);
         // Going downhill from the bounds' own minima finds most of them: a limit for the rest.
@@ -258,12 +258,12 @@ impl<'s, 'm> Search<'s, 'm> {
     }
 
     /// The minimum that steps to ever better neighbours lead to.
-    fn descend(&mut self, view: usize, reversed: bool) -> Candidate {
+    fn descend(&mut self, view: usize, reversed: bool) -> ViewMatch {
         let mut view = view;
         while let Some(better) = self.better_neighbour(view, reversed) {
             view = better;
         }
-        Candidate {
+        ViewMatch {
             view,
             reversed,
             unmatched: self.score(view, reversed),
@@ -305,7 +305,7 @@ impl<'s, 'm> Search<'s, 'm> {
 
 /// The best `K` candidates so far, best first.
 struct Shortlist<const K: usize> {
-    candidates: Vec<Candidate, K>,
+    candidates: Vec<ViewMatch, K>,
     /// Unmatched pixels that are too many in any case are more than this.
     most: u32,
 }
@@ -329,8 +329,8 @@ impl<const K: usize> Shortlist<K> {
     }
 
     /// Takes a candidate in its place, once.
-    fn offer(&mut self, candidate: Candidate) {
-        let key = |one: &Candidate| (one.unmatched, one.reversed, one.view);
+    fn offer(&mut self, candidate: ViewMatch) {
+        let key = |one: &ViewMatch| (one.unmatched, one.reversed, one.view);
         if candidate.unmatched <= self.most && !self.candidates.contains(&candidate) {
             keep(&mut self.candidates, candidate, key);
         }

@@ -11,7 +11,7 @@ use crate::search::scores::{MatchError, Scores};
 /// Compares a canonical silhouette with every view, straight and turned by 180 degrees.
 ///
 /// `canonical` comes from [`crate::canonical::canonicalise`] with the library's own
-/// [`crate::canonical::CanonicalSpec`]; `turned` is working memory of the same length; `scores`
+/// [`crate::canonical::CanonicalSpec`]; `rotated` is working memory of the same length; `scores`
 /// has [`scores_needed`] numbers.
 ///
 /// # Errors
@@ -19,17 +19,17 @@ use crate::search::scores::{MatchError, Scores};
 pub fn score<'s>(
     library: &Library<'_>,
     canonical: &[Word],
-    turned: &mut [Word],
+    rotated: &mut [Word],
     scores: &'s mut [u32],
 ) -> Result<Scores<'s>, MatchError> {
     let words = library.info().canonical.words_needed();
     check_length("words of canonical mask", words, canonical.len())?;
     let canonical = canonical.get(..words).unwrap_or_default();
-    let turned = first("words of working memory", words, turned)?;
-    reverse(canonical, turned);
+    let rotated = first("words of working memory", words, rotated)?;
+    reverse(canonical, rotated);
     let area: u32 = canonical.iter().map(|word| word.count_ones()).sum();
     Scores::fill(library, scores, |view, reversed| {
-        let ours = if reversed { &*turned } else { canonical };
+        let ours = if reversed { &*rotated } else { canonical };
         area + library.pixels(view) - 2 * library.covered(view, ours)
     })
 }

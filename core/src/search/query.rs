@@ -26,7 +26,7 @@ pub struct Query<'m> {
     /// Known pixels set.
     area: u32,
     straight: &'m [Word],
-    turned: &'m [Word],
+    rotated: &'m [Word],
     unknown: Option<&'m [Word]>,
     /// Known pixels set before each pixel of the frame, row by row, modulo 256: no run has more
     /// than 255 pixels. One number more than there are pixels.
@@ -47,7 +47,7 @@ pub const fn query_bytes_needed(spec: &CanonicalSpec, unknown: bool) -> usize {
 
 impl<'m> Query<'m> {
     /// Makes `straight` ready, a canonical silhouette from [`crate::canonical::canonicalise`] with
-    /// the libraries' own `spec`. `turned` is the same turned by 180 degrees
+    /// the libraries' own `spec`. `rotated` is the same turned by 180 degrees
     /// ([`crate::canonical::reverse`]). Pixels set in `unknown` do not count, whatever the
     /// silhouette has there. `bytes` is working memory, [`query_bytes_needed`] of it.
     ///
@@ -56,12 +56,12 @@ impl<'m> Query<'m> {
     pub fn new(
         spec: &CanonicalSpec,
         straight: &'m [Word],
-        turned: &'m [Word],
+        rotated: &'m [Word],
         unknown: Option<&'m [Word]>,
         bytes: &'m mut [u8],
     ) -> Result<Self, MatchError> {
         let words = spec.words_needed();
-        let (straight, turned) = (first_of(words, straight)?, first_of(words, turned)?);
+        let (straight, rotated) = (first_of(words, straight)?, first_of(words, rotated)?);
         let unknown = unknown
             .map(|unknown| first_of(words, unknown))
             .transpose()?;
@@ -89,7 +89,7 @@ impl<'m> Query<'m> {
             spec: *spec,
             area,
             straight,
-            turned,
+            rotated,
             unknown,
             before,
             known_before: unknown.map(|_| known_before),
@@ -106,7 +106,11 @@ impl<'m> Query<'m> {
     /// The silhouette in one direction of its axis.
     #[must_use]
     pub fn canonical(&self, reversed: bool) -> &'m [Word] {
-        if reversed { self.turned } else { self.straight }
+        if reversed {
+            self.rotated
+        } else {
+            self.straight
+        }
     }
 
     /// Known pixels that are set in the silhouette or in a view and not in both; exactly.
@@ -194,20 +198,20 @@ impl<'m> Query<'m> {
         kernels: &Kernels,
         out: [&mut [u8]; 2],
     ) -> u32 {
-        self.gather(sketches.places(), sketches.ground, reversed, kernels, out)
+        self.gather(sketches.places(), sketches.common, reversed, kernels, out)
     }
 
-    /// The same of any choice of blocks; `ground` has what the others are in every view, and 0 at `places`.
+    /// The same of any choice of blocks; `common` has what the others are in every view, and 0 at `places`.
     pub(super) fn gather(
         &self,
         places: impl Iterator<Item = usize> + Clone,
-        ground: &[u8],
+        common: &[u8],
         reversed: bool,
         kernels: &Kernels,
         [low, high]: [&mut [u8]; 2],
     ) -> u32 {
         let blocks = &self.blocks[usize::from(reversed)];
-        let mut base = (kernels.gap)([blocks.low, blocks.high], [ground, ground]);
+        let mut base = (kernels.gap)([blocks.low, blocks.high], [common, common]);
         low.fill(0);
         for (low, place) in low.iter_mut().zip(places.clone()) {
             *low = blocks.low.get(place).copied().unwrap_or(0);
@@ -353,7 +357,7 @@ fn sketch<'m>(
     unknown: Option<&[Word]>,
     out: &'m mut [u8],
 ) -> [Blocks<'m>; 2] {
-    let (straight, turned) = out.split_at_mut(2 * blocks(spec));
+    let (straight, rotated) = out.split_at_mut(2 * blocks(spec));
     let (low, high) = straight.split_at_mut(blocks(spec));
     let row_words = spec.size() / WORD_BITS;
     // Words of a row of blocks, and bytes: a word is two blocks wide.
@@ -373,12 +377,12 @@ fn sketch<'m>(
             *high = [known[0] + open[0], known[1] + open[1]].map(at_most_255);
         }
     }
-    for (to, from) in turned.chunks_exact_mut(blocks(spec)).zip([&*low, &*high]) {
+    for (to, from) in rotated.chunks_exact_mut(blocks(spec)).zip([&*low, &*high]) {
         for (to, from) in to.iter_mut().zip(from.iter().rev()) {
             *to = *from;
         }
     }
-    let (turned_low, turned_high) = turned.split_at(blocks(spec));
+    let (turned_low, turned_high) = rotated.split_at(blocks(spec));
     [
         Blocks { low, high },
         Blocks {

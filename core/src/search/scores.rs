@@ -3,7 +3,7 @@
 use heapless::Vec;
 use thiserror::Error;
 
-use crate::library::{Grid, Library};
+use crate::library::{Library, ViewGrid};
 use crate::memory::{TooLittleMemory, first};
 use crate::shortlist::smallest;
 
@@ -24,14 +24,14 @@ pub enum MatchError {
 /// the caller lends: the score surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Scores<'a> {
-    grid: Grid,
+    grid: ViewGrid,
     straight: &'a [u32],
     reversed: &'a [u32],
 }
 
 /// A view that fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Candidate {
+pub struct ViewMatch {
     /// Number of the view.
     pub view: usize,
     /// Whether the silhouette fits when turned by 180 degrees.
@@ -47,7 +47,7 @@ pub const fn scores_needed(views: usize) -> usize {
 }
 
 /// The eight views round a view of a grid, or as many as there are, in view order.
-pub(crate) fn neighbours(grid: &Grid, view: usize) -> impl Iterator<Item = usize> + use<> {
+pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> impl Iterator<Item = usize> + use<> {
     let grid = *grid;
     let (x, y) = grid.place(view);
     let columns = x.saturating_sub(1)..=(x + 1).min(grid.x.count - 1);
@@ -77,7 +77,7 @@ impl<'a> Scores<'a> {
 
     /// The grid of views behind the scores.
     #[must_use]
-    pub fn grid(&self) -> &Grid {
+    pub fn grid(&self) -> &ViewGrid {
         &self.grid
     }
 
@@ -91,10 +91,10 @@ impl<'a> Scores<'a> {
         }
     }
 
-    fn all(&self) -> impl Iterator<Item = Candidate> + '_ {
+    fn all(&self) -> impl Iterator<Item = ViewMatch> + '_ {
         [false, true].into_iter().flat_map(|reversed| {
             let surface = self.surface(reversed).iter().enumerate();
-            surface.map(move |(view, &unmatched)| Candidate {
+            surface.map(move |(view, &unmatched)| ViewMatch {
                 view,
                 reversed,
                 unmatched,
@@ -105,19 +105,19 @@ impl<'a> Scores<'a> {
     /// The `K` views with the fewest unmatched pixels, best first. Ties keep view order, the
     /// straight direction first.
     #[must_use]
-    pub fn best<const K: usize>(&self) -> Vec<Candidate, K> {
+    pub fn best<const K: usize>(&self) -> Vec<ViewMatch, K> {
         smallest(self.all(), |candidate| candidate.unmatched)
     }
 
     /// The best `K` local minima of the score surfaces: views that none of their eight
     /// neighbours beats. These are the rival poses; the views beside a minimum are not.
     #[must_use]
-    pub fn minima<const K: usize>(&self) -> Vec<Candidate, K> {
+    pub fn minima<const K: usize>(&self) -> Vec<ViewMatch, K> {
         let minima = self.all().filter(|candidate| self.is_minimum(candidate));
         smallest(minima, |candidate| candidate.unmatched)
     }
 
-    fn is_minimum(&self, candidate: &Candidate) -> bool {
+    fn is_minimum(&self, candidate: &ViewMatch) -> bool {
         let surface = self.surface(candidate.reversed);
         neighbours(&self.grid, candidate.view).all(|neighbour| match surface.get(neighbour) {
             // Of equal neighbours the first counts.
@@ -131,11 +131,11 @@ impl<'a> Scores<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::library::GridAxis;
+    use crate::library::ViewAxis;
     use proptest::prelude::*;
 
-    fn axis(count: usize) -> GridAxis {
-        GridAxis {
+    fn axis(count: usize) -> ViewAxis {
+        ViewAxis {
             first: 0.0,
             step: 1.0,
             count,
@@ -148,8 +148,8 @@ mod tests {
             scores in proptest::collection::vec(0u32..40, 48)
         ) {
             let (straight, reversed) = scores.split_at(24);
-            let surface = Scores { grid: Grid { x: axis(4), y: axis(6) }, straight, reversed };
-            let mut sorted: std::vec::Vec<Candidate> = surface.all().collect();
+            let surface = Scores { grid: ViewGrid { x: axis(4), y: axis(6) }, straight, reversed };
+            let mut sorted: std::vec::Vec<ViewMatch> = surface.all().collect();
             sorted.sort_by_key(|candidate| candidate.unmatched);
             prop_assert_eq!(&surface.best::<7>()[..], &sorted[..7]);
             // Every minimum is at most its neighbours, and the best view is one.

@@ -5,7 +5,7 @@ use core::fmt::{self, Write};
 use fluoropose::image::contour::{Contour, Outline, OutlineError, Point};
 use fluoropose::image::mask::{MaskError, MaskMut};
 use fluoropose::library::{Library, LibraryError};
-use fluoropose::locate::{Found, LocateError, Located, Workspace, locate};
+use fluoropose::locate::{LocateError, Located, LocatedPoses, Workspace, locate};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::search::kernels::Kernels;
 
@@ -93,12 +93,12 @@ pub fn prove(
 
     let work = Workspace {
         canonical: &mut memory.canonical,
-        turned: &mut memory.turned,
+        rotated: &mut memory.turned,
         scores: &mut memory.scores,
         bytes: &mut memory.bytes,
         kernels: Kernels::PORTABLE,
     };
-    let found: Found<RIVALS> =
+    let found: LocatedPoses<RIVALS> =
         locate(&mask, &info.camera, &library, work).map_err(Failure::Locate)?;
     stage("canonical form, match, pose");
     report(out, &found)
@@ -126,7 +126,7 @@ fn read_outline(bytes: &[u8], points: &mut Contour<MAX_POINTS>) -> Result<(), Fa
     Ok(())
 }
 
-fn report(out: &mut dyn Write, found: &Found<RIVALS>) -> Result<(), Failure> {
+fn report(out: &mut dyn Write, found: &LocatedPoses<RIVALS>) -> Result<(), Failure> {
     number(out, "centroid column", found.form.centroid.column)?;
     number(out, "centroid row", found.form.centroid.row)?;
     number(out, "axis angle rad", found.form.angle)?;

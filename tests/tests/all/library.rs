@@ -2,13 +2,13 @@
 
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{
-    Builder, Grid, GridAxis, HEADER_BYTES, Library, LibraryError, ViewScratch,
+    Builder, HEADER_BYTES, Library, LibraryError, ViewAxis, ViewGrid, ViewScratch,
 };
 use fluoropose::render::Projected;
 use fluoropose_tests::{camera, femur, home, mesh, regenerating};
 
-fn axis(count: usize) -> GridAxis {
-    GridAxis {
+fn axis(count: usize) -> ViewAxis {
+    ViewAxis {
         first: -4.0,
         step: 4.0,
         count,
@@ -18,7 +18,7 @@ fn axis(count: usize) -> GridAxis {
 /// Six views in frames of 64 x 64, in the plain layout and in the compact one.
 fn libraries() -> [Vec<u8>; 2] {
     let model = femur();
-    let grid = Grid {
+    let grid = ViewGrid {
         x: axis(3),
         y: axis(2),
     };

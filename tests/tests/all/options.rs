@@ -4,7 +4,7 @@ use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{
-    BorderPixel, Effort, Locks, RefineMemory, RefineOptions, Refined, View, refine,
+    BorderPixel, CameraView, Effort, Locks, RefineMemory, RefineOptions, Refined, refine,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{camera, femur, mesh};
@@ -59,7 +59,7 @@ fn refined_with(start: EulerPose, options: RefineOptions) -> Refined {
         places: &mut vec![0; width * height],
         border: &mut vec![BorderPixel::default(); 16_384],
     };
-    let view = View::only(&camera, &mask);
+    let view = CameraView::only(&camera, &mask);
     refine(&mesh, &[view], &Pose::from(start), options, &mut memory).expect("it is near")
 }
 
@@ -131,7 +131,7 @@ fn with_everything_locked_nothing_moves() {
 #[test]
 fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
     let swift = RefineOptions {
-        effort: Effort::Swift,
+        effort: Effort::Interactive,
         ..RefineOptions::default()
     };
     let thorough = refined(START, Locks::default());
@@ -155,8 +155,8 @@ fn a_glance_tells_where_a_start_leads_and_draws_least() {
     };
     let (thorough, hurried, seen) = (
         with(Effort::Full),
-        with(Effort::Swift),
-        with(Effort::Glance),
+        with(Effort::Interactive),
+        with(Effort::Probe),
     );
     let away = geodesic_deg(&seen.pose.rotation, &thorough.pose.rotation);
     assert!(away < 0.3, "{away} degrees");

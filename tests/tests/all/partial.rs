@@ -6,13 +6,14 @@ use fluoropose::finder::rivals::worth_refining;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::partial::{
-    Hypothesis, OutlinePoint, PartialMemory, Side, known_share, locate_partial, partial_needed,
+    Hypothesis, OutlinePoint, PartialMemory, PixelSide, known_fraction, locate_partial,
+    partial_needed,
 };
-use fluoropose::locate::rerank::Verified;
+use fluoropose::locate::rerank::Reranked;
 use fluoropose::math::apply;
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::refine::{RefineOptions, View};
+use fluoropose::refine::{CameraView, RefineOptions};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::MaskBuffer;
 use fluoropose_laboratory::finding::{Refiner, ViewOptions, build_library};
@@ -51,11 +52,11 @@ fn locate(
     camera: &Camera,
     library: &Library<'_>,
     mesh: &Model<'_>,
-) -> Vec<Verified> {
+) -> Vec<Reranked> {
     let needs = partial_needed(library, camera, mesh);
     let memory = PartialMemory {
         words: &mut vec![0; needs.words],
-        sides: &mut vec![Side::default(); needs.sides],
+        sides: &mut vec![PixelSide::default(); needs.sides],
         points: &mut vec![OutlinePoint::default(); needs.points],
         cells: &mut vec![0; needs.cells],
         numbers: &mut vec![0.0; needs.numbers],
@@ -69,7 +70,7 @@ fn locate(
 
 /// Whether a refinement from `found` would lead to `pose`: within 8 degrees, 10 mm, and 60 mm
 /// along the view.
-fn is_start(found: &Verified, pose: &Pose, mesh: &Model<'_>) -> bool {
+fn is_start(found: &Reranked, pose: &Pose, mesh: &Model<'_>) -> bool {
     let centre = mesh.bounds().centre;
     let (a, b) = (
         found.located.pose.transform(&centre),
@@ -89,7 +90,7 @@ fn assert_found(
     pose: &Pose,
     what: &str,
 ) {
-    assert!(known_share(&silhouette).is_partial(), "{what}");
+    assert!(known_fraction(&silhouette).is_partial(), "{what}");
     let found = locate(&silhouette, camera, library, mesh);
     let good = found.iter().any(|found| is_start(found, pose, mesh));
     assert!(good, "{what}: no start among {found:?}");
@@ -99,7 +100,7 @@ fn assert_found(
         .collect();
     let mut refiner = Refiner::new(*mesh, RefineOptions::default());
     let refined = refiner
-        .refine(&[View::only(camera, silhouette)], &starts)
+        .refine(&[CameraView::only(camera, silhouette)], &starts)
         .expect("a start is near");
     let off = |rotation| geodesic_deg(rotation, &pose.rotation);
     let errors: Vec<(f64, f64)> = refined
@@ -181,11 +182,11 @@ fn cutting(camera: &Camera, mask: &MaskBuffer, border: u64, cut: f64) -> Camera 
 /// where it hides too little or, by the next row or column, too much.
 fn cut(mesh: &Model<'_>, pose: &Pose, border: u64) -> Option<(Camera, MaskBuffer)> {
     let whole = drawn(mesh, &camera(), pose);
-    let sides = known_share(&Silhouette::from(&whole.mask())).sides as f64;
+    let sides = known_fraction(&Silhouette::from(&whole.mask())).sides as f64;
     (1..40).find_map(|step| {
         let camera = cutting(&camera(), &whole, border, 0.02 * f64::from(step));
         let mask = drawn(mesh, &camera, pose);
-        let known = known_share(&Silhouette::from(&mask.mask())).known as f64;
+        let known = known_fraction(&Silhouette::from(&mask.mask())).known as f64;
         HIDDEN
             .contains(&(1.0 - known / sides))
             .then_some((camera, mask))

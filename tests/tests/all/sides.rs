@@ -1,7 +1,7 @@
 //! The rules that tell a pose from its mirror image, on the reference poses of a real study.
 
 use fluoropose::finder::choice::{
-    Candidate, Context, Counterpart, FilmFrame, FilmStep, Reason, TILT_MARGIN_DEG, choose,
+    ChoiceContext, Counterpart, FilmFrame, FilmStep, Reason, RivalPose, TILT_MARGIN_DEG, choose,
     choose_film,
 };
 use fluoropose::mesh::mirror::mirror_pose;
@@ -39,8 +39,8 @@ fn left8() -> Option<(Vec<Sides>, Vec<Sides>)> {
 }
 
 /// The right pose and its mirror image, which fits a little better, as on network masks.
-fn candidates(sides: &Sides) -> [Candidate; 2] {
-    [(sides[0], 1.0), (sides[1], 0.9)].map(|(pose, residual_px)| Candidate { pose, residual_px })
+fn candidates(sides: &Sides) -> [RivalPose; 2] {
+    [(sides[0], 1.0), (sides[1], 0.9)].map(|(pose, residual_px)| RivalPose { pose, residual_px })
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn with_the_femur_known_the_tilt_finds_the_tibia_in_all_frames() {
         let [right, wrong] = sides.map(|tibia| coronal_tilt_deg(femur, &tibia));
         println!("frame {frame:2}: tilt {right:5.2}, mirrored tibia {wrong:5.2} deg");
         assert!((-3.1..0.1).contains(&right) && (-8.2..-4.4).contains(&wrong));
-        let context = Context {
+        let context = ChoiceContext {
             counterpart: Some(Counterpart::Femur(*femur)),
             neighbours: &[],
         };
@@ -73,7 +73,7 @@ fn with_the_tibia_known_the_tilt_never_decides_for_a_mirrored_femur() {
     for (frame, (sides, [tibia, _])) in femur.iter().zip(&tibia).enumerate() {
         let [right, wrong] = sides.map(|femur| coronal_tilt_deg(&femur, tibia));
         println!("frame {frame:2}: tilt {right:5.2}, mirrored femur {wrong:5.2} deg");
-        let context = Context {
+        let context = ChoiceContext {
             counterpart: Some(Counterpart::Tibia(*tibia)),
             neighbours: &[],
         };
@@ -94,7 +94,7 @@ fn the_neighbouring_frame_tells_the_sides_apart() {
     for part in [femur, tibia] {
         for pair in part.windows(2) {
             let neighbours = [pair[0][0]];
-            let context = Context {
+            let context = ChoiceContext {
                 counterpart: None,
                 neighbours: &neighbours,
             };
@@ -113,7 +113,7 @@ fn one_frame_decides_the_film() {
     };
     let candidates: Vec<_> = tibia.iter().map(candidates).collect();
     for known in 0..16 {
-        let frame = |(at, candidates): (usize, &'_ [Candidate; 2])| {
+        let frame = |(at, candidates): (usize, &'_ [RivalPose; 2])| {
             let counterpart = (at == known).then(|| Counterpart::Femur(femur[at][0]));
             (candidates.to_vec(), counterpart)
         };

@@ -3,7 +3,7 @@
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::Located;
 use fluoropose::pose::{Pose, geodesic_deg};
-use fluoropose::refine::{Effort, RefineOptions, View};
+use fluoropose::refine::{CameraView, Effort, RefineOptions};
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
@@ -77,9 +77,9 @@ impl Matcher {
     ) -> Option<Ranked> {
         let (camera, model) = (traced.camera(), self.model.as_mut()?);
         let start = Pose::from(from_numbers(start).ok()?);
-        let view = View::only(&camera, *silhouette);
+        let view = CameraView::only(&camera, *silhouette);
         let options = RefineOptions {
-            effort: Effort::Swift,
+            effort: Effort::Interactive,
             ..RefineOptions::default()
         };
         let refined = model.refine_from(&start, view, options).ok()?;

@@ -3,7 +3,7 @@
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Locks, Polarity, RefineOptions, Refined, View};
+use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions, Refined};
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
@@ -132,7 +132,7 @@ impl Matcher {
         let model = model_of(&mut self.model)?;
         let camera = traced.camera();
         traced.look(|silhouette| {
-            let view = View::only(&camera, *silhouette);
+            let view = CameraView::only(&camera, *silhouette);
             let mut fit = fitted(model, &start, view, options)?;
             let pose = Pose::from(from_numbers(&fit.pose)?);
             fit.drawn = model.draw(&pose, &camera, silhouette)?;
@@ -165,7 +165,7 @@ impl Matcher {
                 unknown: Some(&unknown),
                 polarity,
             };
-            let fit = fitted(model, &start, View::only(&camera, target), options)?;
+            let fit = fitted(model, &start, CameraView::only(&camera, target), options)?;
             let bright = polarity == Polarity::BrightImplant;
             Ok(HandFit { bright, ..fit })
         })
@@ -175,7 +175,7 @@ impl Matcher {
 fn fitted(
     model: &mut WorkingModel,
     start: &Pose,
-    view: View<'_>,
+    view: CameraView<'_>,
     options: RefineOptions,
 ) -> Result<HandFit, JsError> {
     let refined: Refined = model.refine_from(start, view, options)?;

@@ -2,11 +2,11 @@
 
 use fluoropose::canonical::CanonicalForm;
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::library::GridAxis;
+use fluoropose::library::ViewAxis;
 use fluoropose::locate::estimate::pose_from_view;
 use fluoropose::locate::interpolate::FineView;
-use fluoropose::locate::partial::known_share;
-use fluoropose::locate::{Found, Workspace, locate, score_views};
+use fluoropose::locate::partial::known_fraction;
+use fluoropose::locate::{LocatedPoses, Workspace, locate, score_views};
 use fluoropose::pose::EulerPose;
 use fluoropose::search::Scores;
 use fluoropose::search::kernels::Kernels;
@@ -21,7 +21,7 @@ use fluoropose_page::traced::Traced;
 /// Unmatched pixels of every view, the better direction of the principal axis.
 #[wasm_bindgen]
 pub struct Landscape {
-    axes: [GridAxis; 2],
+    axes: [ViewAxis; 2],
     scores: Vec<u32>,
     minima: Vec<[f64; 3]>,
 }
@@ -31,7 +31,7 @@ impl Landscape {
     /// First rotation and step (degrees) and number of views, about x and then about y.
     #[wasm_bindgen(getter)]
     pub fn axes(&self) -> Vec<f64> {
-        let numbers = |axis: &GridAxis| [axis.first, axis.step, axis.count as f64];
+        let numbers = |axis: &ViewAxis| [axis.first, axis.step, axis.count as f64];
         self.axes.iter().flat_map(numbers).collect()
     }
 
@@ -126,13 +126,13 @@ impl Matcher {
         &mut self,
         traced: &Traced,
         with: impl FnOnce(
-            &Found<MINIMA>,
+            &LocatedPoses<MINIMA>,
             &(CanonicalForm, Scores<'_>),
             &fluoropose::library::Library<'_>,
         ) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         traced.look(|silhouette: &Silhouette<'_>| {
-            if traced.is_marked() || known_share(silhouette).is_partial() {
+            if traced.is_marked() || known_fraction(silhouette).is_partial() {
                 return Err(JsError::new(
                     "Only a whole outline has a score for every view; of this one a part is unknown or cut off by the frame",
                 ));
@@ -140,13 +140,13 @@ impl Matcher {
             let library = self.library.borrow_dependent();
             let mut work = Workspace {
                 canonical: &mut self.canonical,
-                turned: &mut self.turned,
+                rotated: &mut self.turned,
                 scores: &mut self.scores,
                 bytes: &mut self.bytes,
                 kernels: Kernels::PORTABLE,
             };
             let (mask, camera) = (silhouette.mask(), traced.camera());
-            let found = locate(mask, &camera, library, work.lend()).map_err(sentence)?;
+            let found = locate(mask, &camera, library, work.reborrow()).map_err(sentence)?;
             let scores = score_views(mask, &camera, library, work).map_err(sentence)?;
             with(&found, &scores, library)
         })

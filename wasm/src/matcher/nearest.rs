@@ -3,7 +3,7 @@
 use fluoropose::canonical::{canonicalise, reverse};
 use fluoropose::image::mask::Word;
 use fluoropose::search::kernels::Kernels;
-use fluoropose::search::{Directions, Query, Search, SearchMemory, query_bytes_needed};
+use fluoropose::search::{Directions, Query, ViewSearch, ViewSearchMemory, query_bytes_needed};
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
@@ -56,12 +56,12 @@ impl Matcher {
         let (prepared, sketches) = self.bytes.split_at_mut(query_bytes_needed(spec, false));
         let (straight, turned) = (&canonical.straight, &canonical.turned);
         let query = Query::new(spec, straight, turned, None, prepared).map_err(sentence)?;
-        let memory = SearchMemory {
+        let memory = ViewSearchMemory {
             bounds: &mut self.scores,
             sketches,
         };
         let kernels = Kernels::PORTABLE;
-        let search = Search::new(library, &query, &kernels, memory);
+        let search = ViewSearch::new(library, &query, &kernels, memory);
         let best = search.map_err(sentence)?.best::<1>(Directions::Straight);
         let best = best
             .first()

@@ -5,7 +5,7 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
-use fluoropose::finder::choice::Candidate as Contender;
+use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Outline, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
@@ -14,7 +14,7 @@ use fluoropose::locate::Workspace;
 use fluoropose::math::{multiply, transpose};
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{EulerPose, Pose, view_rotation};
-use fluoropose::refine::{ImageTarget, Polarity, RefineMemory, Refined, View};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
     Answer, Component, Observation, OneClick as Work, OneClickMemory, Progress, Prompt,
@@ -288,7 +288,7 @@ impl OneClick {
         let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
         let workspace = Workspace {
             canonical: &mut [],
-            turned: &mut [],
+            rotated: &mut [],
             scores: &mut [],
             bytes: &mut [],
             kernels: Kernels::PORTABLE,
@@ -325,7 +325,7 @@ impl OneClick {
                     unknown,
                     polarity,
                 };
-                matcher.deviations_on(&answer.refined, View::only(camera, target))
+                matcher.deviations_on(&answer.refined, CameraView::only(camera, target))
             })
         })?;
         let pose = &answer.refined.pose;
@@ -355,7 +355,7 @@ impl Matcher {
         let library = self.library.borrow_dependent();
         let workspace = Workspace {
             canonical: &mut self.canonical,
-            turned: &mut self.turned,
+            rotated: &mut self.turned,
             scores: &mut self.scores,
             bytes: &mut self.bytes,
             kernels: Kernels::PORTABLE,
@@ -374,7 +374,7 @@ impl Matcher {
     fn deviations_on(
         &mut self,
         refined: &Refined,
-        view: View<'_>,
+        view: CameraView<'_>,
     ) -> Result<Option<Deviations>, JsError> {
         model_of(&mut self.model)?.deviations_in(refined, view)
     }

@@ -4,12 +4,12 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use fluoropose::library::GridAxis;
+use fluoropose::library::ViewAxis;
 use fluoropose_phantom::implant::Side;
 
 /// A range of rotations, `first:last:step` in degrees.
 #[derive(Clone, Copy, Debug)]
-pub struct Range(pub GridAxis);
+pub struct Range(pub ViewAxis);
 
 impl FromStr for Range {
     type Err = anyhow::Error;
@@ -24,7 +24,7 @@ impl FromStr for Range {
         if !(step > 0.0 && (0.0..4096.0).contains(&steps)) {
             bail!("'{text}': the step must be positive and lead from first to last");
         }
-        Ok(Self(GridAxis {
+        Ok(Self(ViewAxis {
             first,
             step,
             count: (steps + 1e-9) as usize + 1,

@@ -8,7 +8,9 @@
 use heapless::Vec;
 use thiserror::Error;
 
-use super::{CONTENDERS, Candidate, Choice, Contenders, Counterpart, DECISIVE_RATIO, Open, Reason};
+use super::{
+    CONTENDERS, Choice, Contenders, Counterpart, DECISIVE_RATIO, OpenRival, Reason, RivalPose,
+};
 use crate::pose::{Pose, geodesic_deg};
 
 /// A frame is decided by its film where any other pose in it costs the film this much more,
@@ -29,7 +31,7 @@ const RESIDUAL_DEG: f64 = 0.02;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FilmFrame<'a> {
     /// The component's poses in this frame; none where none was found.
-    pub candidates: &'a [Candidate],
+    pub candidates: &'a [RivalPose],
     /// The other component in this frame.
     pub counterpart: Option<Counterpart>,
 }
@@ -142,7 +144,7 @@ impl FilmStep {
             let candidate = frame.candidates.get(self.open[k]);
             candidate.map_or(f64::NAN, |candidate| candidate.residual_px)
         };
-        let open = others().next().filter(|_| !decided).map(|k| Open {
+        let open = others().next().filter(|_| !decided).map(|k| OpenRival {
             index: self.open[k],
             chosen_px: residual(number),
             other_px: residual(k),

@@ -18,8 +18,8 @@ fn pose(z_rot_deg: f64, x_rot_deg: f64, y_rot_deg: f64) -> Pose {
     })
 }
 
-fn candidate(pose: Pose, residual_px: f64) -> Candidate {
-    Candidate { pose, residual_px }
+fn candidate(pose: Pose, residual_px: f64) -> RivalPose {
+    RivalPose { pose, residual_px }
 }
 
 fn mirrored(pose: &Pose) -> Pose {
@@ -36,7 +36,7 @@ fn knee() -> (Pose, Pose) {
     (pose(8.0, 5.7, -1.2), pose(-84.0, 0.6, -9.1))
 }
 
-const NOTHING: Context<'_> = Context {
+const NOTHING: ChoiceContext<'_> = ChoiceContext {
     counterpart: None,
     neighbours: &[],
 };
@@ -45,7 +45,7 @@ const NOTHING: Context<'_> = Context {
 fn nothing_is_chosen_of_nothing_and_one_is_the_only_one() {
     assert_eq!(choose(&[], &NOTHING), None);
     let (femur, tibia) = knee();
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
         neighbours: &[femur],
     };
@@ -59,7 +59,7 @@ fn nothing_is_chosen_of_nothing_and_one_is_the_only_one() {
 fn a_decisive_residual_decides_against_tilt_and_time() {
     let (femur, tibia) = knee();
     let wrong = mirrored(&tibia);
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
         neighbours: &[tibia],
     };
@@ -90,7 +90,7 @@ fn the_smaller_tilt_decides_in_either_role() {
     let right_deg = coronal_tilt_deg(&femur, &tibia);
     let wrong_deg = coronal_tilt_deg(&femur, &wrong);
     assert!(wrong_deg.abs() - right_deg.abs() > TILT_MARGIN_DEG);
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Femur(femur)),
         neighbours: &[],
     };
@@ -110,7 +110,7 @@ fn the_smaller_tilt_decides_in_either_role() {
             ..EulerPose::default()
         }))
     };
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(tibia)),
         neighbours: &[],
     };
@@ -128,7 +128,7 @@ fn tilts_of_opposite_sign_and_like_size_leave_it_to_time() {
         candidate(pose(0.0, -5.9, 0.0), 1.1),
     ];
     let neighbours = [pose(0.0, -3.0, 0.0), pose(0.0, -5.0, 0.0)];
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(tibia)),
         neighbours: &neighbours,
     };
@@ -147,7 +147,7 @@ fn what_nothing_tells_apart_is_said_to_be_undecided() {
         candidate(pose(0.0, -1.0, 0.0), 0.8),
     ];
     let neighbours = [pose(0.0, 0.5, 0.0)];
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
         neighbours: &neighbours,
     };
@@ -170,7 +170,7 @@ fn each_rule_leaves_the_rest_to_the_next() {
         candidate(pose(0.0, 1.0, 3.0), 1.2),
     ];
     let neighbours = [pose(0.0, 1.0, 0.0)];
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
         neighbours: &neighbours,
     };
@@ -189,7 +189,7 @@ fn a_rule_that_leaves_two_is_the_reason_and_the_other_is_named() {
         candidate(pose(0.0, 0.1, 0.0), 1.04),
         candidate(pose(0.0, 5.4, 0.0), 1.25),
     ];
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
         neighbours: &[],
     };
@@ -209,7 +209,7 @@ fn of_many_the_best_few_contend() {
         .map(|k| candidate(pose(0.0, 10.0 + f64::from(k), 0.0), 1.2))
         .collect();
     candidates.push(candidate(pose(0.0, 1.0, 0.0), 1.1));
-    let context = Context {
+    let context = ChoiceContext {
         counterpart: Some(Counterpart::Tibia(pose(0.0, 0.0, 0.0))),
         neighbours: &[],
     };
@@ -236,7 +236,7 @@ fn any_pose() -> impl Strategy<Value = Pose> {
     prop::array::uniform3(angle).prop_map(|[z, x, y]| pose(z, x, y))
 }
 
-fn any_candidates() -> impl Strategy<Value = List<Candidate>> {
+fn any_candidates() -> impl Strategy<Value = List<RivalPose>> {
     prop::collection::vec((any_pose(), any_number()), 0..12).prop_map(|all| {
         all.into_iter()
             .map(|(pose, px)| candidate(pose, px))
@@ -255,7 +255,7 @@ proptest! {
             1 => Some(Counterpart::Femur(other)),
             _ => Some(Counterpart::Tibia(other)),
         };
-        let context = Context { counterpart, neighbours: &neighbours };
+        let context = ChoiceContext { counterpart, neighbours: &neighbours };
         match choose(&candidates, &context) {
             None => prop_assert!(candidates.is_empty()),
             Some(choice) => {
@@ -276,7 +276,7 @@ proptest! {
             .map(|(&px, &[z, x, y])| candidate(pose(z, x, y), px)).collect();
         let (femur, tibia) = knee();
         let neighbours = [tibia];
-        let context = Context { counterpart: Some(Counterpart::Femur(femur)), neighbours: &neighbours };
+        let context = ChoiceContext { counterpart: Some(Counterpart::Femur(femur)), neighbours: &neighbours };
         let first = choose(&candidates, &context).expect("some");
         let chosen = candidates[first.index];
         let turn = turn % candidates.len();
@@ -297,7 +297,7 @@ proptest! {
         ];
         let neighbours = [pose(0.0, near, 0.0)];
         let tibia = pose(0.0, 0.0, 0.0);
-        let context = Context { counterpart: Some(Counterpart::Tibia(tibia)), neighbours: &neighbours };
+        let context = ChoiceContext { counterpart: Some(Counterpart::Tibia(tibia)), neighbours: &neighbours };
         let Choice { index, reason, open } = choose(&candidates, &context).expect("two");
         let (chosen, other) = (index, 1 - index);
         let px = |k: usize| candidates[k].residual_px;

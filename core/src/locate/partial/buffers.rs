@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::hypothesis::Hypothesis;
 use super::memory::{PartialMemory, partial_needed};
 use super::outline::OutlinePoint;
-use super::trace::Side;
+use super::trace::PixelSide;
 use crate::camera::Camera;
 use crate::image::mask::Word;
 use crate::library::Library;
@@ -17,7 +17,7 @@ use crate::render::Projected;
 #[derive(Clone, Debug, Default)]
 pub struct PartialBuffers {
     words: Vec<Word>,
-    sides: Vec<Side>,
+    sides: Vec<PixelSide>,
     points: Vec<OutlinePoint>,
     cells: Vec<u16>,
     numbers: Vec<f32>,

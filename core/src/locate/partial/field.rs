@@ -13,12 +13,12 @@ const NONE: u16 = u16::MAX;
 /// The number of the nearest point of an outline for each cell of a grid over a box round it.
 pub(super) struct Field<'a> {
     cells: &'a [u16],
-    grid: Grid,
+    grid: CellGrid,
 }
 
 /// Square cells over a box.
 #[derive(Clone, Copy)]
-struct Grid {
+struct CellGrid {
     columns: usize,
     rows: usize,
     /// Least x and y.
@@ -35,19 +35,19 @@ impl<'a> Field<'a> {
     /// mapping*, 1980): what is found is the point nearest to the middle of the cell but for rare
     /// cases in which it is one nearly as near.
     pub(super) fn new(points: &[OutlinePoint], margin: f64, cells: &'a mut [u16]) -> Self {
-        let grid = Grid::round(points, margin as f32);
+        let grid = CellGrid::around(points, margin as f32);
         let cells = cells
             .get_mut(..grid.columns * grid.rows)
             .unwrap_or_default();
         cells.fill(NONE);
         if !cells.is_empty() {
-            let mut sower = Sower {
+            let mut transform = DistanceTransform {
                 points,
                 grid,
                 cells,
             };
-            sower.sow();
-            sower.sweep();
+            transform.seed();
+            transform.sweep();
         }
         Self { cells, grid }
     }
@@ -60,8 +60,8 @@ impl<'a> Field<'a> {
     }
 }
 
-impl Grid {
-    fn round(points: &[OutlinePoint], margin: f32) -> Self {
+impl CellGrid {
+    fn around(points: &[OutlinePoint], margin: f32) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         for point in points {
             for k in 0..2 {
@@ -99,9 +99,9 @@ impl Grid {
     }
 }
 
-struct Sower<'a> {
+struct DistanceTransform<'a> {
     points: &'a [OutlinePoint],
-    grid: Grid,
+    grid: CellGrid,
     cells: &'a mut [u16],
 }
 
@@ -111,8 +111,8 @@ const RIGHT: [(isize, isize); 1] = [(1, 0)];
 const BEFORE: [(isize, isize); 4] = [(-1, 0), (-1, -1), (0, -1), (1, -1)];
 const AFTER: [(isize, isize); 4] = [(1, 0), (1, 1), (0, 1), (-1, 1)];
 
-impl Sower<'_> {
-    fn sow(&mut self) {
+impl DistanceTransform<'_> {
+    fn seed(&mut self) {
         for (number, point) in self.points.iter().take(usize::from(NONE)).enumerate() {
             if let Some((column, row)) = self.grid.cell_at(point.at) {
                 self.offer(column, row, number as u16);
@@ -122,7 +122,7 @@ impl Sower<'_> {
 
     /// Hands points on forwards, then backwards.
     fn sweep(&mut self) {
-        let Grid { columns, rows, .. } = self.grid;
+        let CellGrid { columns, rows, .. } = self.grid;
         for row in 0..rows {
             for column in 0..columns {
                 self.take(column, row, &BEFORE);
@@ -143,7 +143,7 @@ impl Sower<'_> {
 
     /// Offers a cell the points of its neighbours.
     fn take(&mut self, column: usize, row: usize, neighbours: &[(isize, isize)]) {
-        let Grid { columns, rows, .. } = self.grid;
+        let CellGrid { columns, rows, .. } = self.grid;
         for &(right, up) in neighbours {
             let neighbour = column
                 .checked_add_signed(right)

@@ -5,19 +5,19 @@ use heapless::Vec;
 use super::error::PartialError;
 use super::fit::Known;
 use super::follow::follow;
-use super::ladder::{LADDER_NUMBERS, Ladder};
 use super::memory::{KNOWN_POINTS, PartialMemory, partial_needed};
 use super::outline::{OutlinePoint, OutlinePoints, Sampling};
-use super::search::Search;
+use super::scale_levels::{LEVEL_NUMBERS, ScaleLevels};
+use super::search::PartialSearch;
 use super::smooth::Plane;
-use super::trace::{Side, trace};
+use super::trace::{PixelSide, trace};
 use super::units::{KNOWN_SPACING, LEAST_PIECE, REACH, Units};
 use super::view::ViewMemory;
 use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
 use crate::library::Library;
-use crate::locate::rerank::{Verified, verify};
+use crate::locate::rerank::{Reranked, rerank};
 use crate::locate::whole::Located;
 use crate::mesh::Model;
 use crate::render::RenderError;
@@ -37,7 +37,7 @@ pub fn locate_partial<const K: usize>(
     library: &Library<'_>,
     model: &Model<'_>,
     memory: PartialMemory<'_>,
-) -> Result<Vec<Verified, K>, PartialError> {
+) -> Result<Vec<Reranked, K>, PartialError> {
     let mask = silhouette.mask();
     let (width, height) = (camera.width(), camera.height());
     if (mask.width(), mask.height()) != (width, height) {
@@ -49,13 +49,13 @@ pub fn locate_partial<const K: usize>(
     let (frame, canonical) = words.split_at_mut(words_needed(width, height));
     let (bits, visited) = canonical.split_at_mut(canonical.len() / 2);
     let (own, others) = memory.points.split_at_mut(KNOWN_POINTS);
-    let (ladder, numbers) = memory.numbers.split_at_mut(LADDER_NUMBERS);
+    let (levels, numbers) = memory.numbers.split_at_mut(LEVEL_NUMBERS);
     let mut drawn = MaskMut::new(frame, width, height)?;
     let units = Units::new(library, camera);
     let plane = Plane::new(width, height, camera.aspect());
     let outline = known_outline(silhouette, &units, plane, &mut drawn, memory.sides, own)?;
-    let search = Search {
-        ladder: Ladder::new(&outline, units.spacing, units.scales(library), ladder),
+    let search = PartialSearch {
+        levels: ScaleLevels::new(&outline, units.spacing, units.scales(library), levels),
         known: Known::new(silhouette, plane, outline, &units, memory.cells),
         library,
         units,
@@ -72,7 +72,7 @@ pub fn locate_partial<const K: usize>(
         return Err(PartialError::NoFit);
     }
     let projected = memory.projected;
-    Ok(verify(
+    Ok(rerank(
         &poses, model, camera, silhouette, projected, &mut drawn,
     )?)
 }
@@ -87,7 +87,7 @@ fn known_outline<'p>(
     units: &Units,
     plane: Plane,
     visited: &mut MaskMut<'_>,
-    sides: &mut [Side],
+    sides: &mut [PixelSide],
     points: &'p mut [OutlinePoint],
 ) -> Result<OutlinePoints<'p>, PartialError> {
     let least = ((LEAST_PIECE * units.pixel) as usize).max(4);

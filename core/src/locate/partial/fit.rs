@@ -202,7 +202,7 @@ fn moved(similarity: &Similarity, [x, y, grow, turn]: [f64; 4]) -> Similarity {
 #[cfg(test)]
 mod tests {
     use super::super::outline::{OutlinePoint, Sampling};
-    use super::super::trace::{Side, trace};
+    use super::super::trace::{PixelSide, trace};
     use super::*;
     use crate::camera::Camera;
     use crate::image::contour::{Outline, Point};
@@ -253,7 +253,7 @@ mod tests {
     ) -> OutlinePoints<'p> {
         let mut memory = std::vec![0; words_needed(SIDE, SIDE)];
         let mut visited = MaskMut::new(&mut memory, SIDE, SIDE).expect("fits");
-        let mut sides = [Side::default(); 2000];
+        let mut sides = [PixelSide::default(); 2000];
         let stretches = trace(silhouette, &mut visited, &mut sides, 20).expect("fits");
         let sampling = Sampling {
             plane: plane(),

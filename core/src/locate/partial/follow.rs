@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::hypothesis::Hypothesis;
-use super::search::Search;
+use super::search::PartialSearch;
 use super::view::ViewMemory;
 use crate::camera::Camera;
 use crate::locate::whole::Located;
@@ -17,7 +17,7 @@ const POSES_APART_DEG: f64 = 2.0;
 
 /// The poses of the best hypotheses that differ, followed on the full grid, best first.
 pub(super) fn follow<const K: usize>(
-    search: &Search<'_>,
+    search: &PartialSearch<'_>,
     camera: &Camera,
     found: &mut [Hypothesis],
     views: &mut ViewMemory<'_>,

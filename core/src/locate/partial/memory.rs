@@ -2,10 +2,10 @@
 
 use super::field::FIELD_CELLS;
 use super::hypothesis::Hypothesis;
-use super::ladder::LADDER_NUMBERS;
 use super::outline::OutlinePoint;
+use super::scale_levels::LEVEL_NUMBERS;
 use super::search::{PER_VIEW, VIEW_NUMBERS, VIEW_SAMPLES, coarse_views};
-use super::trace::Side;
+use super::trace::PixelSide;
 use crate::camera::Camera;
 use crate::image::mask::{Word, words_needed};
 use crate::library::Library;
@@ -19,7 +19,7 @@ pub struct PartialMemory<'a> {
     /// Masks of the frame's size and of the canonical frame's.
     pub words: &'a mut [Word],
     /// Sides of pixels along an outline.
-    pub sides: &'a mut [Side],
+    pub sides: &'a mut [PixelSide],
     /// Points along the known outline and that of a view.
     pub points: &'a mut [OutlinePoint],
     /// The nearest point of the known outline, place by place.
@@ -67,7 +67,7 @@ pub fn partial_needed(library: &Library<'_>, camera: &Camera, model: &Model<'_>)
         sides: SIDES_PER_LINE * lines,
         points: KNOWN_POINTS + VIEW_SAMPLES,
         cells: FIELD_CELLS,
-        numbers: LADDER_NUMBERS + VIEW_NUMBERS,
+        numbers: LEVEL_NUMBERS + VIEW_NUMBERS,
         hypotheses: PER_VIEW * coarse_views(library),
         projected: scratch_needed(model),
     }

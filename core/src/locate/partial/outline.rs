@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::smooth::{Plane, Smooth, resample};
-use super::trace::{STRETCHES, Side, Stretch};
+use super::trace::{PixelSide, STRETCHES, Stretch};
 use crate::math::sqrt;
 
 /// A point of an outline in plane coordinates (to the right and upwards) and the unit normal that
@@ -53,7 +53,7 @@ pub(super) struct Sampling {
 impl<'a> OutlinePoints<'a> {
     /// Points along `stretches` of `sides`; `None` where `points` is too short.
     pub(super) fn new(
-        sides: &[Side],
+        sides: &[PixelSide],
         stretches: &[Stretch],
         sampling: &Sampling,
         points: &'a mut [OutlinePoint],

@@ -4,13 +4,13 @@ use heapless::Vec;
 
 use super::fit::Known;
 use super::hypothesis::{Hypothesis, keep, transfer};
-use super::ladder::Ladder;
 use super::outline::{OutlinePoints, Piece};
+use super::scale_levels::ScaleLevels;
 use super::similarity::Similarity;
 use super::slide::{Fit, Samples, Slide, Sums, slide};
 use super::units::{FARTHEST, NEAREST, Units};
 use super::view::{ViewMemory, view_outline};
-use crate::library::{GridAxis, Library};
+use crate::library::{Library, ViewAxis};
 
 /// Between the views of the coarse grid, degrees, about.
 const COARSE_DEG: f64 = 4.0;
@@ -26,15 +26,15 @@ pub(super) const VIEW_NUMBERS: usize = 6 * VIEW_SAMPLES;
 const FIRST_LOOK: usize = 2;
 
 /// What the search works on.
-pub(super) struct Search<'a> {
+pub(super) struct PartialSearch<'a> {
     pub(super) known: Known<'a>,
     pub(super) library: &'a Library<'a>,
-    pub(super) ladder: Ladder<'a>,
+    pub(super) levels: ScaleLevels<'a>,
     pub(super) units: Units,
 }
 
 /// Every how many views of an axis the coarse grid has one, and its first.
-fn coarse(axis: &GridAxis) -> (usize, usize) {
+fn coarse(axis: &ViewAxis) -> (usize, usize) {
     let every = ((COARSE_DEG / axis.step + 0.5) as usize).max(1);
     (every, (axis.count.saturating_sub(1) % every) / 2)
 }
@@ -42,14 +42,14 @@ fn coarse(axis: &GridAxis) -> (usize, usize) {
 /// Views of the coarse grid.
 pub(super) fn coarse_views(library: &Library<'_>) -> usize {
     let grid = library.info().grid;
-    let count = |axis: &GridAxis| {
+    let count = |axis: &ViewAxis| {
         let (every, first) = coarse(axis);
         (axis.count - first).div_ceil(every)
     };
     count(&grid.x) * count(&grid.y)
 }
 
-impl Search<'_> {
+impl PartialSearch<'_> {
     /// Looks at every view of the coarse grid and gives its hypotheses in `found`.
     pub(super) fn coarse<'h>(
         &self,
@@ -87,7 +87,7 @@ impl Search<'_> {
         };
         let mut rough: Vec<Hypothesis, PER_VIEW> = Vec::new();
         for piece in outline.pieces() {
-            for window in self.ladder.windows() {
+            for window in self.levels.windows() {
                 for fit in self.places(view, &piece, window, numbers) {
                     let hypothesis =
                         self.judged(view, &outline, fit.similarity, self.units.wide, FIRST_LOOK);
@@ -134,8 +134,8 @@ impl Search<'_> {
             apart: APART,
             stretch: STRETCH,
         };
-        for (level, scale) in self.ladder.levels(low, high) {
-            let part = self.ladder.samples(window, level, piece.points.len());
+        for (level, scale) in self.levels.levels(low, high) {
+            let part = self.levels.samples(window, level, piece.points.len());
             slide(part, along, &how, scale, &mut sums, &mut best);
         }
         best.retain(|fit| (low..=high).contains(&fit.similarity.scale()));
@@ -173,8 +173,8 @@ impl Search<'_> {
     ) -> Similarity {
         let (low, high) = self.scales(view);
         let mut similarity = start;
-        for share in caps {
-            let cap = self.units.narrow + share * (self.units.wide - self.units.narrow);
+        for wideness in caps {
+            let cap = self.units.narrow + wideness * (self.units.wide - self.units.narrow);
             match self.known.improve(outline, &similarity, cap) {
                 Some(next) if (low..=high).contains(&next.scale()) => similarity = next,
                 _ => break,
@@ -222,7 +222,7 @@ impl Search<'_> {
 const APART: usize = 5;
 /// Windows fit a view when their scale is within this factor of the level's.
 const STRETCH: f64 = 1.2;
-/// See [`Search::improved`].
+/// See [`PartialSearch::improved`].
 const COARSE_CAPS: [f64; 5] = [1.0, 0.7, 0.4, 0.1, 0.0];
 const FINE_CAPS: [f64; 3] = [0.1, 0.0, 0.0];
 /// The eight directions to neighbours.

@@ -1,6 +1,6 @@
 //! Sides of pixels to points at equal distances along a smooth line.
 
-use super::trace::Side;
+use super::trace::PixelSide;
 use crate::math::sqrt;
 
 /// From half pixels to plane coordinates: to the right and upwards from the frame's middle, in
@@ -38,7 +38,7 @@ impl Plane {
 /// stretch. A closed one ends with its first point again.
 #[derive(Clone)]
 pub(super) struct Smooth<'a> {
-    sides: &'a [Side],
+    sides: &'a [PixelSide],
     closed: bool,
     reach: usize,
     plane: Plane,
@@ -49,7 +49,7 @@ pub(super) struct Smooth<'a> {
 }
 
 impl<'a> Smooth<'a> {
-    pub(super) fn new(sides: &'a [Side], closed: bool, reach: usize, plane: Plane) -> Self {
+    pub(super) fn new(sides: &'a [PixelSide], closed: bool, reach: usize, plane: Plane) -> Self {
         Self {
             sides,
             closed,
@@ -71,7 +71,7 @@ impl<'a> Smooth<'a> {
         self.at - reach..self.at + reach + 1
     }
 
-    fn side(&self, at: usize) -> Side {
+    fn side(&self, at: usize) -> PixelSide {
         let count = self.sides.len();
         let shift = if self.closed { count - self.reach } else { 0 };
         self.sides[(at + shift) % count]
@@ -132,8 +132,8 @@ pub(super) fn resample(
     for to in points {
         let side = distance(from, to);
         while emitted < wanted && side > 0.0 && emitted as f64 * step <= passed + side {
-            let share = (emitted as f64 * step - passed) / side;
-            emit([0, 1].map(|k| from[k] + share * (to[k] - from[k])));
+            let fraction = (emitted as f64 * step - passed) / side;
+            emit([0, 1].map(|k| from[k] + fraction * (to[k] - from[k])));
             emitted += 1;
         }
         passed += side;
@@ -170,7 +170,7 @@ mod tests {
     }
 
     /// Oracle: each average on its own.
-    fn naive(sides: &[Side], closed: bool, reach: usize) -> std::vec::Vec<[f64; 2]> {
+    fn naive(sides: &[PixelSide], closed: bool, reach: usize) -> std::vec::Vec<[f64; 2]> {
         let count = sides.len();
         let reach = reach.min(count / 2);
         (0..count + usize::from(closed))
@@ -181,7 +181,7 @@ mod tests {
                     reach.min(at).min(count - 1 - at)
                 };
                 let window = (at + count - reach..=at + count + reach).map(|k| sides[k % count]);
-                let mean = |value: fn(Side) -> u16| {
+                let mean = |value: fn(PixelSide) -> u16| {
                     let sum: f64 = window.clone().map(|side| f64::from(value(side))).sum();
                     sum / (2 * reach + 1) as f64 / 2.0
                 };
@@ -198,7 +198,7 @@ mod tests {
             reach in 0..9usize
         ) {
             let sides: std::vec::Vec<_> =
-                sides.iter().map(|&(column, row)| Side { column, row }).collect();
+                sides.iter().map(|&(column, row)| PixelSide { column, row }).collect();
             let smooth: std::vec::Vec<_> = Smooth::new(&sides, closed, reach, plane()).collect();
             let wanted = naive(&sides, closed, reach);
             prop_assert_eq!(smooth.len(), wanted.len());
@@ -209,16 +209,16 @@ mod tests {
     }
 
     /// Middles of the sides along a staircase that climbs one pixel in three.
-    fn staircase() -> std::vec::Vec<Side> {
+    fn staircase() -> std::vec::Vec<PixelSide> {
         let mut sides = std::vec::Vec::new();
         for step in 0..30u16 {
             for k in 0..3 {
-                sides.push(Side {
+                sides.push(PixelSide {
                     column: 6 * step + 2 * k + 1,
                     row: 160 - 2 * step,
                 });
             }
-            sides.push(Side {
+            sides.push(PixelSide {
                 column: 6 * step + 6,
                 row: 159 - 2 * step,
             });
@@ -245,8 +245,8 @@ mod tests {
 
     #[test]
     fn a_closed_line_goes_round_once_and_a_short_one_gives_nothing() {
-        let corner = |column, row| Side { column, row };
-        let square: std::vec::Vec<Side> = (0..40)
+        let corner = |column, row| PixelSide { column, row };
+        let square: std::vec::Vec<PixelSide> = (0..40)
             .map(|at: u16| match (at / 10, 2 * (at % 10)) {
                 (0, k) => corner(20 + k, 20),
                 (1, k) => corner(40, 20 + k),

@@ -5,8 +5,8 @@ use crate::image::mask::{Mask, Word};
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
 use crate::library::Library;
-use crate::library::{Builder, Grid, GridAxis, ViewScratch};
-use crate::locate::rerank::Verified;
+use crate::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
+use crate::locate::rerank::Reranked;
 use crate::memory::TooLittleMemory;
 use crate::mesh::Model;
 use crate::pose::{EulerPose, Pose, geodesic_deg};
@@ -57,12 +57,12 @@ fn camera() -> Camera {
 }
 
 fn library(model: Model<'_>) -> std::vec::Vec<u8> {
-    let axis = GridAxis {
+    let axis = ViewAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
-    let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
+    let (grid, canonical) = (ViewGrid { x: axis, y: axis }, CanonicalSpec::default());
     let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
@@ -99,12 +99,12 @@ fn locate(
     library: &Library<'_>,
     model: &Model<'_>,
     short: &str,
-) -> Result<Vec<Verified, 4>, PartialError> {
+) -> Result<Vec<Reranked, 4>, PartialError> {
     let needs = partial_needed(library, camera, model);
     let less = |what: &str, needed: usize| needed - usize::from(what == short);
     let memory = PartialMemory {
         words: &mut std::vec![0; less("words", needs.words)],
-        sides: &mut std::vec![Side::default(); less("sides", needs.sides)],
+        sides: &mut std::vec![PixelSide::default(); less("sides", needs.sides)],
         points: &mut std::vec![OutlinePoint::default(); less("points", needs.points)],
         cells: &mut std::vec![0; less("cells", needs.cells)],
         numbers: &mut std::vec![0.0; less("numbers", needs.numbers)],
@@ -125,7 +125,7 @@ fn pose() -> Pose {
     })
 }
 
-fn assert_found(found: &Verified, pose: &Pose, what: &str) {
+fn assert_found(found: &Reranked, pose: &Pose, what: &str) {
     let off = geodesic_deg(&found.located.pose.rotation, &pose.rotation);
     assert!(off < 4.0, "{what}: {off} deg");
     for (k, limit) in [3.0, 3.0, 40.0].into_iter().enumerate() {
@@ -151,7 +151,7 @@ fn a_pose_is_found_from_what_an_occluder_leaves() {
         let mask = Mask::new(&seen, SIDE, SIDE).expect("valid");
         let unknown = Mask::new(&hidden, SIDE, SIDE).expect("valid");
         let silhouette = Silhouette::new(&mask, &unknown).expect("one size");
-        assert!(known_share(&silhouette).is_partial());
+        assert!(known_fraction(&silhouette).is_partial());
         let found = locate(&silhouette, &camera(), &library, &model, "").expect("found");
         assert_found(&found[0], &pose(), if solid { "solid" } else { "clear" });
     }
@@ -172,7 +172,7 @@ fn a_pose_is_found_where_the_frame_cuts_the_object_off() {
     let words = draw(&model, &cut);
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let silhouette = Silhouette::from(&mask);
-    assert!(known_share(&silhouette).cut > 20);
+    assert!(known_fraction(&silhouette).cut > 20);
     let found = locate(&silhouette, &camera(), &library, &model, "").expect("found");
     assert_found(&found[0], &cut, "cut");
 }

@@ -12,7 +12,7 @@ pub(super) const STRETCHES: usize = 16;
 /// Middle of a pixel side, in half pixels from the frame's upper left corner. Opaque: only a
 /// length to be lent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Side {
+pub struct PixelSide {
     pub(super) column: u16,
     pub(super) row: u16,
 }
@@ -44,7 +44,7 @@ pub(super) type Stretches = Vec<Stretch, STRETCHES>;
 pub(super) fn trace(
     silhouette: &Silhouette<'_>,
     visited: &mut MaskMut<'_>,
-    sides: &mut [Side],
+    sides: &mut [PixelSide],
     least: usize,
 ) -> Option<Stretches> {
     visited.clear();
@@ -72,7 +72,7 @@ pub(super) fn trace(
 
 struct Tracer<'a> {
     silhouette: &'a Silhouette<'a>,
-    sides: &'a mut [Side],
+    sides: &'a mut [PixelSide],
     used: usize,
     least: usize,
     stretches: Stretches,
@@ -154,10 +154,10 @@ impl Tracer<'_> {
     }
 }
 
-fn middle(at: Crack) -> Side {
+fn middle(at: Crack) -> PixelSide {
     let next = at.step();
     // A mask has at most 16 384 pixels a side.
-    Side {
+    PixelSide {
         column: (at.column + next.column) as u16,
         row: (at.row + next.row) as u16,
     }
@@ -216,7 +216,7 @@ mod tests {
             let silhouette = Silhouette::new(&mask, &unknown).expect("one size");
             let mut memory = [0; WORDS];
             let mut visited = MaskMut::new(&mut memory, WIDTH, HEIGHT).expect("fits");
-            let mut sides = [Side::default(); 512];
+            let mut sides = [PixelSide::default(); 512];
             let stretches = trace(&silhouette, &mut visited, &mut sides, 1).expect("fits");
             prop_assume!(!stretches.is_full());
             let mut listed: std::vec::Vec<_> = stretches
@@ -253,7 +253,7 @@ mod tests {
         let mask = Mask::new(&words, 32, 16).expect("valid");
         let mut memory = [0; 16];
         let mut visited = MaskMut::new(&mut memory, 32, 16).expect("fits");
-        let mut sides = [Side::default(); 100];
+        let mut sides = [PixelSide::default(); 100];
         let silhouette = Silhouette::from(&mask);
         let stretches = trace(&silhouette, &mut visited, &mut sides, 4).expect("fits");
         let found: std::vec::Vec<_> = stretches.iter().map(|s| (s.len(), s.closed)).collect();
@@ -277,7 +277,7 @@ mod tests {
         let mask = Mask::new(&words, 64, 32).expect("valid");
         let mut memory = [0; 64];
         let mut visited = MaskMut::new(&mut memory, 64, 32).expect("fits");
-        let mut sides = [Side::default(); 2000];
+        let mut sides = [PixelSide::default(); 2000];
         let silhouette = Silhouette::from(&mask);
         let stretches = trace(&silhouette, &mut visited, &mut sides, 1).expect("fits");
         let least = stretches.iter().map(Stretch::len).min();

@@ -2,7 +2,7 @@
 
 use super::outline::{OutlinePoint, OutlinePoints, Sampling};
 use super::smooth::Plane;
-use super::trace::{Side, trace};
+use super::trace::{PixelSide, trace};
 use super::units::Units;
 use crate::image::mask::{Mask, MaskMut, Word};
 use crate::image::silhouette::Silhouette;
@@ -17,7 +17,7 @@ pub(super) struct ViewMemory<'a> {
     pub(super) bits: &'a mut [Word],
     /// As many again.
     pub(super) visited: &'a mut [Word],
-    pub(super) sides: &'a mut [Side],
+    pub(super) sides: &'a mut [PixelSide],
     pub(super) points: &'a mut [OutlinePoint],
 }
 

@@ -86,17 +86,17 @@ impl Samples {
         Some(samples)
     }
 
-    /// One point for each equal share of the area, in the triangles' order; within a triangle
+    /// One point for each of [`SAMPLES`] equal parts of the area, in the triangles' order; within a triangle
     /// by the additive recurrence of Roberts ("The unreasonable effectiveness of quasirandom
     /// sequences"), so that large triangles are covered evenly.
     fn draw(&mut self, mesh: &Mesh<'_>, whole: f64) {
-        let share = whole / SAMPLES as f64;
+        let each = whole / SAMPLES as f64;
         let mut covered = 0.0;
         let mut count = 0;
         for triangle in mesh.triangles() {
             let corners = corners(mesh, triangle, &self.origin);
             covered += area(&corners);
-            while count < SAMPLES && (count as f64 + 0.5) * share <= covered {
+            while count < SAMPLES && (count as f64 + 0.5) * each <= covered {
                 let number = count as f64 + 1.0;
                 let s = fraction(number * 0.754_877_666_246_692_8);
                 let t = fraction(number * 0.569_840_290_998_053_3);

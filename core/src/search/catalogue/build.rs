@@ -77,9 +77,9 @@ impl<'c> Catalogue<'c> {
         let leaves = &mut memory.leaves[..needs.leaves];
         let scratch = &mut memory.scratch[..needs.scratch];
         let (extremes, centres) = scratch.split_at_mut(2 * blocks(&spec));
-        let (ground, boxes) = memory.boxes[..needs.boxes].split_at_mut(blocks(&spec));
-        let moving = find_ground(libraries, extremes, ground, memory.places);
-        let places = &memory.places[..moving];
+        let (common, boxes) = memory.boxes[..needs.boxes].split_at_mut(blocks(&spec));
+        let varying = find_common(libraries, extremes, common, memory.places);
+        let places = &memory.places[..varying];
         plant(libraries, leaves);
         let (view, _) = extremes.split_at_mut(blocks(&spec));
         let mut builder = Builder {
@@ -102,7 +102,7 @@ impl<'c> Catalogue<'c> {
                 leaves: leaves,
                 boxes: builder.boxes,
                 places,
-                ground,
+                common,
             },
         })
     }
@@ -125,18 +125,18 @@ fn one_frame(libraries: &[Library<'_>]) -> Result<CanonicalSpec, CatalogueError>
 
 /// Finds the blocks that are alike in all views of all libraries, writes them as ground, and the numbers of the
 /// others as places; returns how many those are.
-fn find_ground(
+fn find_common(
     libraries: &[Library<'_>],
     extremes: &mut [u8],
-    ground: &mut [u8],
+    common: &mut [u8],
     places: &mut [u16],
 ) -> usize {
-    let (low, high) = extremes.split_at_mut(ground.len());
+    let (low, high) = extremes.split_at_mut(common.len());
     low.fill(u8::MAX);
     high.fill(0);
     for sketches in libraries.iter().filter_map(|library| library.sketches()) {
         let mut own = sketches.places().enumerate().peekable();
-        for (block, &alike) in sketches.ground.iter().enumerate() {
+        for (block, &alike) in sketches.common.iter().enumerate() {
             let column = own.next_if(|&(_, place)| place == block);
             let (least, most) = match column {
                 Some((column, _)) => {
@@ -152,16 +152,16 @@ fn find_ground(
             high[block] = high[block].max(most);
         }
     }
-    let mut moving = 0;
-    for (block, ground) in ground.iter_mut().enumerate() {
+    let mut varying = 0;
+    for (block, common) in common.iter_mut().enumerate() {
         let same = low[block] == high[block];
-        *ground = if same { low[block] } else { 0 };
+        *common = if same { low[block] } else { 0 };
         if !same {
-            places[moving] = block as u16;
-            moving += 1;
+            places[varying] = block as u16;
+            varying += 1;
         }
     }
-    moving
+    varying
 }
 
 fn plant(libraries: &[Library<'_>], leaves: &mut [Leaf]) {
@@ -197,7 +197,7 @@ impl Builder<'_, '_> {
         let Some(sketches) = library.sketches() else {
             return;
         };
-        self.view.copy_from_slice(sketches.ground);
+        self.view.copy_from_slice(sketches.common);
         for (place, &count) in sketches.places().zip(sketches.of(view)) {
             self.view[place] = count;
         }

@@ -9,7 +9,7 @@ use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, longest_sketch};
-use crate::search::scores::{Candidate, MatchError};
+use crate::search::scores::{MatchError, ViewMatch};
 use crate::shortlist::keep;
 
 /// The best view of one library of a catalogue.
@@ -18,7 +18,7 @@ pub struct Identified {
     /// Number of the library.
     pub library: usize,
     /// Its best view.
-    pub best: Candidate,
+    pub best: ViewMatch,
 }
 
 /// Bytes of working memory of [`Catalogue::identify`].
@@ -59,10 +59,10 @@ impl<'c> Catalogue<'c> {
             return Err(MatchError::Canonical);
         }
         let bytes = first("bytes", identify_bytes_needed(&spec), bytes)?;
-        Ok(self.hunt::<K, WAITING>(query, kernels, bytes))
+        Ok(self.best_first::<K, WAITING>(query, kernels, bytes))
     }
 
-    pub(super) fn hunt<const K: usize, const ROOM: usize>(
+    pub(super) fn best_first<const K: usize, const ROOM: usize>(
         &self,
         query: &Query<'_>,
         kernels: &Kernels,
@@ -70,33 +70,33 @@ impl<'c> Catalogue<'c> {
     ) -> Vec<Identified, K> {
         let (ours, leaf) = bytes.split_at_mut(4 * longest_sketch(&self.spec()));
         let tree = &self.tree;
-        let (straight, turned) = ours.split_at_mut(ours.len() / 2);
-        let sides = [(false, straight), (true, turned)].map(|(reversed, bytes)| {
+        let (straight, rotated) = ours.split_at_mut(ours.len() / 2);
+        let sides = [(false, straight), (true, rotated)].map(|(reversed, bytes)| {
             let (low, high) = bytes.split_at_mut(bytes.len() / 2);
             let (low, high) = (&mut low[..tree.stride()], &mut high[..tree.stride()]);
             let out = [&mut *low, &mut *high];
-            let base = query.gather(tree.places(), tree.ground, reversed, kernels, out);
-            Side {
+            let base = query.gather(tree.places(), tree.common, reversed, kernels, out);
+            DirectionBlocks {
                 base,
                 blocks: [low, high],
             }
         });
-        let mut hunt = Hunt {
+        let mut best_first = BestFirst {
             catalogue: self,
             query,
             kernels,
             leaf,
             sides,
-            found: Found::new(),
+            found: BestOfLibraries::new(),
         };
-        hunt.run::<ROOM>();
-        hunt.found.list
+        best_first.run::<ROOM>();
+        best_first.found.list
     }
 }
 
 /// A node that may hold something better, and its bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Open {
+struct OpenNode {
     bound: u32,
     reversed: bool,
     node: Node,
@@ -104,7 +104,7 @@ struct Open {
 
 /// The silhouette's blocks at the tree's places.
 #[derive(Clone, Copy, Debug)]
-struct Side<'h> {
+struct DirectionBlocks<'h> {
     /// What the other blocks differ by.
     base: u32,
     /// Least and most set pixels.
@@ -118,20 +118,20 @@ const WAITING: usize = 256;
 const LEVELS: usize = 33;
 
 /// One search of the tree.
-struct Hunt<'h, const K: usize> {
+struct BestFirst<'h, const K: usize> {
     catalogue: &'h Catalogue<'h>,
     query: &'h Query<'h>,
     kernels: &'h Kernels,
     leaf: &'h mut [u8],
     /// Straight, and reversed.
-    sides: [Side<'h>; 2],
-    found: Found<K>,
+    sides: [DirectionBlocks<'h>; 2],
+    found: BestOfLibraries<K>,
 }
 
-impl<const K: usize> Hunt<'_, K> {
+impl<const K: usize> BestFirst<'_, K> {
     /// The nearest node first: none is opened whose bound exceeds the last answer.
     fn run<const ROOM: usize>(&mut self) {
-        let mut waiting: BinaryHeap<Open, Min, ROOM> = BinaryHeap::new();
+        let mut waiting: BinaryHeap<OpenNode, Min, ROOM> = BinaryHeap::new();
         for reversed in [false, true] {
             let root = self.open(self.catalogue.tree.root(), reversed);
             if waiting.push(root).is_err() {
@@ -151,8 +151,8 @@ impl<const K: usize> Hunt<'_, K> {
     }
 
     /// Depth first, which needs two places a level.
-    fn look_through(&mut self, open: Open) {
-        let mut waiting: Vec<Open, { 2 * LEVELS }> = Vec::new();
+    fn look_through(&mut self, open: OpenNode) {
+        let mut waiting: Vec<OpenNode, { 2 * LEVELS }> = Vec::new();
         let _ = waiting.push(open);
         while let Some(next) = waiting.pop() {
             if next.bound <= self.found.limit() {
@@ -161,9 +161,9 @@ impl<const K: usize> Hunt<'_, K> {
         }
     }
 
-    fn open(&self, node: Node, reversed: bool) -> Open {
+    fn open(&self, node: Node, reversed: bool) -> OpenNode {
         let side = &self.sides[usize::from(reversed)];
-        Open {
+        OpenNode {
             bound: side.base + (self.kernels.gap)(side.blocks, self.catalogue.tree.bounds(&node)),
             node,
             reversed,
@@ -171,7 +171,7 @@ impl<const K: usize> Hunt<'_, K> {
     }
 
     /// The children of a node, the nearer last; none of a leaf, which is looked at instead.
-    fn children(&mut self, open: Open) -> Vec<Open, 2> {
+    fn children(&mut self, open: OpenNode) -> Vec<OpenNode, 2> {
         let mut children = Vec::new();
         if open.node.is_leaf() {
             self.look_at(open.node.first, open.reversed);
@@ -215,7 +215,7 @@ impl<const K: usize> Hunt<'_, K> {
                 let unmatched = self.query.unmatched(library, view, reversed, self.kernels);
                 self.found.offer(Identified {
                     library: number,
-                    best: Candidate {
+                    best: ViewMatch {
                         view,
                         reversed,
                         unmatched,
@@ -227,11 +227,11 @@ impl<const K: usize> Hunt<'_, K> {
 }
 
 /// The best view of each of the `K` best libraries so far, best first.
-struct Found<const K: usize> {
+struct BestOfLibraries<const K: usize> {
     list: Vec<Identified, K>,
 }
 
-impl<const K: usize> Found<K> {
+impl<const K: usize> BestOfLibraries<K> {
     fn new() -> Self {
         Self { list: Vec::new() }
     }

@@ -43,13 +43,13 @@ fn cases() -> impl Strategy<Value = (std::vec::Vec<std::vec::Vec<u8>>, Bits)> {
 }
 
 fn best_of_each(libraries: &[Library<'_>], silhouette: &[Word]) -> std::vec::Vec<Identified> {
-    let mut turned = silhouette.to_vec();
+    let mut rotated = silhouette.to_vec();
     let mut all: std::vec::Vec<Identified> = libraries
         .iter()
         .enumerate()
         .map(|(number, library)| {
             let mut scores = std::vec![0; scores_needed(library.views())];
-            let scores = score(library, silhouette, &mut turned, &mut scores).expect("lengths");
+            let scores = score(library, silhouette, &mut rotated, &mut scores).expect("lengths");
             Identified {
                 library: number,
                 best: scores.best::<1>()[0],
@@ -78,7 +78,7 @@ impl Memory {
         }
     }
 
-    fn lend(&mut self) -> CatalogueMemory<'_> {
+    fn borrow(&mut self) -> CatalogueMemory<'_> {
         CatalogueMemory {
             leaves: &mut self.leaves,
             boxes: &mut self.boxes,
@@ -94,11 +94,11 @@ proptest! {
         let libraries: std::vec::Vec<_> =
             files.iter().map(|bytes| Library::open(bytes).expect("valid")).collect();
         let mut memory = Memory::for_libraries(&libraries);
-        let catalogue = Catalogue::new(&libraries, memory.lend()).expect("they go together");
-        let mut turned = silhouette.clone();
-        reverse(&silhouette, &mut turned);
+        let catalogue = Catalogue::new(&libraries, memory.borrow()).expect("they go together");
+        let mut rotated = silhouette.clone();
+        reverse(&silhouette, &mut rotated);
         let mut prepared = std::vec![0; query_bytes_needed(&spec(), false)];
-        let query = Query::new(&spec(), &silhouette, &turned, None, &mut prepared).expect("lengths");
+        let query = Query::new(&spec(), &silhouette, &rotated, None, &mut prepared).expect("lengths");
         let mut bytes = std::vec![0; identify_bytes_needed(&spec())];
         let wanted = best_of_each(&libraries, &silhouette);
         let kernels = Kernels::PORTABLE;
@@ -110,8 +110,8 @@ proptest! {
         prop_assert_eq!(&all[..], &wanted[..]);
         // With hardly a place for nodes that wait, most are looked through depth first.
         for crowded in [
-            catalogue.hunt::<3, 1>(&query, &kernels, &mut bytes),
-            catalogue.hunt::<3, 3>(&query, &kernels, &mut bytes),
+            catalogue.best_first::<3, 1>(&query, &kernels, &mut bytes),
+            catalogue.best_first::<3, 3>(&query, &kernels, &mut bytes),
         ] {
             prop_assert_eq!(&crowded[..], &wanted[..wanted.len().min(3)]);
         }
@@ -131,7 +131,7 @@ fn libraries_that_do_not_go_together_are_refused() {
     let open = |bytes| Library::open(bytes).expect("valid");
     let error = |libraries: &[Library<'_>]| {
         let mut memory = Memory::for_libraries(libraries);
-        Catalogue::new(libraries, memory.lend()).err()
+        Catalogue::new(libraries, memory.borrow()).err()
     };
     assert_eq!(error(&[]), Some(CatalogueError::Empty));
     assert_eq!(

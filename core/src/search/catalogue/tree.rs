@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use crate::library::sketch::STRIDE;
-use crate::library::{Grid, Library};
+use crate::library::{Library, ViewGrid};
 
 /// Views of a patch along each axis of the grid.
 pub(super) const PATCH: usize = 3;
@@ -24,7 +24,7 @@ pub(super) struct Tree<'c> {
     /// Numbers of the blocks that differ within the catalogue.
     pub(super) places: &'c [u16],
     /// Of the others.
-    pub(super) ground: &'c [u8],
+    pub(super) common: &'c [u8],
 }
 
 /// A node by its number and its leaves.
@@ -98,7 +98,7 @@ pub struct Leaf {
 
 impl Leaf {
     /// The views of the patch, row by row: at most [`PATCH`] that follow one another.
-    pub(super) fn rows(&self, grid: &Grid) -> impl Iterator<Item = Range<usize>> + use<> {
+    pub(super) fn rows(&self, grid: &ViewGrid) -> impl Iterator<Item = Range<usize>> + use<> {
         let grid = *grid;
         let (x, y) = grid.place(self.corner as usize);
         let count = PATCH.min(grid.x.count - x);
@@ -106,7 +106,7 @@ impl Leaf {
         rows.map(move |y| grid.view(x, y)..grid.view(x, y) + count)
     }
 
-    pub(super) fn middle(&self, grid: &Grid) -> usize {
+    pub(super) fn middle(&self, grid: &ViewGrid) -> usize {
         let (x, y) = grid.place(self.corner as usize);
         let within = |first: usize, count: usize| (first + PATCH / 2).min(count - 1);
         grid.view(within(x, grid.x.count), within(y, grid.y.count))
@@ -114,7 +114,7 @@ impl Leaf {
 }
 
 /// The corners of a library's patches.
-pub(super) fn corners(grid: &Grid) -> impl Iterator<Item = usize> + use<> {
+pub(super) fn corners(grid: &ViewGrid) -> impl Iterator<Item = usize> + use<> {
     let grid = *grid;
     let rows = (0..grid.y.count).step_by(PATCH);
     rows.flat_map(move |y| {

@@ -49,9 +49,9 @@ struct Oracle {
 impl Oracle {
     fn new(library: &Library<'_>, silhouette: &[Word]) -> (Self, Bits) {
         let mut scores = std::vec![0; scores_needed(library.views())];
-        let mut turned = silhouette.to_vec();
-        score(library, silhouette, &mut turned, &mut scores).expect("right lengths");
-        (Self { scores }, turned)
+        let mut rotated = silhouette.to_vec();
+        score(library, silhouette, &mut rotated, &mut scores).expect("right lengths");
+        (Self { scores }, rotated)
     }
 
     fn surfaces(&mut self, library: &Library<'_>) -> Scores<'_> {
@@ -64,7 +64,7 @@ impl Oracle {
 }
 
 /// Unmatched pixels of the best view, and four times what its farthest neighbour differs by, pixel by pixel.
-fn farthest_rival(library: &Library<'_>, best: &Candidate) -> u32 {
+fn farthest_rival(library: &Library<'_>, best: &ViewMatch) -> u32 {
     let drawn = |view: usize| {
         let mut words = std::vec![0; spec().words_needed()];
         library.draw(view, &mut words);
@@ -80,20 +80,20 @@ fn farthest_rival(library: &Library<'_>, best: &Candidate) -> u32 {
 
 fn check_search(bytes: &[u8], silhouette: &[Word]) {
     let library = Library::open(bytes).expect("valid");
-    let (mut oracle, turned) = Oracle::new(&library, silhouette);
+    let (mut oracle, rotated) = Oracle::new(&library, silhouette);
     let mut prepared = std::vec![0; query_bytes_needed(&spec(), false)];
     let query =
-        Query::new(&spec(), silhouette, &turned, None, &mut prepared).expect("right lengths");
+        Query::new(&spec(), silhouette, &rotated, None, &mut prepared).expect("right lengths");
     let surfaces = oracle.surfaces(&library);
     let mut bounds = [0; scores_needed(VIEWS)];
     let mut sketches = std::vec![0; search_bytes_needed(&spec())];
-    let mut fresh = |answer: &mut dyn FnMut(&mut Search<'_, '_>)| {
-        let memory = SearchMemory {
+    let mut fresh = |answer: &mut dyn FnMut(&mut ViewSearch<'_, '_>)| {
+        let memory = ViewSearchMemory {
             bounds: &mut bounds,
             sketches: &mut sketches,
         };
         let kernels = Kernels::PORTABLE;
-        answer(&mut Search::new(&library, &query, &kernels, memory).expect("right lengths"));
+        answer(&mut ViewSearch::new(&library, &query, &kernels, memory).expect("right lengths"));
     };
     fresh(&mut |search| {
         for view in 0..VIEWS {
@@ -151,27 +151,27 @@ proptest! {
     fn unknown_pixels_do_not_count((views, silhouette) in cases(), unknown in spots(SIZE)) {
         let plain = plain_library(&views, COLUMNS, spec());
         let compact = compact_library(&plain);
-        let mut turned = silhouette.clone();
-        reverse(&silhouette, &mut turned);
-        let mut unknown_turned = unknown.clone();
-        reverse(&unknown, &mut unknown_turned);
+        let mut rotated = silhouette.clone();
+        reverse(&silhouette, &mut rotated);
+        let mut unknown_rotated = unknown.clone();
+        reverse(&unknown, &mut unknown_rotated);
         let mut prepared = std::vec![0; query_bytes_needed(&spec(), true)];
-        let query = Query::new(&spec(), &silhouette, &turned, Some(&unknown), &mut prepared)
+        let query = Query::new(&spec(), &silhouette, &rotated, Some(&unknown), &mut prepared)
             .expect("right lengths");
         for bytes in [&plain, &compact] {
             let library = Library::open(bytes).expect("valid");
             let mut bounds = [0; scores_needed(VIEWS)];
             let mut sketches = std::vec![0; search_bytes_needed(&spec())];
-            let memory = SearchMemory { bounds: &mut bounds, sketches: &mut sketches };
+            let memory = ViewSearchMemory { bounds: &mut bounds, sketches: &mut sketches };
             let kernels = Kernels::PORTABLE;
-            let mut search = Search::new(&library, &query, &kernels, memory).expect("right lengths");
+            let mut search = ViewSearch::new(&library, &query, &kernels, memory).expect("right lengths");
             let mut all = std::vec::Vec::new();
-            for (reversed, ours, unknown) in [(false, &silhouette, &unknown), (true, &turned, &unknown_turned)] {
+            for (reversed, ours, unknown) in [(false, &silhouette, &unknown), (true, &rotated, &unknown_rotated)] {
                 for (view, theirs) in views.iter().enumerate() {
                     let pixels = ours.iter().zip(theirs).zip(unknown);
                     let unmatched = pixels.map(|((a, b), open)| ((a ^ b) & !open).count_ones()).sum();
                     prop_assert!(search.at_least(view, reversed) <= unmatched);
-                    all.push(Candidate { view, reversed, unmatched });
+                    all.push(ViewMatch { view, reversed, unmatched });
                 }
             }
             all.sort_by_key(|candidate| candidate.unmatched);
@@ -194,11 +194,11 @@ fn memory_of_a_wrong_length_is_refused() {
     let query =
         Query::new(&spec(), &silhouette, &silhouette, None, &mut prepared).expect("right lengths");
     let mut sketches = std::vec![0; search_bytes_needed(&spec())];
-    let memory = SearchMemory {
+    let memory = ViewSearchMemory {
         bounds: &mut [0; VIEWS],
         sketches: &mut sketches,
     };
-    let short = Search::new(&library, &query, &Kernels::PORTABLE, memory).err();
+    let short = ViewSearch::new(&library, &query, &Kernels::PORTABLE, memory).err();
     assert!(matches!(
         short,
         Some(MatchError::Memory(TooLittleMemory { what: "scores", .. }))

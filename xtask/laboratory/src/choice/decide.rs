@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::Result;
 use fluoropose::finder::choice::{
-    Candidate, Choice, Counterpart, FilmFrame, FilmStep, Open, Reason, choose_film,
+    Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film,
 };
 
 use crate::finding::{Answer, FrameFound, misfit};
@@ -36,7 +36,7 @@ impl fmt::Display for Decision {
             reason => reason.fmt(f)?,
         }
         match self.choice.open {
-            Some(Open {
+            Some(OpenRival {
                 chosen_px,
                 other_px,
                 ..
@@ -59,11 +59,11 @@ pub fn decide(
     film: &[FrameFound],
     counterparts: &[Option<Counterpart>],
 ) -> Result<Vec<Option<Decision>>> {
-    let candidate = |answer: &Answer| Candidate {
+    let candidate = |answer: &Answer| RivalPose {
         pose: answer.pose,
         residual_px: misfit(answer),
     };
-    let candidates: Vec<Vec<Candidate>> = film
+    let candidates: Vec<Vec<RivalPose>> = film
         .iter()
         .map(|frame| frame.answers.iter().map(candidate).collect())
         .collect();

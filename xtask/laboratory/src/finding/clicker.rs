@@ -94,7 +94,7 @@ impl Buffers {
             words: &mut self.words,
             workspace: Workspace {
                 canonical: &mut self.canonical,
-                turned: &mut self.turned,
+                rotated: &mut self.turned,
                 scores: &mut self.scores,
                 bytes: &mut self.bytes,
                 kernels: fluoropose_kernels::fastest(),

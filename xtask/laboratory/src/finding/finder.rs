@@ -4,11 +4,11 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::finder::rivals::{RefinedRival, worth_refining};
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::locate::rerank::Verified;
+use fluoropose::locate::rerank::Reranked;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, View};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, Refined};
 use serde::Serialize;
 
 use super::locator::Locator;
@@ -85,7 +85,7 @@ pub struct Answer {
     /// `camera_from_model`, as good as the method makes it.
     pub pose: Pose,
     /// What the library said.
-    pub located: Verified,
+    pub located: Reranked,
     /// What refinement made of it, where it was asked for.
     pub refined: Option<Refined>,
     /// How sure the refined pose is.
@@ -140,7 +140,7 @@ impl<'l> Finder<'l> {
         let camera = self.camera;
         let worth = worth_refining(&rivals);
         let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let view = View::only(&camera, seen.silhouette);
+        let view = CameraView::only(&camera, seen.silhouette);
         let refined = self.refiner.refine(&[view], &starts)?;
         if self.method == Method::Refined {
             return self.answers(&view, &refined, |found| worth[found.start]);
@@ -152,16 +152,16 @@ impl<'l> Finder<'l> {
             .map(|found| found.refined.pose);
         let poses: Vec<Pose> = poses.collect();
         let on_image = self.refine_on_image(seen, &poses)?;
-        let view = View::only(&camera, image(seen, self.edges)?);
+        let view = CameraView::only(&camera, image(seen, self.edges)?);
         self.answers(&view, &on_image, |found| worth[refined[found.start].start])
     }
 
     /// Refined poses with what led to them and how sure they are.
     fn answers(
         &mut self,
-        view: &View<'_>,
+        view: &CameraView<'_>,
         refined: &[RefinedRival],
-        located: impl Fn(&RefinedRival) -> Verified,
+        located: impl Fn(&RefinedRival) -> Reranked,
     ) -> Result<Vec<Answer>> {
         let answer = |found: &RefinedRival| {
             let covariance = self.refiner.uncertainty(&[*view], &found.refined)?;
@@ -181,7 +181,7 @@ impl<'l> Finder<'l> {
     /// Where none can be refined.
     pub fn refine_views(
         &mut self,
-        views: &[View<'_>],
+        views: &[CameraView<'_>],
         starts: &[Pose],
     ) -> Result<Vec<(Refined, Option<PoseCovariance>)>> {
         let found = self.refiner.refine(views, starts)?;
@@ -207,7 +207,7 @@ impl<'l> Finder<'l> {
         seen: &Seen<'_>,
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>> {
-        let view = View::only(&self.camera, image(seen, self.edges)?);
+        let view = CameraView::only(&self.camera, image(seen, self.edges)?);
         Ok(self.refiner.refine_as_given(&[view], starts)?)
     }
 
@@ -222,7 +222,7 @@ impl<'l> Finder<'l> {
 }
 
 impl Answer {
-    fn unrefined(located: &Verified) -> Self {
+    fn unrefined(located: &Reranked) -> Self {
         Self {
             pose: located.located.pose,
             located: *located,

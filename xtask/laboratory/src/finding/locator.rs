@@ -5,8 +5,8 @@ use fluoropose::camera::Camera;
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::locate::partial::{PartialBuffers, known_share, locate_partial};
-use fluoropose::locate::rerank::{Verified, verify};
+use fluoropose::locate::partial::{PartialBuffers, known_fraction, locate_partial};
+use fluoropose::locate::rerank::{Reranked, rerank};
 use fluoropose::locate::{Workspace, locate, workspace_needed};
 use fluoropose::mesh::Model;
 use fluoropose::render::{Projected, scratch_needed};
@@ -20,7 +20,7 @@ pub(super) const RIVALS: usize = 6;
 const DOUBTFUL_SHARE: f64 = 0.06;
 
 /// The poses that explain a silhouette, best first; at least one.
-pub(super) type Rivals = Vec<Verified>;
+pub(super) type Rivals = Vec<Reranked>;
 
 /// An opened library, its model, and memory lent to the core for each silhouette.
 pub struct Locator<'l> {
@@ -68,9 +68,9 @@ impl<'l> Locator<'l> {
     /// and nobody said so, pieces of its outline lead to further poses.
     ///
     /// # Errors
-    /// Those of [`locate`], [`verify`] and [`locate_partial`].
+    /// Those of [`locate`], [`rerank`] and [`locate_partial`].
     pub fn locate(&mut self, silhouette: &Silhouette<'_>, camera: &Camera) -> Result<Rivals> {
-        if known_share(silhouette).is_partial() {
+        if known_fraction(silhouette).is_partial() {
             return self.locate_partial(silhouette, camera);
         }
         let mut rivals = self.locate_whole(silhouette, camera)?;
@@ -88,7 +88,7 @@ impl<'l> Locator<'l> {
     fn locate_whole(&mut self, silhouette: &Silhouette<'_>, camera: &Camera) -> Result<Rivals> {
         let work = Workspace {
             canonical: &mut self.canonical,
-            turned: &mut self.turned,
+            rotated: &mut self.turned,
             scores: &mut self.scores,
             bytes: &mut self.bytes,
             kernels: fluoropose_kernels::fastest(),
@@ -97,7 +97,7 @@ impl<'l> Locator<'l> {
         let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;
         let rivals = drawn.draw(|drawn| {
             let scratch = &mut self.projected;
-            verify::<RIVALS>(&found.poses, &self.mesh, camera, silhouette, scratch, drawn)
+            rerank::<RIVALS>(&found.poses, &self.mesh, camera, silhouette, scratch, drawn)
         })?;
         Ok(rivals.to_vec())
     }

@@ -9,7 +9,7 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{
-    RefineBuffers, RefineError, RefineMemory, RefineOptions, Refined, View, uncertainty,
+    CameraView, RefineBuffers, RefineError, RefineMemory, RefineOptions, Refined, uncertainty,
 };
 
 /// A model to be refined, with working memory that grows with the frames.
@@ -47,7 +47,7 @@ impl<'m> Refiner<'m> {
     /// Those of [`refine_rivals`].
     pub fn refine(
         &mut self,
-        views: &[View<'_>],
+        views: &[CameraView<'_>],
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>, RefineError> {
         let mut memory = self.buffers.borrow_for(&self.model, views);
@@ -62,7 +62,7 @@ impl<'m> Refiner<'m> {
     /// Those of [`refine_rivals`].
     pub fn refine_as_given(
         &mut self,
-        views: &[View<'_>],
+        views: &[CameraView<'_>],
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>, RefineError> {
         let mut memory = self.buffers.borrow_for(&self.model, views);
@@ -95,7 +95,7 @@ impl<'m> Refiner<'m> {
     /// Those of [`uncertainty`].
     pub fn uncertainty(
         &mut self,
-        views: &[View<'_>],
+        views: &[CameraView<'_>],
         refined: &Refined,
     ) -> Result<Option<PoseCovariance>, RefineError> {
         let mut memory = self.buffers.borrow_for(&self.model, views);

@@ -2,7 +2,7 @@
 
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::canonical::CanonicalSpec;
-use fluoropose::library::Grid;
+use fluoropose::library::ViewGrid;
 
 use crate::options::{Pair, Range};
 
@@ -43,7 +43,7 @@ pub struct ViewOptions {
 
 impl Default for ViewOptions {
     fn default() -> Self {
-        let grid = Grid::default();
+        let grid = ViewGrid::default();
         Self {
             nominal: Pair::default(),
             x: Range(grid.x),
@@ -57,9 +57,9 @@ impl Default for ViewOptions {
 
 impl ViewOptions {
     /// The grid about the nominal view.
-    pub fn grid(&self) -> Grid {
+    pub fn grid(&self) -> ViewGrid {
         let Pair([x, y]) = self.nominal;
-        Grid {
+        ViewGrid {
             x: self.x.0.shifted(x),
             y: self.y.0.shifted(y),
         }

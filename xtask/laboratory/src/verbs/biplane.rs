@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{Refined, View};
+use fluoropose::refine::{CameraView, Refined};
 
 use crate::files::{read, read_calibration, read_model, write_poses};
 
@@ -87,10 +87,10 @@ pub fn run(args: Args) -> Result<()> {
         let (one, two) = (one.mask(), two.mask());
         let silhouette = Silhouette::from(&one);
         let views = [
-            View::only(&first.camera, silhouette),
-            View {
+            CameraView::only(&first.camera, silhouette),
+            CameraView {
                 placement,
-                ..View::only(&second.camera, &two)
+                ..CameraView::only(&second.camera, &two)
             },
         ];
         let found = pair(&mut finder, &silhouette, &views)
@@ -107,7 +107,7 @@ pub fn run(args: Args) -> Result<()> {
 fn pair(
     finder: &mut Finder<'_>,
     silhouette: &Silhouette<'_>,
-    views: &[View<'_>],
+    views: &[CameraView<'_>],
 ) -> Result<(Refined, Option<PoseCovariance>)> {
     let answers = finder.all(&(*silhouette).into())?;
     let starts: Vec<Pose> = answers.iter().map(|answer| answer.pose).collect();

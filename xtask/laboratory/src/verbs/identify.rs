@@ -135,7 +135,7 @@ fn pose_line(
     let needs = workspace_needed(library);
     let work = Workspace {
         canonical: &mut vec![0; needs.words],
-        turned: &mut vec![0; needs.words],
+        rotated: &mut vec![0; needs.words],
         scores: &mut vec![0; needs.scores],
         bytes: &mut vec![0; needs.bytes],
         kernels: fluoropose_kernels::fastest(),

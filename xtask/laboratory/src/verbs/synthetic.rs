@@ -6,13 +6,13 @@ use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
-use fluoropose::library::{Grid, GridAxis};
+use fluoropose::library::{ViewAxis, ViewGrid};
 use fluoropose::math::{Vector3, add, apply, multiply, norm, rotation_by, scale};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::View;
+use fluoropose::refine::CameraView;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
@@ -366,7 +366,7 @@ impl Search<'_> {
         let camera = self.camera;
         let found = match self.variant.biplane {
             None => seen.see(|silhouette| {
-                let view = View::only(&camera, silhouette);
+                let view = CameraView::only(&camera, silhouette);
                 self.finder.refine_views(&[view], &starts)
             })?,
             Some(angle) => {
@@ -374,11 +374,11 @@ impl Search<'_> {
                 let other = scene.observe_from(&placement, reference, frame)?;
                 seen.see(|first| {
                     other.see(|second| {
-                        let second = View {
+                        let second = CameraView {
                             placement,
-                            ..View::only(&camera, second)
+                            ..CameraView::only(&camera, second)
                         };
-                        let views = [View::only(&camera, first), second];
+                        let views = [CameraView::only(&camera, first), second];
                         self.finder.refine_views(&views, &starts)
                     })
                 })?
@@ -390,8 +390,8 @@ impl Search<'_> {
 }
 
 /// A pose inside the library's range, with the middle of the model's box near the axis.
-fn random_pose(random: &mut ChaCha8Rng, grid: &Grid, mesh: &Model<'_>, distance: f64) -> Pose {
-    let inside = |axis: &GridAxis| {
+fn random_pose(random: &mut ChaCha8Rng, grid: &ViewGrid, mesh: &Model<'_>, distance: f64) -> Pose {
+    let inside = |axis: &ViewAxis| {
         let last = axis.at(axis.count as f64 - 1.0);
         let middle = (axis.first + last) / 2.0;
         let reach = ((last - axis.first) / 2.0 - MARGIN_DEG).max(0.0);

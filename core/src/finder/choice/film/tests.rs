@@ -24,7 +24,7 @@ fn mirrored(pose: &Pose) -> Pose {
 }
 
 /// A film of frames with candidates, and without the other component.
-fn chosen(film: &[List<Candidate>]) -> List<Option<Choice>> {
+fn chosen(film: &[List<RivalPose>]) -> List<Option<Choice>> {
     let frame = |candidates| FilmFrame {
         candidates,
         counterpart: None,
@@ -37,14 +37,14 @@ fn chosen(film: &[List<Candidate>]) -> List<Option<Choice>> {
 }
 
 /// The right pose of a slowly turning part, then its mirror image, which fits a little better.
-fn ambiguous(frame: usize) -> List<Candidate> {
+fn ambiguous(frame: usize) -> List<RivalPose> {
     let right = pose(1.0 + 0.1 * frame as f64, -9.0 + 0.3 * frame as f64);
     vec![
-        Candidate {
+        RivalPose {
             pose: right,
             residual_px: 1.0,
         },
-        Candidate {
+        RivalPose {
             pose: mirrored(&right),
             residual_px: 0.95,
         },
@@ -85,7 +85,7 @@ fn of_two_smooth_films_the_one_that_turns_less_is_not_preferred() {
     // The second turns by 0.5 degrees a frame, the first by 1.5, and fits a little better.
     let at = |frame: usize| {
         [(1.5, 1.0), (0.5, 1.05)]
-            .map(|(speed, residual_px)| Candidate {
+            .map(|(speed, residual_px)| RivalPose {
                 pose: pose(0.0, 20.0 * speed + speed * frame as f64),
                 residual_px,
             })
@@ -104,7 +104,7 @@ fn where_the_poses_meet_the_film_may_cross_and_says_so() {
     let at = |frame: usize| {
         let right = pose(0.0, frame as f64 - 8.0);
         [(right, 1.0), (mirrored(&right), 1.0)]
-            .map(|(pose, residual_px)| Candidate { pose, residual_px })
+            .map(|(pose, residual_px)| RivalPose { pose, residual_px })
             .to_vec()
     };
     let mut film: List<_> = (0..17).map(at).collect();
@@ -146,7 +146,7 @@ fn memory_of_another_length_is_refused() {
 }
 
 /// All ways through a film of open frames and their costs.
-fn all_ways(film: &[List<Candidate>]) -> List<(List<usize>, f64)> {
+fn all_ways(film: &[List<RivalPose>]) -> List<(List<usize>, f64)> {
     let mut ways = vec![(List::new(), 0.0)];
     for (at, frame) in film.iter().enumerate() {
         let best = frame
@@ -159,7 +159,7 @@ fn all_ways(film: &[List<Candidate>]) -> List<(List<usize>, f64)> {
                 let own = (candidate.residual_px / best - 1.0) / (DECISIVE_RATIO - 1.0);
                 let last = (0..at).rev().find(|&last| !film[last].is_empty());
                 let link = last.map_or(0.0, |last| {
-                    let from: &Candidate = &film[last][way[last]];
+                    let from: &RivalPose = &film[last][way[last]];
                     let turn = geodesic_deg(&from.pose.rotation, &candidate.pose.rotation);
                     (turn / (at - last) as f64 - FREE_DEG).max(0.0)
                 });
@@ -177,11 +177,11 @@ fn all_ways(film: &[List<Candidate>]) -> List<(List<usize>, f64)> {
     ways
 }
 
-fn film() -> impl Strategy<Value = List<List<Candidate>>> {
+fn film() -> impl Strategy<Value = List<List<RivalPose>>> {
     let candidate =
         (-10.0..10.0f64, -10.0..10.0f64, 1.0..1.29f64).prop_map(|(x, y, residual_px)| {
             let pose = pose(x, y);
-            Candidate { pose, residual_px }
+            RivalPose { pose, residual_px }
         });
     let frame = prop_oneof![
         5 => prop::collection::vec(candidate.clone(), 2..4),
@@ -236,7 +236,7 @@ proptest! {
         let mut steps = vec![FilmStep::default(); frames.len()];
         choose_film(&frames, &mut steps, &mut choices).expect("memory as needed");
         for (frame, choice) in frames.iter().zip(choices) {
-            let context = super::super::Context { counterpart, neighbours: &[] };
+            let context = super::super::ChoiceContext { counterpart, neighbours: &[] };
             let alone = choose(frame.candidates, &context);
             if alone.is_none_or(|alone| alone.is_decided()) {
                 prop_assert_eq!(choice, alone);
@@ -251,9 +251,9 @@ proptest! {
         film in prop::collection::vec(prop::collection::vec(
             (-20.0..20.0f64, prop_oneof![Just(f64::NAN), Just(f64::INFINITY), 0.0..2.0f64]), 0..12), 0..6)
     ) {
-        let film: List<List<Candidate>> = film.iter().map(|frame| frame.iter().map(|&(x, residual_px)| {
+        let film: List<List<RivalPose>> = film.iter().map(|frame| frame.iter().map(|&(x, residual_px)| {
             let x = if x > 19.0 { f64::NAN } else { x };
-            Candidate { pose: pose(x, 0.0), residual_px }
+            RivalPose { pose: pose(x, 0.0), residual_px }
         }).collect()).collect();
         for (frame, choice) in film.iter().zip(chosen(&film)) {
             prop_assert_eq!(choice.is_none(), frame.is_empty());

@@ -14,7 +14,7 @@ use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::scores_needed;
 use fluoropose::search::{
-    Directions, Query, Search, SearchMemory, query_bytes_needed, search_bytes_needed,
+    Directions, Query, ViewSearch, ViewSearchMemory, query_bytes_needed, search_bytes_needed,
 };
 
 use super::catalogue;
@@ -322,12 +322,13 @@ impl SearchBuffers {
     fn best(&mut self, library: &Library<'_>, straight: &[Word]) -> Result<[u32; 2]> {
         reverse(straight, &mut self.turned);
         let query = Query::new(&self.spec, straight, &self.turned, None, &mut self.query)?;
-        let memory = SearchMemory {
+        let memory = ViewSearchMemory {
             bounds: &mut self.bounds,
             sketches: &mut self.sketches,
         };
         let kernels = fluoropose_kernels::fastest();
-        let best = Search::new(library, &query, &kernels, memory)?.best::<1>(Directions::Straight);
+        let best =
+            ViewSearch::new(library, &query, &kernels, memory)?.best::<1>(Directions::Straight);
         let best = best.first().context("the library has no view")?;
         Ok([best.view as u32, best.unmatched])
     }

@@ -16,8 +16,8 @@ const SAMPLES: usize = 512;
 /// Between one scale and the next, at least.
 const RATIO: f64 = 1.07;
 
-/// Numbers that a [`Ladder`] is lent.
-pub(super) const LADDER_NUMBERS: usize = 2 * LEVELS * SAMPLES;
+/// Numbers that a [`ScaleLevels`] is lent.
+pub(super) const LEVEL_NUMBERS: usize = 2 * LEVELS * SAMPLES;
 
 /// Length of a window, as a part of all that is known. Windows shorter than the whole are there
 /// because arc length drifts: with noise, with the view, where a speck hides in the outline.
@@ -72,7 +72,7 @@ struct Level {
 }
 
 /// The known outline in canonical pixels, for a range of scales.
-pub(super) struct Ladder<'a> {
+pub(super) struct ScaleLevels<'a> {
     numbers: &'a [f32],
     windows: Vec<Window, WINDOWS>,
     levels: Vec<Level, LEVELS>,
@@ -91,9 +91,9 @@ fn ratio(low: f64, high: f64) -> f64 {
     ratio
 }
 
-impl<'a> Ladder<'a> {
+impl<'a> ScaleLevels<'a> {
     /// Samples `spacing` canonical pixels apart, for scales (pixel widths per canonical pixel) from
-    /// `scales.0` to `scales.1`. `numbers` holds [`LADDER_NUMBERS`].
+    /// `scales.0` to `scales.1`. `numbers` holds [`LEVEL_NUMBERS`].
     pub(super) fn new(
         outline: &OutlinePoints<'_>,
         spacing: f64,
@@ -175,12 +175,12 @@ fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, x: &mut [f32], y: &mut [f
     for (index, (x, y)) in x.iter_mut().zip(y).take(count).enumerate() {
         let place = index as f64 * spacing / piece.step;
         let before = (place as usize).min(points.len() - 1);
-        let share = (place - before as f64) as f32;
+        let fraction = (place - before as f64) as f32;
         // The last point of an open stretch has none after it, and none is wanted.
         let after = (before + 1) % points.len();
         let (a, b) = (points[before].at, points[after].at);
-        *x = (a[0] + share * (b[0] - a[0])) / scale as f32;
-        *y = (a[1] + share * (b[1] - a[1])) / scale as f32;
+        *x = (a[0] + fraction * (b[0] - a[0])) / scale as f32;
+        *y = (a[1] + fraction * (b[1] - a[1])) / scale as f32;
     }
     count
 }
@@ -189,7 +189,7 @@ fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, x: &mut [f32], y: &mut [f
 mod tests {
     use super::super::outline::{OutlinePoint, Sampling};
     use super::super::smooth::Plane;
-    use super::super::trace::{Side, trace};
+    use super::super::trace::{PixelSide, trace};
     use super::*;
     use crate::image::mask::{Mask, MaskMut};
     use crate::image::silhouette::Silhouette;
@@ -213,7 +213,7 @@ mod tests {
         let mask = Mask::new(&words, 128, 64).expect("valid");
         let mut memory = [0; 4 * 64];
         let mut visited = MaskMut::new(&mut memory, 128, 64).expect("fits");
-        let mut sides = [Side::default(); 400];
+        let mut sides = [PixelSide::default(); 400];
         let silhouette = Silhouette::from(&mask);
         let stretches = trace(&silhouette, &mut visited, &mut sides, 5).expect("fits");
         let sampling = Sampling {
@@ -230,13 +230,13 @@ mod tests {
         let outline = outline(&mut points);
         // The two long sides and the right one, but for corners that are cut.
         assert!((outline.length - 232.0).abs() < 4.0, "{}", outline.length);
-        let mut numbers = std::vec![0.0; LADDER_NUMBERS];
-        let ladder = Ladder::new(&outline, 6.0, (0.5, 1.4), &mut numbers);
-        assert!(ladder.windows().len() >= 4);
-        for (level, scale) in ladder.levels(0.5, 1.4) {
-            for window in ladder.windows() {
-                let samples = ladder.samples(window, level, usize::MAX);
-                let wanted = ladder.windows[window].length / (6.0 * scale);
+        let mut numbers = std::vec![0.0; LEVEL_NUMBERS];
+        let levels = ScaleLevels::new(&outline, 6.0, (0.5, 1.4), &mut numbers);
+        assert!(levels.windows().len() >= 4);
+        for (level, scale) in levels.levels(0.5, 1.4) {
+            for window in levels.windows() {
+                let samples = levels.samples(window, level, usize::MAX);
+                let wanted = levels.windows[window].length / (6.0 * scale);
                 assert!((samples.len() as f64 - wanted).abs() <= 1.0);
                 for (x, y) in samples.x.iter().zip(samples.y) {
                     let (x, y) = (f64::from(*x) * scale, f64::from(*y) * scale);
@@ -245,7 +245,7 @@ mod tests {
                     let nearest = across.into_iter().fold(f64::INFINITY, f64::min);
                     assert!(nearest < 0.8, "({x}, {y}) at scale {scale}");
                 }
-                assert!(ladder.samples(window, level, 7).len() <= 7);
+                assert!(levels.samples(window, level, 7).len() <= 7);
             }
         }
     }

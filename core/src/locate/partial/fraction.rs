@@ -5,7 +5,7 @@ use crate::image::silhouette::Silhouette;
 
 /// What is known of a silhouette: its sides (the borders between set and clear pixels) and its area.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct KnownShare {
+pub struct KnownFraction {
     /// All sides, those between a set pixel and the frame's border among them.
     pub sides: u64,
     /// Sides of which both pixels are known.
@@ -24,11 +24,11 @@ pub struct KnownShare {
 /// they may be even fewer, but not the pixels.
 const DOUBT: f64 = 0.005;
 
-impl KnownShare {
+impl KnownFraction {
     /// Known part of the outline, 0 to 1; 1 for an empty mask. What is hidden has no length in
     /// the mask: it counts by the sides that stand for it.
     #[must_use]
-    pub fn share(&self) -> f64 {
+    pub fn fraction(&self) -> f64 {
         if self.sides == 0 {
             1.0
         } else {
@@ -42,15 +42,15 @@ impl KnownShare {
     #[must_use]
     pub fn is_partial(&self) -> bool {
         let doubtful = self.doubtful as f64 > DOUBT * self.area as f64;
-        self.cut > 0 || doubtful || self.share() < 1.0 - DOUBT
+        self.cut > 0 || doubtful || self.fraction() < 1.0 - DOUBT
     }
 }
 
 /// Counts what is known of a silhouette, a word of pixels at a time.
 #[must_use]
-pub fn known_share(silhouette: &Silhouette<'_>) -> KnownShare {
+pub fn known_fraction(silhouette: &Silhouette<'_>) -> KnownFraction {
     let mask = silhouette.mask();
-    let mut count = KnownShare::default();
+    let mut count = KnownFraction::default();
     for row in 0..mask.height() {
         let here = Row::new(silhouette, row);
         let above = row.checked_sub(1).map(|above| Row::new(silhouette, above));
@@ -75,7 +75,7 @@ pub fn known_share(silhouette: &Silhouette<'_>) -> KnownShare {
     count
 }
 
-impl KnownShare {
+impl KnownFraction {
     fn add(&mut self, sides: Word, known: Word) {
         self.sides += u64::from(sides.count_ones());
         self.known += u64::from((sides & known).count_ones());
@@ -148,14 +148,14 @@ mod tests {
     const HEIGHT: usize = 6;
 
     /// Oracle: pixel by pixel.
-    fn naive(silhouette: &Silhouette<'_>) -> KnownShare {
+    fn naive(silhouette: &Silhouette<'_>) -> KnownFraction {
         let mask = silhouette.mask();
         let (width, height) = (mask.width() as isize, mask.height() as isize);
         let set = |c: isize, r: isize| c >= 0 && r >= 0 && mask.get(c as usize, r as usize);
         let known =
             |c: isize, r: isize| c >= 0 && r >= 0 && silhouette.is_known(c as usize, r as usize);
         let inside = |c: isize, r: isize| (0..width).contains(&c) && (0..height).contains(&r);
-        let mut count = KnownShare::default();
+        let mut count = KnownFraction::default();
         for row in -1..height {
             for column in -1..width {
                 count.area += u64::from(set(column, row));
@@ -194,7 +194,7 @@ mod tests {
                 Silhouette::from(&mask),
                 Silhouette::new(&mask, &unknown).expect("one size"),
             ] {
-                prop_assert_eq!(known_share(&silhouette), naive(&silhouette));
+                prop_assert_eq!(known_fraction(&silhouette), naive(&silhouette));
             }
         }
     }
@@ -205,23 +205,23 @@ mod tests {
         words[10..50].fill(0x00ff_ff00);
         let whole = words;
         let mask = Mask::new(&whole, 32, 64).expect("valid");
-        assert!(!known_share(&Silhouette::from(&mask)).is_partial());
-        assert_eq!(known_share(&Silhouette::from(&mask)).share(), 1.0);
+        assert!(!known_fraction(&Silhouette::from(&mask)).is_partial());
+        assert_eq!(known_fraction(&Silhouette::from(&mask)).fraction(), 1.0);
         // Hidden within: the outline is known, the area is not.
         let mut hidden = [0; 64];
         hidden[20..30].fill(0x0000_3000);
         let unknown = Mask::new(&hidden, 32, 64).expect("valid");
         let silhouette = Silhouette::new(&mask, &unknown).expect("one size");
-        assert_eq!(known_share(&silhouette).share(), 1.0);
-        assert!(known_share(&silhouette).is_partial());
+        assert_eq!(known_fraction(&silhouette).fraction(), 1.0);
+        assert!(known_fraction(&silhouette).is_partial());
         // Reaching the frame's border by one pixel.
         words[0..10].fill(0x0000_0100);
         let mask = Mask::new(&words, 32, 64).expect("valid");
-        let share = known_share(&Silhouette::from(&mask));
-        assert_eq!((share.cut, share.sides - share.known), (1, 1));
-        assert!(share.is_partial());
+        let known = known_fraction(&Silhouette::from(&mask));
+        assert_eq!((known.cut, known.sides - known.known), (1, 1));
+        assert!(known.is_partial());
         let nothing = [0; 64];
         let mask = Mask::new(&nothing, 32, 64).expect("valid");
-        assert!(!known_share(&Silhouette::from(&mask)).is_partial());
+        assert!(!known_fraction(&Silhouette::from(&mask)).is_partial());
     }
 }
