@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use crate::setup::announce;
+use crate::output::announce;
 
 /// Clock ticks in a second, as the kernel tells them to programs.
 #[cfg(target_os = "linux")]

@@ -9,6 +9,7 @@ mod firmware;
 mod laboratory;
 mod models;
 mod options;
+mod output;
 mod package;
 mod page;
 mod serve;

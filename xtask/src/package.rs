@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
+use crate::output::announce;
 use crate::page::{self, Build};
-use crate::setup::{announce, command, node};
+use crate::setup::{command, node};
 use crate::workspace;
 
 /// Options of `package`.

@@ -6,8 +6,9 @@ use std::process::Command;
 use anyhow::{Context, Result};
 
 use super::figures::Figures;
+use crate::output::announce;
 use crate::page::{self, Build};
-use crate::setup::{announce, command, node, programs};
+use crate::setup::{command, node, programs};
 use crate::static_server::Server;
 use crate::{package, workspace};
 

@@ -2,7 +2,6 @@
 //!
 //! None of them gets our standard input: cargo hands it on to a `rustc -`, which would take it for source.
 
-use std::cell::Cell;
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
@@ -10,6 +9,8 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+
+use crate::output::{self, say};
 
 /// The first of these names that is an executable file on the PATH.
 pub(crate) fn find(names: &[&str]) -> Option<PathBuf> {
@@ -40,41 +41,9 @@ fn is_executable(file: &Path) -> bool {
     file.is_file()
 }
 
-thread_local! {
-    /// The lane that this thread works in, where several work side by side.
-    static LANE: Cell<Option<Lane>> = const { Cell::new(None) };
-}
-
-/// A row of steps that runs beside others.
-#[derive(Clone, Copy)]
-pub(crate) struct Lane {
-    /// What stands before each of its lines.
-    pub(crate) name: &'static str,
-    /// Whether its programs give way to those of other lanes: a compiler can wait, a browser's test has a clock.
-    pub(crate) gives_way: bool,
-}
-
-impl Lane {
-    /// Works in this lane.
-    pub(crate) fn work<T>(self, work: impl FnOnce() -> T) -> T {
-        LANE.set(Some(self));
-        let done = work();
-        LANE.set(None);
-        done
-    }
-}
-
-/// Writes a line of output, with the lane that it comes from.
-pub(crate) fn say(line: &str) {
-    match LANE.get() {
-        Some(lane) => println!("{:<8} | {line}", lane.name),
-        None => println!("{line}"),
-    }
-}
-
 /// A command that gives way to others where its lane does.
 pub(crate) fn of_lane(program: impl AsRef<OsStr>) -> Command {
-    let gives_way = LANE.get().is_some_and(|lane| lane.gives_way);
+    let gives_way = output::lane().is_some_and(|lane| lane.gives_way);
     match find(&["nice"]).filter(|_| gives_way) {
         Some(nice) => {
             let mut command = Command::new(nice);
@@ -87,7 +56,7 @@ pub(crate) fn of_lane(program: impl AsRef<OsStr>) -> Command {
 
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
 pub(crate) fn run(command: &mut Command) -> Result<()> {
-    if LANE.get().is_some() {
+    if output::lane().is_some() {
         let (success, _) = tee(command)?;
         ensure!(success, "{} failed", shown(command));
         return Ok(());
@@ -124,7 +93,7 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
 ///
 /// Returns whether it succeeded and what it wrote there.
 pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
-    let lane = LANE.get();
+    let lane = output::lane();
     command.stdin(Stdio::null()).stdout(Stdio::piped());
     if lane.is_some() {
         command.stderr(Stdio::piped());
@@ -134,8 +103,11 @@ pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
         .with_context(|| format!("cannot start {}", shown(command)))?;
     let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
     let errors = std::thread::spawn(move || {
-        LANE.set(lane);
-        stderr.map(show).transpose()
+        let show = || stderr.map(show).transpose();
+        match lane {
+            Some(lane) => lane.work(show),
+            None => show(),
+        }
     });
     let kept = stdout.map(show).transpose()?.unwrap_or_default();
     let errors = errors.join();
@@ -212,6 +184,7 @@ fn last_lines(text: &str, count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Lane;
 
     #[test]
     fn a_program_that_is_nowhere_is_not_found() {

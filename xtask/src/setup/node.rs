@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Missing, command};
+use super::command;
+use super::missing::Missing;
 use crate::clock::timed;
 use crate::workspace::Stamp;
 
@@ -50,7 +51,7 @@ fn major_version(text: &str) -> Option<u32> {
 /// Installs exactly the packages that a folder's lock file names, if that has not been done for this lock file.
 pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     let npm = npm()?;
-    let _turn = super::NPM.turn();
+    let _turn = super::turns::NPM.turn();
     let name = folder
         .file_name()
         .unwrap_or_default()

@@ -9,8 +9,9 @@ use serde::Deserialize;
 
 use super::native;
 use super::report::Report;
+use crate::output::announce;
 use crate::setup::rust_target::own_cargo;
-use crate::setup::{announce, command, components, node};
+use crate::setup::{command, components, node};
 use crate::workspace;
 
 /// Tests of many poses, which take most of a minute.

@@ -9,6 +9,7 @@ use fluoropose::pose::{Pose, geodesic_deg};
 
 use super::report::{Report, Said};
 use crate::firmware::{Proof, TRUTH, write_inputs};
+use crate::output::say;
 use crate::setup::rust_target::{self, Toolchain, own_cargo};
 use crate::setup::{command, components, programs};
 use crate::workspace;
@@ -75,7 +76,7 @@ fn compare(features: &[&str]) -> Result<Said> {
     let host = on_host(features)?;
     let board = on_board(&toolchain, qemu, features)?;
     for line in board.lines().filter(|line| is_information(line)) {
-        command::say(line);
+        say(line);
     }
     let count = ensure_alike(&host, &board)?;
     check_pose(&host)?;
@@ -132,7 +133,7 @@ fn check_pose(lines: &str) -> Result<()> {
     let truth = Pose::from(TRUTH);
     let turned = geodesic_deg(&proof.pose.rotation, &truth.rotation);
     let [x, y, z] = std::array::from_fn(|k| proof.pose.translation[k] - truth.translation[k]);
-    command::say(&format!(
+    say(&format!(
         "off the true pose by {turned:.2} deg, {x:.3}, {y:.3} and {z:.2} mm"
     ));
     ensure!(

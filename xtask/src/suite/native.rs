@@ -7,6 +7,7 @@ use anyhow::{Result, ensure};
 
 use super::counts;
 use super::report::{Report, Said};
+use crate::output::say;
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
@@ -64,6 +65,6 @@ pub(crate) fn tests(cargo: &mut Command) -> Result<Said> {
     let (success, output) = command::tee(cargo.env("FLUOROPOSE_SKIPPED", &notes))?;
     ensure!(success, "`cargo test` failed; its output above says where");
     let notes = fs::read_to_string(&notes).unwrap_or_default();
-    notes.lines().for_each(command::say);
+    notes.lines().for_each(say);
     Ok(counts::of_cargo(&output)?.with_notes(&notes).into())
 }

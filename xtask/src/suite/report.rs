@@ -6,7 +6,8 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 
 use super::counts::Counts;
-use crate::setup::{Missing, announce};
+use crate::output::announce;
+use crate::setup::Missing;
 
 /// What became of a step, with a few words about it.
 #[derive(Debug, Clone, PartialEq, Eq)]

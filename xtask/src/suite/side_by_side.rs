@@ -4,7 +4,7 @@ use std::thread;
 
 use super::report::Report;
 use super::{browser, firmware, native};
-use crate::setup::command::Lane;
+use crate::output::Lane;
 use crate::setup::{node, programs};
 use crate::workspace;
 
