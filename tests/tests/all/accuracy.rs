@@ -55,7 +55,7 @@ fn accuracy_of(model: &OwnedModel, method: Method, noise: &Noise) -> Accuracy {
         seed: SEED,
         disturbance: noise.disturbance,
     };
-    let views = ViewOptions::default();
+    let views = ViewOptions::window([0.0, 0.0]);
     let mesh = model.as_model();
     measure(mesh, camera(), &views, &protocol).expect("poses are found")
 }

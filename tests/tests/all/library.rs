@@ -111,10 +111,10 @@ fn what_was_built_is_read_back() {
 fn views_rendered_in_any_order_make_the_same_file() {
     let model = femur();
     let options = fluoropose_laboratory::finding::ViewOptions {
-        x: "-4:4:4".parse().expect("a range"),
-        y: "-4:0:4".parse().expect("a range"),
-        area: 900,
-        size: 64,
+        x: Some("-4:4:4".parse().expect("a range")),
+        y: Some("-4:0:4".parse().expect("a range")),
+        area: Some(900),
+        size: Some(64),
         ..Default::default()
     };
     let built =

@@ -122,7 +122,7 @@ fn for_parts(check: impl Fn(&str, &Model<'_>, &Library<'_>)) {
     let parts = [("femur", surface(femur())), ("tibia", surface(tibia()))];
     for (name, model) in &parts {
         let mesh = model.as_model();
-        let built = build_library(mesh, camera(), &ViewOptions::default(), DISTANCE);
+        let built = build_library(mesh, camera(), &ViewOptions::window([0.0, 0.0]), DISTANCE);
         let bytes = built.expect("renders").bytes;
         check(name, &mesh, &Library::open(&bytes).expect("valid"));
     }

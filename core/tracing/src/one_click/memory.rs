@@ -74,7 +74,7 @@ impl OneClickMemory<'_> {
             links: first("links", needs.links, self.links)?,
             statistics: first("statistics", needs.statistics, self.statistics)?,
             words: first("words", needs.words, self.words)?,
-            workspace: self.workspace.lend(),
+            workspace: self.workspace.reborrow(),
             refine: RefineMemory {
                 projected: &mut *self.refine.projected,
                 drawn: &mut *self.refine.drawn,

@@ -13,7 +13,7 @@ use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::locate;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, RefineOptions, View, refine};
+use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, refine};
 
 /// Number of poses that are located for a region.
 const MINIMA: usize = 3;
@@ -61,7 +61,7 @@ impl PoseScorer<'_> {
     ) -> Result<Vec<LocatedPose, MINIMA>, OneClickError> {
         let [shape, _] = self.masks(memory.words)?;
         let (camera, library) = (self.observation.camera, self.component.library);
-        let work = memory.workspace.lend();
+        let work = memory.workspace.reborrow();
         let Ok(found) = locate::<MINIMA>(&shape, camera, library, work) else {
             // A shapeless region has no pose.
             return Ok(Vec::new());
@@ -126,7 +126,7 @@ impl PoseScorer<'_> {
         if start.region.is_some() && (start.support.fraction < GOOD || start.overlap < GOOD) {
             let [shape, doubt] = self.masks(memory.words)?;
             let silhouette = Silhouette::new(&shape, &doubt)?;
-            let view = View::only(self.observation.camera, silhouette);
+            let view = CameraView::only(self.observation.camera, silhouette);
             let (model, options) = (self.component.model, RefineOptions::default());
             let onto = refine(model, &[view], &start.pose, options, &mut memory.refine);
             if let Ok(onto) = onto
@@ -150,7 +150,7 @@ impl PoseScorer<'_> {
             unknown: self.observation.excluded,
             polarity: self.observation.polarity,
         };
-        let view = View::only(self.observation.camera, target);
+        let view = CameraView::only(self.observation.camera, target);
         let (model, options) = (self.component.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);
         let Some(refined) = refined.ok().filter(|found| self.is_possible(&found.pose)) else {

@@ -5,7 +5,7 @@ use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::library::Library;
-use fluoropose::library::{Builder, Grid, GridAxis, ViewScratch};
+use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::locate::{Workspace, workspace_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -51,12 +51,12 @@ fn camera() -> Camera {
 }
 
 fn library(model: Model<'_>) -> Vec<u8> {
-    let axis = GridAxis {
+    let axis = ViewAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
-    let (grid, canonical) = (Grid { x: axis, y: axis }, CanonicalSpec::default());
+    let (grid, canonical) = (ViewGrid { x: axis, y: axis }, CanonicalSpec::default());
     let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
@@ -195,7 +195,7 @@ impl Bench {
             words: &mut std::vec![3; needs.words + reserve],
             workspace: Workspace {
                 canonical: &mut std::vec![0; locating.words],
-                turned: &mut std::vec![0; locating.words],
+                rotated: &mut std::vec![0; locating.words],
                 scores: &mut std::vec![0; locating.scores],
                 bytes: &mut std::vec![0; locating.bytes],
                 kernels: Kernels::PORTABLE,

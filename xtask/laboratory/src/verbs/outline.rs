@@ -121,7 +121,7 @@ pub fn run(args: Args) -> Result<()> {
     let calibration = read_calibration(&study.calibration)?;
     let source = Source::read(&folders, &calibration)?;
     let views = ViewOptions {
-        nominal: Pair(component.nominal),
+        nominal: component.nominal.map(Pair),
         distance: component.distance_mm,
         ..ViewOptions::default()
     };
