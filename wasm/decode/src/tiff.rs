@@ -1,11 +1,12 @@
 //! TIFF: 1 to 16 bits grey, 8 and 16 bits colour, floating point; several pages.
 //!
-//! Compression none, deflate, LZW and PackBits. White-is-zero pages come back black at 0. Signed pixels are moved
-//! up by half their range. Floating point pixels are mapped linearly from the page's own smallest and largest
-//! finite value to 0 and 65535 (NaN becomes 0), and the frame's notes say so. Thumbnails (reduced pages) are left
+//! Pages without compression, and with deflate, LZW and PackBits. White-is-zero pages are returned with black at 0. Signed
+//! pixels are moved up by half their range. Floating point pixels are mapped linearly from the page's own smallest and
+//! largest finite value to 0 and 65535 (NaN becomes 0), and the frame's notes say so. Thumbnails (reduced pages) are left
 //! out.
 
 mod directory;
+mod problem;
 
 use std::io::Cursor;
 
@@ -17,8 +18,8 @@ use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
 use crate::limits::MAX_SIDE;
 use crate::luminance::{grey_from_u8, grey_from_u16};
+use problem::{FORMAT, damaged};
 
-const FORMAT: &str = "TIFF";
 const REMEDY: &str = "Save it as 8- or 16-bit grey";
 
 /// Most bytes of one decoded page: colour of 16 bits with transparency.
@@ -31,10 +32,6 @@ const SEPARATE_PLANES: u16 = 2;
 const REDUCED_COPY: u32 = 1;
 
 type Reader<'a> = Decoder<Cursor<&'a [u8]>>;
-
-fn damaged(page: usize, error: impl std::fmt::Display) -> Problem {
-    Problem::damaged(FORMAT, format!("page {}: {error}", page + 1))
-}
 
 fn failed(page: usize, error: tiff::TiffError) -> Problem {
     match error {
@@ -131,22 +128,22 @@ pub(crate) fn decode(bytes: &[u8], page: usize) -> Result<GreyFrame, Problem> {
         return Err(damaged(page, "its pixels do not fill its stated size"));
     }
     let mut frame = GreyFrame::plain(width, height, pixels);
-    let turned = decoder.find_tag_unsigned::<u32>(Tag::Orientation);
-    if let Some(turned @ 2..=8) = turned.map_err(|e| failed(page, e))? {
+    let orientation = decoder.find_tag_unsigned::<u32>(Tag::Orientation);
+    if let Some(orientation @ 2..=8) = orientation.map_err(|e| failed(page, e))? {
         notes.push(format!(
-            "The file asks to be shown turned or mirrored (orientation {turned}); it is shown as stored."
+            "The file asks to be shown rotated or mirrored (orientation {orientation}); it is shown as stored."
         ));
     }
     frame.notes = notes;
     Ok(frame)
 }
 
-/// How the samples of a page lie in memory.
+/// How the samples of a page are stored.
 #[derive(Clone, Copy)]
 enum Layout {
-    /// Grey of 1, 2 or 4 bits, packed, each row begun on a byte.
+    /// Grey of 1, 2 or 4 bits, packed, each row beginning at a byte.
     Packed(u8),
-    /// This many whole samples a pixel.
+    /// This number of whole samples for each pixel.
     Channels(usize),
 }
 

@@ -1,7 +1,8 @@
-//! DICOM: X-ray frames, single or many.
+//! DICOM: X-ray frames, one or several.
 //!
 //! Read: uncompressed little endian (implicit and explicit), big endian and deflated; RLE; JPEG baseline,
-//! extended (8 bits) and lossless; JPEG 2000 with and without loss. MONOCHROME1 and 2 of 8 to 16 bits, RGB and full YBR of 8 bits.
+//! extended (8 bits) and lossless; JPEG 2000 with and without loss. MONOCHROME1 and 2 of 8 to 16 bits, RGB and full YBR
+//! of 8 bits.
 //!
 //! # What happens to pixel values
 //! * Stored values are kept: rescale slope and intercept are **not** applied to pixels. They are applied backwards
@@ -20,13 +21,21 @@
 //! elements of [`attributes`] reach the library, which reserves what a length field says; pixel data is read in
 //! place.
 
-mod attributes;
-mod encapsulated;
+// In the order of the data.
+mod problem;
+mod tags;
+
+mod syntax;
+
+mod element;
 mod functional;
+mod structure;
+
+mod attributes;
+
+mod encapsulated;
 mod pixels;
 mod rle;
-mod structure;
-mod syntax;
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -34,20 +43,14 @@ use std::ops::Range;
 use crate::error::Problem;
 use crate::frame::GreyFrame;
 use attributes::Attributes;
+use problem::damaged;
 use structure::PixelData;
 use syntax::{Coding, Syntax};
-
-pub(crate) const FORMAT: &str = "DICOM";
-
-/// Broken content.
-fn damaged(detail: impl Into<String>) -> Problem {
-    Problem::damaged(FORMAT, detail)
-}
 
 /// A DICOM file whose structure and attributes have been checked; frames are decoded when asked for.
 pub(crate) struct Dicom {
     attributes: Attributes,
-    /// Of each frame, where functional groups tell of frames.
+    /// Attributes of each frame, where functional groups state them.
     per_frame: Vec<Attributes>,
     coding: Coding,
     big_endian: bool,
@@ -58,7 +61,7 @@ pub(crate) struct Dicom {
 enum Source {
     /// All frames one after the other in this range.
     Native { range: Range<usize>, words: bool },
-    /// A list of fragments a frame.
+    /// A list of fragments for each frame.
     Encapsulated(Vec<Vec<Range<usize>>>),
 }
 

@@ -1,19 +1,21 @@
-//! Model files to an indexed triangle mesh.
+//! Indexed triangle meshes from model files.
 //!
-//! Coordinates are taken as they are (the field uses millimetres); normals, colours, textures and groups are left
-//! out. Winding is not changed. A file cut between two faces of a format without an end mark (OBJ, ASCII PLY
-//! within its last number) cannot be told from a shorter model.
+//! Coordinates are kept as they are (the field uses millimetres); normals, colours, textures and groups are left out.
+//! Winding is not changed. OBJ and ASCII PLY have no end mark: such a file that was cut between two faces, or within its
+//! last number, cannot be told from a shorter model.
+
+mod raw;
 
 mod obj;
 mod ply;
-pub(crate) mod stl;
+mod stl;
 
 use std::borrow::Cow;
 use std::collections::HashMap;
 
 use crate::error::{DecodeError, Problem};
-use crate::limits::{MAX_TRIANGLES, MAX_VERTICES};
 use crate::sniff::{Kind, sniff};
+use raw::{Raw, check_triangles, check_vertices};
 
 /// An indexed triangle mesh: at least one triangle, every coordinate finite, every index in range, every triangle
 /// with three different vertices, no two vertices equal.
@@ -27,18 +29,10 @@ pub struct Model {
     pub notes: Vec<String>,
 }
 
-/// Triangles and vertices as a file gives them.
-#[derive(Default)]
-pub(crate) struct Raw {
-    pub vertices: Vec<[f32; 3]>,
-    pub triangles: Vec<[u32; 3]>,
-    pub notes: Vec<String>,
-}
-
 /// Decodes an STL (binary or ASCII), OBJ or PLY (ASCII or binary) model.
 ///
-/// `bytes` is the whole file, borrowed or owned; `name` is used in errors, and its extension only where the content alone does not
-/// tell the format.
+/// `bytes` is the whole file, borrowed or owned. `name` is used in errors, and its extension only where the content alone
+/// does not tell the format.
 ///
 /// # Errors
 /// [`DecodeError`] if the file is not a model, is damaged, has no triangle with three different corners, names a
@@ -61,39 +55,6 @@ fn decode(bytes: Cow<'_, [u8]>, name: &str) -> Result<Model, Problem> {
         }
     };
     merge(&raw)
-}
-
-/// Refuses a number of triangles above the limit.
-pub(crate) fn check_triangles(triangles: usize) -> Result<(), Problem> {
-    match triangles > MAX_TRIANGLES {
-        true => Err(Problem::TooManyTriangles {
-            triangles: triangles as u64,
-        }),
-        false => Ok(()),
-    }
-}
-
-/// Refuses a number of vertices above the limit.
-pub(crate) fn check_vertices(vertices: usize) -> Result<(), Problem> {
-    match vertices > MAX_VERTICES {
-        true => Err(Problem::TooManyVertices {
-            vertices: vertices as u64,
-        }),
-        false => Ok(()),
-    }
-}
-
-impl Raw {
-    /// Adds a face of any number of corners as a fan from its first.
-    pub(crate) fn push_face(&mut self, corners: &[u32]) -> Result<(), Problem> {
-        let [first, rest @ ..] = corners else {
-            return Ok(());
-        };
-        for pair in rest.windows(2) {
-            self.triangles.push([*first, pair[0], pair[1]]);
-        }
-        check_triangles(self.triangles.len())
-    }
 }
 
 /// Merges equal vertices (bit for bit, -0 being 0), drops triangles with equal corners and vertices without a
