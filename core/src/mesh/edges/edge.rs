@@ -1,6 +1,6 @@
 //! One edge of a surface and the triangles on its two sides.
 
-/// An edge along which two triangles run in opposite directions. Made by [`link`] alone.
+/// An edge along which two triangles run in opposite directions. Made by [`super::link()`] alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshEdge {
     pub(crate) from: u32,

@@ -10,7 +10,7 @@ pub struct Edges<'e> {
 }
 
 impl<'e> Edges<'e> {
-    /// Boxes and groups that [`link`] gave, kept in other memory; `None` where their numbers differ.
+    /// Boxes and groups that [`super::link()`] gave, kept in other memory; `None` where their numbers differ.
     #[must_use]
     pub fn new(boxes: &'e [EdgeBox], groups: &'e [EdgeGroup]) -> Option<Self> {
         (boxes.len() == groups.len()).then_some(Self { boxes, groups })
