@@ -1,10 +1,21 @@
-//! Six-degree-of-freedom pose of a known implant from one X-ray silhouette, in fixed memory.
+#![doc = include_str!("../README.md")]
 //!
-//! The method is that of Walker, Hoff, Komistek and Dennis (1996). Data flow through the modules
-//! in this order: a grey [`frame`], a traced [`contour`], a [`mask`], its [`canonical`] form,
-//! the best views of a [`library`] by [`matching`], a view between them by [`interpolate`], a
-//! [`pose`] by [`estimate`], and joint [`kinematics`] from two poses. Nothing is allocated:
-//! callers lend memory and can ask how much.
+//! ## Modules, in the order of the data
+//!
+//! | module | from | to |
+//! | --- | --- | --- |
+//! | [`memory`], [`shortlist`], [`math`] | | what every other module stands on |
+//! | [`image`] | points, grey values | [`Outline`], [`Frame`], [`Mask`] and what is measured of them |
+//! | [`pose`] | matrices, angles, `.jts` files | [`Pose`], [`PoseCovariance`], joint kinematics |
+//! | [`camera`] | calibration files | [`Camera`] |
+//! | [`mesh`] | vertices and triangles | [`Model`], its planes of symmetry |
+//! | [`render`] | a model and its pose | the mask of its silhouette |
+//! | [`canonical`] | a mask | [`canonical::CanonicalForm`] |
+//! | [`library`] | a model | [`Library`]: its canonical silhouettes from many directions |
+//! | [`search`] | a canonical silhouette, libraries | the views that differ from it in the fewest pixels |
+//! | [`mod@locate`] | a silhouette, whole or in part | first poses |
+//! | [`mod@refine`] | a first pose | [`Refined`], and how certain it is |
+//! | [`finder`] | several poses that fit alike | the one chosen, and why |
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -13,17 +24,48 @@ extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
-pub mod camera;
-pub mod canonical;
-pub mod finder;
-pub mod image;
-pub mod library;
-pub mod locate;
-pub mod math;
 pub mod memory;
-pub mod mesh;
-pub mod pose;
-pub mod refine;
-pub mod render;
-pub mod search;
 pub mod shortlist;
+
+pub mod math;
+
+pub mod image;
+
+pub mod pose;
+
+pub mod camera;
+
+pub mod mesh;
+
+pub mod render;
+
+pub mod canonical;
+
+pub mod library;
+
+pub mod search;
+
+pub mod locate;
+
+pub mod refine;
+
+pub mod finder;
+
+pub use camera::Camera;
+pub use camera::calibration::Calibration;
+pub use canonical::CanonicalSpec;
+pub use finder::choice::{choose, choose_film};
+pub use finder::rivals::refine_rivals;
+pub use image::contour::{Contour, Outline, Point};
+pub use image::frame::Frame;
+pub use image::mask::{Mask, MaskMut};
+pub use image::silhouette::Silhouette;
+pub use library::{Builder, Library, ViewGrid};
+pub use locate::{Workspace, locate, workspace_needed};
+#[cfg(feature = "alloc")]
+pub use mesh::OwnedModel;
+pub use mesh::{Mesh, Model};
+pub use pose::covariance::PoseCovariance;
+pub use pose::kinematics::{Side, coronal_tilt_deg, joint_angles, relative_pose};
+pub use pose::{EulerPose, Pose};
+pub use refine::{CameraView, RefineMemory, RefineOptions, Refined, refine, uncertainty};

@@ -23,4 +23,4 @@ pub(crate) use compact::Sketches;
 pub use error::{BuildError, LibraryError};
 pub use info::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 pub use open::Library;
-pub use wire::{HEADER_BYTES, MAGIC, PLAIN_VERSION, RECORD_BYTES, VERSION};
+pub use wire::{HEADER_BYTES, RECORD_BYTES, VERSION};

@@ -1,6 +1,6 @@
 //! Elementary functions and small algebra, the same to the last bit on every target.
 
 mod basic;
-pub mod eigen;
+pub(crate) mod eigen;
 
 pub use basic::*;

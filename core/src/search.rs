@@ -2,7 +2,8 @@
 
 mod catalogue;
 mod exact;
-pub mod exhaustive;
+#[cfg(test)]
+pub(crate) mod exhaustive;
 pub mod kernels;
 mod query;
 mod scores;

@@ -74,7 +74,7 @@ impl CanonicalSpec {
         self.area
     }
 
-    /// Words of a canonical mask: what [`canonicalise`] needs to be lent.
+    /// Words of a canonical mask: the working memory of [`super::canonicalise()`].
     #[must_use]
     pub fn words_needed(&self) -> usize {
         words_needed(self.size, self.size)

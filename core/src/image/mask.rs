@@ -53,7 +53,7 @@ pub enum MaskError {
 
 /// Words of one row of `width` pixels.
 #[must_use]
-pub const fn row_words(width: usize) -> usize {
+pub(crate) const fn row_words(width: usize) -> usize {
     width.div_ceil(WORD_BITS)
 }
 

@@ -29,6 +29,9 @@ pub struct FixedPoint {
 }
 
 impl FixedPoint {
+    /// The frame's upper left corner: what static memory is filled with.
+    pub const ZERO: Self = Self { column: 0, row: 0 };
+
     /// In place of a point: no coordinate is that far out.
     pub(crate) const NONE: Self = Self {
         column: i32::MIN,
@@ -37,7 +40,7 @@ impl FixedPoint {
 
     /// The nearest fixed point; `None` beyond [`MAX_COORDINATE`] or for a NaN.
     #[must_use]
-    pub fn from_point(point: Point) -> Option<Self> {
+    pub(crate) fn from_point(point: Point) -> Option<Self> {
         let (rounded, inside) = Self::rounded(point);
         inside.then_some(rounded)
     }

@@ -139,7 +139,7 @@ impl<'a> Library<'a> {
 
     /// Number of canonical pixels set in both of two views.
     #[must_use]
-    pub fn overlap(&self, a: usize, b: usize) -> u32 {
+    pub(crate) fn overlap(&self, a: usize, b: usize) -> u32 {
         match &self.views {
             Views::Plain { .. } => {
                 let ours = words(self.bits(a)).zip(words(self.bits(b)));
@@ -151,7 +151,7 @@ impl<'a> Library<'a> {
 
     /// Number of canonical pixels set in a view and in a canonical mask.
     #[must_use]
-    pub fn covered(&self, view: usize, canonical: &[Word]) -> u32 {
+    pub(crate) fn covered(&self, view: usize, canonical: &[Word]) -> u32 {
         match &self.views {
             Views::Plain { .. } => {
                 let pairs = words(self.bits(view)).zip(canonical);

@@ -12,9 +12,9 @@ use crc::{CRC_32_ISO_HDLC, Crc};
 use super::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 
 /// First eight bytes of the file.
-pub const MAGIC: [u8; 8] = *b"FLUOROPL";
+pub(crate) const MAGIC: [u8; 8] = *b"FLUOROPL";
 /// Version of the plain layout, bits: what views are drawn into.
-pub const PLAIN_VERSION: u16 = 0;
+pub(crate) const PLAIN_VERSION: u16 = 0;
 /// Version of the compact layout, runs: what is kept.
 pub const VERSION: u16 = 1;
 /// Bytes of the header.

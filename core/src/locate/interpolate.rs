@@ -31,7 +31,7 @@ const REACH: usize = 2;
 /// (see `bands.rs`). Where those say nothing, near a view about which the part is symmetric, it
 /// is the minimum of a quadratic fitted to the scores.
 #[must_use]
-pub fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch) -> FineView {
+pub(crate) fn interpolate(search: &mut ViewSearch<'_, '_>, candidate: &ViewMatch) -> FineView {
     let library = search.library();
     let grid = &library.info().grid;
     let (x, y) = grid.place(candidate.view);

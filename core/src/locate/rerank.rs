@@ -1,6 +1,6 @@
 //! Choosing between rival poses: draw the model at each and count the pixels that differ.
 //!
-//! The scores of [`crate::search::exhaustive`] are those of whole views; two rivals may differ by less
+//! The scores of [`crate::search`] are those of whole views; two rivals may differ by less
 //! than the distance of their poses from the nearest view. Drawn at its own pose, each rival
 //! answers for itself.
 

@@ -11,7 +11,7 @@ pub type Matrix3 = [[f64; 3]; 3];
 pub type Vector3 = [f64; 3];
 
 /// The identity.
-pub const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub(crate) const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Square root.
 #[must_use]
@@ -33,7 +33,7 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 
 /// Arc sine in radians; the argument is clamped to -1..1, so rounding cannot make a NaN.
 #[must_use]
-pub fn asin(x: f64) -> f64 {
+pub(crate) fn asin(x: f64) -> f64 {
     libm::asin(x.clamp(-1.0, 1.0))
 }
 
@@ -109,19 +109,19 @@ pub fn transpose(m: &Matrix3) -> Matrix3 {
 
 /// Determinant.
 #[must_use]
-pub fn determinant(m: &Matrix3) -> f64 {
+pub(crate) fn determinant(m: &Matrix3) -> f64 {
     dot(&m[0], &cross(&m[1], &m[2]))
 }
 
 /// Scalar product.
 #[must_use]
-pub fn dot(a: &Vector3, b: &Vector3) -> f64 {
+pub(crate) fn dot(a: &Vector3, b: &Vector3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Vector product.
 #[must_use]
-pub fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
+pub(crate) fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -137,7 +137,7 @@ pub fn add(a: &Vector3, b: &Vector3) -> Vector3 {
 
 /// Difference of two vectors.
 #[must_use]
-pub fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
+pub(crate) fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
@@ -173,7 +173,7 @@ pub fn rotation_by(turn: &Vector3) -> Matrix3 {
 /// The vector of a rotation, [`rotation_by`]'s inverse: its length is the angle in radians, up to
 /// pi, where its sign is arbitrary.
 #[must_use]
-pub fn rotation_vector(rotation: &Matrix3) -> Vector3 {
+pub(crate) fn rotation_vector(rotation: &Matrix3) -> Vector3 {
     let twice = [
         rotation[2][1] - rotation[1][2],
         rotation[0][2] - rotation[2][0],
@@ -257,7 +257,10 @@ pub fn inverse_spd<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
 
 /// Product `a * b` of square matrices of any size.
 #[must_use]
-pub fn multiply_square<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> [[f64; N]; N] {
+pub(crate) fn multiply_square<const N: usize>(
+    a: &[[f64; N]; N],
+    b: &[[f64; N]; N],
+) -> [[f64; N]; N] {
     core::array::from_fn(|row| {
         core::array::from_fn(|column| (0..N).map(|k| a[row][k] * b[k][column]).sum())
     })
@@ -265,16 +268,16 @@ pub fn multiply_square<const N: usize>(a: &[[f64; N]; N], b: &[[f64; N]; N]) -> 
 
 /// Transpose of a square matrix of any size.
 #[must_use]
-pub fn transpose_square<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
+pub(crate) fn transpose_square<const N: usize>(a: &[[f64; N]; N]) -> [[f64; N]; N] {
     core::array::from_fn(|row| core::array::from_fn(|column| a[column][row]))
 }
 
 /// Functions whose error may change the order of candidates, never a reported number.
-pub mod ranking {
+pub(crate) mod ranking {
     /// Sine and cosine of an angle in radians. With the feature `micromath` the error is up to
     /// about 0.002.
     #[must_use]
-    pub fn sin_cos(radians: f64) -> (f64, f64) {
+    pub(crate) fn sin_cos(radians: f64) -> (f64, f64) {
         #[cfg(feature = "micromath")]
         {
             use micromath::F32Ext;

@@ -3,7 +3,7 @@
 //! The normal of a plane of symmetry is a principal axis of the surface, and that of a plane of
 //! near-symmetry is near one unless two of the moments are nearly equal; there, directions
 //! between the axes are tried too. From each such direction a plane is fitted so that the
-//! surface's reflection falls on the surface ([`fit`]): first on the tangent planes of a sample
+//! surface's reflection falls on the surface (`symmetry/fit.rs`): first on the tangent planes of a sample
 //! of points, then exactly. Areas weigh, not vertices, so the density of a mesh does not matter,
 //! nor do winding and holes.
 

@@ -131,7 +131,7 @@ impl PoseCovariance {
 /// `w = z' e_z + x' Rz e_x + y' Rz Rx e_y`; turned back by `Rz` this is
 /// `(x', y' cos x, z' + y' sin x)`.
 #[must_use]
-pub fn numbers_per_step(pose: &Pose, middle: &Vector3) -> Matrix6 {
+pub(crate) fn numbers_per_step(pose: &Pose, middle: &Vector3) -> Matrix6 {
     let euler = EulerPose::from(*pose);
     let (sin_z, cos_z) = sin_cos(crate::math::radians(euler.z_rot_deg));
     let (sin_x, cos_x) = sin_cos(crate::math::radians(euler.x_rot_deg));

@@ -46,7 +46,7 @@ pub struct Quaternion {
 
 /// `Rz(z) * Rx(x) * Ry(y)`, angles in degrees.
 #[must_use]
-pub fn rotation_zxy(z_deg: f64, x_deg: f64, y_deg: f64) -> Matrix3 {
+pub(crate) fn rotation_zxy(z_deg: f64, x_deg: f64, y_deg: f64) -> Matrix3 {
     let (sz, cz) = sin_cos(radians(z_deg));
     let (sx, cx) = sin_cos(radians(x_deg));
     let (sy, cy) = sin_cos(radians(y_deg));

@@ -7,7 +7,7 @@ use crate::image::mask::{Word, words_needed};
 use crate::memory::check_length;
 use crate::render::Projected;
 
-/// Working memory of [`refine`], for the largest of its views.
+/// Working memory of [`super::refine()`], for the largest of its views.
 #[derive(Debug)]
 pub struct RefineMemory<'a> {
     /// [`crate::render::scratch_needed`] vertices.

@@ -29,7 +29,7 @@ pub enum RenderError {
 /// What working memory of drawing holds.
 pub(crate) const VERTICES: &str = "projected vertices";
 
-/// Working memory of [`render`]: room for one projected vertex.
+/// Working memory of [`super::render()`]: room for one projected vertex.
 pub type Projected = FixedPoint;
 
 /// The images of those vertices that are asked for, each made once.

@@ -16,7 +16,7 @@ use crate::search::scores::{MatchError, Scores};
 ///
 /// # Errors
 /// [`MatchError::Memory`] for a wrong length.
-pub fn score<'s>(
+pub(crate) fn score<'s>(
     library: &Library<'_>,
     canonical: &[Word],
     rotated: &mut [Word],

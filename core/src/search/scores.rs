@@ -40,7 +40,7 @@ pub struct ViewMatch {
     pub unmatched: u32,
 }
 
-/// Numbers that [`score`] needs to be lent for a library of `views` views.
+/// Scores of a library of `views` views: one for each view and direction of the principal axis.
 #[must_use]
 pub const fn scores_needed(views: usize) -> usize {
     2 * views

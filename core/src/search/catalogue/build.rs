@@ -99,7 +99,7 @@ impl<'c> Catalogue<'c> {
         Ok(Self {
             libraries,
             tree: Tree {
-                leaves: leaves,
+                leaves,
                 boxes: builder.boxes,
                 places,
                 common,
