@@ -167,12 +167,12 @@ pageTest('a long film', async (page, t) => {
     await cellsAreLarge(page);
     await page.getByRole('slider', { name: 'Frame', exact: true }).fill('52');
     const shown = cell(page, 'Frame 53, femur: empty');
-    const inSight = () =>
+    const inView = () =>
       shown.evaluate((button) => {
         const { left, right } = button.getBoundingClientRect();
         return left >= 0 && right <= innerWidth && document.elementFromPoint((left + right) / 2, button.getBoundingClientRect().top + 5) === button;
       });
-    await until(inSight, (seen) => seen, 'frame 53 to come into sight');
+    await until(inView, (seen) => seen, 'frame 53 to come into sight');
     await screenshot(page, 'long film');
   });
 });

@@ -177,8 +177,8 @@ impl DistortionFit {
     }
 
     /// The beads (four numbers each) where the correction puts them.
-    #[wasm_bindgen(getter, js_name = straightBeads)]
-    pub fn straight_beads(&self) -> Vec<f64> {
+    #[wasm_bindgen(getter, js_name = undistortedBeads)]
+    pub fn undistorted_beads(&self) -> Vec<f64> {
         let distortion = &self.corrected.distortion;
         let moved = self.beads.iter();
         let moved: Vec<Bead> = moved

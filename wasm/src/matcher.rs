@@ -85,8 +85,8 @@ impl Matcher {
     ///
     /// # Errors
     /// A sentence when the library was made from another model.
-    #[wasm_bindgen(js_name = lendModel)]
-    pub fn lend_model(&mut self, vertices: Vec<f32>, triangles: Vec<u32>) -> Result<(), JsError> {
+    #[wasm_bindgen(js_name = takeModel)]
+    pub fn take_model(&mut self, vertices: Vec<f32>, triangles: Vec<u32>) -> Result<(), JsError> {
         let model = WorkingModel::new(vertices, triangles)?;
         if model.model().digest() != self.library.borrow_dependent().info().model {
             return Err(JsError::new(
@@ -123,14 +123,14 @@ impl Matcher {
     #[wasm_bindgen(js_name = matchOutline)]
     pub fn match_outline(&mut self, traced: &Traced) -> Result<Match, JsError> {
         traced.look(|silhouette| {
-            let sight = self.locate(traced, silhouette, false)?;
+            let located = self.locate(traced, silhouette, false)?;
             let score = |ranked: &Ranked| ranked.drawn.map_or(f64::MAX, |count| count as f64);
-            let near = within(&sight.ranked, score);
+            let near = within(&located.ranked, score);
             let candidates = near.iter().take(OFFERED).map(|one| self.candidate(one));
             Ok(Match {
                 candidates: candidates.collect(),
-                clipped: sight.clipped,
-                partial: sight.partial,
+                clipped: located.clipped,
+                partial: located.partial,
                 chosen: None,
             })
         })
@@ -149,11 +149,11 @@ impl Matcher {
         around: &Surroundings,
     ) -> Result<Match, JsError> {
         traced.look(|silhouette| {
-            let sight = self.locate(traced, silhouette, true)?;
+            let located = self.locate(traced, silhouette, true)?;
             let Some(model) = &mut self.model else {
                 return self.match_outline(traced);
             };
-            let refined = model.refine(&sight.ranked, &traced.camera(), silhouette)?;
+            let refined = model.refine(&located.ranked, &traced.camera(), silhouette)?;
             let contenders: Vec<Contender> = refined.iter().map(contender).collect();
             let chosen = Chosen::among(&contenders, around);
             let mut candidates = Vec::new();
@@ -162,8 +162,8 @@ impl Matcher {
             }
             Ok(Match {
                 candidates,
-                clipped: sight.clipped,
-                partial: sight.partial,
+                clipped: located.clipped,
+                partial: located.partial,
                 chosen,
             })
         })
@@ -199,7 +199,7 @@ impl Matcher {
 }
 
 /// What an outline looks like to the library.
-struct Sight {
+struct LocatedPoses {
     /// Best first.
     ranked: Vec<Ranked>,
     /// The canonical silhouette reaches its frame's border.
@@ -216,7 +216,7 @@ impl Matcher {
         traced: &Traced,
         silhouette: &Silhouette<'_>,
         thorough: bool,
-    ) -> Result<Sight, JsError> {
+    ) -> Result<LocatedPoses, JsError> {
         let camera = traced.camera();
         let library = self.library.borrow_dependent();
         let Some(model) = &mut self.model else {
@@ -228,41 +228,41 @@ impl Matcher {
             return self.locate_whole(traced, silhouette);
         };
         if known_fraction(silhouette).is_partial() {
-            return Ok(Sight {
+            return Ok(LocatedPoses {
                 ranked: model.locate_pieces(library, &camera, silhouette)?,
                 clipped: false,
                 partial: true,
             });
         }
-        let mut sight = self.locate_whole(traced, silhouette)?;
+        let mut located = self.locate_whole(traced, silhouette)?;
         let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
         let doubtful = |best: &Ranked| best.drawn.is_none_or(|count| count as f64 > limit);
-        if thorough && sight.ranked.first().is_none_or(doubtful) {
+        if thorough && located.ranked.first().is_none_or(doubtful) {
             let library = self.library.borrow_dependent();
             let model = self.model.as_mut();
             let pieces = model.map(|model| model.locate_pieces(library, &camera, silhouette));
             // They are a second opinion: where there is none, the first stands.
-            sight
+            located
                 .ranked
                 .extend(pieces.and_then(Result::ok).unwrap_or_default());
-            sight
+            located
                 .ranked
                 .sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
         }
-        Ok(sight)
+        Ok(located)
     }
 
     fn locate_whole(
         &mut self,
         traced: &Traced,
         silhouette: &Silhouette<'_>,
-    ) -> Result<Sight, JsError> {
+    ) -> Result<LocatedPoses, JsError> {
         let (near, clipped) = self.near_views::<MINIMA>(traced, silhouette)?;
         let ranked = match &mut self.model {
             Some(model) => model.rank(near, &traced.camera(), silhouette)?,
             None => near.into_iter().map(Ranked::undrawn).collect(),
         };
-        Ok(Sight {
+        Ok(LocatedPoses {
             ranked,
             clipped,
             partial: false,

@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_of_a_plate_edge_on_near_or_bent_are_those_of_its_images() {
+    fn edges_of_a_plate_edge_on_near_or_sheared_are_those_of_its_images() {
         let (vertices, triangles) = fake::plate();
         let mesh = Mesh::new(&vertices, &triangles).expect("valid");
         let turns = [0.0, 1e-7, 1e-4, 0.01, 0.2, 45.0, 89.999, 90.0];

@@ -24,7 +24,7 @@ async function work({ wasm, masks, polygons }) {
   const bytes = await buildLibrary(mesh, options);
   const library = performance.now() - from;
   const matcher = new Matcher(bytes);
-  matcher.lendModel(mesh.vertices, mesh.triangles);
+  matcher.takeModel(mesh.vertices, mesh.triangles);
   const traced = (points) => new Traced(Float64Array.from(points.flat()), new Uint32Array(), calibration, FRAME.width, FRAME.height);
   const around = new Surroundings();
   const refine = (outline) => timed(() => matcher.refineOutline(outline, around).free());

@@ -129,13 +129,13 @@ fn with_everything_locked_nothing_moves() {
 }
 
 #[test]
-fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
-    let swift = RefineOptions {
+fn an_interactive_refinement_is_near_the_thorough_one_and_draws_less() {
+    let interactive = RefineOptions {
         effort: Effort::Interactive,
         ..RefineOptions::default()
     };
     let thorough = refined(START, Locks::default());
-    let hurried = refined_with(START, swift);
+    let hurried = refined_with(START, interactive);
     let away = geodesic_deg(&hurried.pose.rotation, &thorough.pose.rotation);
     assert!(away < 0.1, "{away} degrees");
     assert!(
@@ -145,7 +145,7 @@ fn a_swift_refinement_is_near_the_thorough_one_and_draws_less() {
 }
 
 #[test]
-fn a_glance_tells_where_a_start_leads_and_draws_least() {
+fn a_probe_tells_where_a_start_leads_and_draws_least() {
     let with = |effort| {
         let options = RefineOptions {
             effort,

@@ -47,7 +47,7 @@ impl Undistorter {
     }
 
     /// Columns and rows of points, by turns, where they lie once straight.
-    pub fn straight(&self, points: &[f64]) -> Vec<f64> {
+    pub fn undistorted(&self, points: &[f64]) -> Vec<f64> {
         let points = points.as_chunks::<2>().0.iter();
         points
             .flat_map(|&point| self.distortion.undistorted(point))
@@ -55,19 +55,19 @@ impl Undistorter {
     }
 
     /// The way back. A point that has no place near by in the picture as taken stays where it is.
-    pub fn bent(&self, mut points: Vec<f64>) -> Vec<f64> {
-        self.bend(&mut points);
+    pub fn distorted(&self, mut points: Vec<f64>) -> Vec<f64> {
+        self.distort(&mut points);
         points
     }
 
-    /// The straight frame of a frame as taken.
+    /// The undistorted frame of a frame as taken.
     ///
     /// # Errors
     /// A sentence when the frame has another size than the correction is for.
-    pub fn film(&mut self, film: &FrameImage) -> Result<FrameImage, JsError> {
+    pub fn frame(&mut self, frame: &FrameImage) -> Result<FrameImage, JsError> {
         let (width, height) = self.distortion.size();
-        if film.size() != (width, height) {
-            let (columns, rows) = film.size();
+        if frame.size() != (width, height) {
+            let (columns, rows) = frame.size();
             return Err(JsError::new(&format!(
                 "the correction of distortion is for frames of {width} x {height} pixels and this one has {columns} x {rows}"
             )));
@@ -79,7 +79,7 @@ impl Undistorter {
             }
         }
         let (columns, rows) = (width as u32, height as u32);
-        match film.pixels() {
+        match frame.pixels() {
             Pixels::Eight(pixels) => FrameImage::from_eight_bit(
                 resampled(pixels, &self.map, width, height)?,
                 columns,
@@ -118,7 +118,7 @@ impl Undistorter {
 
 impl Undistorter {
     /// Moves points, columns and rows by turns, as `bent` does.
-    pub fn bend(&self, points: &mut [f64]) {
+    pub fn distort(&self, points: &mut [f64]) {
         for point in points.as_chunks_mut::<2>().0 {
             *point = self.distortion.distorted(*point).unwrap_or(*point);
         }

@@ -33,7 +33,7 @@ pub use library_check::check_library;
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use tracing::{
-    Cooling, LiveWire, Reshaped, ThresholdAid, brush_outline, simplify_outline, smooth_outline,
+    Cooling, LiveWire, Reshaped, ThresholdTool, brush_outline, simplify_outline, smooth_outline,
     snap_outline, snap_path,
 };
 pub use unmatched::paint_unmatched;

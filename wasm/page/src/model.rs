@@ -117,9 +117,9 @@ impl Model {
     }
 
     /// Moves the corners of the border to where they lie on a frame as it was taken.
-    #[wasm_bindgen(js_name = bendBorder)]
-    pub fn bend_border(&mut self, straightener: &Undistorter) {
-        straightener.bend(&mut self.corners);
+    #[wasm_bindgen(js_name = distortBorder)]
+    pub fn distort_border(&mut self, undistorter: &Undistorter) {
+        undistorter.distort(&mut self.corners);
     }
 
     /// Where columns and rows of the border's corners, by turns, begin in the module's memory, bytes.
@@ -260,17 +260,17 @@ mod tests {
     }
 
     #[test]
-    fn a_border_is_bent_where_it_lies_as_any_points_are() {
+    fn a_border_is_distorted_where_it_lies_as_any_points_are() {
         let mut model = plates(&[[0.0; 3]]);
         let pose = [10.0, 0.0, -200.0, 0.0, 0.0, 0.0];
         model.project(CALIBRATION, 256, 256, &pose).unwrap();
         model.follow_border(256, 256).unwrap();
         let (straight, address) = (model.corners.clone(), model.border_address());
-        model.bend_border(&pin_cushion());
+        model.distort_border(&pin_cushion());
         assert_eq!(model.border_address(), address);
-        assert_eq!(model.corners, pin_cushion().bent(straight.clone()));
+        assert_eq!(model.corners, pin_cushion().distorted(straight.clone()));
         let mut moved = model.corners.iter().zip(&straight);
-        assert!(moved.any(|(bent, straight)| bent - straight > 1.0));
+        assert!(moved.any(|(distorted, undistorted)| distorted - undistorted > 1.0));
     }
 
     #[test]

@@ -8,7 +8,7 @@ mod threshold;
 
 pub use live_wire::{Cooling, LiveWire};
 pub use reshape::{brush_outline, simplify_outline, smooth_outline, snap_outline, snap_path};
-pub use threshold::ThresholdAid;
+pub use threshold::ThresholdTool;
 
 use fluoropose::image::contour::Point;
 use fluoropose_tracing::{Hand, Inside, ShapeError, Vertex};

@@ -145,8 +145,8 @@ impl Matcher {
     ///
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
-    #[wasm_bindgen(js_name = refineOnFilm)]
-    pub fn refine_on_film(
+    #[wasm_bindgen(js_name = refineOnFrame)]
+    pub fn refine_on_frame(
         &mut self,
         film: &FrameImage,
         hidden: &HiddenPixels,

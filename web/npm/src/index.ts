@@ -34,7 +34,7 @@ export class Implant {
   constructor(mesh: Mesh, library: Uint8Array, calibration: string, frame: Size) {
     this.library = library;
     this.#matcher = new Matcher(library);
-    this.#matcher.lendModel(mesh.vertices, mesh.triangles);
+    this.#matcher.takeModel(mesh.vertices, mesh.triangles);
     this.#calibration = calibration;
     this.#frame = frame;
   }

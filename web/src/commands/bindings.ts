@@ -1,5 +1,5 @@
 import { texts } from '../texts/texts';
-import { AID_KEYS, AID_ROWS, type TracingCommand, type TracingKey } from './tracing_keys';
+import { TRACING_KEYS, TRACING_ROWS, type TracingCommand, type TracingKey } from './tracing_keys';
 import { TOOLS } from '../interaction/tools';
 import type { ToolName } from '../terms/tool';
 import { WORK_KEYS, type WorkCommand, type WorkKey } from './work_keys';
@@ -55,8 +55,8 @@ export interface KeyInput {
 }
 
 export const BINDINGS: readonly Binding[] = [
-  ...AID_KEYS.map(tracingKey),
-  ...AID_ROWS.map(({ shown, does }): Binding => ({ group: 'Shaping', shown, does, matches: () => false, action: null })),
+  ...TRACING_KEYS.map(tracingKey),
+  ...TRACING_ROWS.map(({ shown, does }): Binding => ({ group: 'Shaping', shown, does, matches: () => false, action: null })),
   ...TOOLS.map(({ name, key, title }) =>
     binding('Tracing', [key.toUpperCase()], title, plainly(key), { name: 'tool', tool: name }),
   ),

@@ -46,7 +46,7 @@ const DIRECTIONS = [
   ['arrowdown', 0, 1],
 ] as const;
 
-export const AID_KEYS: readonly TracingKey[] = [
+export const TRACING_KEYS: readonly TracingKey[] = [
   { shown: ['S'], does: texts.keys.tracing.snap, key: 's', held: 'none', command: { what: 'snap' } },
   { shown: ['Shift + S'], does: texts.keys.tracing.shape, key: 's', held: 'shift', command: { what: 'shape' } },
   { shown: ['Shift + D'], does: texts.keys.tracing.copyPrevious, key: 'd', held: 'shift', command: { what: 'copy', step: -1 } },
@@ -70,7 +70,7 @@ export const AID_KEYS: readonly TracingKey[] = [
 ];
 
 /** Rows of the sheet for keys whose meaning depends on the tool. */
-export const AID_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.tracing.rows;
+export const TRACING_ROWS: readonly { readonly shown: readonly string[]; readonly does: string }[] = texts.keys.tracing.rows;
 
 function hidden(key: string, held: TracingKey['held'], tools: readonly ToolName[], command: TracingCommand): TracingKey {
   return { shown: [], does: '', key, held, tools, command };

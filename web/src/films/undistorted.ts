@@ -34,7 +34,7 @@ export class UndistortedFrames {
     const known = this.#images.get(id);
     if (known) return known;
     this.#undistorter ??= new Undistorter(numbersOf(distortion));
-    const undistorted = this.#undistorter.film(image);
+    const undistorted = this.#undistorter.frame(image);
     this.#images.set(id, undistorted);
     return undistorted;
   }
@@ -42,12 +42,12 @@ export class UndistortedFrames {
 
 /** Points of frames as taken to where they lie in the undistorted frame. */
 export function undistorting(distortion: Distortion): MovePoints {
-  return (points) => withUndistorter(distortion, (undistorter) => undistorter.straight(points));
+  return (points) => withUndistorter(distortion, (undistorter) => undistorter.undistorted(points));
 }
 
 /** The way back. */
 export function distorting(distortion: Distortion): MovePoints {
-  return (points) => withUndistorter(distortion, (undistorter) => undistorter.bent(points));
+  return (points) => withUndistorter(distortion, (undistorter) => undistorter.distorted(points));
 }
 
 /** Throws the core's sentence for numbers that are no correction. */
@@ -74,7 +74,7 @@ export class OverlayDistorter {
   }
 
   border(model: Model): void {
-    model.bendBorder(this.#undistorter);
+    model.distortBorder(this.#undistorter);
   }
 
   /** Moves what was painted, pixel by pixel. */

@@ -8,7 +8,7 @@ import {
   smoothOutline,
   snapOutline,
   snapPath,
-  ThresholdAid,
+  ThresholdTool,
   type FrameImage,
   type Reshaped,
 } from '../pkg/page/fluoropose_page.js';
@@ -96,7 +96,7 @@ export interface Region {
 }
 
 export function regionOf(image: FrameImage, dark: boolean): Region {
-  const tool = new ThresholdAid(image, dark);
+  const tool = new ThresholdTool(image, dark);
   return {
     least: tool.leastLevel,
     greatest: tool.greatestLevel,

@@ -11,7 +11,7 @@ mod study;
 mod text;
 
 pub use calibration::{camera_for, read_calibration};
-pub use distortion::{Straightener, read_distortion, write_distortion};
+pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use frames::{Frames, grey};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{owned, read_model};

@@ -1,4 +1,4 @@
-//! A drawn plate, bent as an image intensifier bends it, through the verbs `calibrate` and `undistort`.
+//! A drawn plate, distorted as an image intensifier bends it, through the verbs `calibrate` and `undistort`.
 #![allow(clippy::unwrap_used, reason = "it fails the test")]
 
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ const SIDE: usize = 768;
 const SPACING_PX: f64 = 36.0;
 
 /// Pin-cushion of five percent at the edge: the picture of an ideal place.
-fn bent(column: f64, row: f64) -> (f64, f64) {
+fn distorted(column: f64, row: f64) -> (f64, f64) {
     let (x, y) = ((column - 380.0) / 384.0, (row - 390.0) / 384.0);
     let grow = 1.0 + 0.05 * (x * x + y * y);
     (380.0 + 384.0 * grow * x, 390.0 + 384.0 * grow * y)
@@ -23,7 +23,7 @@ fn plate() -> Vec<u8> {
     let mut picture = vec![180; SIDE * SIDE];
     for i in -12..=12 {
         for j in -12..=12 {
-            let (column, row) = bent(
+            let (column, row) = distorted(
                 384.0 + SPACING_PX * f64::from(i),
                 384.0 + SPACING_PX * f64::from(j),
             );

@@ -195,7 +195,7 @@ mod tests {
     use crate::image::silhouette::Silhouette;
 
     #[test]
-    fn the_ladder_reaches_from_end_to_end() {
+    fn the_levels_reach_from_end_to_end() {
         assert_eq!(ratio(1.0, 2.0), RATIO);
         for high in [6.0, 100.0] {
             let ratio = ratio(1.0, high);

@@ -15,7 +15,7 @@ use crate::frame_image::FrameImage;
 
 /// A film smoothed once, of which regions are taken at any level.
 #[wasm_bindgen]
-pub struct ThresholdAid {
+pub struct ThresholdTool {
     cells: Vec<u16>,
     width: usize,
     height: usize,
@@ -29,13 +29,13 @@ pub struct ThresholdAid {
 }
 
 #[wasm_bindgen]
-impl ThresholdAid {
+impl ThresholdTool {
     /// Smooths a film, on which the implant is dark or else bright.
     ///
     /// # Errors
     /// The core's sentence about the film.
     #[wasm_bindgen(constructor)]
-    pub fn new(film: &FrameImage, dark_inside: bool) -> Result<ThresholdAid, JsError> {
+    pub fn new(film: &FrameImage, dark_inside: bool) -> Result<ThresholdTool, JsError> {
         let (width, height) = film.size();
         let mut cells = vec![0; width * height];
         let scale = film.smooth(&mut cells)?;

@@ -22,7 +22,7 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
       const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
       try {
         for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
-        return factsOf(matcher.refineOnFilm(image, hidden, numbers(poseArray(start)), flags(locked)));
+        return factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked)));
       } finally {
         hidden.free();
         image.free();

@@ -19,7 +19,7 @@ serve<PoseProtocol>({
   open: async ({ component, bytes, mesh }) => {
     await ready;
     const matcher = new Matcher(bytes);
-    if (mesh) matcher.lendModel(mesh.vertices, mesh.triangles);
+    if (mesh) matcher.takeModel(mesh.vertices, mesh.triangles);
     matchers.get(component)?.free();
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
@@ -58,7 +58,7 @@ function undistorted({ key, numbers }: DistortionInput, outline: Float64Array): 
     undistorter?.tool.free();
     undistorter = { key, tool: new Undistorter(numbers) };
   }
-  return undistorter.tool.straight(outline);
+  return undistorter.tool.undistorted(outline);
 }
 
 async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {

@@ -118,12 +118,12 @@ pub fn read_distortion(path: &Path) -> Result<Distortion> {
 
 /// Where each pixel of the straight frames is in the frames as taken: the same for all frames of a correction.
 #[derive(Debug)]
-pub struct Straightener {
+pub struct Undistorter {
     map: Vec<[f32; 2]>,
     size: (usize, usize),
 }
 
-impl Straightener {
+impl Undistorter {
     /// Works the places out.
     #[must_use]
     pub fn new(distortion: &Distortion) -> Self {

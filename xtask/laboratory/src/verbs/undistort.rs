@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose_decode::{FrameFile, Pixels};
 use fluoropose_phantom::picture::{write_grey, write_grey_16};
 
-use crate::files::{Straightener, files_in, name_of, read, read_distortion};
+use crate::files::{Undistorter, files_in, name_of, read, read_distortion};
 
 use crate::progress::progress;
 
@@ -33,7 +33,7 @@ pub struct Args {
 /// # Errors
 /// For files that cannot be read or written, frames of another size, and a folder that holds something.
 pub fn run(args: Args) -> Result<()> {
-    let straightener = Straightener::new(&read_distortion(&args.distortion)?);
+    let undistorter = Undistorter::new(&read_distortion(&args.distortion)?);
     let files = files_in(&args.frames)?;
     let cannot = || format!("cannot make {}", args.out.display());
     std::fs::create_dir_all(&args.out).with_context(cannot)?;
@@ -47,7 +47,7 @@ pub fn run(args: Args) -> Result<()> {
     let bar = progress(files.len(), "files");
     let mut written = 0;
     for path in &files {
-        written += straighten(path, &straightener, &args.out)?;
+        written += straighten(path, &undistorter, &args.out)?;
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -56,7 +56,7 @@ pub fn run(args: Args) -> Result<()> {
 }
 
 /// Writes all frames of a file; returns how many.
-fn straighten(path: &Path, straightener: &Straightener, out: &Path) -> Result<usize> {
+fn straighten(path: &Path, undistorter: &Undistorter, out: &Path) -> Result<usize> {
     let name = name_of(path);
     let file = FrameFile::open(read(path)?, &name)?;
     let stem = Path::new(&name)
@@ -74,11 +74,11 @@ fn straighten(path: &Path, straightener: &Straightener, out: &Path) -> Result<us
         let of_file = || name.clone();
         match &frame.pixels {
             Pixels::U8(pixels) => {
-                let pixels = straightener.straight(pixels, size).with_context(of_file)?;
+                let pixels = undistorter.straight(pixels, size).with_context(of_file)?;
                 write_grey(&target, size, &pixels)?;
             }
             Pixels::U16(pixels) => {
-                let pixels = straightener.straight(pixels, size).with_context(of_file)?;
+                let pixels = undistorter.straight(pixels, size).with_context(of_file)?;
                 write_grey_16(&target, size, &pixels)?;
             }
         }
