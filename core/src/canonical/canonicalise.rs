@@ -30,7 +30,7 @@ fn measure(mask: &Mask<'_>, area: u32, aspect: f64) -> Result<CanonicalForm, Can
 }
 
 /// Brings `mask` to canonical form. `aspect` is the height of a pixel divided by its width
-/// ([`crate::camera::Camera::aspect`]); `out` is lent for the canonical bits and has
+/// ([`crate::camera::Camera::aspect`]); `out` is borrowed for the canonical bits and has
 /// [`CanonicalSpec::words_needed`] words.
 ///
 /// Each canonical pixel reads the silhouette at its centre by bilinear interpolation of the four
@@ -66,9 +66,9 @@ fn touches_border(canonical: &Mask<'_>) -> bool {
     })
 }
 
-/// Turns a canonical mask by 180 degrees: the other direction of its axis, exactly.
+/// Rotates a canonical mask by 180 degrees, exactly: the other direction of its principal axis.
 ///
-/// Copies as many words as both slices hold.
+/// Where the slices differ in length, the words that both have are written.
 pub fn reverse(canonical: &[Word], out: &mut [Word]) {
     for (to, from) in out.iter_mut().zip(canonical.iter().rev()) {
         *to = from.reverse_bits();
@@ -85,7 +85,7 @@ mod tests {
 
     const SIDE: usize = 480;
 
-    /// A shape without symmetry, turned, scaled and shifted.
+    /// A shape without symmetry, rotated, scaled and shifted.
     fn shape(deg: f64, size: f64, at: (f64, f64), aspect: f64) -> std::vec::Vec<Word> {
         let corners = [
             (-1.0, -0.4),

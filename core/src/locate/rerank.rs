@@ -1,8 +1,7 @@
-//! Choosing between rival poses: draw the model at each and count the pixels that differ.
+//! Reranking of rival poses: the model is drawn at each and the pixels that differ are counted.
 //!
 //! The scores of [`crate::search`] are those of whole views; two rivals may differ by less
-//! than the distance of their poses from the nearest view. Drawn at its own pose, each rival
-//! answers for itself.
+//! than the poses differ from the nearest view. Drawn at its own pose, each rival is judged by itself.
 
 use heapless::Vec;
 
@@ -45,7 +44,7 @@ pub fn unmatched_at_pose(
 }
 
 /// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
-/// more than `K` poses the first `K` are looked at.
+/// more than `K` poses only the first `K` are drawn.
 ///
 /// # Errors
 /// Those of [`unmatched_at_pose`].

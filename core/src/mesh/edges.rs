@@ -1,4 +1,4 @@
-//! Which triangles share an edge: what a closed surface's silhouette can be drawn from.
+//! The edges between the triangles of a closed surface, from which its silhouette can be drawn.
 
 mod boxes;
 mod edge;

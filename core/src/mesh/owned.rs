@@ -9,7 +9,7 @@ use crate::mesh::surface::{Bounds, Mesh, MeshError};
 
 /// Vertices, triangles and, of a closed surface, the edges that its silhouettes are drawn from.
 ///
-/// The numbers stay where they came and are looked at in threes.
+/// It keeps the two vectors that it was given and reads them three numbers at a time.
 #[derive(Clone, Debug)]
 pub struct OwnedModel {
     vertices: Vec<f32>,
@@ -19,8 +19,8 @@ pub struct OwnedModel {
 }
 
 impl OwnedModel {
-    /// Takes vertices (x, y, z of one after the other, mm) and triangles (three vertex numbers each). Numbers beyond the
-    /// last three are left out.
+    /// Takes vertices (x, y and z of each, mm) and triangles (three vertex numbers each). One or two numbers left over at
+    /// the end are ignored.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
@@ -56,7 +56,7 @@ fn linked(mesh: &Mesh<'_>) -> Option<(Vec<EdgeBox>, Vec<EdgeGroup>)> {
     let mut room = vec![MeshEdge::default(); edges_needed(mesh)];
     let mut boxes = vec![EdgeBox::default(); groups_needed(mesh)];
     let mut groups = vec![EdgeGroup::default(); groups_needed(mesh)];
-    // Of a closed surface there are as many as room was made for, but where triangles have equal corners.
+    // A closed surface has exactly this number of edges, unless some triangles have two equal corners.
     let (used, _) = link(mesh, &mut room, &mut boxes, &mut groups)?.parts();
     let used = used.len();
     boxes.truncate(used);

@@ -3,7 +3,7 @@
 //! The triangles that face the camera bound each other but where one that faces it meets one that
 //! does not: the sides there, run as the facing triangle runs them, are the boundary of the
 //! facing part, and its winding number about a pixel's centre is the number of facing triangles
-//! that cover it. The surface is closed, so as many that face away cover it too: the pixels of
+//! that cover it. The surface is closed, so the same number that face away cover it too: the pixels of
 //! winding number above zero are those that any triangle covers. Facing is decided by the sign of
 //! the area between the rounded vertices, and crossings are those of the scan conversion, so this
 //! holds exactly.
@@ -26,7 +26,7 @@ pub(crate) const fn room_needed() -> usize {
 }
 
 /// Adds the silhouette of a closed surface to `out`. Gives `false`, and has drawn nothing, where
-/// the room does not hold all crossings. Afterwards [`contour`] tells the edges from `room`.
+/// the room does not hold all crossings. Afterwards [`contour`] reads the edges from `room`.
 pub(crate) fn fill(
     facing: &FacingTest<'_>,
     edges: &Edges<'_>,
@@ -64,7 +64,7 @@ pub(crate) fn fill(
 
 /// The edges between triangles that face the camera and those that do not, from working memory as
 /// [`fill`] left it; nothing where it did not draw. Each is a pair of vertices, in the direction of
-/// the triangle that faces the camera: at a vertex as many begin as end.
+/// the triangle that faces the camera: at each vertex the same number begin and end.
 pub(crate) fn contour(room: &[FixedPoint]) -> Option<impl Iterator<Item = [u32; 2]>> {
     let count = usize::try_from(u64::from(*room.first()?)).ok()?;
     let first = room.len().checked_sub(count)?;

@@ -8,7 +8,7 @@ use crate::mesh::surface::Mesh;
 /// In place of a vertex while edges are being paired.
 const NONE: u32 = u32::MAX;
 
-/// Room for edges that [`link`] needs for `mesh`.
+/// Edges of working memory that [`link`] needs for `mesh`.
 #[must_use]
 pub fn edges_needed(mesh: &Mesh<'_>) -> usize {
     3 * mesh.triangles().len()
@@ -20,9 +20,9 @@ pub fn groups_needed(mesh: &Mesh<'_>) -> usize {
     edges_needed(mesh).div_ceil(2).div_ceil(IN_BOX)
 }
 
-/// Pairs the sides of the triangles of `mesh` in working memory ([`edges_needed`]) and writes the
-/// edges to lent memory ([`groups_needed`]), to be lent to [`crate::mesh::Model::with_edges`]. Where more than
-/// two triangles meet at an edge they are paired in any way.
+/// Finds the edges of a closed surface: pairs the sides of the triangles of `mesh` in working memory `room`
+/// ([`edges_needed`]) and writes them to `boxes` and `groups` ([`groups_needed`] each), for
+/// [`crate::mesh::Model::with_edges`]. Where more than two triangles meet at an edge any pairing serves.
 ///
 /// `None` where the surface is not closed or not consistently oriented (an edge is run along
 /// more often in one direction than in the other), and where the memory is too short: such a

@@ -2,7 +2,7 @@
 
 use super::boxes::{EdgeBox, EdgeGroup};
 
-/// The edges of a closed surface, those together whose triangles turn from the camera together.
+/// The edges of a closed surface, grouped so that those of a group are on the contour together or not at all, mostly.
 #[derive(Clone, Copy, Debug)]
 pub struct Edges<'e> {
     boxes: &'e [EdgeBox],
@@ -16,7 +16,7 @@ impl<'e> Edges<'e> {
         (boxes.len() == groups.len()).then_some(Self { boxes, groups })
     }
 
-    /// What to keep of them.
+    /// The boxes and groups, to be kept in other memory.
     #[must_use]
     pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup]) {
         (self.boxes, self.groups)
