@@ -130,9 +130,9 @@ mod tests {
             let (mut a, mut b) = (std::vec![0; spec.words_needed()], std::vec![0; spec.words_needed()]);
             let first = form_of(&shape(0.0, 110.0, (240.0, 240.0), 1.0), 1.0, &mut a);
             let second = form_of(&shape(deg, size, (240.0 + dx, 240.0 + dy), aspect), aspect, &mut b);
-            let mut turned = std::vec![0; b.len()];
-            reverse(&b, &mut turned);
-            let (straight, reversed) = (unmatched(&a, &b), unmatched(&a, &turned));
+            let mut rotated = std::vec![0; b.len()];
+            reverse(&b, &mut rotated);
+            let (straight, reversed) = (unmatched(&a, &b), unmatched(&a, &rotated));
             prop_assert!(straight.min(reversed) < 250, "{} {}", straight, reversed);
             // The record gives back what was done.
             let turn = second.angle - first.angle + if reversed < straight { core::f64::consts::PI } else { 0.0 };

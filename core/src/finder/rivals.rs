@@ -159,9 +159,8 @@ impl RivalRefinement<'_, '_> {
         }
         let (model, camera, pose) = (self.model, view.camera, &best.refined.pose);
         let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
-        let turned =
-            |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
-        for start in starts.iter().filter(turned) {
+        let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
+        for start in starts.iter().filter(apart) {
             if let Some(found) = self.probe(start, &best.refined) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);

@@ -13,7 +13,7 @@ pub enum BorderError {
     #[error("the mask is empty: there is no border to follow")]
     Empty,
     /// The border has more corners than the contour holds.
-    #[error("the border has more than {0} corners; give it a larger one")]
+    #[error("the border has more than {0} corners, which the contour does not hold")]
     TooLong(usize),
 }
 

@@ -50,8 +50,8 @@ pub fn pose_from_view(
     let size_ratio = form.scale * fx / (view.record.scale * info.focal);
     let depth = info.distance * size_ratio / sqrt(cos_phi);
     let reference = ray.map(|component| component * depth);
-    let turned = rotation_zxy(degrees(z_rot), view.record.x_deg, view.record.y_deg);
-    let rotation = multiply(&view_rotation(&ray), &turned);
+    let rotated = rotation_zxy(degrees(z_rot), view.record.x_deg, view.record.y_deg);
+    let rotation = multiply(&view_rotation(&ray), &rotated);
     let from_origin = apply(&rotation, &info.reference);
     Pose {
         rotation,

@@ -56,14 +56,14 @@ pub fn rerank<const K: usize>(
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
-    let mut verified: Vec<Reranked, K> = Vec::new();
+    let mut reranked: Vec<Reranked, K> = Vec::new();
     for located in poses.iter().take(K) {
         let unmatched =
             unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn)?;
         let located = *located;
-        keep(&mut verified, Reranked { located, unmatched }, |other| {
+        keep(&mut reranked, Reranked { located, unmatched }, |other| {
             other.unmatched
         });
     }
-    Ok(verified)
+    Ok(reranked)
 }
