@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         flexions.push(joint.flexion_deg);
     }
     if arguments.is_empty() {
-        // The femoral component turned by 0, 15 and 30 degrees over a tibial one that stood still.
+        // The femoral component rotated by 0, 15 and 30 degrees over a tibial one that stood still.
         let expected = [0.0, -15.0, -30.0];
         assert!(
             flexions

@@ -1,4 +1,4 @@
-//! Which of several poses: rivals refined side by side, and the choice between them.
+//! From several poses that fit alike to one: rivals are refined side by side, and one of them is chosen.
 
 pub mod choice;
 pub mod nearby;

@@ -1,8 +1,8 @@
 //! The library: canonical silhouettes of one component over a grid of out-of-plane rotations.
 //!
-//! [`Library::open`] reads it in place from bytes (flash, file, fetched buffer) after checking
-//! all of it once; [`Builder`] draws its views, packs them, and writes an [`Assembly`] of them into bytes that the caller
-//! lends. Both layouts are described in `library/wire.rs` and `DESIGN.md`.
+//! [`Library::open`] reads a library in place from bytes (flash, file, fetched buffer) after checking all of it once.
+//! [`Builder`] draws the views, packs them, and writes an [`Assembly`] of them into borrowed bytes. `library/wire.rs`
+//! describes the two layouts of the file.
 
 mod assemble;
 mod build;

@@ -1,4 +1,4 @@
-//! First poses of a silhouette from a library: whole outlines, views between views, partial outlines.
+//! First poses of a silhouette from a library: of whole outlines, interpolated between views, and of partial outlines.
 
 mod bands;
 pub mod estimate;

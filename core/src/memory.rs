@@ -1,16 +1,16 @@
-//! Working memory: what callers lend, and the one error for too little of it.
+//! Borrowed working memory, and the one error for too little of it.
 
 use thiserror::Error;
 
-/// A borrowed slice is too short. Longer ones are welcome everywhere.
+/// A borrowed slice is too short. A longer one is never an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("{needed} {what} are needed as working memory but {given} were given")]
 pub struct TooLittleMemory {
     /// What the slice holds, in the plural.
     pub what: &'static str,
-    /// Its least length.
+    /// The length that is needed.
     pub needed: usize,
-    /// Its length.
+    /// The length that was given.
     pub given: usize,
 }
 

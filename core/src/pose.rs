@@ -1,4 +1,4 @@
-//! Where a component is: poses, how sure they are, files of them, and the joint between two.
+//! Poses of a component, their uncertainty, files of poses, and the kinematics of the joint between two components.
 
 pub mod covariance;
 pub mod jts;

@@ -1,4 +1,4 @@
-//! The views of a library that differ least from a silhouette: exactly, and reading little.
+//! The views of a library that differ from a silhouette in the fewest pixels: found exactly, while reading little of it.
 
 mod catalogue;
 mod exact;

@@ -2,8 +2,8 @@
 
 use heapless::Vec;
 
-/// Puts `item` where it belongs in a list sorted by rising `key`, behind its equals. A full list
-/// loses its last; an item that would come after that is not taken in. Tells where it stands.
+/// Inserts `item` into a list sorted by rising `key`, behind items with an equal key. A full list drops its last item; an
+/// item that would come after that one is not inserted. Returns the place of `item`, `None` where it is not inserted.
 pub fn keep<T, K: PartialOrd, const N: usize>(
     list: &mut Vec<T, N>,
     item: T,

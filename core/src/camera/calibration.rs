@@ -53,16 +53,16 @@ pub enum CalibrationError {
     Camera(#[from] CameraError),
 }
 
-/// What a calibration file says.
+/// A camera's calibration as its file describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Calibration {
     /// `JT_INTCALIB`: lengths in mm at the detector. It names no frame size.
     PrincipalDistance {
-        /// Focus to detector, mm.
+        /// Distance from focus to detector, mm.
         distance: f64,
         /// Principal point from the frame's centre, mm: x right, y up.
         offset: [f64; 2],
-        /// Between pixels, mm.
+        /// Distance between pixels, mm.
         pitch: f64,
     },
     /// A camera matrix in the computer-vision convention, for one frame size.
@@ -80,7 +80,7 @@ pub enum Calibration {
 }
 
 impl Calibration {
-    /// Reads either kind; which one, the first line tells.
+    /// Reads either kind of file; its first line says which.
     ///
     /// # Errors
     /// [`CalibrationError`] says which line or value is wrong.
@@ -133,7 +133,7 @@ impl Calibration {
         }
     }
 
-    /// Distance from focus to detector in mm, where the file tells it.
+    /// Distance from focus to detector in mm, where the file states it.
     #[must_use]
     pub fn principal_distance(&self) -> Option<f64> {
         match *self {
@@ -268,7 +268,7 @@ fn next_matrix<'a>(
     ])
 }
 
-/// Three numbers on one line or on a line each: both occur.
+/// Three numbers, which files have on one line or on a line each.
 fn next_translation<'a>(
     lines: &mut impl Iterator<Item = (usize, &'a str)>,
 ) -> Result<[f64; 3], CalibrationError> {

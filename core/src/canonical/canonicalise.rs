@@ -30,7 +30,7 @@ fn measure(mask: &Mask<'_>, area: u32, aspect: f64) -> Result<CanonicalForm, Can
 }
 
 /// Brings `mask` to canonical form. `aspect` is the height of a pixel divided by its width
-/// ([`crate::camera::Camera::aspect`]); `out` is lent for the canonical bits and has
+/// ([`crate::camera::Camera::aspect`]); `out` is borrowed for the canonical bits and has
 /// [`CanonicalSpec::words_needed`] words.
 ///
 /// Each canonical pixel reads the silhouette at its centre by bilinear interpolation of the four
@@ -66,9 +66,9 @@ fn touches_border(canonical: &Mask<'_>) -> bool {
     })
 }
 
-/// Turns a canonical mask by 180 degrees: the other direction of its axis, exactly.
+/// Rotates a canonical mask by 180 degrees, exactly: the other direction of its principal axis.
 ///
-/// Copies as many words as both slices hold.
+/// Where the slices differ in length, the words that both have are written.
 pub fn reverse(canonical: &[Word], out: &mut [Word]) {
     for (to, from) in out.iter_mut().zip(canonical.iter().rev()) {
         *to = from.reverse_bits();
@@ -85,7 +85,7 @@ mod tests {
 
     const SIDE: usize = 480;
 
-    /// A shape without symmetry, turned, scaled and shifted.
+    /// A shape without symmetry, rotated, scaled and shifted.
     fn shape(deg: f64, size: f64, at: (f64, f64), aspect: f64) -> std::vec::Vec<Word> {
         let corners = [
             (-1.0, -0.4),
@@ -130,9 +130,9 @@ mod tests {
             let (mut a, mut b) = (std::vec![0; spec.words_needed()], std::vec![0; spec.words_needed()]);
             let first = form_of(&shape(0.0, 110.0, (240.0, 240.0), 1.0), 1.0, &mut a);
             let second = form_of(&shape(deg, size, (240.0 + dx, 240.0 + dy), aspect), aspect, &mut b);
-            let mut turned = std::vec![0; b.len()];
-            reverse(&b, &mut turned);
-            let (straight, reversed) = (unmatched(&a, &b), unmatched(&a, &turned));
+            let mut rotated = std::vec![0; b.len()];
+            reverse(&b, &mut rotated);
+            let (straight, reversed) = (unmatched(&a, &b), unmatched(&a, &rotated));
             prop_assert!(straight.min(reversed) < 250, "{} {}", straight, reversed);
             // The record gives back what was done.
             let turn = second.angle - first.angle + if reversed < straight { core::f64::consts::PI } else { 0.0 };

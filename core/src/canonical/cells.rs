@@ -33,7 +33,7 @@ pub(super) fn for_each_mixed(
 /// The pixels of two rows, some at a time.
 #[derive(Default)]
 struct Scan {
-    /// So many columns were looked at; is the last pixel set above or below, and both?
+    /// Columns that have been passed, and whether the last pixel is set in either row, and in both.
     columns: u32,
     any: bool,
     all: bool,

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::image::contour::Point;
 use crate::image::mask::{MaskError, WORD_BITS, words_needed};
 
-/// Size and area of the canonical frame; a library and its queries must share them.
+/// Size and area of the canonical frame, which must be the same for a library and its queries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CanonicalSpec {
     size: usize,
@@ -40,7 +40,7 @@ pub enum CanonicalError {
 }
 
 impl CanonicalSpec {
-    /// The source's: 15 000 pixels in a frame of 256 x 256.
+    /// 15 000 pixels in a frame of 256 x 256, as in Walker et al. 1996.
     pub const USUAL: Self = Self {
         size: 256,
         area: 15_000,
@@ -89,7 +89,7 @@ impl CanonicalSpec {
 pub struct CanonicalForm {
     /// Pixels of the silhouette as it was given.
     pub area_px: u64,
-    /// Its centroid, continuous image coordinates.
+    /// Centroid of the silhouette, continuous image coordinates.
     pub centroid: Point,
     /// Direction of the principal axis, radians, -pi/2 to pi/2. An axis has two directions:
     /// this angle and this angle plus pi describe the same silhouette.

@@ -18,11 +18,11 @@ pub(super) struct Inverse {
     pub(super) centre: Point,
     /// Canonical columns and rows of a frame column.
     pub(super) column: [f64; 2],
-    /// And of a frame row.
+    /// Canonical columns and rows of a frame row.
     pub(super) row: [f64; 2],
 }
 
-/// The canonical pixels in the boxes round cells' images, which are parallelograms.
+/// The canonical pixels in the boxes around cells' images, which are parallelograms.
 struct Boxes {
     size: i64,
     column: [i64; 2],
@@ -34,7 +34,7 @@ struct Boxes {
 
 impl Inverse {
     /// Sets the pixels of an empty canonical frame that lie in a cell of the border, and the one to the right of them.
-    /// Breaks where there is so much border, or where cells are so large, that every pixel might as well be read.
+    /// Breaks where the border is so long, or cells are so large, that reading every pixel costs no more.
     pub(super) fn mark(&self, mask: &Mask<'_>, canonical: &mut MaskMut<'_>) -> ControlFlow<()> {
         let size = canonical.width();
         let Some(boxes) = self.boxes(size) else {

@@ -110,7 +110,7 @@ impl Position {
         }
     }
 
-    /// The four pixels round it, as [`Mask::square`] gives them.
+    /// The four pixels around it, as [`Mask::square`] gives them.
     #[inline(always)]
     fn square(&self, mask: &Mask<'_>) -> u32 {
         let (column, row) = (self.column >> PLACES, self.row >> PLACES);
@@ -120,7 +120,7 @@ impl Position {
         pair(mask, column, row) | pair(mask, column, row + 1) << 2
     }
 
-    /// Whether the silhouette, interpolated between the four pixels round it, covers half.
+    /// Whether the silhouette, interpolated between the four pixels around it, covers half.
     #[inline(always)]
     fn is_covered(&self, mask: &Mask<'_>) -> bool {
         let square = self.square(mask);

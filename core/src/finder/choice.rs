@@ -1,4 +1,4 @@
-//! Which of several refined poses of a component is chosen, and why.
+//! The choice between several refined poses of a component, with its reason.
 //!
 //! A nearly symmetric component has two poses with nearly one outline ([`crate::mesh::mirror`]), and where
 //! masks are poor two more that are mirrored in one out-of-plane rotation alone. The rules, in
@@ -34,15 +34,14 @@ use crate::shortlist::smallest;
 /// ratio of the two mirror poses was 0.9 to 1.1, and the wrong one often the smaller.
 pub const DECISIVE_RATIO: f64 = 1.3;
 
-/// Poses whose tilts are nearer in magnitude than this are not told apart by it, degrees.
+/// The tilt decides nothing between poses whose tilts differ by less than this in magnitude, degrees.
 ///
 /// Measured on one study of 16 frames, right against mirrored pose: with the femur known, the right
 /// tibia's tilt was smaller by 3.6 to 5.0 degrees; with the tibia known, the right femur's smaller
 /// by up to 2.9, but in four frames larger, by up to 1.7.
 pub const TILT_MARGIN_DEG: f64 = 2.0;
 
-/// Poses whose turns from the neighbouring frames differ by less than this are not told apart by
-/// them, degrees.
+/// The neighbouring frames decide nothing between poses whose rotations from them differ by less than this, degrees.
 pub const TURN_MARGIN_DEG: f64 = 2.0;
 
 /// Poses of a frame that are compared: those with the least residuals.
@@ -53,8 +52,8 @@ pub const CONTENDERS: usize = 8;
 pub struct RivalPose {
     /// `camera_from_model`.
     pub pose: Pose,
-    /// Root mean square of what remains between outlines, pixels (of a loss in square pixels, the
-    /// root). Anything else that is proportional to it serves. NaN counts as infinite.
+    /// Root mean square distance that remains between the outlines, pixels (of a loss in square pixels, its root).
+    /// Only ratios matter, so anything proportional to it serves. NaN counts as infinite.
     pub residual_px: f64,
 }
 
@@ -78,12 +77,12 @@ impl Counterpart {
     }
 }
 
-/// What is known besides the candidates themselves.
+/// What is known of a frame besides its candidates.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChoiceContext<'a> {
     /// The other component in the same frame.
     pub counterpart: Option<Counterpart>,
-    /// The same component in neighbouring frames: that before, that after, or both.
+    /// Poses of the same component in the frame before, the frame after, or both.
     pub neighbours: &'a [Pose],
 }
 
@@ -91,7 +90,7 @@ pub struct ChoiceContext<'a> {
 /// among those ruled out. Displayed, it is a sentence without its full stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason {
-    /// There was no other.
+    /// There was no other pose.
     Only,
     /// The residual.
     Residual {

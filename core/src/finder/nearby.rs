@@ -1,4 +1,4 @@
-//! Starts for refinement round a pose that is only roughly known.
+//! Starts for refinement around a pose that is only roughly known.
 //!
 //! Four of six parameters follow from a whole silhouette's area, centroid and principal axis at
 //! once (the first step of Walker et al. 1996, section 2.3, on a drawing made for the purpose),
@@ -20,7 +20,7 @@ use crate::refine::RefineMemory;
 use crate::render::{Projected, render};
 use crate::shortlist::keep;
 
-/// Starts that are given at most: the pose itself and the best of those round it.
+/// Most starts that [`nearby`] returns: the pose itself and the best of those around it.
 pub const NEARBY: usize = 5;
 
 /// Step of the search for a start that is only roughly known, degrees.
@@ -28,17 +28,17 @@ pub const WIDE_DEG: f64 = 8.0;
 /// Steps to each side.
 const REACH: i32 = 2;
 
-/// Times a drawing is moved onto the silhouette: twice where steps are wider than this, degrees.
+/// How often a drawing is moved onto the silhouette: twice where steps are wider than this, degrees.
 const MOVES: usize = 2;
 const WIDE_STEP_DEG: f64 = 2.0;
 
-/// `start` and the poses round it that cover a whole silhouette best, best first and `start` last:
-/// of two steps of `step_deg` degrees to each side about the camera's x and y. With [`WIDE_DEG`]
-/// for a start that may be 15 degrees, 10 mm aside and a tenth of the distance off. Draws the
-/// model 75 times, for small steps 50.
+/// Starts around `start` for [`crate::refine::refine()`]: the poses that cover a whole silhouette best, best first, and
+/// `start` itself last. The poses tried are two steps of `step_deg` degrees to each side about the camera's x and
+/// y. [`WIDE_DEG`] serves a start that is up to 15 degrees, 10 mm sideways and a tenth of its distance off. Draws
+/// the model 75 times, for small steps 50 times.
 ///
-/// Area and centroid must be those of the whole part: for a silhouette with unknown pixels `start` alone
-/// is given ([`crate::locate::partial`] finds poses of such).
+/// Area and centroid must be those of the whole component: for a silhouette with unknown pixels only `start` is
+/// returned ([`crate::locate::partial`] finds poses of such silhouettes).
 pub fn nearby(
     model: &Model<'_>,
     camera: &Camera,
@@ -90,7 +90,7 @@ struct NearbySearch<'s> {
 }
 
 impl NearbySearch<'_> {
-    /// `start` turned, then moved onto the silhouette; how many pixels differ then.
+    /// Rotates `start` by `turn`, moves it onto the silhouette, and counts the pixels that differ then.
     fn moved(&mut self, turn: Vector3, start: &Pose) -> Option<(u64, Pose)> {
         let mut pose = self.about_middle(start, &turn, [0.0; 3]);
         for _ in 0..self.moves {
@@ -132,7 +132,7 @@ impl NearbySearch<'_> {
         Some(self.drawn.as_mask().moments())
     }
 
-    /// A pose turned about the model's middle, which is then shifted; both in camera axes.
+    /// A pose rotated about the model's middle, then shifted; both in camera axes.
     fn about_middle(&self, pose: &Pose, turn: &Vector3, shift: Vector3) -> Pose {
         let rotation = multiply(&rotation_by(turn), &pose.rotation);
         let centre = add(&pose.transform(&self.middle), &shift);

@@ -14,33 +14,33 @@ use crate::refine::{
 };
 use crate::shortlist::keep;
 
-/// Poses to start from that are refined at most.
+/// Most poses that are refined as starts.
 pub const STARTS: usize = 6;
 
-/// Refined poses that may come of them: each start's own and its three mirror images.
+/// Most refined poses: that of each start and its three mirror images.
 pub const ANSWERS: usize = 4 * STARTS;
 
 /// Rivals are refined when the model drawn at them leaves at most this many times the unmatched
 /// pixels of the best: the library stage is some pixels off, so near rivals are still open.
 const WORTH_REFINING: f64 = 4.0;
 
-/// A part looks symmetric when its mirrored pose leaves at most this part of the mask unmatched.
+/// A component looks symmetric when its mirrored pose leaves at most this fraction of the mask unmatched.
 const SYMMETRIC_FRACTION: f64 = 0.15;
 
-/// See [`is_split`]: least residual, pixels, and how many times the spread of the residuals it is.
+/// See [`is_split`]: least residual, pixels, and its least ratio to the robust standard deviation of the residuals.
 const SPLIT_PX: f64 = 0.1;
 const SPLIT_RATIO: f64 = 3.0;
-/// The same of an outline without noise: residuals that are spread less than the first leave no
-/// more than the second at the right pose, pixels. By trial on the exact masks of two femoral and two
-/// tibial components.
+/// See [`is_split`], for an outline without noise: where the robust standard deviation is below the first, the residual at
+/// the right pose is below the second, pixels. Found by trial on the exact masks of two femoral and two tibial
+/// components.
 const EXACT_PX: f64 = 0.046;
 const INEXACT_PX: f64 = 0.03;
 
-/// Step of the search round a pose that may be a small minimum, degrees.
+/// Step of the search around a pose that may be a false minimum near the right one, degrees.
 const CLOSE_DEG: f64 = 1.0;
 
-/// What a glance finds is the best pose again where it is nearer to it than this, degrees, and is no rival
-/// where its loss is more than so many times the best one's.
+/// A probe has led back to the best pose where it ends nearer to it than this, degrees; it has found no rival where its
+/// loss exceeds the best one's by more than this factor.
 const BACK_DEG: f64 = 0.1;
 const ALIKE: f64 = 1.25;
 
@@ -58,8 +58,8 @@ pub struct RefinedRival {
     pub refined: Refined,
 }
 
-/// The first of `rivals` that are near enough to the best to be worth refining. They come best
-/// first, as [`crate::locate::rerank::rerank`] puts them.
+/// The rivals whose unmatched pixels are near enough to those of the best to be worth refining: the first of `rivals`,
+/// which come best first from [`crate::locate::rerank::rerank`].
 #[must_use]
 pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
     let least = rivals.first().map_or(0, |best| best.unmatched);
@@ -68,11 +68,10 @@ pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
     &rivals[..count.min(STARTS)]
 }
 
-/// Refines the first [`STARTS`] poses of `starts`, then their mirror images
-/// in each of `planes`, those of the model's near-symmetry
-/// ([`crate::mesh::symmetry::symmetry_planes`]), where they cover the mask: such an image may lie
-/// between the same views of a library and be no rival of its own. The poses by rising loss,
-/// each once; empty only where there is no start.
+/// Refines the first [`STARTS`] poses of `starts`, and then their mirror images in each of `planes`, the model's planes of
+/// near-symmetry ([`crate::mesh::symmetry::symmetry_planes`]), where these cover the mask: between the views of a
+/// library a mirror image need not be a minimum of its own. Returns the different poses by rising loss; none only where
+/// there is no start.
 ///
 /// # Errors
 /// That of [`refine`] for the last start, when none can be refined.
@@ -106,7 +105,7 @@ pub fn refine_rivals(
     Ok(distinct(&search.answers))
 }
 
-/// Refinement from ever more poses.
+/// Refinement from a growing list of starts.
 struct RivalRefinement<'s, 'm> {
     model: &'s Model<'s>,
     views: &'s [CameraView<'s>],
@@ -146,8 +145,8 @@ impl RivalRefinement<'_, '_> {
         }
     }
 
-    /// Where most of the outline fits exactly and a part does not, the best pose may be a small
-    /// minimum beside the right one: it is refined from round about.
+    /// Where most of the outline fits exactly and a part does not, the best pose may be a false minimum near the right
+    /// one: refinement starts again from poses around it.
     fn look_closer(&mut self) {
         let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
             return;
@@ -160,9 +159,8 @@ impl RivalRefinement<'_, '_> {
         }
         let (model, camera, pose) = (self.model, view.camera, &best.refined.pose);
         let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
-        let turned =
-            |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
-        for start in starts.iter().filter(turned) {
+        let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
+        for start in starts.iter().filter(apart) {
             if let Some(found) = self.probe(start, &best.refined) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
@@ -170,7 +168,7 @@ impl RivalRefinement<'_, '_> {
         }
     }
 
-    /// Where a start leads, unless that is back to the best pose or to a worse one. Most do.
+    /// The pose that a start leads to, unless it is the best pose again or a worse one, as most are.
     fn probe(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
         let options = RefineOptions {
             effort: Effort::Probe,
@@ -183,8 +181,8 @@ impl RivalRefinement<'_, '_> {
     }
 }
 
-/// Whether most of an outline fits exactly and a part does not at all, which noise does not do, or
-/// an outline without noise leaves more than rounding does.
+/// Whether most of an outline fits exactly and a part does not at all, which noise does not cause; or whether an outline
+/// without noise leaves a residual that rounding does not explain.
 fn is_split(refined: &Refined) -> bool {
     let (residual, sigma) = (refined.residual_px, refined.robust_sigma_px);
     let split = residual > SPLIT_PX && residual > SPLIT_RATIO * sigma;
@@ -192,7 +190,7 @@ fn is_split(refined: &Refined) -> bool {
 }
 
 /// Whether the model drawn at a mirrored pose covers the silhouette nearly as well as at its own,
-/// or well by itself. A grey frame cannot say.
+/// or well by itself. Of a grey frame that is not known: `true`.
 fn is_near(
     model: &Model<'_>,
     view: &CameraView<'_>,

@@ -13,7 +13,7 @@ pub enum BorderError {
     #[error("the mask is empty: there is no border to follow")]
     Empty,
     /// The border has more corners than the contour holds.
-    #[error("the border has more than {0} corners; lend a larger contour")]
+    #[error("the border has more than {0} corners, which the contour does not hold")]
     TooLong(usize),
 }
 
@@ -93,8 +93,8 @@ impl Crack {
         self.turn_where(|column, row| mask.get(column, row))
     }
 
-    /// [`Crack::turn`] round the pixels of which `inside` says so; it is asked of pixels beyond
-    /// the right and the lower border too.
+    /// [`Crack::turn`] around the pixels for which `inside` is true; it is called for pixels beyond the right and the
+    /// lower border too.
     pub fn turn_where(self, inside: impl Fn(usize, usize) -> bool) -> Self {
         let ahead = |left_hand| {
             let pixel = self.pixel_ahead(left_hand);

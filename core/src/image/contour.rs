@@ -1,4 +1,4 @@
-//! Outlines: polygons traced round a silhouette, in sub-pixel image coordinates.
+//! Outlines: polygons traced around a silhouette, in sub-pixel image coordinates.
 
 use heapless::Vec;
 use thiserror::Error;
@@ -189,7 +189,7 @@ fn within_box(a: Point, b: Point, p: Point) -> bool {
     between(a.column, b.column, p.column) && between(a.row, b.row, p.row)
 }
 
-/// Whether two segments share a point (Cormen et al., *Introduction to Algorithms*, 33.1).
+/// Whether two segments have a point in common (Cormen et al., *Introduction to Algorithms*, 33.1).
 fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
     let (o1, o2) = (orientation(a, b, c), orientation(a, b, d));
     let (o3, o4) = (orientation(c, d, a), orientation(c, d, b));
@@ -201,7 +201,7 @@ fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
         || (o4 == 0.0 && within_box(c, d, b))
 }
 
-/// Whether two sides that share one vertex lie on each other, or one of them has no length.
+/// Whether two sides with a common vertex lie on each other, or one of them has no length.
 fn folds_back(a: (Point, Point), b: (Point, Point)) -> bool {
     let (before, shared, after) = if a.1 == b.0 {
         (a.0, a.1, b.1)

@@ -45,7 +45,7 @@ pub enum FrameError {
     BufferTooShort {
         /// Pixels that the shape takes.
         needed: usize,
-        /// Pixels that were lent.
+        /// Pixels that were given.
         given: usize,
     },
     /// A region of interest leaves the frame.

@@ -57,7 +57,7 @@ pub(crate) const fn row_words(width: usize) -> usize {
     width.div_ceil(WORD_BITS)
 }
 
-/// Words of a mask of `width` x `height` pixels: what the caller lends.
+/// Words of a mask of `width` x `height` pixels.
 #[must_use]
 pub const fn words_needed(width: usize, height: usize) -> usize {
     row_words(width) * height
@@ -186,7 +186,7 @@ impl<'a> Mask<'a> {
     /// The runs of set pixels of one row, as half-open ranges of columns, left to right.
     pub fn runs(&self, row: usize) -> impl Iterator<Item = core::ops::Range<usize>> + use<'a> {
         let words = self.row(row);
-        // The word that is looked at and, of its pixels that are set, those not passed yet.
+        // The present word and those of its set pixels that have not been passed yet.
         let (mut at, mut left) = (0, words.first().copied().unwrap_or(0));
         core::iter::from_fn(move || {
             while left == 0 {

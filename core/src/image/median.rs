@@ -1,4 +1,4 @@
-//! Median filter of a grey frame: the source's remedy for quantum mottle before tracing.
+//! Median filter of a grey frame: the remedy of Walker et al. 1996 for quantum mottle before tracing.
 
 use crate::image::frame::{Frame, FrameError, Pixel};
 

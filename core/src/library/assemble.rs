@@ -22,7 +22,7 @@ pub struct Assembly<'p> {
     info: LibraryInfo,
     packed: &'p [&'p [u8]],
     common: CommonBlocks,
-    /// Of the runs of all views.
+    /// Bytes of the runs of all views.
     runs_bytes: usize,
 }
 
@@ -64,7 +64,7 @@ impl<'p> Assembly<'p> {
         library_bytes(&self.info.canonical, &self.info.grid).unwrap_or(usize::MAX)
     }
 
-    /// Before the runs.
+    /// Bytes before the runs.
     fn head_bytes(&self) -> usize {
         let varying = self.common.varying.len();
         let view = SHORT_RECORD_BYTES + 4 + stride(varying);
@@ -110,7 +110,7 @@ impl<'p> Assembly<'p> {
         Ok(())
     }
 
-    /// Records, ends of runs, ground, places and sketches.
+    /// Writes records, ends of runs, common blocks, places and sketches.
     fn write_head(&self, body: &mut [u8]) {
         let sketches_bytes = self.packed.len() * stride(self.common.varying.len());
         let (numbers, sketches) = body.split_at_mut(body.len() - sketches_bytes);
@@ -144,12 +144,12 @@ fn views<'p>(
     parts.filter_map(move |bytes| Packed::split(bytes, &spec))
 }
 
-/// The blocks of all views.
+/// What the blocks of all views have in common.
 #[derive(Clone, Debug)]
 struct CommonBlocks {
-    /// Where they are alike; 0 elsewhere.
+    /// Set pixels of the blocks that are the same in all views; 0 elsewhere.
     alike: [u8; MOST_BLOCKS],
-    /// Numbers of the others, rising.
+    /// Numbers of the other blocks, rising.
     varying: Vec<u16, MOST_BLOCKS>,
 }
 
@@ -177,7 +177,7 @@ impl CommonBlocks {
 /// Writes a plain library: `view` gives the record of each view and draws its bits.
 ///
 /// # Errors
-/// [`BuildError::Memory`] unless `out` has as many bytes as such a library, and those of `view`.
+/// [`BuildError::Memory`] unless `out` has the bytes of such a library, and those of `view`.
 pub(super) fn write_plain(
     info: &LibraryInfo,
     out: &mut [u8],

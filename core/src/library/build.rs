@@ -1,4 +1,4 @@
-//! Rendering a library into bytes that the caller lends, view by view.
+//! Rendering a library into borrowed bytes, view by view.
 
 use super::assemble::{Assembly, write_bits, write_plain};
 use super::error::BuildError;
@@ -17,7 +17,7 @@ use crate::render::{Projected, render, scratch_needed};
 /// What [`ViewScratch::canonical`] holds.
 const WORDS: &str = "words of canonical mask";
 
-/// Working memory for one view; each thread lends its own.
+/// Working memory for one view; each thread has its own.
 #[derive(Debug)]
 pub struct ViewScratch<'a> {
     /// [`Builder::projected_needed`] vertices.
@@ -28,7 +28,7 @@ pub struct ViewScratch<'a> {
     pub canonical: &'a mut [Word],
 }
 
-/// A library being built: a plan that renders any view into its place, in any order.
+/// A plan of a library that renders its views in any order.
 #[derive(Clone, Copy, Debug)]
 pub struct Builder<'m> {
     model: Model<'m>,
@@ -42,8 +42,8 @@ pub struct Builder<'m> {
 const VIEW_SIDE_EIGHTHS: usize = 10;
 
 impl<'m> Builder<'m> {
-    /// A plan for the views of `model` at `distance` mm. `camera` is recorded; the views
-    /// themselves are drawn by a camera of their own that just holds the model.
+    /// A plan for the views of `model` with its centre `distance` mm from the focus. `camera` is recorded; the
+    /// views themselves are drawn by a camera of their own whose frame just holds the model.
     ///
     /// # Errors
     /// [`BuildError`] for an impossible grid, distance or camera.
@@ -81,7 +81,7 @@ impl<'m> Builder<'m> {
         })
     }
 
-    /// What the library will say of itself.
+    /// What the library will record of itself: grid, distance, camera, model.
     #[must_use]
     pub fn info(&self) -> &LibraryInfo {
         &self.info
@@ -112,14 +112,14 @@ impl<'m> Builder<'m> {
         words_needed(self.view_camera.width(), self.view_camera.height())
     }
 
-    /// Bytes of a packed view at most. Those of an implant take a fiftieth of it.
+    /// Most bytes of a packed view. Those of an implant take a fiftieth of this.
     #[must_use]
     pub fn packed_most(&self) -> usize {
         packed_most(&self.info.canonical)
     }
 
-    /// Draws one view and packs it into `out`, for [`Self::assemble`]; gives the bytes that it takes. Views may be
-    /// packed in any order and by any thread or process; what is packed is no file and is to be kept by none.
+    /// Draws one view, packs it into `out` for [`Self::assemble`], and returns the number of bytes that it takes. Views
+    /// may be packed in any order and by any thread or process. A packed view is not a file format: do not store it.
     ///
     /// # Errors
     /// [`BuildError`] for working memory of the wrong length or a view that cannot be drawn.
@@ -141,16 +141,17 @@ impl<'m> Builder<'m> {
         pack(&record, &canonical, out).ok_or(BuildError::Memory(short))
     }
 
-    /// The file of all views, packed, in their order: first asked how long it is, then written.
+    /// The library of all packed views, in view order: [`Assembly::bytes_needed`] says how long the file is,
+    /// [`Assembly::write`] writes it.
     ///
     /// # Errors
-    /// [`BuildError::Memory`] where there are not as many as the grid has, [`BuildError::Packed`] where one of them is
-    /// none.
+    /// [`BuildError`] where the number of packed views is not that of the grid, [`BuildError::Packed`] where one of them
+    /// is not a packed view.
     pub fn assemble<'p>(&self, packed: &'p [&'p [u8]]) -> Result<Assembly<'p>, BuildError> {
         Assembly::new(&self.info, packed)
     }
 
-    /// Draws one view: its record; its canonical silhouette is left in the working memory.
+    /// Draws one view and returns its record; its canonical silhouette is left in the working memory.
     fn draw_view(
         &self,
         view: usize,
@@ -181,7 +182,7 @@ impl<'m> Builder<'m> {
         })
     }
 
-    /// The reference point on the optical axis, turned by `Rx * Ry`.
+    /// The pose of a view: the reference point on the optical axis, the model rotated by `Rx * Ry`.
     fn view_pose(&self, x_deg: f64, y_deg: f64) -> Pose {
         let rotation = rotation_zxy(0.0, x_deg, y_deg);
         let mut translation = scale(&apply(&rotation, &self.info.reference), -1.0);

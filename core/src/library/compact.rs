@@ -4,7 +4,7 @@
 //!
 //! - a record of 40 bytes a view, without the rotations: those are the grid's;
 //! - where each view's runs end, bytes from the first view's (u32);
-//! - the *ground*, a byte for each block of 16 x 16 pixels (row by row): its set pixels, at most
+//! - the *common blocks*, a byte for each block of 16 x 16 pixels (row by row): its set pixels, at most
 //!   255, where they are the same in all views, else 0;
 //! - the numbers of the other blocks, rising (u16; how many there are stands in the header);
 //! - the sketch of each view: a byte for each of those blocks, then zeros to a multiple of 32;
@@ -18,7 +18,7 @@ use super::runs::are_runs;
 use super::sketch::{BLOCK, STRIDE, at_most_255, block_row_of_runs, blocks};
 use super::wire::{Reader, SHORT_RECORD_BYTES};
 
-/// Views in the compact layout.
+/// The parts of a body in the compact layout.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Compact<'a> {
     pub(super) records: &'a [u8],

@@ -12,7 +12,7 @@ use crate::render::RenderError;
 /// Why bytes are not a library.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum LibraryError {
-    /// The first bytes are others.
+    /// The first bytes are not those of a library.
     #[error("this is not a library file: it does not begin with FLUOROPL")]
     Magic,
     /// The layout is unknown.
@@ -23,9 +23,9 @@ pub enum LibraryError {
     /// The file is shorter or longer than its header says.
     #[error("the library has {given} bytes but should have {needed}: the file is cut or padded")]
     Length {
-        /// By the header.
+        /// Bytes by the header.
         needed: u64,
-        /// In fact.
+        /// Bytes that were given.
         given: u64,
     },
     /// A checksum is wrong.
@@ -69,7 +69,7 @@ pub enum BuildError {
         /// Packed views.
         given: usize,
     },
-    /// What was lent for a packed view is none.
+    /// The bytes given for a packed view are not one.
     #[error("view {0} was not packed, or not whole: pack it again")]
     Packed(usize),
     /// A view has no canonical form.

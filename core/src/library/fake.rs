@@ -201,8 +201,8 @@ mod tests {
             header[176..180].copy_from_slice(&checksum([&*body]).to_le_bytes());
             let crc = checksum([&header[..252]]).to_le_bytes();
             header[252..].copy_from_slice(&crc);
-            // Runs may have changed with nothing to tell: a full block counts as one with a pixel
-            // less. What is told of them still holds.
+            // A change of runs may go unnoticed, because a full block counts as one with a pixel less. What the
+            // sketch says still holds.
             if let Ok(opened) = Library::open(&bytes) {
                 let sketches = opened.sketches().expect("compact");
                 for view in 0..4 {

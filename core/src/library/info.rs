@@ -10,7 +10,7 @@ use crate::mesh::ModelDigest;
 pub struct ViewAxis {
     /// First rotation, degrees.
     pub first: f64,
-    /// Between neighbours, degrees; positive.
+    /// Step between neighbours, degrees; positive.
     pub step: f64,
     /// Number of rotations.
     pub count: usize,
@@ -44,7 +44,7 @@ pub struct ViewGrid {
 }
 
 impl Default for ViewGrid {
-    /// The source's 31 x 41 = 1271 views: x from -15 to 15, y from -20 to 20 degrees.
+    /// The 31 x 41 = 1271 views of Walker et al. 1996: x from -15 to 15, y from -20 to 20 degrees, one degree apart.
     fn default() -> Self {
         let axis = |reach: i32| ViewAxis {
             first: f64::from(-reach),
@@ -130,7 +130,7 @@ pub struct LibraryInfo {
     /// The camera that the library was made for. Poses from another one remain right; the
     /// perspective of the views is then that of [`Self::distance`] all the same.
     pub camera: Camera,
-    /// Digest of the model.
+    /// Digest of the model, by which a library recognises it ([`crate::mesh::Mesh::digest`]).
     pub model: ModelDigest,
 }
 
@@ -148,7 +148,7 @@ pub struct ViewRecord {
     pub angle: f64,
     /// From the projected reference point to the centroid, pixels to the right and upwards.
     pub offset: [f64; 2],
-    /// Pixels of the silhouette.
+    /// Area of the silhouette before canonical form, pixels.
     pub area: u32,
     /// See [`crate::canonical::CanonicalForm::elongation`].
     pub elongation: f32,

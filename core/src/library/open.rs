@@ -114,9 +114,9 @@ impl<'a> Library<'a> {
         }
     }
 
-    /// Draws the canonical bits of a view into as many words as a canonical mask has
-    /// ([`CanonicalSpec::words_needed`]); clears them beyond the last view. Words of another
-    /// number are left alone.
+    /// Draws the canonical bits of a view into the words of a canonical mask
+    /// ([`CanonicalSpec::words_needed`]); clears them for a view beyond the last. A slice of another
+    /// length stays as it is.
     pub fn draw(&self, view: usize, out: &mut [Word]) {
         let size = self.info.canonical.size();
         if out.len() != self.info.canonical.words_needed() {

@@ -16,7 +16,7 @@ pub(super) struct Packed<'p> {
 }
 
 impl<'p> Packed<'p> {
-    /// `None` where it is too short.
+    /// `None` where `bytes` are too few for a record and its blocks.
     pub(super) fn split(bytes: &'p [u8], spec: &CanonicalSpec) -> Option<Self> {
         let (record, rest) = bytes.split_at_checked(SHORT_RECORD_BYTES)?;
         let (counts, runs) = rest.split_at_checked(blocks(spec))?;
@@ -33,7 +33,7 @@ pub(super) fn packed_most(spec: &CanonicalSpec) -> usize {
     SHORT_RECORD_BYTES + blocks(spec) + runs_most(spec.size())
 }
 
-/// Packs a view and gives the bytes that it takes; `None` where there are not as many.
+/// Packs a view and gives the bytes that it takes; `None` where `out` is too short.
 pub(super) fn pack(record: &ViewRecord, canonical: &Mask<'_>, out: &mut [u8]) -> Option<usize> {
     let across = canonical.width() / super::sketch::BLOCK;
     let (place, rest) = out.split_at_mut_checked(SHORT_RECORD_BYTES)?;

@@ -1,16 +1,15 @@
 //! A view as runs of set pixels: what the compact form of a library holds instead of bits.
 //!
-//! Bands of consecutive rows with equally many runs. A band is its first row, its number of rows
+//! Bands of consecutive rows with the same number of runs. A band is its first row, its number of rows
 //! and its runs a row (three u16, little-endian), and then, row by row and from left to right, two
 //! bytes a run: the pixels between it and the run before (or the border), and its own pixels. A
-//! gap of more than 255 pixels passes through runs of none; a run of more is continued after a
-//! gap of none.
+//! gap of more than 255 pixels is written with runs of length 0 between its parts; a longer run with gaps of length 0.
 
 use crate::image::mask::{Mask, MaskMut};
 
 /// Bytes before a band's runs.
 const BAND_BYTES: usize = 6;
-/// Pixels that one byte tells.
+/// Most pixels that one byte can count.
 const LONGEST: usize = 255;
 
 /// Gap and pixels of each run of a row.
@@ -67,7 +66,7 @@ impl Open {
     }
 }
 
-/// Copies where there is room.
+/// Copies bytes where `out` has room for them.
 fn put(out: &mut [u8], at: usize, bytes: &[u8]) {
     if let Some(place) = out.get_mut(at..at + bytes.len()) {
         place.copy_from_slice(bytes);
@@ -80,8 +79,7 @@ pub(super) const fn runs_most(size: usize) -> usize {
     size * (BAND_BYTES + 2 * (size / 2 + 2 * size.div_ceil(LONGEST)))
 }
 
-/// Writes the runs of a mask and returns how many bytes they take; where that is more than there
-/// are, what was written is of no use.
+/// Writes the runs of a mask and returns how many bytes they take; where `out` has fewer, its contents are of no use.
 pub(super) fn write_runs(mask: &Mask<'_>, out: &mut [u8]) -> usize {
     let mut length = 0;
     let mut band: Option<Open> = None;
@@ -118,7 +116,7 @@ pub(super) fn write_runs(mask: &Mask<'_>, out: &mut [u8]) -> usize {
     length
 }
 
-/// Consecutive rows with equally many runs.
+/// Consecutive rows with the same number of runs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Band<'a> {
     pub(crate) first_row: usize,
@@ -218,7 +216,7 @@ pub(super) fn overlap(a: &[u8], b: &[u8]) -> u32 {
 }
 
 /// Pixels in runs of both rows. Rows have few runs: all pairs are quicker than merging, which
-/// takes a branch a run that nothing foretells.
+/// takes an unpredictable branch for each run.
 fn common(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
     let pairs = spans(a).flat_map(|ours| spans(b).map(move |theirs| (ours, theirs)));
     let common = pairs

@@ -29,7 +29,7 @@ pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
 
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// Of parts that follow one another.
+/// CRC-32 of parts that follow one another.
 pub(super) fn checksum<const N: usize>(parts: [&[u8]; N]) -> u32 {
     let mut digest = CRC.digest();
     parts.iter().for_each(|part| digest.update(part));
@@ -117,7 +117,7 @@ fn write_axis(out: &mut Writer<'_>, axis: &ViewAxis) {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Body {
     pub(super) version: u16,
-    /// Of a sketch; 0 in the plain layout.
+    /// Blocks of a sketch; 0 in the plain layout.
     pub(super) blocks: usize,
     pub(super) bytes: u64,
     pub(super) crc: u32,

@@ -1,6 +1,6 @@
 //! Sub-degree rotation from the bands that the outline sweeps between neighbouring views.
 //!
-//! Where the neighbour one step ahead is set and the one behind is not, or the other way round,
+//! Where the neighbour one step ahead is set and the one behind is not, or conversely,
 //! lies the band that the outline sweeps as the object turns. How many pixels of that band a
 //! silhouette covers, counted positive in the one part and negative in the other, is a linear
 //! functional of the silhouette that grows smoothly with the rotation: unlike the number of

@@ -1,4 +1,4 @@
-//! From a matched view to a pose: the equations of the source, then the view direction.
+//! From a matched view to a pose: the equations of Walker et al. 1996, then the view direction.
 //!
 //! Walker et al. 1996, section 2.3, with the correction for an object off the optical axis.
 
@@ -16,7 +16,7 @@ use crate::pose::{Pose, rotation_zxy, view_rotation};
 ///    divided by its own focal length. A silhouette seen at the angle `phi` off the axis is
 ///    stretched by the flat detector: a solid angle covers `1 / cos^3 phi` times the area, and
 ///    the depth is `cos phi` times the distance along the ray, together `1 / sqrt(cos phi)`.
-/// 3. The library's vector from the reference point to the centroid, turned and scaled, leads
+/// 3. The library's vector from the reference point to the centroid, rotated and scaled, leads
 ///    from the silhouette's centroid back to the image of the reference point, and similar
 ///    triangles from there to x and y.
 /// 4. The view shows the object from the direction of the ray to it, so its rotation in camera
@@ -50,8 +50,8 @@ pub fn pose_from_view(
     let size_ratio = form.scale * fx / (view.record.scale * info.focal);
     let depth = info.distance * size_ratio / sqrt(cos_phi);
     let reference = ray.map(|component| component * depth);
-    let turned = rotation_zxy(degrees(z_rot), view.record.x_deg, view.record.y_deg);
-    let rotation = multiply(&view_rotation(&ray), &turned);
+    let rotated = rotation_zxy(degrees(z_rot), view.record.x_deg, view.record.y_deg);
+    let rotation = multiply(&view_rotation(&ray), &rotated);
     let from_origin = apply(&rotation, &info.reference);
     Pose {
         rotation,

@@ -11,7 +11,7 @@ use crate::search::ViewSearch;
 pub struct FineView {
     /// The record there: rotations, scale, angle, offset.
     pub record: ViewRecord,
-    /// Whether the silhouette fits when turned by 180 degrees.
+    /// Whether the silhouette fits when rotated by 180 degrees.
     pub reversed: bool,
     /// Unmatched pixels of the nearest view of the grid.
     pub unmatched: u32,
@@ -24,7 +24,7 @@ pub struct FineView {
 /// worse: the score is no quadratic that far from its minimum.
 const REACH: usize = 2;
 
-/// Finds the rotation between the views round `candidate` and reads scale, angle and offset
+/// Finds the rotation between the views around `candidate` and reads scale, angle and offset
 /// there.
 ///
 /// The rotation comes from the bands that the outline sweeps between neighbouring views

@@ -1,8 +1,7 @@
-//! Choosing between rival poses: draw the model at each and count the pixels that differ.
+//! Reranking of rival poses: the model is drawn at each and the pixels that differ are counted.
 //!
 //! The scores of [`crate::search`] are those of whole views; two rivals may differ by less
-//! than the distance of their poses from the nearest view. Drawn at its own pose, each rival
-//! answers for itself.
+//! than the poses differ from the nearest view. Drawn at its own pose, each rival is judged by itself.
 
 use heapless::Vec;
 
@@ -45,7 +44,7 @@ pub fn unmatched_at_pose(
 }
 
 /// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
-/// more than `K` poses the first `K` are looked at.
+/// more than `K` poses only the first `K` are drawn.
 ///
 /// # Errors
 /// Those of [`unmatched_at_pose`].
@@ -57,14 +56,14 @@ pub fn rerank<const K: usize>(
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
-    let mut verified: Vec<Reranked, K> = Vec::new();
+    let mut reranked: Vec<Reranked, K> = Vec::new();
     for located in poses.iter().take(K) {
         let unmatched =
             unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn)?;
         let located = *located;
-        keep(&mut verified, Reranked { located, unmatched }, |other| {
+        keep(&mut reranked, Reranked { located, unmatched }, |other| {
             other.unmatched
         });
     }
-    Ok(verified)
+    Ok(reranked)
 }

@@ -1,4 +1,4 @@
-//! The whole way at once: from a silhouette to the poses that explain it.
+//! From a whole silhouette to the first poses that explain it.
 
 use heapless::Vec;
 use thiserror::Error;
@@ -31,18 +31,18 @@ pub enum LocateError {
 pub struct Workspace<'a> {
     /// [`crate::canonical::CanonicalSpec::words_needed`] words; afterwards the canonical mask.
     pub canonical: &'a mut [Word],
-    /// As many words again.
+    /// The same number of words; afterwards the canonical mask rotated by 180 degrees.
     pub rotated: &'a mut [Word],
     /// [`scores_needed`] numbers.
     pub scores: &'a mut [u32],
     /// [`workspace_bytes_needed`] bytes.
     pub bytes: &'a mut [u8],
-    /// The loops to run.
+    /// The inner loops: [`Kernels::PORTABLE`], or those of a crate that knows the machine.
     pub kernels: Kernels,
 }
 
 impl Workspace<'_> {
-    /// The same memory, lent on.
+    /// The same memory, borrowed for a shorter time.
     pub fn reborrow(&mut self) -> Workspace<'_> {
         Workspace {
             canonical: self.canonical,
@@ -89,7 +89,7 @@ pub struct Located {
     pub pose: Pose,
     /// Number of the nearest view of the library.
     pub view: usize,
-    /// The view between the views.
+    /// The interpolated view.
     pub fine: FineView,
 }
 
@@ -98,12 +98,14 @@ pub struct Located {
 pub struct LocatedPoses<const K: usize> {
     /// What was taken away from the silhouette to reach canonical form.
     pub form: CanonicalForm,
-    /// At most `K` poses, one for each local minimum of the score surface that is not hopeless
-    /// ([`ViewSearch::rivals`]), fewest unmatched pixels first. More than one with similar scores means that the silhouette is ambiguous.
+    /// At most `K` poses, fewest unmatched pixels first: one for each local minimum of the score surface that is near
+    /// enough to the best ([`ViewSearch::rivals`]). Several with similar scores mean that the silhouette is ambiguous.
     pub poses: Vec<Located, K>,
 }
 
-/// Finds the poses of the library's model that explain `mask`, as seen by `camera`.
+/// Finds the poses of the library's model that explain `mask`, as seen by `camera`: canonical form, the views that differ
+/// in the fewest pixels, interpolation between them, and the equations of Walker et al. 1996, section 2.3. The mask must
+/// hold the whole silhouette; for a part of one see [`crate::locate::partial`].
 ///
 /// # Errors
 /// [`LocateError`] for a mask without a canonical form or working memory of the wrong length.

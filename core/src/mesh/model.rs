@@ -4,7 +4,7 @@ use crate::math::Vector3;
 use crate::mesh::edges::Edges;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest};
 
-/// A component's CAD model, ready to be drawn. It borrows; a copy costs nothing.
+/// A component's CAD model, ready to be drawn. It borrows its vertices, triangles and edges, so a copy is cheap.
 ///
 /// Without edges every triangle is drawn. With edges the same pixels come sooner: see
 /// [`crate::mesh::edges::link`], which finds those of a closed surface.
@@ -21,7 +21,7 @@ impl<'a> Model<'a> {
         Self { mesh, edges: None }
     }
 
-    /// The same from its parts: vertices in mm, three of them for each triangle.
+    /// A model that is drawn triangle by triangle, from vertices (mm) and three vertex indices for each triangle.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
@@ -61,7 +61,7 @@ impl<'a> Model<'a> {
         self.mesh.vertices()
     }
 
-    /// Three vertices each.
+    /// Triangles, three vertex indices each.
     #[must_use]
     pub fn triangles(&self) -> &'a [[u32; 3]] {
         self.mesh.triangles()

@@ -11,7 +11,7 @@ use crate::mesh::surface::{Bounds, Mesh, MeshError};
 
 /// Vertices, triangles and the edges that silhouettes are drawn from.
 ///
-/// The numbers stay where they came and are looked at in threes.
+/// It keeps the two vectors that it was given and reads them three numbers at a time.
 #[derive(Clone, Debug)]
 pub struct OwnedModel {
     vertices: Vec<f32>,
@@ -29,8 +29,8 @@ struct OwnedEdges {
 }
 
 impl OwnedModel {
-    /// Takes vertices (x, y, z of one after the other, mm) and triangles (three vertex numbers each). Numbers beyond the
-    /// last three are left out.
+    /// Takes vertices (x, y and z of each, mm) and triangles (three vertex numbers each). One or two numbers left over at
+    /// the end are ignored.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.

@@ -33,10 +33,10 @@ pub struct Mesh<'a> {
 /// SHA-256 of a mesh's vertices and triangles as they are stored.
 pub type ModelDigest = [u8; 32];
 
-/// A sphere round all vertices, in model coordinates, mm.
+/// A sphere around all vertices, in model coordinates, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Middle of the box round the vertices.
+    /// Middle of the box around the vertices.
     pub centre: Vector3,
     /// Distance from it to the farthest vertex.
     pub radius: f64,
@@ -65,7 +65,7 @@ impl Bounds {
 }
 
 impl<'a> Mesh<'a> {
-    /// A mesh over vertices and triples of vertex indices.
+    /// A mesh over vertices (mm, model coordinates) and triples of vertex indices.
     ///
     /// # Errors
     /// [`MeshError`] names the first vertex or triangle at fault.
@@ -119,7 +119,7 @@ impl<'a> Mesh<'a> {
         self.triangles
     }
 
-    /// Centre of the bounding box and the radius of the sphere round it that holds the model.
+    /// Centre of the bounding box, and the radius of the sphere about that centre which holds the model.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds

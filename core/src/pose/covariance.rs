@@ -1,5 +1,4 @@
-//! How sure a pose is: the covariance of its six parameters, and of the six numbers that are
-//! written of it.
+//! Pose uncertainty: the covariance of a pose's six parameters, and of the six numbers in which it is written.
 
 use crate::math::{
     Vector3, add, apply, cross, degrees, inverse_spd, multiply, multiply_square, rotation_vector,
@@ -10,8 +9,8 @@ use crate::pose::{EulerPose, Pose};
 /// A 6 x 6 matrix, row by row.
 pub type Matrix6 = [[f64; 6]; 6];
 
-/// Nearer to 90 degrees than this, as a cosine, `x_rot` counts as this near: there `z_rot` and
-/// `y_rot` turn about one line, and each alone is as good as unknown.
+/// Least cosine of `x_rot` that is used. Near 90 degrees `z_rot` and `y_rot` rotate about the same line, and each alone is
+/// practically unknown.
 const LOCK: f64 = 1e-9;
 
 /// Covariance of a pose about its middle.
@@ -128,7 +127,7 @@ impl PoseCovariance {
 /// shift (columns: radians, mm).
 ///
 /// A turn `w` and a shift `s` move the origin by `s - w x (R m)`. Of the angles,
-/// `w = z' e_z + x' Rz e_x + y' Rz Rx e_y`; turned back by `Rz` this is
+/// `w = z' e_z + x' Rz e_x + y' Rz Rx e_y`; rotated back by `Rz` this is
 /// `(x', y' cos x, z' + y' sin x)`.
 #[must_use]
 pub(crate) fn numbers_per_step(pose: &Pose, middle: &Vector3) -> Matrix6 {

@@ -29,17 +29,17 @@ pub struct BorderPixel {
     pub(super) jacobian: [f32; 6],
 }
 
-/// How far a target's outline is beyond the model's.
+/// How far the target's outline lies beyond the model's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Residual {
     /// It was not looked for: the model's own outline or the depth behind it is not known.
     #[default]
     None,
-    /// The target does not tell.
+    /// It lies in unknown pixels of the target.
     Unknown,
-    /// There is none within reach.
+    /// The target has no outline within the range.
     Missing,
-    /// Pixels.
+    /// Distance along the outward normal, pixels.
     Px(f32),
 }
 

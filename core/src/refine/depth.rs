@@ -33,7 +33,7 @@ impl DrawnModel<'_> {
         self.cover_with_triangles(scratch, places, border);
     }
 
-    /// Lends an edge's depth to the border pixels that it passes.
+    /// Gives an edge's depth to the border pixels that it passes.
     fn lay_edge(
         &self,
         depths: [f32; 2],

@@ -11,13 +11,13 @@ pub enum Effort {
     /// Polishing ends twenty times sooner, where a step is below 0.02 degrees or 0.1 mm: for a pose
     /// that follows a hand and is refined again when it rests.
     Interactive,
-    /// Six steps at most from a fifth of the border pixels, without polishing: tells which minimum a
-    /// start leads to. The loss is that of these pixels.
+    /// At most six steps from a fifth of the border pixels, without polishing: shows which minimum a start leads to. The
+    /// loss is that of these pixels.
     Probe,
 }
 
 impl Effort {
-    /// One of so many border pixels is looked at.
+    /// One of this many border pixels is a sample.
     pub(super) fn every(self) -> usize {
         match self {
             Self::Full | Self::Interactive => 1,
@@ -25,7 +25,7 @@ impl Effort {
         }
     }
 
-    /// Steps tried in each stage at most.
+    /// Most steps tried in each stage.
     pub(super) fn steps(self) -> [usize; STAGES] {
         match self {
             Self::Full | Self::Interactive => [10, 8, 14, 10],

@@ -12,7 +12,7 @@ pub enum RefineError {
     /// The model cannot be drawn at the pose to start from.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// The mask is empty or lent memory has the wrong length.
+    /// The mask is empty, or its words are not those of a mask.
     #[error(transparent)]
     Mask(#[from] MaskError),
     /// There is nothing to refine against.

@@ -14,10 +14,10 @@ pub struct RefineMemory<'a> {
     pub projected: &'a mut [Projected],
     /// [`crate::image::mask::words_needed`] words of the frame's size: the model as drawn.
     pub drawn: &'a mut [Word],
-    /// One number a pixel of the frame.
+    /// One number for each pixel of the frame.
     pub places: &'a mut [u16],
-    /// Samples of the outline. One for each border pixel is wanted; of more, the first are
-    /// taken. 65 535 at most are used.
+    /// Samples of the outline, one for each border pixel of the drawing. Border pixels beyond its length are left out;
+    /// some 4000 serve an implant in a frame of 1024 x 1024 pixels. No more than 65 535 are used.
     pub border: &'a mut [BorderPixel],
 }
 

@@ -7,10 +7,10 @@ use super::locks::Locks;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RefineOptions {
     /// Estimates with the pose how far the target's edges lie beyond the model's outline, where
-    /// the data can tell that from depth; see [`super::Refined::offset_px`].
+    /// the data separate that from depth; see [`super::Refined::offset_px`].
     pub edge_offset: bool,
-    /// Numbers of the pose that stay as they are at the start.
+    /// Numbers of the pose that keep their values of the start.
     pub locks: Locks,
-    /// How exactly.
+    /// How exactly the pose is refined.
     pub effort: Effort,
 }

@@ -40,13 +40,13 @@ pub(super) struct DrawnModel<'a> {
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
     pub(super) depth: Depth,
-    /// One of so many border pixels is a sample.
+    /// One of this many border pixels is a sample.
     pub(super) every: usize,
 }
 
 impl DrawnModel<'_> {
-    /// Fills `border` with as many border pixels as it holds and gives them. `scratch` is as drawing
-    /// left it, `places` has a number for each pixel of the frame, any.
+    /// Fills `border` with the first border pixels, up to its length, and returns them. `scratch` is as drawing left it;
+    /// `places` has one number for each pixel of the frame, of any value.
     pub(super) fn border<'b>(
         &self,
         scratch: &mut [Projected],

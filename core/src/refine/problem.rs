@@ -44,7 +44,7 @@ const WITHOUT_GRAIN: f64 = 0.02;
 /// What was seen at a pose.
 pub(super) struct Seen {
     equations: Equations,
-    /// How many samples the memory holds of it; `None` after something else was looked at.
+    /// Number of its samples in memory; `None` after another pose was observed.
     samples: Option<usize>,
 }
 
@@ -272,7 +272,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Draws the model in a view and measures how far its outline is from the target's. Afterwards
-    /// the first so many places of `memory.border` hold its samples; gives their number.
+    /// `memory.border` begins with its samples, whose number is returned.
     pub(super) fn observe_view(
         &self,
         view: &CameraView<'_>,

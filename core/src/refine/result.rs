@@ -10,22 +10,22 @@ pub struct Refined {
     /// Distance of the target's edges beyond the model's outline that was estimated with the
     /// pose, pixels; zero where it was not asked for or the data do not support it.
     pub offset_px: f64,
-    /// Root mean square of what remains between the outlines, weighted by arc length as the
-    /// robust loss does, pixels.
+    /// Root mean square distance that remains between the outlines, pixels, weighted by arc length and by the robust
+    /// loss.
     pub residual_px: f64,
-    /// Standard deviation of the residuals as if they were normal, from their median: what lies
-    /// far out does not count. Pixels.
+    /// Robust standard deviation of the residuals, pixels: from their median absolute value as if they were normal, so
+    /// that outliers do not count.
     pub robust_sigma_px: f64,
     /// Robust loss by which rival poses are compared, square pixels.
     pub loss: f64,
     /// Times the model was drawn.
     pub renders: usize,
     /// Whether the last step was below 0.001 degrees or 0.005 mm, or both together; on a grey frame,
-    /// a fiftieth of that; where it was to be swift, twenty times as much.
+    /// a fiftieth of that; with [`super::Effort::Interactive`], twenty times as much.
     pub converged: bool,
 }
 
-/// A pose on the way, for who wants to see how refinement converges.
+/// A pose on the way, from which a caller can see how refinement converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iterate {
     /// Stage, from 0; the range and the scale of the loss shrink from one to the next.

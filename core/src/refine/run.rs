@@ -10,10 +10,11 @@ use super::view::CameraView;
 use crate::mesh::Model;
 use crate::pose::Pose;
 
-/// Refines `start` until the model's outline lies on those of `views`.
+/// Refines `start` until the model's outline lies on those of `views`. `start` is `world_from_model`; with a single
+/// camera, `camera_from_model`. A start may be some 10 degrees, 5 mm sideways and 50 mm of depth off.
 ///
-/// Draws the model at most 130 times in each view, usually 8 to 20 times. Never worse than
-/// `start` by the loss of its last stage but for what drawing in whole pixels leaves unknown.
+/// Draws the model at most 130 times in each view, usually 8 to 20 times. By the loss of the last stage the result is
+/// never worse than `start`, up to what drawing in whole pixels leaves unknown.
 ///
 /// # Errors
 /// [`RefineError`].
@@ -27,7 +28,7 @@ pub fn refine(
     refine_traced(model, views, start, options, memory, &mut |_| ())
 }
 
-/// The same, telling the start and every pose that is accepted on the way.
+/// As [`refine`]; calls `trace` with the start and with every pose that is accepted on the way.
 ///
 /// # Errors
 /// [`RefineError`].

@@ -1,4 +1,4 @@
-//! From coarse to fine: how far a target's outline is looked for and how the loss flattens.
+//! From coarse to fine: how far the target's outline is searched for and at which scale the loss flattens.
 
 use super::loss::Loss;
 use super::view::Target;

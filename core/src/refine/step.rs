@@ -22,7 +22,7 @@ impl Step {
         }
     }
 
-    /// A Jacobian in the camera's axes, turned into those of the world that the camera stands in.
+    /// A Jacobian in the camera's axes, brought to the axes of the world in which the camera stands.
     pub(super) fn in_world(jacobian: [f64; 6], placement: &Pose) -> [f64; 6] {
         let [a, b, c, x, y, z] = jacobian;
         let back = transpose(&placement.rotation);
@@ -78,7 +78,7 @@ impl Step {
         }
     }
 
-    /// Degrees and mm in one number, as much as they move an outline.
+    /// Rotation and shift in one number, weighted by how far they move an outline.
     pub(super) fn size(&self) -> f64 {
         degrees(norm(&self.turn)) + norm(&self.shift) / 5.0
     }

@@ -1,4 +1,4 @@
-//! How sure a refined pose is, from what its outline leaves unexplained.
+//! Uncertainty of a refined pose, from what its outline leaves unexplained.
 //!
 //! Residuals along an outline are not independent: a hand, a network and a grey edge err over
 //! many pixels alike. The covariance is that of an M-estimate (Huber, *Robust Statistics*, 6.3)
@@ -38,7 +38,7 @@ const LEAST_FREEDOM: f64 = 4.0;
 
 /// Covariance of a refined pose, so wide that the ellipsoid of 95 % of a normal distribution in
 /// six dimensions (squared radius 12.59) holds the truth in 95 % of cases: the few independent
-/// stretches of an outline do not tell their own variance well, which is allowed for.
+/// stretches of an outline determine their own variance poorly, which the width allows for.
 ///
 /// It knows of random errors that vary along the outline. What shifts the whole outline alike (a
 /// trace that is everywhere too wide, a wrong calibration) leaves no residual and is not in it.
@@ -95,7 +95,7 @@ impl Sums {
             length += l;
             self.curvature += l * loss.curvature(residual);
             let jacobian = sample.jacobian.map(f64::from);
-            // Half of the sample's own share: every pair is met once and counts both ways.
+            // Half of the sample's own part: every pair is met once and counts both ways.
             let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
             for (other, _, bin) in after(border, index, reach) {
                 let weight = f64::from(other.weight) * covariance.bins[bin];
@@ -139,7 +139,7 @@ fn found(border: &[BorderPixel]) -> impl Iterator<Item = (usize, &BorderPixel, f
     samples.filter_map(|(index, sample)| Some((index, sample, sample.residual_px()?)))
 }
 
-/// Distances from this on are not looked at, pixels.
+/// Samples this far apart, pixels, are not compared.
 const REACH: i32 = (BIN * BINS as f64) as i32;
 
 /// The bin of a distance, from 1, by its square in pixels.
@@ -197,8 +197,8 @@ impl Correlation {
     const MOST_TAKEN: f64 = 0.6;
 
     /// `fitted` parameters took the longest waves out of the residuals, as much as they explain
-    /// of so many independent stretches: the covariance comes out too small by the same amount at
-    /// every distance. It is put back.
+    /// of the independent stretches. The covariance of what remains is too small by the same amount at every
+    /// distance, and this amount is added again.
     fn of(border: &[BorderPixel], loss: Loss, fitted: f64) -> Self {
         let (raw, length) = Self::raw(border, loss);
         let mut taken = 0.0;

@@ -1,4 +1,4 @@
-//! What is looked at: cameras, where they stand, and what they saw.
+//! What refinement is given: cameras, where they stand, and what they saw.
 
 use crate::camera::Camera;
 use crate::image::frame::Grey;
@@ -73,7 +73,7 @@ pub enum Polarity {
     /// As a fluoroscope shows it: what absorbs is dark.
     #[default]
     DarkImplant,
-    /// As a radiograph's film shows it: what absorbs is bright.
+    /// As a radiograph is usually displayed: what absorbs is bright.
     BrightImplant,
 }
 

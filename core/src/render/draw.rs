@@ -10,7 +10,7 @@ use crate::render::facing::FacingTest;
 use crate::render::project::{Images, Projected, RenderError, VERTICES, project};
 use crate::render::winding;
 
-/// How many [`Projected`] [`render`] needs for `model`: one a vertex, and more to draw it from its
+/// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
 /// edges.
 #[must_use]
 pub fn scratch_needed(model: &Model<'_>) -> usize {
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn triangles_that_share_an_edge_leave_no_gap_and_no_overlap() {
-        // A fan round a point inside the frame: the areas of its parts add up to the whole.
+        // A fan around a point inside the frame: the areas of its parts add up to the whole.
         let rim: [[f32; 3]; 7] = core::array::from_fn(|k| {
             let (s, c) = libm::sincosf(k as f32 * 0.897_598);
             [40.0 * c, 35.0 * s, 0.0]

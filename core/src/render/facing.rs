@@ -1,4 +1,4 @@
-//! A camera that looks at a model's triangles from where the model sees it.
+//! The facing test: which of a model's triangles face the camera, decided in model coordinates.
 //!
 //! Facing is that of the drawn triangle, whose vertices are rounded. Three points at `p0`, `p1`, `p2`
 //! in camera coordinates have an image of the doubled area
@@ -30,7 +30,7 @@ struct Sides {
     faces: Bits,
 }
 
-/// A camera as the model's triangles see it.
+/// The camera in model coordinates, with the margins within which rounding may change which way a triangle faces.
 pub(crate) struct FacingTest<'a> {
     vertices: &'a [[f32; 3]],
     /// In mesh coordinates, mm.

@@ -29,7 +29,7 @@ pub enum RenderError {
 /// What working memory of drawing holds.
 pub(crate) const VERTICES: &str = "projected vertices";
 
-/// Working memory of [`super::render()`]: room for one projected vertex.
+/// Working memory of [`super::render()`], which needs [`super::scratch_needed`] of them: one projected vertex.
 pub type Projected = FixedPoint;
 
 /// The images of those vertices that are asked for, each made once.
@@ -41,7 +41,7 @@ pub(crate) struct Images<'i> {
 }
 
 impl<'i> Images<'i> {
-    /// In lent memory, a slot a vertex. All vertices must have images.
+    /// Images in borrowed memory, a slot for each vertex. All vertices must have images.
     pub(crate) fn new(
         mesh: &Mesh<'i>,
         camera: &'i Camera,
@@ -71,7 +71,7 @@ impl<'i> Images<'i> {
     }
 }
 
-/// Projects all vertices into lent memory and gives them.
+/// Projects all vertices into borrowed memory and returns their images.
 ///
 /// # Errors
 /// [`RenderError::Scratch`] and [`RenderError::BehindCamera`].

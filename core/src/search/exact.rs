@@ -21,12 +21,12 @@ const EXACT: u32 = 1 << 31;
 /// See [`ViewSearch::rivals`]. A true pose is less than one step from the nearest view.
 const RIVAL_STEPS: u32 = 4;
 
-/// Directions of the principal axis that are looked at.
+/// Directions of the principal axis that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Directions {
     /// The silhouette as it is.
     Straight,
-    /// As it is and turned by 180 degrees.
+    /// As it is and rotated by 180 degrees.
     Both,
 }
 
@@ -45,8 +45,8 @@ pub const fn search_bytes_needed(spec: &CanonicalSpec) -> usize {
     2 * longest_sketch(spec)
 }
 
-/// A silhouette being looked for in a library: what is known of every view's score, bounds and
-/// exact numbers.
+/// The search for a silhouette in a library. For each view it holds the exact number of unmatched pixels where that has
+/// been counted, and a lower bound elsewhere.
 #[derive(Debug)]
 pub struct ViewSearch<'s, 'm> {
     library: &'s Library<'s>,
@@ -57,7 +57,7 @@ pub struct ViewSearch<'s, 'm> {
 }
 
 impl<'s, 'm> ViewSearch<'s, 'm> {
-    /// Bounds the scores of all views. `query` was made for the library's own canonical frame.
+    /// Bounds the unmatched pixels of all views. `query` must have the library's own canonical frame.
     ///
     /// # Errors
     /// [`MatchError`] for memory of a wrong length or a query of another canonical frame.
@@ -106,7 +106,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         }
     }
 
-    /// Without sketches every view is compared at once.
+    /// Compares every view at once: a plain library has no sketches.
     fn score_all(&mut self) {
         self.bounds.fill(0);
         for reversed in [false, true] {
@@ -207,8 +207,8 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         self.minima_up_to(u32::MAX)
     }
 
-    /// Of these minima those that leave no more unmatched pixels than the best and four steps of the grid at it: what
-    /// is farther off explains nothing, whatever view lies beside it.
+    /// The best `K` of these minima whose unmatched pixels exceed the best one's by no more than four steps of the grid
+    /// there change: a view that differs more does not explain the silhouette.
     pub fn rivals<const K: usize>(&mut self) -> Vec<ViewMatch, K> {
         let best = self.best::<1>(Directions::Both);
         let Some(best) = best.first() else {
@@ -257,7 +257,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             .all(|neighbour| bound <= self.at_least(neighbour, reversed))
     }
 
-    /// The minimum that steps to ever better neighbours lead to.
+    /// The local minimum that descent over neighbours leads to.
     fn descend(&mut self, view: usize, reversed: bool) -> ViewMatch {
         let mut view = view;
         while let Some(better) = self.better_neighbour(view, reversed) {
@@ -281,7 +281,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         if beaten {
             return false;
         }
-        // Otherwise the likeliest neighbour is compared first: it beats other views round it, too.
+        // Otherwise the likeliest neighbour is compared first: it beats other views around it, too.
         let least = neighbours(&grid, view).min_by_key(|&near| self.at_least(near, reversed));
         let beaten = least.is_some_and(|least| {
             self.at_least(least, reversed) < bound && self.score(least, reversed) < bound
@@ -289,8 +289,8 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
         !beaten && self.better_neighbour(view, reversed).is_none()
     }
 
-    /// The neighbour that beats a view, if one does: that with the least bound is looked at first. Of
-    /// equal neighbours the first beats.
+    /// The neighbour that beats a view, if one does: that with the least bound is compared first. Of equal neighbours
+    /// the first beats.
     fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
         let score = self.score(view, reversed);
         let grid = self.library.info().grid;

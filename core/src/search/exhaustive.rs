@@ -1,6 +1,6 @@
 //! Matching: unmatched pixels between a canonical silhouette and every view of a library.
 //!
-//! This is the plain way, view by view and bit by bit: what [`crate::search`] is held against.
+//! The naive oracle, view by view and bit by bit, that tests hold [`crate::search`] against.
 
 use crate::canonical::reverse;
 use crate::image::mask::Word;
@@ -8,7 +8,7 @@ use crate::library::Library;
 use crate::memory::{check_length, first};
 use crate::search::scores::{MatchError, Scores};
 
-/// Compares a canonical silhouette with every view, straight and turned by 180 degrees.
+/// Compares a canonical silhouette with every view, as it is and rotated by 180 degrees.
 ///
 /// `canonical` comes from [`crate::canonical::canonicalise`] with the library's own
 /// [`crate::canonical::CanonicalSpec`]; `rotated` is working memory of the same length; `scores`

@@ -16,7 +16,7 @@ struct Blocks<'m> {
     high: &'m [u8],
 }
 
-/// A canonical silhouette, and the same turned by 180 degrees, made ready for searching.
+/// A canonical silhouette, and the same rotated by 180 degrees, made ready for searching.
 ///
 /// A view of runs is compared by looking up how many pixels of the silhouette are set before
 /// each run's start and end: two numbers a run, whatever its length.
@@ -33,11 +33,11 @@ pub struct Query<'m> {
     before: &'m [u8],
     /// The same of all known pixels, where some are unknown.
     known_before: Option<&'m [u8]>,
-    /// Of the silhouette straight and turned.
+    /// Blocks of the silhouette as it is and rotated by 180 degrees.
     blocks: [Blocks<'m>; 2],
 }
 
-/// Bytes that [`Query::new`] needs to be lent. `unknown`: whether pixels may be unknown.
+/// Bytes of working memory of [`Query::new`]. `unknown`: whether pixels may be unknown.
 #[must_use]
 pub const fn query_bytes_needed(spec: &CanonicalSpec, unknown: bool) -> usize {
     let before = spec.size() * spec.size() + 1;
@@ -47,7 +47,7 @@ pub const fn query_bytes_needed(spec: &CanonicalSpec, unknown: bool) -> usize {
 
 impl<'m> Query<'m> {
     /// Makes `straight` ready, a canonical silhouette from [`crate::canonical::canonicalise`] with
-    /// the libraries' own `spec`. `rotated` is the same turned by 180 degrees
+    /// the libraries' own `spec`. `rotated` is the same rotated by 180 degrees
     /// ([`crate::canonical::reverse`]). Pixels set in `unknown` do not count, whatever the
     /// silhouette has there. `bytes` is working memory, [`query_bytes_needed`] of it.
     ///
@@ -103,7 +103,7 @@ impl<'m> Query<'m> {
         &self.spec
     }
 
-    /// The silhouette in one direction of its axis.
+    /// The silhouette in one direction of its principal axis.
     #[must_use]
     pub fn canonical(&self, reversed: bool) -> &'m [Word] {
         if reversed {
@@ -115,8 +115,7 @@ impl<'m> Query<'m> {
 
     /// Known pixels that are set in the silhouette or in a view and not in both; exactly.
     ///
-    /// The library's canonical frame must be the query's own: what one has and the other has not is
-    /// not seen otherwise.
+    /// The library's canonical frame must be the query's own; this is not checked, and another one gives a wrong count.
     #[must_use]
     pub fn unmatched(
         &self,
@@ -190,7 +189,7 @@ impl<'m> Query<'m> {
     }
 
     /// The blocks that a library's sketches have; returns what the others differ by in every view. `out` gets the
-    /// counts, at least and at most, each in as many bytes as a sketch.
+    /// least and the most set pixels of each block, both of the length of a sketch.
     pub(super) fn sketch_for(
         &self,
         sketches: &Sketches<'_>,
@@ -215,7 +214,7 @@ impl<'m> Query<'m> {
         low.fill(0);
         for (low, place) in low.iter_mut().zip(places.clone()) {
             *low = blocks.low.get(place).copied().unwrap_or(0);
-            // There the ground is 0, and the gap was its height.
+            // There the common block is 0, and the gap was the silhouette's own count.
             base -= u32::from(*low);
         }
         if self.is_whole() {
@@ -281,7 +280,7 @@ impl Covered {
         }
     }
 
-    /// A row that starts at the pixel `start`. The other way round, pixels are counted from the end.
+    /// A row that starts at the pixel `start`. In the reversed direction pixels are counted from the end.
     #[inline(always)]
     fn add_row<const REVERSED: bool>(&mut self, before: &[u8], start: usize, row: &[[u8; 2]]) {
         let last = before.len().wrapping_sub(1);
@@ -350,7 +349,7 @@ fn counts_up_to(byte: u8, count: u8) -> [u8; 8] {
     ((sums + (start & !TOPS)) ^ (start & TOPS)).to_le_bytes()
 }
 
-/// Set pixels of the blocks of a silhouette, straight and turned.
+/// Set pixels of the blocks of a silhouette, as it is and rotated by 180 degrees.
 fn sketch<'m>(
     spec: &CanonicalSpec,
     words: &[Word],

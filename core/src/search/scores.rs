@@ -20,8 +20,7 @@ pub enum MatchError {
     Canonical,
 }
 
-/// Unmatched pixels of every view in both directions of the principal axis, over memory that
-/// the caller lends: the score surface.
+/// Unmatched pixels of every view in both directions of the principal axis, in borrowed memory: the score surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Scores<'a> {
     grid: ViewGrid,
@@ -29,12 +28,12 @@ pub struct Scores<'a> {
     reversed: &'a [u32],
 }
 
-/// A view that fits.
+/// A view of a library that a silhouette was compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewMatch {
     /// Number of the view.
     pub view: usize,
-    /// Whether the silhouette fits when turned by 180 degrees.
+    /// Whether the silhouette fits when rotated by 180 degrees.
     pub reversed: bool,
     /// Canonical pixels set in one of the two and not in the other.
     pub unmatched: u32,
@@ -64,7 +63,7 @@ pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> impl Iterator<Item = u
 }
 
 impl<'a> Scores<'a> {
-    /// Asks for the score of every view in both directions.
+    /// Fills the surface with the score of every view in both directions.
     pub(crate) fn fill(
         library: &Library<'_>,
         scores: &'a mut [u32],

@@ -17,9 +17,8 @@ use crate::pose::{Pose, geodesic_deg};
 /// degrees of jumps.
 pub const FILM_MARGIN_DEG: f64 = 2.0;
 
-/// Turning from frame to frame that costs nothing, degrees. Of two smooth sequences the one that
-/// turns less is not the likelier: a pose mirrored in one rotation alone turned less than the right one
-/// over a whole film.
+/// Rotation from frame to frame that costs nothing, degrees. Of two smooth sequences the one that rotates less is not
+/// the likelier: over a whole film a pose mirrored in one rotation alone rotated less than the right one.
 const FREE_DEG: f64 = 2.0;
 
 /// What a pose costs at the residual that would rule it out, degrees of jumps. Next to nothing:
@@ -41,33 +40,33 @@ pub struct FilmFrame<'a> {
 pub struct FilmStep {
     /// Numbers of the candidates that are open, by rising residual.
     open: [usize; CONTENDERS],
-    /// How many they are.
+    /// Number of candidates that are open.
     count: usize,
     /// Costs of their residuals.
     own: [f64; CONTENDERS],
     /// Least cost of the film up to this frame and from it on, their own cost in the former.
     before: [f64; CONTENDERS],
     after: [f64; CONTENDERS],
-    /// Which pose of the last frame with any led to `before`.
+    /// For each open pose, the pose of the last frame with poses that leads to it at the least cost.
     from: [usize; CONTENDERS],
 }
 
 /// Why a film's poses are not chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "a film of {frames} frames needs {frames} steps and choices but {steps} and {choices} were lent"
+    "a film of {frames} frames needs {frames} steps and choices but {steps} and {choices} were given"
 )]
 pub struct FilmError {
     /// Frames of the film.
     pub frames: usize,
-    /// Steps lent.
+    /// Steps that were given.
     pub steps: usize,
-    /// Choices lent.
+    /// Choices that were given.
     pub choices: usize,
 }
 
 /// Chooses a pose in each frame of a film such that the component does not jump.
-/// Frames without candidates have no choice; those round them are linked across them, the more
+/// Frames without candidates have no choice; those on both sides are linked across them, the more
 /// weakly the farther apart they are.
 ///
 /// Frames that residual or tilt decide keep their own choice and reason. The others are decided
@@ -75,7 +74,7 @@ pub struct FilmError {
 /// as smooth as the right one.
 ///
 /// # Errors
-/// Where `steps` or `choices` are not as many as the frames.
+/// [`FilmError`] where `steps` or `choices` are fewer or more than the frames.
 pub fn choose_film(
     frames: &[FilmFrame<'_>],
     steps: &mut [FilmStep],

@@ -8,7 +8,7 @@ use crate::image::contour::Outline;
 use crate::image::scan::{Edge, FixedPoint};
 use crate::memory::first;
 
-/// A silhouette being drawn into memory that the caller lends.
+/// A mask that can be drawn into, over borrowed words.
 #[derive(Debug)]
 pub struct MaskMut<'a> {
     words: &'a mut [Word],
@@ -42,7 +42,7 @@ impl<'a> MaskMut<'a> {
         }
     }
 
-    /// What has been drawn, for as long as the memory is lent.
+    /// What has been drawn, for as long as the words are borrowed.
     #[must_use]
     pub fn into_mask(self) -> Mask<'a> {
         Mask {

@@ -2,15 +2,15 @@
 
 use super::outline::OutlinePoint;
 
-/// Cells along the longer side of the box round the outline.
+/// Cells along the longer side of the box around the outline.
 const SIDE: usize = 256;
-/// Cells that a [`Field`] is lent.
+/// Cells that a [`Field`] borrows.
 pub(super) const FIELD_CELLS: usize = SIDE * SIDE;
 
 /// No point at all.
 const NONE: u16 = u16::MAX;
 
-/// The number of the nearest point of an outline for each cell of a grid over a box round it.
+/// The number of the nearest point of an outline for each cell of a grid over a box around it.
 pub(super) struct Field<'a> {
     cells: &'a [u16],
     grid: CellGrid,

@@ -15,13 +15,13 @@ pub(super) struct Known<'a> {
     pub(super) plane: Plane,
     outline: OutlinePoints<'a>,
     field: Field<'a>,
-    /// A place so far along the outline from the nearest point, pixel widths, lies past an end of it.
+    /// A place whose nearest point is this far along the outline, pixel widths, lies past an end of it.
     past_end: f64,
 }
 
 /// A sample of a view near the known outline.
 struct Pair {
-    /// From the centre of the view, turned and scaled but not shifted.
+    /// From the centre of the view, rotated and scaled but not shifted.
     arm: [f64; 2],
     normal: [f64; 2],
     /// Distance along the outline's normal.
@@ -46,7 +46,7 @@ const ALIKE: f64 = 0.5;
 const PAST_END: f64 = 4.0;
 
 impl<'a> Known<'a> {
-    /// `cells` is lent for a [`Field`].
+    /// `cells` is working memory of the [`Field`].
     pub(super) fn new(
         silhouette: &'a Silhouette<'a>,
         plane: Plane,
@@ -96,8 +96,8 @@ impl<'a> Known<'a> {
 
     /// Disagreement between a view and the known outline: the length of the view's outline that lies in
     /// known pixels but not on the outline, and the length of the known outline that is not
-    /// covered, as a share of the latter's length. 0 where they agree; distances count by their
-    /// square, up to `cap` pixel widths. Only one point in `every` is looked at.
+    /// covered, as a fraction of the latter's length. 0 where they agree; distances count by their
+    /// square, up to `cap` pixel widths. Only one point in `every` is compared.
     pub(super) fn disagreement(
         &self,
         view: &OutlinePoints<'_>,

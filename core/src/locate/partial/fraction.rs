@@ -18,14 +18,13 @@ pub struct KnownFraction {
     pub doubtful: u64,
 }
 
-/// Unknown part of the sides or of the area beyond which area and centroid are no longer what a
-/// library expects. Small, because little says much: where a stem is hidden as a whole, the
-/// sides across its root are 1 % of what is left; where a notch is hidden and traced as filled,
-/// they may be even fewer, but not the pixels.
+/// Unknown fraction of the sides or of the area beyond which area and centroid are no longer what a library expects. It is
+/// small, because few sides may stand for much that is hidden: where a whole stem is hidden, the sides across its root are
+/// 1 % of what is left; where a notch is hidden and traced as filled, its sides may be fewer still, but not its pixels.
 const DOUBT: f64 = 0.005;
 
 impl KnownFraction {
-    /// Known part of the outline, 0 to 1; 1 for an empty mask. What is hidden has no length in
+    /// Known fraction of the outline, 0 to 1; 1 for an empty mask. What is hidden has no length in
     /// the mask: it counts by the sides that stand for it.
     #[must_use]
     pub fn fraction(&self) -> f64 {

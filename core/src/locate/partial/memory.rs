@@ -1,4 +1,4 @@
-//! Memory lent to the search for a first pose.
+//! Working memory of the search for a first pose from a part of an outline.
 
 use super::field::FIELD_CELLS;
 use super::hypothesis::Hypothesis;
@@ -51,7 +51,7 @@ pub struct PartialNeeds {
     pub projected: usize,
 }
 
-/// Points of the known outline, at most: some ten outlines of an implant.
+/// Most points of the known outline: some ten outlines of an implant.
 pub(super) const KNOWN_POINTS: usize = 4096;
 /// Sides for each column and row of a frame, and for those of a canonical frame.
 const SIDES_PER_LINE: usize = 8;

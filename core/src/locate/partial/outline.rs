@@ -7,7 +7,7 @@ use super::trace::{PixelSide, STRETCHES, Stretch};
 use crate::math::sqrt;
 
 /// A point of an outline in plane coordinates (to the right and upwards) and the unit normal that
-/// leads out of the silhouette there. Opaque: only a length to be lent.
+/// leads out of the silhouette there. Opaque: the caller only provides memory for a number of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OutlinePoint {
     pub(super) at: [f32; 2],

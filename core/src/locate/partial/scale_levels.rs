@@ -1,5 +1,4 @@
-//! The known outline resampled at a ladder of scales, and the windows of it that are slid along
-//! views.
+//! The known outline resampled at scale levels, and the windows of it that are slid along views.
 
 use heapless::Vec;
 
@@ -7,16 +6,16 @@ use super::outline::{OutlinePoints, Piece};
 use super::slide::Samples;
 use super::trace::STRETCHES;
 
-/// Windows at most.
+/// Most windows.
 pub(super) const WINDOWS: usize = 24;
-/// Scales at most.
+/// Most scales.
 const LEVELS: usize = 24;
-/// Samples of all stretches at one scale, at most.
+/// Most samples of all stretches at one scale.
 const SAMPLES: usize = 512;
 /// Between one scale and the next, at least.
 const RATIO: f64 = 1.07;
 
-/// Numbers that a [`ScaleLevels`] is lent.
+/// Numbers that [`ScaleLevels`] borrows.
 pub(super) const LEVEL_NUMBERS: usize = 2 * LEVELS * SAMPLES;
 
 /// Length of a window, as a part of all that is known. Windows shorter than the whole are there

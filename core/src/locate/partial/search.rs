@@ -18,14 +18,14 @@ const COARSE_DEG: f64 = 4.0;
 pub(super) const PER_VIEW: usize = 3;
 /// Places kept of one window along a stretch of a view.
 const PER_WINDOW: usize = 6;
-/// Samples of a view, at most.
+/// Most samples of a view.
 pub(super) const VIEW_SAMPLES: usize = 512;
-/// Numbers lent for views: samples twice over and two sums a place.
+/// Numbers borrowed for views: two for each sample, which is held twice, and two sums for each place.
 pub(super) const VIEW_NUMBERS: usize = 6 * VIEW_SAMPLES;
-/// One sample in so many is looked at when places are compared for the first time.
+/// One sample in this many is compared when places are compared for the first time.
 const FIRST_LOOK: usize = 2;
 
-/// What the search works on.
+/// The search for views that explain a partial outline.
 pub(super) struct PartialSearch<'a> {
     pub(super) known: Known<'a>,
     pub(super) library: &'a Library<'a>,
@@ -50,7 +50,7 @@ pub(super) fn coarse_views(library: &Library<'_>) -> usize {
 }
 
 impl PartialSearch<'_> {
-    /// Looks at every view of the coarse grid and gives its hypotheses in `found`.
+    /// Fits every view of the coarse grid and returns its hypotheses in `found`.
     pub(super) fn coarse<'h>(
         &self,
         memory: &mut ViewMemory<'_>,
@@ -183,7 +183,7 @@ impl PartialSearch<'_> {
         similarity
     }
 
-    /// The best hypothesis among the views round that of `seed`: those two steps away, then the
+    /// The best hypothesis among the views around that of `seed`: those two steps away, then the
     /// neighbours of the best of them.
     pub(super) fn fine(&self, seed: &Hypothesis, memory: &mut ViewMemory<'_>) -> Hypothesis {
         let mut best = *seed;
@@ -208,7 +208,7 @@ impl PartialSearch<'_> {
         best
     }
 
-    /// The view so many views away; `None` beyond the grid.
+    /// The view at a distance in views; `None` beyond the grid.
     fn neighbour(&self, view: usize, right: isize, down: isize) -> Option<usize> {
         let grid = &self.library.info().grid;
         let (x, y) = grid.place(view);

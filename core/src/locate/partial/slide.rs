@@ -60,7 +60,7 @@ pub(super) struct Sums<'a> {
 /// How a window is slid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slide {
-    /// Places looked at, at most: as many as a closed outline has samples.
+    /// Most places that are tried: the number of samples of a closed outline.
     pub(super) places: usize,
     /// Of places nearer to each other than this the better is kept.
     pub(super) apart: usize,

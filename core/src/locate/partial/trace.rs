@@ -9,8 +9,8 @@ use crate::image::silhouette::Silhouette;
 /// Stretches that are kept of one outline; of more, the longest.
 pub(super) const STRETCHES: usize = 16;
 
-/// Middle of a pixel side, in half pixels from the frame's upper left corner. Opaque: only a
-/// length to be lent.
+/// Middle of a pixel side, in half pixels from the frame's upper left corner. Opaque: the caller only provides memory
+/// for a number of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelSide {
     pub(super) column: u16,

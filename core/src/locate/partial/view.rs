@@ -15,7 +15,7 @@ const LEAST: f64 = 8.0;
 pub(super) struct ViewMemory<'a> {
     /// Words of a canonical mask.
     pub(super) bits: &'a mut [Word],
-    /// As many again.
+    /// The same number of words.
     pub(super) visited: &'a mut [Word],
     pub(super) sides: &'a mut [PixelSide],
     pub(super) points: &'a mut [OutlinePoint],

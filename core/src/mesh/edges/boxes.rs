@@ -3,7 +3,7 @@
 //! A triangle whose plane is `n . x = c` faces a camera at `o` where `n . o - c` has one sign, and
 //! that is linear in `(n, c)`, the triangle's point in dual space (Hertzmann and Zorin, *Illustrating
 //! Smooth Surfaces*, SIGGRAPH 2000). Edges whose triangles are near each other there are kept
-//! together: where a box round their points lies on one side, none of them is on the contour.
+//! together: where a box around their points lies on one side, none of them is on the contour.
 
 use super::edge::MeshEdge;
 use crate::math::{Vector3, cross, dot, norm, scale, sqrt, subtract};
@@ -12,12 +12,12 @@ use crate::mesh::Mesh;
 /// Edges in a box.
 pub(crate) const IN_BOX: usize = 16;
 
-/// Normals of the triangles beside an edge that differ by more are far apart, as the cosine.
+/// Cosine of the angle between the normals of an edge's two triangles beyond which they count as far apart.
 const SHARP: f64 = 0.9;
-/// A triangle of which a height is less than this is looked at whole, mm.
+/// A triangle with a height below this, mm, is a sliver: its facing is decided from its vertices.
 const SLIVER_MM: f64 = 0.01;
 
-/// A box round the duals of the triangles beside some edges. Made by [`super::link`] alone.
+/// A box around the duals of the triangles beside some edges. Only [`super::link()`] makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeBox {
     /// Of unit normals, and of distances of planes from the model's origin, mm: the middle, and how far they are from it.
@@ -28,7 +28,7 @@ pub struct EdgeBox {
     pub(crate) small: f32,
 }
 
-/// The edges in a box. Made by [`super::link`] alone.
+/// The edges in a box. Only [`super::link()`] makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EdgeGroup {
     /// Of the triangle forth of each edge, then of that back: the four numbers of its dual.
@@ -42,7 +42,7 @@ impl EdgeGroup {
         self.edges.get(number)
     }
 
-    /// Those that there are.
+    /// The edges of the group, without its padding.
     #[cfg(test)]
     pub(crate) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<> {
         let there = |edge: &MeshEdge| edge.from != edge.to;
@@ -116,7 +116,7 @@ pub(crate) fn gather(
     }
 }
 
-/// By likeness of normals, then of planes; edges whose box would be large whatever is beside them
+/// Sorts by likeness of normals, then of planes; edges whose box would be large whatever is beside them
 /// come last. `reach` is no less than the distance of any plane from the origin.
 fn order([a, b]: &[Dual; 2], reach: f64) -> u32 {
     let sum: [f64; 4] = core::array::from_fn(|k| a.point[k] + b.point[k]);
@@ -149,7 +149,7 @@ fn spread(bits: u32) -> u32 {
 }
 
 impl EdgeBox {
-    /// The least that holds some triangles.
+    /// The smallest box that holds some triangles.
     fn round(duals: impl Iterator<Item = Dual>) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
         let (mut thin, mut small) = (0f32, 0f32);

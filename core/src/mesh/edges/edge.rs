@@ -9,7 +9,7 @@ pub struct MeshEdge {
     pub(crate) forth: u32,
     /// Third vertex of the triangle that runs `to` -> `from`.
     pub(crate) back: u32,
-    /// Where it comes among the edges.
+    /// Its number among the edges.
     pub(crate) order: u32,
 }
 

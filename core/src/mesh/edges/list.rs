@@ -23,7 +23,7 @@ impl<'e> Edges<'e> {
         })
     }
 
-    /// What to keep of them.
+    /// The boxes and groups, to be kept in other memory.
     #[must_use]
     pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup], &'e [RimEdge]) {
         (self.boxes, self.groups, self.rims)

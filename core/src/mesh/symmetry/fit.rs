@@ -121,9 +121,9 @@ impl Target<'_> {
             row[k] += damping * row[k] + 1e-9 * trace;
         }
         let [a, b, shift] = solve_spd(normal_matrix, gradient)?;
-        let turned = add(&plane.normal, &add(&scale(&first, a), &scale(&second, b)));
+        let moved = add(&plane.normal, &add(&scale(&first, a), &scale(&second, b)));
         let next = Plane {
-            normal: scale(&turned, 1.0 / norm(&turned)),
+            normal: scale(&moved, 1.0 / norm(&moved)),
             offset: plane.offset + shift * size,
         };
         Some((next, norm(&[a, b, shift])))

@@ -70,7 +70,7 @@ impl Box3 {
     }
 }
 
-/// Neighbouring points: a box round them, and the greatest square of the distances found so far.
+/// Neighbouring points: a box around them, and the greatest square of the distances found so far.
 #[derive(Clone, Copy)]
 struct Cluster {
     bounds: Box3,
@@ -104,7 +104,7 @@ fn farthest(squares: impl Iterator<Item = f64>) -> f64 {
 /// neighbours in space, as those of the samples are.
 ///
 /// The triangle of the nearest sample bounds each search. Then every triangle is read once; boxes
-/// round blocks and groups of points keep nearly all of them from nearly all points.
+/// around blocks and groups of points keep nearly all of them from nearly all points.
 pub(super) fn feet(
     mesh: &Mesh<'_>,
     samples: &Samples,

@@ -34,7 +34,7 @@ pub struct CatalogueMemory<'c> {
     pub scratch: &'c mut [u8],
 }
 
-/// Lengths of the memory to lend for a catalogue of these libraries.
+/// Lengths of the memory that a catalogue of these libraries borrows.
 #[must_use]
 pub fn catalogue_needed(libraries: &[Library<'_>]) -> CatalogueNeeds {
     let leaves = libraries
@@ -46,7 +46,7 @@ pub fn catalogue_needed(libraries: &[Library<'_>]) -> CatalogueNeeds {
     let node = 2 * blocks.next_multiple_of(STRIDE);
     CatalogueNeeds {
         leaves,
-        // The ground, and a box a node.
+        // The common blocks, and a box for each node.
         boxes: blocks + (2 * leaves).saturating_sub(1) * node,
         places: blocks,
         scratch: (leaves + 2) * blocks,
@@ -123,8 +123,8 @@ fn one_frame(libraries: &[Library<'_>]) -> Result<CanonicalSpec, CatalogueError>
     Ok(spec)
 }
 
-/// Finds the blocks that are alike in all views of all libraries, writes them as ground, and the numbers of the
-/// others as places; returns how many those are.
+/// Finds the blocks that are the same in all views of all libraries, writes their set pixels to `common` and the numbers of
+/// the other blocks to `places`, and returns the number of the latter.
 fn find_common(
     libraries: &[Library<'_>],
     extremes: &mut [u8],

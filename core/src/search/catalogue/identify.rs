@@ -105,19 +105,19 @@ struct OpenNode {
 /// The silhouette's blocks at the tree's places.
 #[derive(Clone, Copy, Debug)]
 struct DirectionBlocks<'h> {
-    /// What the other blocks differ by.
+    /// Difference of the common blocks.
     base: u32,
     /// Least and most set pixels.
     blocks: [&'h [u8]; 2],
 }
 
-/// Nodes that wait for their turn at most; where more would, one is looked through to its leaves.
+/// Most nodes that wait for their turn; where there would be more, one is searched depth first at once.
 const WAITING: usize = 256;
 
 /// Levels of a tree at most: its leaves are counted in 32 bits.
 const LEVELS: usize = 33;
 
-/// One search of the tree.
+/// One best-first search of the tree.
 struct BestFirst<'h, const K: usize> {
     catalogue: &'h Catalogue<'h>,
     query: &'h Query<'h>,
@@ -170,7 +170,7 @@ impl<const K: usize> BestFirst<'_, K> {
         }
     }
 
-    /// The children of a node, the nearer last; none of a leaf, which is looked at instead.
+    /// The children of a node, the nearer last; none of a leaf, whose views are compared instead.
     fn children(&mut self, open: OpenNode) -> Vec<OpenNode, 2> {
         let mut children = Vec::new();
         if open.node.is_leaf() {

@@ -141,7 +141,7 @@ fn memory_of_another_length_is_refused() {
     let error = error.expect_err("too few steps");
     assert_eq!(
         std::string::ToString::to_string(&error),
-        "a film of 3 frames needs 3 steps and choices but 2 and 3 were lent"
+        "a film of 3 frames needs 3 steps and choices but 2 and 3 were given"
     );
 }
 
