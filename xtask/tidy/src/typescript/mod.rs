@@ -32,10 +32,10 @@ pub fn graph(src: &str, modules: &BTreeMap<String, Module>) -> Graph {
         };
         let uses = module.re_exports.iter().filter(|import| !passed_on(import));
         for import in module.imports.iter().chain(uses) {
-            if let Some(target) = scope.definers(file, import, &mut BTreeSet::new()) {
-                if let Some(to) = graph.files.iter().position(|file| *file == target) {
-                    graph.note(from, to, import.line, &import.name);
-                }
+            if let Some(target) = scope.definers(file, import, &mut BTreeSet::new())
+                && let Some(to) = graph.files.iter().position(|file| *file == target)
+            {
+                graph.note(from, to, import.line, &import.name);
             }
         }
     }
