@@ -6,6 +6,7 @@ pub mod frame;
 pub mod mask;
 pub mod median;
 pub mod moments;
+pub mod profile;
 pub mod region;
 pub mod scan;
 pub mod silhouette;

@@ -18,7 +18,7 @@ pub struct TooLittleMemory {
 ///
 /// # Errors
 /// [`TooLittleMemory`] with these numbers.
-pub(crate) fn check_length(
+pub fn check_length(
     what: &'static str,
     needed: usize,
     given: usize,
@@ -37,7 +37,7 @@ pub(crate) fn check_length(
 ///
 /// # Errors
 /// [`TooLittleMemory`] where there are fewer.
-pub(crate) fn first<'m, T>(
+pub fn first<'m, T>(
     what: &'static str,
     needed: usize,
     memory: &'m mut [T],

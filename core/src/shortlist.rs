@@ -22,7 +22,7 @@ pub fn keep<T, K: PartialOrd, const N: usize>(
 }
 
 /// The `N` items with the smallest keys, smallest first; of equals the first come first.
-pub(crate) fn smallest<T, K: PartialOrd, const N: usize>(
+pub fn smallest<T, K: PartialOrd, const N: usize>(
     items: impl IntoIterator<Item = T>,
     key: impl Fn(&T) -> K,
 ) -> Vec<T, N> {

@@ -1,5 +1,6 @@
 //! Shared helpers of the tests that cross crates.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
@@ -22,7 +23,7 @@ pub fn home() -> &'static Path {
 }
 
 /// A study that is not part of the project: in the folder that `FLUOROPOSE_STUDIES` names, or in
-/// `../shared/studies` beside the project. `None`, with a line that says so, where it is absent.
+/// `../shared/studies` beside the project. `None` where it is absent: the test counts as skipped.
 pub fn study(name: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("FLUOROPOSE_STUDIES")
         .map_or_else(|| home().join("../../shared/studies"), PathBuf::from);
@@ -30,8 +31,28 @@ pub fn study(name: &str) -> Option<PathBuf> {
     if study.is_file() {
         return Some(study);
     }
-    println!("skipped: the study {name} is not on this machine");
+    skipped(&format!("the study {name} is not on this machine"));
     None
+}
+
+/// Names the file to which tests that check nothing write a line.
+const SKIPPED: &str = "FLUOROPOSE_SKIPPED";
+
+/// Says that the running test checks nothing, and why. The test runner knows only tests that pass or fail, so
+/// `cargo xtask test` counts these lines.
+fn skipped(why: &str) {
+    let thread = std::thread::current();
+    let line = format!("SKIPPED: {}: {why}\n", thread.name().unwrap_or("a test"));
+    print!("{line}");
+    let Some(file) = std::env::var_os(SKIPPED) else {
+        return;
+    };
+    let file = std::fs::OpenOptions::new()
+        .append(true)
+        .create(true)
+        .open(file);
+    file.and_then(|mut file| file.write_all(line.as_bytes()))
+        .expect("the file that counts skipped tests can be written");
 }
 
 /// Compares `text` with the committed file `snapshots/NAME`, or rewrites it.

@@ -1,19 +1,21 @@
 //! Bead grids found in pictures, and the correction of distortion that they give. For workers: it takes a second.
 
 use fluoropose::image::frame::{Frame, Pixel};
-use fluoropose_distortion::automatic::{FoundGrid, MARKS, Memory, find_grid};
+use fluoropose_distortion::automatic::{
+    DistortionGrid, DistortionGridMemory, MARKS, find_distortion_grid,
+};
 use fluoropose_distortion::correction::{Corrected, fit};
 use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
 use wasm_bindgen::prelude::*;
 
-use crate::error::sentence;
-use crate::grid::beads_of;
+use fluoropose_page::distortion::beads_of;
+use fluoropose_page::error::sentence;
 
 /// The beads of a grid that was found in a picture.
 #[wasm_bindgen]
 pub struct BeadGrid {
-    found: FoundGrid,
+    found: DistortionGrid,
     beads: Vec<Bead>,
 }
 
@@ -82,14 +84,14 @@ impl BeadGrid {
         let mut discs = vec![Disc::default(); MARKS];
         let mut beads = vec![Bead::default(); MARKS];
         let mut queue = vec![0; MARKS];
-        let mut memory = Memory {
+        let mut memory = DistortionGridMemory {
             sums: &mut sums,
             discs: &mut discs,
             beads: &mut beads,
             queue: &mut queue,
         };
         let radius = (radius != 0.0).then_some(radius);
-        let found = find_grid(&frame, bright, radius, &mut memory).map_err(sentence)?;
+        let found = find_distortion_grid(&frame, bright, radius, &mut memory).map_err(sentence)?;
         beads.truncate(found.marks);
         Ok(Self { found, beads })
     }
@@ -161,13 +163,14 @@ impl DistortionFit {
     pub fn residuals(&self) -> Vec<f64> {
         let Corrected {
             distortion,
-            straight,
+            lattice,
             ..
         } = &self.corrected;
         let beads = self.beads.iter();
         let all = beads.filter_map(|bead| {
-            let before = straight.residual(bead)?;
-            let after = straight.residual(&Bead::new(distortion.straight(bead.at), bead.index))?;
+            let before = lattice.residual(bead)?;
+            let after =
+                lattice.residual(&Bead::new(distortion.undistorted(bead.at), bead.index))?;
             Some([bead.at, before, after])
         });
         all.flatten().flatten().collect()
@@ -179,7 +182,7 @@ impl DistortionFit {
         let distortion = &self.corrected.distortion;
         let moved = self.beads.iter();
         let moved: Vec<Bead> = moved
-            .map(|bead| Bead::new(distortion.straight(bead.at), bead.index))
+            .map(|bead| Bead::new(distortion.undistorted(bead.at), bead.index))
             .collect();
         flat(&moved)
     }

@@ -4,7 +4,7 @@ use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, Riv
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
-use crate::pose_numbers::from_numbers;
+use fluoropose_page::pose_numbers::from_numbers;
 
 /// What is known round a frame's component: the other component in the frame, and the same one in neighbouring frames.
 /// Only poses that can be relied on belong here.

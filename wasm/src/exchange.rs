@@ -7,14 +7,13 @@ use fluoropose::image::contour::{Contour, Outline, Point};
 use fluoropose::image::frame::Pixel;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
-use fluoropose_tracing::Vertex;
-use fluoropose_tracing::list::List;
 use fluoropose_tracing::simplify::{Simplify, simplify};
+use fluoropose_tracing::{List, Vertex};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-use crate::error::sentence;
-use crate::film::{Film, Pixels};
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::{FrameImage, Pixels};
 
 /// Corners of a border that a mask may have.
 const BORDER_CORNERS: usize = 65_536;
@@ -74,7 +73,7 @@ impl MaskOutline {
 /// no mask.
 #[wasm_bindgen(js_name = labelsOfMask)]
 #[must_use]
-pub fn labels_of_mask(film: &Film, most: usize) -> Option<Vec<u32>> {
+pub fn labels_of_mask(film: &FrameImage, most: usize) -> Option<Vec<u32>> {
     match film.pixels() {
         Pixels::Eight(pixels) => labels(pixels, most),
         Pixels::Sixteen(pixels) => labels(pixels, most),
@@ -98,7 +97,11 @@ fn labels<P: Pixel>(pixels: &[P], most: usize) -> Option<Vec<u32>> {
 /// # Errors
 /// A sentence for an empty mask or a border with too many corners.
 #[wasm_bindgen(js_name = outlineOfMask)]
-pub fn outline_of_mask(film: &Film, value: u32, tolerance: f64) -> Result<MaskOutline, JsError> {
+pub fn outline_of_mask(
+    film: &FrameImage,
+    value: u32,
+    tolerance: f64,
+) -> Result<MaskOutline, JsError> {
     let (width, height) = film.size();
     let mut memory: [Vec<Word>; 4] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
     let [given, rest, current, largest] = &mut memory;
@@ -234,8 +237,8 @@ mod tests {
             .collect()
     }
 
-    fn film(pixels: &[u16]) -> Film {
-        Film::from_sixteen_bit(pixels.to_vec(), WIDTH as u32, HEIGHT as u32)
+    fn film(pixels: &[u16]) -> FrameImage {
+        FrameImage::from_sixteen_bit(pixels.to_vec(), WIDTH as u32, HEIGHT as u32)
             .ok()
             .unwrap()
     }

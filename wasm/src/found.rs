@@ -6,7 +6,7 @@ use js_sys::{Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::choice::Chosen;
-use crate::pose_numbers::PoseNumbers;
+use fluoropose_page::pose_numbers::PoseNumbers;
 
 pub(crate) struct Candidate {
     pub(crate) pose: PoseNumbers,

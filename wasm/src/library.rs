@@ -8,8 +8,8 @@ use fluoropose::render::Projected;
 use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
 
-use crate::calibration::calibration_of;
-use crate::error::sentence;
+use fluoropose_page::calibration::calibration_of;
+use fluoropose_page::error::sentence;
 
 self_cell::self_cell!(
     /// A builder with the mesh that it draws.

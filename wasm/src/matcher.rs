@@ -23,11 +23,11 @@ use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
 use crate::choice::{Chosen, Surroundings};
-use crate::error::sentence;
 use crate::found::{Candidate, Match, deviation_numbers};
-use crate::pose_numbers::{from_numbers, to_numbers};
-use crate::traced::Traced;
 use crate::working_model::{Ranked, WorkingModel};
+use fluoropose_page::error::sentence;
+use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
+use fluoropose_page::traced::Traced;
 
 self_cell::self_cell!(
     /// A library with its bytes, checked once.

@@ -21,7 +21,7 @@ use fluoropose::refine::{
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::JsError;
 
-use crate::error::sentence;
+use fluoropose_page::error::sentence;
 
 /// Poses that are looked for from a part of an outline.
 const RIVALS: usize = 6;

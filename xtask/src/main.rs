@@ -3,11 +3,13 @@
 
 mod bench;
 mod ci;
+mod clock;
 mod demo;
 mod firmware;
 mod laboratory;
 mod models;
 mod options;
+mod output;
 mod package;
 mod page;
 mod serve;
@@ -72,6 +74,7 @@ enum Verb {
 }
 
 fn main() -> std::process::ExitCode {
+    clock::since_the_command();
     match run(Cli::parse().verb) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {

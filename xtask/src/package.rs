@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::setup::{announce, command, node};
-use crate::{page, workspace};
+use crate::output::announce;
+use crate::page::{self, Build};
+use crate::setup::{command, node};
+use crate::workspace;
 
 /// Options of `package`.
 ///
@@ -22,7 +24,7 @@ pub(crate) struct Args {
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let dist = page::build()?;
+    let dist = page::build(Build::Shipped)?;
     let package = make(&dist, &args.out.unwrap_or_else(usual_folder))?;
     let size = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
     println!("For a static host: {}", package.site.display());

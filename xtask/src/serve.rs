@@ -4,7 +4,8 @@ use std::io::IsTerminal;
 
 use anyhow::Result;
 
-use crate::page;
+use crate::clock::since_the_command;
+use crate::page::{self, Build};
 use crate::static_server::Server;
 
 /// The port when none is asked for.
@@ -26,7 +27,7 @@ pub(crate) struct Args {
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let dist = page::build()?;
+    let dist = page::build(Build::Quick)?;
     if args.build_only {
         println!("The page is in {}", dist.display());
         return Ok(());
@@ -35,7 +36,12 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Some(port) => Server::start(&dist, port)?,
         None => Server::start(&dist, USUAL_PORT).or_else(|_| Server::start(&dist, 0))?,
     };
-    println!("The page is at {} (Ctrl-C ends it)", server.url());
+    server.check()?;
+    let seconds = since_the_command().as_secs_f64();
+    println!(
+        "The page answers at {} after {seconds:.0} s (Ctrl-C ends it)",
+        server.url()
+    );
     if has_display() {
         // Without a browser the line above is enough.
         let _ = open::that_detached(server.url());

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 
 /// What a page may load and run, a directive a line. The built page says the same of itself for hosts without headers,
 /// but its workers only know what comes with them.
@@ -67,6 +67,24 @@ impl Server {
     /// Where the folder is served, such as `http://127.0.0.1:8080/`.
     pub(crate) fn url(&self) -> String {
         format!("http://{}/", self.address)
+    }
+
+    /// Asks for the page as a browser does.
+    ///
+    /// Errors when it is not answered.
+    pub(crate) fn check(&self) -> Result<()> {
+        let mut stream = TcpStream::connect(self.address)?;
+        write!(
+            stream,
+            "GET / HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n"
+        )?;
+        let mut status = String::new();
+        BufReader::new(stream).read_line(&mut status)?;
+        ensure!(
+            status.contains(" 200 "),
+            "the page is answered with {status}"
+        );
+        Ok(())
     }
 
     /// Waits until the server fails, which it normally does not.

@@ -2,12 +2,13 @@
 
 use anyhow::{Result, ensure};
 
-use crate::suite::report::Report;
-use crate::suite::{browser, firmware, native};
+use crate::clock::since_the_command;
+use crate::suite::changed;
+use crate::suite::side_by_side::{self, Chosen};
 
 /// Options of `test`.
 ///
-/// Without an option every suite runs. What a suite needs (Rust targets, npm packages, Chromium, QEMU) is
+/// Without an option every suite runs, side by side: each line of output begins with its suite. What a suite needs (Rust targets, npm packages, Chromium, QEMU) is
 /// installed where that is possible. What could not be had gives one line, and its steps count as skipped;
 /// with CI=true they count as failed, unless getting it was tried and its source did not have it.
 #[derive(clap::Args)]
@@ -21,6 +22,12 @@ pub(crate) struct Args {
     /// The Cortex-M4F application under QEMU, compared with this machine line by line
     #[arg(long)]
     firmware: bool,
+    /// For work in progress: only what differs from the branch's origin can touch, and says what is left out
+    #[arg(long, conflicts_with_all = ["native", "browser", "firmware"])]
+    changed: bool,
+    /// With --changed: what differs from this revision instead
+    #[arg(long, value_name = "REV", requires = "changed")]
+    since: Option<String>,
 }
 
 impl Args {
@@ -30,24 +37,35 @@ impl Args {
             native: true,
             browser: true,
             firmware: true,
+            changed: false,
+            since: None,
+        }
+    }
+
+    fn chosen(&self) -> Chosen {
+        let chosen = Chosen {
+            native: self.native,
+            firmware: self.firmware,
+            browser: self.browser,
+        };
+        if self.native || self.firmware || self.browser {
+            chosen
+        } else {
+            Chosen::ALL
         }
     }
 }
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let nothing_chosen = !(args.native || args.browser || args.firmware);
-    let mut report = Report::new();
-    if args.native || nothing_chosen {
-        native::run(&mut report);
-    }
-    if args.firmware || nothing_chosen {
-        firmware::run(&mut report);
-    }
-    if args.browser || nothing_chosen {
-        browser::run(&mut report);
-    }
+    let report = if args.changed {
+        changed::run(args.since.as_deref())?
+    } else {
+        side_by_side::run(args.chosen())
+    };
     print!("{report}");
+    let seconds = since_the_command().as_secs_f64();
+    println!("{seconds:.0} s since the command was entered");
     ensure!(
         !report.has_failed(),
         "some steps failed; the lines marked FAILED above say which"

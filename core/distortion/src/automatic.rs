@@ -1,64 +1,69 @@
-//! A bead grid in a picture without being told how large its beads are.
+//! A distortion grid in a frame whose beads are of unknown size.
 
-use super::GridError;
-use super::discs::{Disc, Search, find};
-use super::lattice::{Bead, number};
+use crate::discs::{Disc, DiscSearch, find};
+use crate::error::DistortionError;
+use crate::lattice::{Bead, FEWEST, number};
 use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::memory::check_length;
 
-/// Radii that are tried, px, the usual ones first; each finds beads from two thirds to one and a half times its own.
+/// Radii that are tried, px, the usual ones first. Each finds beads of 2/3 to 3/2 of its radius.
 const RADII: [f64; 8] = [4.5, 6.5, 3.0, 9.0, 2.0, 13.0, 19.0, 28.0];
 
-/// Where so many marks have a number, and at least this part of all, no other radius is tried.
+/// Where this number of marks, and at least this fraction of all marks, have a number, no other radius is tried.
 const PLENTY: (usize, f64) = (60, 0.8);
 
-/// Marks that are looked at: enough for a plate of 45 x 45 beads.
+/// A number of marks that is enough for a plate of 45 x 45 beads.
 pub const MARKS: usize = 2048;
 
-/// Working memory of [`find_grid`].
-pub struct Memory<'a> {
-    /// As many as [`super::discs::sums_needed`] says.
+/// Working memory of [`find_distortion_grid`].
+#[derive(Debug)]
+pub struct DistortionGridMemory<'a> {
+    /// At least [`crate::discs::sums_needed`] sums.
     pub sums: &'a mut [u64],
-    /// As many as marks are to be looked at; [`MARKS`] will do.
+    /// One disc for each mark that may be found: [`MARKS`] suffice.
     pub discs: &'a mut [Disc],
-    /// As many; the numbered beads are left here.
+    /// At least the same number. Afterwards the first of them are the marks that were found.
     pub beads: &'a mut [Bead],
-    /// As many.
+    /// At least the same number.
     pub queue: &'a mut [usize],
 }
 
-/// A grid that was found.
+/// A distortion grid that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FoundGrid {
-    /// Round marks; they are the first of the lent beads, with a number where they belong to the lattice.
+pub struct DistortionGrid {
+    /// Number of round marks. They are the first of [`DistortionGridMemory::beads`], with a number where they belong to
+    /// the lattice.
     pub marks: usize,
-    /// How many of them have a number.
+    /// Number of the marks that have a number.
     pub numbered: usize,
-    /// Radius of the beads, px.
+    /// Mean radius of the marks, px.
     pub radius_px: f64,
-    /// Between neighbours, px.
+    /// Distance between neighbours, px.
     pub step_px: f64,
 }
 
-/// Finds the largest square lattice of round marks; without a radius, over all radii from 1.3 to 42 px.
+/// Finds the largest square lattice of round marks that are darker, or with `bright` brighter, than what surrounds them.
+/// Without a radius, px, all radii from 1.3 to 42 px are tried.
 ///
 /// # Errors
-/// [`GridError::FewBeads`] with the most that were found, [`GridError::Memory`] and [`GridError::Radius`].
-pub fn find_grid<P: Pixel>(
+/// [`DistortionError::FewBeads`] with the greatest number that was found, [`DistortionError::Memory`], and
+/// [`DistortionError::Radius`].
+pub fn find_distortion_grid<P: Pixel>(
     frame: &Frame<'_, P>,
     bright: bool,
     radius_px: Option<f64>,
-    memory: &mut Memory<'_>,
-) -> Result<FoundGrid, GridError> {
+    memory: &mut DistortionGridMemory<'_>,
+) -> Result<DistortionGrid, DistortionError> {
     if let Some(radius_px) = radius_px {
-        return attempt(frame, Search { radius_px, bright }, memory);
+        return attempt(frame, DiscSearch { radius_px, bright }, memory);
     }
-    let mut best: Result<FoundGrid, GridError> = Err(GridError::FewBeads {
+    let mut best: Result<DistortionGrid, DistortionError> = Err(DistortionError::FewBeads {
         found: 0,
-        needed: super::lattice::FEWEST,
+        needed: FEWEST,
     });
     for radius_px in RADII {
-        let found = attempt(frame, Search { radius_px, bright }, memory);
-        let plenty = |found: &FoundGrid| {
+        let found = attempt(frame, DiscSearch { radius_px, bright }, memory);
+        let plenty = |found: &DistortionGrid| {
             found.numbered >= PLENTY.0 && found.numbered as f64 >= PLENTY.1 * found.marks as f64
         };
         if is_better(&found, &best) {
@@ -68,61 +73,41 @@ pub fn find_grid<P: Pixel>(
             break;
         }
     }
-    // Once more at the beads' own radius, which the marks tell; it is also what leaves the beads in the memory.
-    let coarse = best?;
-    match attempt(
-        frame,
-        Search {
-            radius_px: coarse.radius_px,
-            bright,
-        },
-        memory,
-    ) {
-        Ok(found) => Ok(found),
-        Err(_) => {
-            let nearest = RADII.into_iter().min_by(|a, b| {
-                (a - coarse.radius_px)
-                    .abs()
-                    .total_cmp(&(b - coarse.radius_px).abs())
-            });
-            attempt(
-                frame,
-                Search {
-                    radius_px: nearest.unwrap_or(coarse.radius_px),
-                    bright,
-                },
-                memory,
-            )
-        }
-    }
+    // Once more with the radius of the marks. This also leaves the beads in memory.
+    let own = best?.radius_px;
+    let mut again = |radius_px: f64| attempt(frame, DiscSearch { radius_px, bright }, memory);
+    again(own).or_else(|_| {
+        let away = |radius: &f64| (radius - own).abs();
+        let nearest = RADII.into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        again(nearest.unwrap_or(own))
+    })
 }
 
-/// More numbered beads are better; a failure that found more is worth telling.
-fn is_better(found: &Result<FoundGrid, GridError>, best: &Result<FoundGrid, GridError>) -> bool {
+/// More numbered beads are better; of two failures the one with more beads is reported.
+fn is_better(
+    found: &Result<DistortionGrid, DistortionError>,
+    best: &Result<DistortionGrid, DistortionError>,
+) -> bool {
     match (found, best) {
         (Ok(found), Ok(best)) => found.numbered > best.numbered,
         (Ok(_), Err(_)) => true,
-        (Err(GridError::FewBeads { found, .. }), Err(GridError::FewBeads { found: best, .. })) => {
-            found > best
-        }
-        (Err(GridError::FewBeads { .. }), _) => false,
-        // Short memory is no matter of radius.
+        (
+            Err(DistortionError::FewBeads { found, .. }),
+            Err(DistortionError::FewBeads { found: best, .. }),
+        ) => found > best,
+        (Err(DistortionError::FewBeads { .. }), _) => false,
+        // Too little memory does not depend on the radius.
         (Err(_), best) => best.is_err(),
     }
 }
 
 fn attempt<P: Pixel>(
     frame: &Frame<'_, P>,
-    search: Search,
-    memory: &mut Memory<'_>,
-) -> Result<FoundGrid, GridError> {
+    search: DiscSearch,
+    memory: &mut DistortionGridMemory<'_>,
+) -> Result<DistortionGrid, DistortionError> {
     let most = memory.discs.len();
-    if memory.beads.len() < most {
-        return Err(GridError::Memory {
-            needed: most,
-            given: memory.beads.len(),
-        });
-    }
+    check_length("beads", most, memory.beads.len())?;
     let marks = find(frame, search, memory.sums, memory.discs)?;
     let discs = memory.discs.get(..marks).unwrap_or_default();
     for (bead, disc) in memory.beads.iter_mut().zip(discs) {
@@ -131,7 +116,7 @@ fn attempt<P: Pixel>(
     let radius = discs.iter().map(|disc| disc.radius_px).sum::<f64>() / marks.max(1) as f64;
     let beads = memory.beads.get_mut(..marks).unwrap_or_default();
     let step_px = number(beads, memory.queue)?;
-    Ok(FoundGrid {
+    Ok(DistortionGrid {
         marks,
         numbered: beads.iter().filter(|bead| bead.index.is_some()).count(),
         radius_px: radius,
@@ -144,13 +129,13 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
-    use super::super::correction::fit;
-    use super::super::discs::sums_needed;
-    use super::super::lattice::tests::plate;
     use super::*;
+    use crate::correction::fit;
+    use crate::discs::sums_needed;
+    use crate::lattice::tests::plate;
 
-    /// A picture of a bent plate with beads of this radius, darker to the corners, with noise.
-    pub(crate) fn picture(strength: f64, radius: f64) -> Vec<u8> {
+    /// A frame of a distorted plate with beads of this radius, darker towards the corners, with noise.
+    fn picture(strength: f64, radius: f64) -> Vec<u8> {
         let mut pixels = vec![0f64; 1024 * 1024];
         for (index, pixel) in pixels.iter_mut().enumerate() {
             let (x, y) = (
@@ -177,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_of_a_plate_gives_the_correction_without_being_told_the_beads_size() {
+    fn a_picture_of_a_plate_gives_the_correction_whose_beads_are_of_unknown_size() {
         for radius in [2.5, 6.0, 11.0] {
             let pixels = picture(0.05, radius);
             let frame = Frame::new(&pixels, 1024, 1024, 1024).expect("fits");
@@ -185,13 +170,13 @@ mod tests {
             let (mut discs, mut beads) =
                 (vec![Disc::default(); MARKS], vec![Bead::default(); MARKS]);
             let mut queue = vec![0; MARKS];
-            let mut memory = Memory {
+            let mut memory = DistortionGridMemory {
                 sums: &mut sums,
                 discs: &mut discs,
                 beads: &mut beads,
                 queue: &mut queue,
             };
-            let found = find_grid(&frame, false, None, &mut memory).expect("a grid");
+            let found = find_distortion_grid(&frame, false, None, &mut memory).expect("a grid");
             let all = plate(0.05).len();
             assert!(found.numbered * 100 > all * 90, "{found:?} of {all}");
             assert!((found.radius_px / radius - 1.0).abs() < 0.3, "{found:?}");
@@ -210,20 +195,20 @@ mod tests {
         let mut sums = vec![0; sums_needed(1024, 1024)];
         let (mut discs, mut beads) = (vec![Disc::default(); MARKS], vec![Bead::default(); MARKS]);
         let mut queue = vec![0; MARKS];
-        let mut memory = Memory {
+        let mut memory = DistortionGridMemory {
             sums: &mut sums,
             discs: &mut discs,
             beads: &mut beads,
             queue: &mut queue,
         };
         assert!(matches!(
-            find_grid(&frame, false, None, &mut memory),
-            Err(GridError::FewBeads { .. })
+            find_distortion_grid(&frame, false, None, &mut memory),
+            Err(DistortionError::FewBeads { .. })
         ));
         memory.sums = &mut [];
         assert!(matches!(
-            find_grid(&frame, false, None, &mut memory),
-            Err(GridError::Memory { .. })
+            find_distortion_grid(&frame, false, None, &mut memory),
+            Err(DistortionError::Memory(_))
         ));
     }
 }

@@ -1,27 +1,28 @@
-//! A correction of distortion from the numbered beads of a grid.
+//! A correction of distortion from the numbered beads of a distortion grid.
 //!
-//! The straight lattice is the one that lies nearest to the beads: on the whole the picture keeps its place, size and
-//! direction, and pixels stay square. Order 3 to 5 is chosen by cross-validation: each bead's residual is that of a fit
-//! without it.
+//! The undistorted lattice is the one that lies nearest to the beads: on the whole the frame keeps its place, size and
+//! direction, and pixels stay square. The order, 3 to 5, is chosen by cross-validation: the residual of each bead is that
+//! of a fit without it.
 
-use super::GridError;
-use super::distortion::Distortion;
-use super::lattice::{Bead, FEWEST, mean};
-use super::polynomial::{Fit, Solved, root_mean_square, terms_of};
+use crate::distortion::Distortion;
+use crate::error::DistortionError;
+use crate::lattice::{Bead, FEWEST, mean};
+use crate::polynomial::{Fit, Solved, root_mean_square, terms_of};
 use fluoropose::math::sqrt;
 
 /// The orders that are tried.
 pub const ORDERS: [u8; 3] = [3, 4, 5];
 
-/// A straight lattice: the place of number (0, 0), and the step along a row; down a row is that turned.
+/// A square lattice without distortion: the place of number (0, 0) and the step along a row. The step to the next row is
+/// that step rotated by a right angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Straight {
+pub struct UndistortedLattice {
     origin: [f64; 2],
     step: [f64; 2],
 }
 
-impl Straight {
-    /// The one that lies nearest to the numbered beads.
+impl UndistortedLattice {
+    /// The lattice nearest to the numbered beads in the sense of least squares.
     #[must_use]
     pub fn nearest_to(beads: &[Bead]) -> Self {
         let pairs = || {
@@ -47,7 +48,7 @@ impl Straight {
         Self { origin, step }
     }
 
-    /// The place of a bead by its number, px.
+    /// The place (column, row) of the bead with a number, px.
     #[must_use]
     pub fn place(&self, [i, j]: [i32; 2]) -> [f64; 2] {
         let [i, j] = [f64::from(i), f64::from(j)];
@@ -58,13 +59,13 @@ impl Straight {
         ]
     }
 
-    /// Between neighbours, px.
+    /// Distance between neighbours, px.
     #[must_use]
     pub fn spacing_px(&self) -> f64 {
         sqrt(self.step[0] * self.step[0] + self.step[1] * self.step[1])
     }
 
-    /// How far a numbered bead lies from its place: right and down, px.
+    /// How far to the right and down a numbered bead lies from its place, px; `None` for a bead without number.
     #[must_use]
     pub fn residual(&self, bead: &Bead) -> Option<[f64; 2]> {
         let [column, row] = self.place(bead.index?);
@@ -72,47 +73,48 @@ impl Straight {
     }
 }
 
-/// A correction with what tells how good it is.
+/// A correction, and how good it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corrected {
     /// The correction.
     pub distortion: Distortion,
-    /// The lattice that the beads lie on once they are straight.
-    pub straight: Straight,
-    /// Beads that it rests on.
+    /// The lattice of the corrected beads.
+    pub lattice: UndistortedLattice,
+    /// Number of beads that it was fitted to.
     pub used: usize,
-    /// Beads whose numbers were taken away because they lie far off all others' polynomial.
+    /// Number of beads that lost their number because they lie far off the polynomial of the others.
     pub dropped: usize,
-    /// Root mean square distance of the beads from the straight lattice, px, as taken.
+    /// Root mean square distance of the beads from the lattice before the correction, px.
     pub before_px: f64,
-    /// The same once corrected.
+    /// The same after the correction, px.
     pub after_px: f64,
-    /// The same with each bead left out of its own fit, for orders 3, 4 and 5; none for an order with too few beads.
+    /// The same with each bead left out of its own fit, px, for orders 3, 4 and 5; `None` for an order that the beads do
+    /// not determine.
     pub left_out_px: [Option<f64>; 3],
 }
 
-/// An order is taken over the one below only where it lowers the cross-validated residual by this factor.
+/// A higher order is chosen only where it multiplies the cross-validated residual by less than this.
 const WORTH: f64 = 0.98;
-/// A bead farther off than so many root mean squares is dropped,
+/// A bead farther off than this multiple of the root mean square loses its number,
 const FAR: f64 = 5.0;
 /// unless it is nearer than this, px: towards the corners the polynomial itself may be that far off.
 const NEAR_PX: f64 = 0.5;
 
-/// Fits a correction to numbered beads of frames of `size` (columns, rows). Beads that are far off lose their number.
+/// Fits a correction to the numbered beads of a frame of `size` (columns, rows). Beads that are far off lose their number.
 ///
 /// # Errors
-/// [`GridError::FewBeads`] and [`GridError::Degenerate`].
-pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, GridError> {
+/// [`DistortionError::FewBeads`], and [`DistortionError::Degenerate`] where the beads lie close to one line.
+pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, DistortionError> {
     let whole = numbered(beads).count();
     if whole < FEWEST {
-        return Err(GridError::FewBeads {
+        return Err(DistortionError::FewBeads {
             found: whole,
             needed: FEWEST,
         });
     }
-    let mut frame = Frame::of(beads);
-    while drop_far(beads, &frame)? > 0 {
-        frame = Frame::of(beads);
+    let mut coordinates = Normalisation::of(beads);
+    while drop_far(beads, &coordinates)? > 0 {
+        coordinates = Normalisation::of(beads);
     }
     let used = numbered(beads).count();
     let mut left_out_px = [None; 3];
@@ -121,11 +123,12 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, GridEr
         if used < 2 * terms_of(order) {
             continue;
         }
-        let Some(solved) = frame.solve(beads, order) else {
+        let Some(solved) = coordinates.solve(beads, order) else {
             continue;
         };
-        let residual =
-            root_mean_square(numbered(beads).map(|bead| frame.left_out_square(&solved, bead)));
+        let residual = root_mean_square(
+            numbered(beads).map(|bead| coordinates.left_out_square(&solved, bead)),
+        );
         *slot = Some(residual);
         if best
             .as_ref()
@@ -134,23 +137,23 @@ pub fn fit(beads: &mut [Bead], size: (usize, usize)) -> Result<Corrected, GridEr
             best = Some((residual, solved, order));
         }
     }
-    let (_, solved, order) = best.ok_or(GridError::Degenerate { order: ORDERS[0] })?;
+    let (_, solved, order) = best.ok_or(DistortionError::Degenerate { order: ORDERS[0] })?;
     let distortion = Distortion {
         order,
         size,
-        centre: frame.centre,
-        scale: frame.scale,
+        centre: coordinates.centre,
+        scale: coordinates.scale,
         coefficients: solved.coefficients,
     };
     Ok(Corrected {
         distortion,
-        straight: frame.straight,
+        lattice: coordinates.lattice,
         used,
         dropped: whole - used,
         before_px: root_mean_square(
-            numbered(beads).map(|bead| square(frame.straight.residual(bead))),
+            numbered(beads).map(|bead| square(coordinates.lattice.residual(bead))),
         ),
-        after_px: root_mean_square(numbered(beads).map(|bead| frame.square(&solved, bead))),
+        after_px: root_mean_square(numbered(beads).map(|bead| coordinates.square(&solved, bead))),
         left_out_px,
     })
 }
@@ -163,20 +166,20 @@ fn square(residual: Option<[f64; 2]>) -> f64 {
     residual.map_or(0.0, |[right, down]| right * right + down * down)
 }
 
-/// What the polynomials are fitted in: places in radii of the plate about its middle.
-struct Frame {
-    straight: Straight,
+/// The coordinates in which the polynomials are fitted: from the middle of the plate, in units of its radius.
+struct Normalisation {
+    lattice: UndistortedLattice,
     centre: [f64; 2],
     scale: f64,
 }
 
-impl Frame {
+impl Normalisation {
     fn of(beads: &[Bead]) -> Self {
         let centre = mean(numbered(beads).map(|bead| bead.at));
         let radius = numbered(beads)
             .map(|bead| square(Some([bead.at[0] - centre[0], bead.at[1] - centre[1]])));
         Self {
-            straight: Straight::nearest_to(beads),
+            lattice: UndistortedLattice::nearest_to(beads),
             centre,
             scale: sqrt(radius.fold(1.0, f64::max)),
         }
@@ -194,43 +197,43 @@ impl Frame {
         for bead in beads {
             let Some(index) = bead.index else { continue };
             let [x, y] = self.normalised(bead.at);
-            fit.add(x, y, self.normalised(self.straight.place(index)));
+            fit.add(x, y, self.normalised(self.lattice.place(index)));
         }
         fit.solve()
     }
 
-    /// Square of a bead's residual, square px.
+    /// Square of the residual of a bead, square px.
     fn square(&self, solved: &Solved, bead: &Bead) -> f64 {
         let Some(index) = bead.index else { return 0.0 };
         let [x, y] = self.normalised(bead.at);
-        let (found, wanted) = (solved.at(x, y), self.normalised(self.straight.place(index)));
+        let (found, wanted) = (solved.at(x, y), self.normalised(self.lattice.place(index)));
         self.scale * self.scale * square(Some([found[0] - wanted[0], found[1] - wanted[1]]))
     }
 
     fn left_out_square(&self, solved: &Solved, bead: &Bead) -> f64 {
         let [x, y] = self.normalised(bead.at);
-        let share = solved.share_left(x, y);
-        self.square(solved, bead) / (share * share)
+        let one_minus_leverage = solved.one_minus_leverage(x, y);
+        self.square(solved, bead) / (one_minus_leverage * one_minus_leverage)
     }
 }
 
-/// Takes the numbers away from beads that lie far off; returns how many.
-fn drop_far(beads: &mut [Bead], frame: &Frame) -> Result<usize, GridError> {
+/// Takes the numbers from beads that lie far off, and returns how many those are.
+fn drop_far(beads: &mut [Bead], coordinates: &Normalisation) -> Result<usize, DistortionError> {
     let used = numbered(beads).count();
     let order = ORDERS
         .into_iter()
         .rev()
         .find(|&order| used >= 2 * terms_of(order))
         .unwrap_or(ORDERS[0]);
-    let solved = frame
+    let solved = coordinates
         .solve(beads, order)
-        .ok_or(GridError::Degenerate { order })?;
-    let residual = root_mean_square(numbered(beads).map(|bead| frame.square(&solved, bead)));
+        .ok_or(DistortionError::Degenerate { order })?;
+    let residual = root_mean_square(numbered(beads).map(|bead| coordinates.square(&solved, bead)));
     let limit = (FAR * residual).max(NEAR_PX);
     let mut dropped = 0;
     for bead in beads.iter_mut() {
         if bead.index.is_some()
-            && frame.square(&solved, bead) > limit * limit
+            && coordinates.square(&solved, bead) > limit * limit
             && used - dropped > FEWEST
         {
             bead.index = None;

@@ -1,63 +1,59 @@
-//! Round marks in a picture: beads of a plate, dark or bright, with the centre of each to a small part of a pixel.
+//! Round marks in a frame: beads of a plate, dark or bright, with the centre of each to a small fraction of a pixel.
 //!
-//! A bead stands out from the mean of a ring about it; means of squares come from a table of sums. Its centre is the
-//! centroid of what it takes from the plane that fits the ring, so that a slope of brightness does not move it.
+//! A bead differs from the mean of a ring around it; means over squares come from a table of sums. Its centre is the
+//! centroid of its difference from the plane that fits the ring, so that a slope of brightness does not move it.
 
-use super::GridError;
+use crate::error::DistortionError;
 use fluoropose::image::frame::{Frame, Pixel};
 use fluoropose::math::{Matrix3, floor, solve_spd, sqrt};
+use fluoropose::memory::check_length;
 
-/// What to look for.
+/// Which marks are searched.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Search {
-    /// About how large the beads are, px; from two thirds to one and a half times that is found.
+pub struct DiscSearch {
+    /// Approximate radius of the beads, px, 1 to 64; radii from 2/3 to 3/2 of it are found.
     pub radius_px: f64,
-    /// Brighter than what is round them instead of darker.
+    /// Whether they are brighter than what surrounds them instead of darker.
     pub bright: bool,
 }
 
 /// A round mark.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disc {
-    /// Centre, px.
+    /// Column of the centre, px.
     pub column: f64,
-    /// Centre, px.
+    /// Row of the centre, px.
     pub row: f64,
-    /// How far its middle lies from the grey round it, grey values.
+    /// Difference of its middle from the grey around it, grey values.
     pub depth: f64,
-    /// Radius of a disc of that depth with the same sum, px.
+    /// Radius of a uniform disc of that depth with the same sum of differences, px.
     pub radius_px: f64,
 }
 
-/// How many sums [`find`] needs for a frame of this size.
+/// Number of sums that [`find`] needs for a frame of `width` x `height` pixels.
 #[must_use]
 pub fn sums_needed(width: usize, height: usize) -> usize {
     (width + 1) * (height + 1)
 }
 
-/// Finds round marks, the clearest first, as many as `out` holds; returns how many.
+/// Finds round marks, at most the number that `out` holds, the clearest first, and returns their number.
 ///
-/// Marks nearer to the border than twice their radius are left out: their ring is cut.
+/// Marks nearer to the frame's border than about twice their radius are left out, because their ring is cut.
 ///
 /// # Errors
-/// [`GridError::Radius`] for a radius outside 1 to 64 px, [`GridError::Memory`] where `sums` is shorter than
-/// [`sums_needed`].
+/// [`DistortionError::Radius`] for a radius outside 1 to 64 px, and [`DistortionError::Memory`] where there are fewer sums
+/// than [`sums_needed`] says.
 pub fn find<P: Pixel>(
     frame: &Frame<'_, P>,
-    search: Search,
+    search: DiscSearch,
     sums: &mut [u64],
     out: &mut [Disc],
-) -> Result<usize, GridError> {
+) -> Result<usize, DistortionError> {
     if !(1.0..=64.0).contains(&search.radius_px) {
-        return Err(GridError::Radius(search.radius_px));
+        return Err(DistortionError::Radius(search.radius_px));
     }
     let needed = sums_needed(frame.width(), frame.height());
-    if sums.len() < needed {
-        return Err(GridError::Memory {
-            needed,
-            given: sums.len(),
-        });
-    }
+    check_length("sums", needed, sums.len())?;
     fill(frame, sums);
     let contrast = Contrast::new(frame, sums, search);
     let candidates = peaks(&contrast, out);
@@ -66,7 +62,7 @@ pub fn find<P: Pixel>(
     let clear = found
         .get(RANK)
         .or(found.last())
-        .map_or(0.0, |disc| LEAST_SHARE * disc.depth);
+        .map_or(0.0, |disc| LEAST_FRACTION * disc.depth);
     let mut kept = 0;
     for index in 0..candidates {
         let Some(&candidate) = out.get(index).filter(|disc| disc.depth >= clear) else {
@@ -90,17 +86,17 @@ pub fn find<P: Pixel>(
     Ok(kept)
 }
 
-/// The mark of this rank, from 0, is taken for a bead: no plate has fewer.
+/// The mark of this rank, counted from 0, is taken to be a bead: no plate has fewer.
 const RANK: usize = 15;
-/// Marks fainter than this part of it are none. Exposure falls off by less towards a picture's border.
-const LEAST_SHARE: f64 = 0.3;
+/// Marks fainter than this fraction of it are dropped. Towards the border of a frame the exposure falls off by less.
+const LEAST_FRACTION: f64 = 0.3;
 
 fn near(a: &Disc, b: &Disc, reach: f64) -> bool {
     let (right, down) = (a.column - b.column, a.row - b.row);
     right * right + down * down < reach * reach
 }
 
-/// Sums of all pixels above and left of each corner.
+/// Writes for each corner of a pixel the sum of all pixels above and to the left of it.
 fn fill<P: Pixel>(frame: &Frame<'_, P>, sums: &mut [u64]) {
     let stride = frame.width() + 1;
     sums[..stride].fill(0);
@@ -115,7 +111,7 @@ fn fill<P: Pixel>(frame: &Frame<'_, P>, sums: &mut [u64]) {
     }
 }
 
-/// How far the middle of a square differs from a ring about it.
+/// The difference between the middle of a square and a ring around it.
 struct Contrast<'a> {
     sums: &'a [u64],
     width: usize,
@@ -127,7 +123,7 @@ struct Contrast<'a> {
 }
 
 impl<'a> Contrast<'a> {
-    fn new<P: Pixel>(frame: &Frame<'_, P>, sums: &'a [u64], search: Search) -> Self {
+    fn new<P: Pixel>(frame: &Frame<'_, P>, sums: &'a [u64], search: DiscSearch) -> Self {
         let radius = search.radius_px;
         Self {
             sums,
@@ -143,7 +139,7 @@ impl<'a> Contrast<'a> {
         }
     }
 
-    /// Sum over the square of this half side, and its pixels.
+    /// Sum over the square of this half side, and the number of its pixels.
     fn square(&self, column: usize, row: usize, half: usize) -> (u64, usize) {
         let stride = self.width + 1;
         let (left, top) = (column - half, row - half);
@@ -154,14 +150,15 @@ impl<'a> Contrast<'a> {
         (sum, (right - left) * (bottom - top))
     }
 
-    /// Above zero where the middle is darker (or brighter, as asked) than the ring.
+    /// The contrast at a pixel: positive where the middle is darker than the ring, or brighter where bright marks are
+    /// searched.
     fn at(&self, column: usize, row: usize) -> f64 {
         let [middle, inner, outer] = self.halves.map(|half| self.square(column, row, half));
         let ring = (outer.0 - inner.0) as f64 / (outer.1 - inner.1) as f64;
         self.sign * (ring - middle.0 as f64 / middle.1 as f64)
     }
 
-    /// Coarse places inside the border, as (column, row).
+    /// Coarsely spaced places (column, row) away from the border.
     fn places(&self) -> impl Iterator<Item = (usize, usize)> {
         let margin = self.halves[2] + self.step;
         let rows = (margin..self.height.saturating_sub(margin)).step_by(self.step);
@@ -173,7 +170,7 @@ impl<'a> Contrast<'a> {
         })
     }
 
-    /// Is no neighbour higher? Of equal ones the first counts.
+    /// Whether no neighbour has a greater contrast; of equal ones the first counts.
     fn is_peak(&self, column: usize, row: usize, value: f64) -> bool {
         let s = self.step;
         let before = [
@@ -193,7 +190,7 @@ impl<'a> Contrast<'a> {
     }
 }
 
-/// The highest peaks of contrast, as discs whose depth is that contrast; returns how many.
+/// Writes the greatest peaks of contrast as discs whose depth is that contrast, and returns their number.
 fn peaks(contrast: &Contrast<'_>, out: &mut [Disc]) -> usize {
     let (squares, count) = contrast
         .places()
@@ -201,7 +198,7 @@ fn peaks(contrast: &Contrast<'_>, out: &mut [Disc]) -> usize {
             let value = contrast.at(column, row);
             (sum + value * value, count + 1)
         });
-    // Most of the picture is no bead: what is not above the usual unevenness is not looked at.
+    // Most of the frame is no bead: peaks that are not above the usual unevenness are skipped.
     let floor = sqrt(squares / count.max(1) as f64);
     let mut kept = 0;
     let mut faintest = 0;
@@ -234,20 +231,20 @@ fn peaks(contrast: &Contrast<'_>, out: &mut [Disc]) -> usize {
     kept
 }
 
-/// Rounds of moving the window to the centroid.
-const ROUNDS: usize = 8;
+/// The greatest number of times that the window is moved to the centroid.
+const MOVES: usize = 8;
 /// A shift below this ends them, px.
 const SETTLED: f64 = 1e-3;
-/// Part of the depth that is cut off below, so that noise far from the centre weighs nothing.
+/// Differences below this fraction of the depth have no weight, so that noise far from the centre has none.
 const CUT: f64 = 0.25;
-/// Longest axis over shortest.
+/// The greatest ratio of the longest axis of a round mark to its shortest.
 const ROUND: f64 = 1.5;
 
-/// The centroid of a mark near `start`; `None` where there is no round one of about the wanted size.
-fn centred<P: Pixel>(frame: &Frame<'_, P>, search: Search, start: Disc) -> Option<Disc> {
+/// The mark near `start`, centred; `None` where there is no round mark of about the wanted size.
+fn centred<P: Pixel>(frame: &Frame<'_, P>, search: DiscSearch, start: Disc) -> Option<Disc> {
     let mut disc = start;
     let mut found = None;
-    for _ in 0..ROUNDS {
+    for _ in 0..MOVES {
         let measured = Window::new(frame, search, &disc)?.measure()?;
         let shift = sqrt(
             (measured.column - disc.column) * (measured.column - disc.column)
@@ -267,18 +264,18 @@ fn centred<P: Pixel>(frame: &Frame<'_, P>, search: Search, start: Disc) -> Optio
     found.filter(|_| (0.5..=1.8).contains(&ratio))
 }
 
-/// The pixels round a place and the plane of grey that fits the ring there.
+/// The pixels around a place, and the plane of grey that fits the ring there.
 struct Window<'f, 'p, P> {
     frame: &'f Frame<'p, P>,
     sign: f64,
-    /// Radii: of the middle that tells the depth, of the window, of the ring's borders.
+    /// Radii, px: of the middle that gives the depth, of the window, of the inner and the outer border of the ring.
     radii: [f64; 4],
     centre: [f64; 2],
     plane: [f64; 3],
 }
 
 impl<'f, 'p, P: Pixel> Window<'f, 'p, P> {
-    fn new(frame: &'f Frame<'p, P>, search: Search, at: &Disc) -> Option<Self> {
+    fn new(frame: &'f Frame<'p, P>, search: DiscSearch, at: &Disc) -> Option<Self> {
         let radius = search.radius_px;
         let mut window = Self {
             frame,
@@ -311,7 +308,7 @@ impl<'f, 'p, P: Pixel> Window<'f, 'p, P> {
         Some(window)
     }
 
-    /// Calls with right, down and grey of each pixel whose centre lies between two radii.
+    /// Calls `call` with the offsets to the right and down and the grey of each pixel whose centre lies between two radii.
     fn each(&self, from: f64, to: f64, mut call: impl FnMut(f64, f64, f64)) {
         let [column, row] = self.centre;
         for r in floor(row - to) as isize..=floor(row + to) as isize {
@@ -326,7 +323,7 @@ impl<'f, 'p, P: Pixel> Window<'f, 'p, P> {
         }
     }
 
-    /// What the mark takes from the plane at a pixel.
+    /// Difference of a pixel from the plane, positive inside of a mark.
     fn depth(&self, right: f64, down: f64, grey: f64) -> f64 {
         let [level, across, along] = self.plane;
         self.sign * (level + across * right + along * down - grey)
@@ -375,7 +372,7 @@ impl<'f, 'p, P: Pixel> Window<'f, 'p, P> {
     }
 }
 
-/// Of second moments about the centroid. NaN is not round.
+/// Whether second moments about the centroid are those of a round mark. NaN is not round.
 fn is_round(xx: f64, xy: f64, yy: f64) -> bool {
     let (mean, half) = ((xx + yy) / 2.0, (xx - yy) / 2.0);
     let spread = sqrt(half * half + xy * xy);

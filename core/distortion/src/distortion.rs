@@ -1,51 +1,55 @@
-//! Pin-cushion and other smooth distortion of a picture as a polynomial in two variables.
+//! Pin-cushion and other smooth distortion of a frame as a polynomial in two variables.
 //!
-//! The polynomial takes a place in the picture as it is to where it lies in the straight picture; the way back is
-//! Newton's method on the same polynomial, so frames and contours are corrected alike.
+//! The polynomial maps a place in the frame as taken to its place in the undistorted frame. The way back is Newton's method
+//! on the same polynomial, so that frames and contours are corrected alike.
 
-use super::GridError;
-use super::polynomial::{TERMS, monomials, slopes, sum};
-use fluoropose::math::sqrt;
+use crate::error::DistortionError;
+use crate::polynomial::{TERMS, monomials, slopes, sum};
+use fluoropose::math::{floor, sqrt};
 
-/// Numbers in which a correction is stored: order, width, height, centre, scale, and both polynomials.
+/// Number of numbers in which a correction is stored: order, width, height, centre (column, row), scale, and the
+/// coefficients of both polynomials.
 pub const NUMBERS: usize = 6 + 2 * TERMS;
 
 /// A correction of distortion for frames of one size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distortion {
-    pub(super) order: u8,
-    pub(super) size: (usize, usize),
-    /// What the polynomials count from, px, and their unit: the middle of the beads and how far they reach.
-    pub(super) centre: [f64; 2],
-    pub(super) scale: f64,
-    pub(super) coefficients: [[f64; TERMS]; 2],
+    pub(crate) order: u8,
+    pub(crate) size: (usize, usize),
+    /// Origin of the polynomials, px: the middle of the beads.
+    pub(crate) centre: [f64; 2],
+    /// Unit of the polynomials, px: the greatest distance of a bead from the middle.
+    pub(crate) scale: f64,
+    pub(crate) coefficients: [[f64; TERMS]; 2],
 }
 
 impl Distortion {
-    /// The correction that stored numbers tell of.
+    /// The correction in stored numbers.
     ///
     /// # Errors
-    /// [`GridError::Correction`] where they are too few, not finite, of an unknown order or size, or turn the middle of
-    /// the frame inside out.
-    pub fn from_numbers(numbers: &[f64]) -> Result<Self, GridError> {
-        let numbers: &[f64; NUMBERS] = numbers
-            .try_into()
-            .map_err(|_| GridError::Correction("there are not as many as a correction has"))?;
+    /// [`DistortionError::Correction`] where they are not [`NUMBERS`], not finite or too large, of an impossible order, size
+    /// or scale, or turn the middle of the frame inside out.
+    pub fn from_numbers(numbers: &[f64]) -> Result<Self, DistortionError> {
+        let numbers: &[f64; NUMBERS] = numbers.try_into().map_err(|_| {
+            DistortionError::Correction("there are not as many as a correction has")
+        })?;
         if !numbers
             .iter()
             .all(|value| value.is_finite() && value.abs() < 1e6)
         {
-            return Err(GridError::Correction("one of them is not a usable number"));
+            return Err(DistortionError::Correction(
+                "one of them is not a usable number",
+            ));
         }
         let [order, width, height, column, row, scale, coefficients @ ..] = *numbers;
-        let whole = |value: f64, most: f64| {
-            (1.0..=most).contains(&value) && value == fluoropose::math::floor(value)
-        };
+        let whole = |value: f64, most: f64| (1.0..=most).contains(&value) && value == floor(value);
         if !whole(order, 5.0) || !whole(width, 65_535.0) || !whole(height, 65_535.0) {
-            return Err(GridError::Correction("order or frame size is not possible"));
+            return Err(DistortionError::Correction(
+                "order or frame size is not possible",
+            ));
         }
         if scale < 1.0 {
-            return Err(GridError::Correction("the scale is below one pixel"));
+            return Err(DistortionError::Correction("the scale is below one pixel"));
         }
         let mut both = [[0.0; TERMS]; 2];
         for (target, source) in both.as_flattened_mut().iter_mut().zip(coefficients) {
@@ -60,7 +64,7 @@ impl Distortion {
         };
         match correction.growth([width / 2.0, height / 2.0]) > 0.01 {
             true => Ok(correction),
-            false => Err(GridError::Correction(
+            false => Err(DistortionError::Correction(
                 "they turn the middle of the frame inside out",
             )),
         }
@@ -93,7 +97,7 @@ impl Distortion {
         self.order
     }
 
-    /// Columns and rows of the frames that it is for.
+    /// Columns and rows of the frames that it corrects.
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         self.size
@@ -113,9 +117,9 @@ impl Distortion {
         ]
     }
 
-    /// Where a place (column, row) of the picture lies once it is straight, px.
+    /// The place in the undistorted frame of a place (column, row) in the frame as taken, px.
     #[must_use]
-    pub fn straight(&self, at: [f64; 2]) -> [f64; 2] {
+    pub fn undistorted(&self, at: [f64; 2]) -> [f64; 2] {
         let [x, y] = self.normalised(at);
         let terms = monomials(x, y);
         self.denormalised([
@@ -124,16 +128,20 @@ impl Distortion {
         ])
     }
 
-    /// Where a place of the straight picture is in the picture as it was taken, px; `None` where the polynomial has no
-    /// such place near by, as may be far outside the beads.
+    /// The place in the frame as taken of a place (column, row) in the undistorted frame, px; `None` where Newton's method
+    /// finds none, as may happen far outside of the beads.
     #[must_use]
-    pub fn bent(&self, straight: [f64; 2]) -> Option<[f64; 2]> {
-        self.bent_from(straight, straight)
+    pub fn distorted(&self, undistorted: [f64; 2]) -> Option<[f64; 2]> {
+        self.distorted_from(undistorted, undistorted)
     }
 
     /// The same from a guess.
-    pub(super) fn bent_from(&self, straight: [f64; 2], guess: [f64; 2]) -> Option<[f64; 2]> {
-        let target = self.normalised(straight);
+    pub(crate) fn distorted_from(
+        &self,
+        undistorted: [f64; 2],
+        guess: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        let target = self.normalised(undistorted);
         let mut at = self.normalised(guess);
         for _ in 0..STEPS {
             let terms = monomials(at[0], at[1]);
@@ -143,7 +151,7 @@ impl Distortion {
             ];
             let [[a, b], [c, d]] = self.slope(at);
             let determinant = a * d - b * c;
-            // Beyond this the polynomial folds the picture over.
+            // Here the polynomial folds the frame over.
             if determinant.is_nan() || determinant < 0.01 {
                 return None;
             }
@@ -159,20 +167,20 @@ impl Distortion {
         None
     }
 
-    /// Rows of the derivative at a normalised place.
+    /// The Jacobian matrix at a normalised place.
     fn slope(&self, at: [f64; 2]) -> [[f64; 2]; 2] {
         let [by_x, by_y] = slopes(at[0], at[1]);
         self.coefficients
             .map(|value| [sum(&value, &by_x), sum(&value, &by_y)])
     }
 
-    /// By how much the correction enlarges an area about a place.
-    pub(super) fn growth(&self, at: [f64; 2]) -> f64 {
+    /// The factor by which the correction enlarges an area around a place.
+    pub(crate) fn growth(&self, at: [f64; 2]) -> f64 {
         let [[a, b], [c, d]] = self.slope(self.normalised(at));
         a * d - b * c
     }
 
-    /// The greatest distance by which a pixel within the radius of the beads is moved, px, on a coarse grid.
+    /// The greatest distance by which a pixel within the radius of the beads is moved, px, over 33 x 33 places.
     #[must_use]
     pub fn largest_shift_px(&self) -> f64 {
         let mut largest: f64 = 0.0;
@@ -181,7 +189,7 @@ impl Distortion {
                 let unit = [f64::from(k) / 16.0 - 1.0, f64::from(l) / 16.0 - 1.0];
                 if unit[0] * unit[0] + unit[1] * unit[1] <= 1.0 {
                     let at = self.denormalised(unit);
-                    let [column, row] = self.straight(at);
+                    let [column, row] = self.undistorted(at);
                     let (right, down) = (column - at[0], row - at[1]);
                     largest = largest.max(sqrt(right * right + down * down));
                 }
@@ -193,5 +201,5 @@ impl Distortion {
 
 /// Newton steps: two or three suffice inside the beads.
 const STEPS: usize = 20;
-/// A step below this, in radii of the plate, ends them.
+/// A step below this, in units of the radius of the plate, ends them.
 const CLOSE: f64 = 1e-10;

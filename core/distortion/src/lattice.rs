@@ -1,24 +1,26 @@
 //! Which bead of a square lattice each mark is.
 //!
-//! Numbers spread from bead to neighbour: each bead predicts where the next ones are from the steps that led to it, so
-//! that a lattice bent by pin-cushion distortion is followed. A missing bead is gone round; islands behind a row of
-//! missing ones are joined by a quadratic through what is numbered already. Marks that fit nowhere stay without number.
+//! Numbers spread from a bead to its neighbours. Each bead predicts the places of the next ones from the steps that led to
+//! it, so that a lattice with pin-cushion distortion is followed. A missing bead is bypassed, and islands behind a row of
+//! missing ones are joined by a cubic through the beads that are numbered already. Marks that fit nowhere get no number.
 
-use super::GridError;
-use super::discs::Disc;
-use super::polynomial::Fit;
+use crate::discs::Disc;
+use crate::error::DistortionError;
+use crate::polynomial::Fit;
 use fluoropose::math::{atan2, floor, round, sin_cos, sqrt};
+use fluoropose::memory::first;
 
 /// A mark and its place in the lattice.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bead {
     /// Column and row of its centre, px.
     pub at: [f64; 2],
-    /// Columns to the right and rows down in the lattice, from an arbitrary bead; none for a mark that is no bead of it.
+    /// Its number: columns to the right and rows down in the lattice, from an arbitrary bead. `None` for a mark that is no
+    /// bead of the lattice.
     pub index: Option<[i32; 2]>,
-    /// Step to the next bead in a row of the lattice as seen here; the step down is this turned by a right angle.
+    /// Step to the next bead in its row, px; the step to the next row is this step rotated by a right angle.
     step: [f64; 2],
-    /// Which patch numbered it.
+    /// The patch that it was numbered in.
     patch: u32,
 }
 
@@ -43,43 +45,37 @@ impl From<Disc> for Bead {
     }
 }
 
-/// Fewest beads of a lattice that is worth anything.
+/// The least number of beads of a lattice.
 pub const FEWEST: usize = 20;
 
-/// How far from its predicted place a bead may lie, in steps.
+/// The greatest distance of a bead from its predicted place, in steps.
 const REACH: f64 = 0.3;
 
-/// Numbers the beads of the largest lattice among the marks; returns its step in px. `queue` holds as many places as
-/// there are marks.
+/// Numbers the beads of the largest lattice among the marks, and returns its step, px. `queue` has at least one place for
+/// each mark.
 ///
 /// # Errors
-/// [`GridError::FewBeads`] below [`FEWEST`], [`GridError::Memory`] for a short queue.
-pub fn number(beads: &mut [Bead], queue: &mut [usize]) -> Result<f64, GridError> {
-    let needed = beads.len();
-    if queue.len() < needed {
-        return Err(GridError::Memory {
-            needed,
-            given: queue.len(),
-        });
-    }
+/// [`DistortionError::FewBeads`] below [`FEWEST`] beads, and [`DistortionError::Memory`] for a short queue.
+pub fn number(beads: &mut [Bead], queue: &mut [usize]) -> Result<f64, DistortionError> {
+    let queue = first("places in the queue", beads.len(), queue)?;
     for bead in beads.iter_mut() {
         *bead = Bead {
             at: bead.at,
             ..Bead::default()
         };
     }
-    let step = common_step(beads, queue).ok_or(GridError::FewBeads {
-        found: needed.min(1),
+    let step = common_step(beads, queue).ok_or(DistortionError::FewBeads {
+        found: beads.len().min(1),
         needed: FEWEST,
     })?;
     let (sine, cosine) = sin_cos(direction(beads, step));
-    let first = [step * cosine, step * sine];
+    let along_row = [step * cosine, step * sine];
     let (mut largest, mut best) = (0, 0);
     for (patch, seed) in (1u32..).zip(0..beads.len()) {
-        if beads[seed].index.is_some() || !has_cross(beads, seed, first) {
+        if beads[seed].index.is_some() || !has_cross(beads, seed, along_row) {
             continue;
         }
-        let count = spread(beads, queue, seed, first, patch);
+        let count = spread(beads, queue, seed, along_row, patch);
         if count > largest {
             (largest, best) = (count, patch);
         }
@@ -96,7 +92,7 @@ pub fn number(beads: &mut [Bead], queue: &mut [usize]) -> Result<f64, GridError>
     while join(beads) > 0 {}
     let found = beads.iter().filter(|bead| bead.index.is_some()).count();
     match found < FEWEST {
-        true => Err(GridError::FewBeads {
+        true => Err(DistortionError::FewBeads {
             found,
             needed: FEWEST,
         }),
@@ -112,7 +108,7 @@ fn between(a: [f64; 2], b: [f64; 2]) -> f64 {
     sqrt(square_between(a, b))
 }
 
-/// The median distance from a mark to its nearest other. The order of `scratch` is by that distance afterwards.
+/// The median distance of a mark from its nearest neighbour, px. `scratch` has a place for each mark.
 fn common_step(beads: &[Bead], scratch: &mut [usize]) -> Option<f64> {
     let nearest = |index: usize| {
         let others = beads
@@ -124,7 +120,7 @@ fn common_step(beads: &[Bead], scratch: &mut [usize]) -> Option<f64> {
     };
     let count = beads.len();
     let order = scratch.get_mut(..count).filter(|_| count > 1)?;
-    // Bits of positive floating point numbers rise with them.
+    // In 1024ths of a pixel, which can be sorted as integers.
     for (index, slot) in order.iter_mut().enumerate() {
         *slot = round(nearest(index).min(1e6) * 1024.0) as usize;
     }
@@ -132,7 +128,8 @@ fn common_step(beads: &[Bead], scratch: &mut [usize]) -> Option<f64> {
     Some(order[count / 2] as f64 / 1024.0).filter(|&step| step > 0.0)
 }
 
-/// Direction of the lattice, radians, -45 to 45 degrees: four times the angle of a step is one for all four.
+/// Direction of the lattice, radians from -45 to 45 degrees. Four times the angle of a step is the same angle for all four
+/// directions.
 fn direction(beads: &[Bead], step: f64) -> f64 {
     let (mut sine, mut cosine) = (0.0, 0.0);
     for (index, a) in beads.iter().enumerate() {
@@ -149,7 +146,7 @@ fn direction(beads: &[Bead], step: f64) -> f64 {
     atan2(sine, cosine) / 4.0
 }
 
-/// The four ways from a bead: change of number, and step in px for a step along a row.
+/// The four ways from a bead: the change of the number, and the step in px, given the step along a row.
 fn ways([right, down]: [f64; 2]) -> [([i32; 2], [f64; 2]); 4] {
     [
         ([1, 0], [right, down]),
@@ -159,7 +156,7 @@ fn ways([right, down]: [f64; 2]) -> [([i32; 2], [f64; 2]); 4] {
     ]
 }
 
-/// Has a mark a bead on each of its four sides, where a lattice of this step would have them?
+/// Whether a mark has a neighbour on each of its four sides, where a lattice of this step would have one.
 fn has_cross(beads: &[Bead], seed: usize, step: [f64; 2]) -> bool {
     let at = beads[seed].at;
     ways(step).iter().all(|(_, [right, down])| {
@@ -184,7 +181,7 @@ fn closest(beads: &[Bead], place: [f64; 2], step: f64) -> Option<usize> {
     best.1
 }
 
-/// Numbers what hangs together with a seed; returns how many beads.
+/// Numbers the beads that are connected with a seed, and returns their number.
 fn spread(
     beads: &mut [Bead],
     queue: &mut [usize],
@@ -214,10 +211,10 @@ fn spread(
                 continue;
             }
             let bead = &mut beads[found];
-            let gone = [bead.at[0] - from.at[0], bead.at[1] - from.at[1]];
+            let actual = [bead.at[0] - from.at[0], bead.at[1] - from.at[1]];
             *bead = Bead {
                 index: Some(number),
-                step: followed(from.step, change, gone),
+                step: followed(from.step, change, actual),
                 patch,
                 ..*bead
             };
@@ -234,18 +231,18 @@ fn is_taken(beads: &[Bead], number: [i32; 2], patch: u32) -> bool {
         .any(|bead| bead.patch == patch && bead.index == Some(number))
 }
 
-/// The step along a row half way between what was expected and what was gone.
+/// The step along a row, half way between the expected step and the actual one.
 fn followed(step: [f64; 2], change: [i32; 2], [right, down]: [f64; 2]) -> [f64; 2] {
-    let gone = match change {
+    let actual = match change {
         [1, _] => [right, down],
         [-1, _] => [-right, -down],
         [_, 1] => [down, -right],
         _ => [-down, right],
     };
-    [(step[0] + gone[0]) / 2.0, (step[1] + gone[1]) / 2.0]
+    [(step[0] + actual[0]) / 2.0, (step[1] + actual[1]) / 2.0]
 }
 
-/// Numbers marks that lie where a quadratic through the numbered ones expects a bead; returns how many.
+/// Numbers marks that lie where a cubic through the numbered ones expects a bead, and returns their number.
 fn join(beads: &mut [Bead]) -> usize {
     let numbered = || beads.iter().filter(|bead| bead.index.is_some());
     let count = numbered().count();
@@ -269,7 +266,7 @@ fn join(beads: &mut [Bead]) -> usize {
     let mut joined = 0;
     for index in 0..beads.len() {
         let [x, y] = normalised(beads[index].at);
-        // A cubic is trusted a little beyond what it was fitted to.
+        // A cubic is trusted a little beyond the beads that it was fitted to.
         if beads[index].index.is_some() || x * x + y * y > 1.3 {
             continue;
         }
@@ -288,7 +285,7 @@ fn join(beads: &mut [Bead]) -> usize {
     joined
 }
 
-pub(super) fn mean(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+pub(crate) fn mean(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let (sum, count) = points.fold(([0.0; 2], 0usize), |(sum, count), at| {
         ([sum[0] + at[0], sum[1] + at[1]], count + 1)
     });
@@ -296,4 +293,4 @@ pub(super) fn mean(points: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 }
 
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;

@@ -1,11 +1,55 @@
-//! Calibration from pictures of a bead grid or of a ruler: where the beads are, which bead of the lattice each is, how
-//! the picture is distorted, and what camera took it.
+//! Camera and image distortion from a frame of a bead plate or of a ruler, without allocation.
 //!
-//! The order of use: [`discs`] finds dark discs, [`lattice`] numbers them ([`automatic`] does both), [`correction`] fits the polynomial of a
-//! [`distortion`] that makes their rows straight, [`resample`] applies it to frames, [`plate`] finds pixel pitch and principal point from
-//! the straightened beads. A [`ruler`] of known length is the short way to the pitch alone.
+//! An image intensifier bends straight lines into a pin-cushion. A flat plate with beads in a square lattice, the
+//! distortion grid, shows how: the frame is corrected so that its rows are straight, and the corrected beads tell the
+//! camera. The way of the data, and the types on it:
 //!
-//! Image coordinates are those of the whole crate: continuous, a pixel's centre at its index + 0.5.
+//! ```text
+//! frame --> discs::find --> Disc --> lattice::number --> Bead --> correction::fit --> Corrected { Distortion, .. }
+//!       +-- automatic::find_distortion_grid does both ----^                               |
+//!                                                                                         v
+//!           frame --> resample::{map_row, resample_row} --> undistorted frame      undistorted beads
+//!                                                                                         |
+//!                                                      plate::camera(distances) <---------+
+//!                                                              --> PlateCamera: pixel pitch, principal point
+//! two marks of known distance --> ruler::scale --> RulerScale: pixel pitch alone
+//! ```
+//!
+//! - [`discs`] finds round marks to a few hundredths of a pixel, [`lattice`] numbers the beads among them, and
+//!   [`automatic`] does both without knowing their size.
+//! - [`correction`] fits the [`polynomial`]s of a [`distortion`], whose order it chooses by cross-validation.
+//! - [`resample`] applies a correction to frames. [`Distortion::undistorted`] and [`Distortion::distorted`] apply it to
+//!   points.
+//! - [`plate`] and [`ruler`] find the camera.
+//!
+//! Places are (column, row) in px, continuous, a pixel's centre at its index + 0.5. Lengths are in mm. All memory is
+//! borrowed from the caller, more than needed is welcome, and less is the error [`DistortionError::Memory`].
+//!
+//! # Example
+//! Beads of a lattice of 40 px, moved outwards the more the farther they are from the middle, are corrected to less than a
+//! tenth of a pixel.
+//!
+//! ```
+//! use fluoropose_distortion::correction::fit;
+//! use fluoropose_distortion::lattice::Bead;
+//!
+//! let seen = |index: [i32; 2]| {
+//!     let [x, y] = index.map(|number| 40.0 * f64::from(number));
+//!     let magnification = 1.0 + 0.05 * (x * x + y * y) / (512.0 * 512.0);
+//!     [512.0 + magnification * x, 512.0 + magnification * y]
+//! };
+//! let numbers = (-10..=10).flat_map(|i| (-10..=10).map(move |j| [i, j]));
+//! let mut beads: Vec<Bead> = numbers.map(|index| Bead::new(seen(index), Some(index))).collect();
+//!
+//! let corrected = fit(&mut beads, (1024, 1024))?;
+//! assert!(corrected.before_px > 1.0 && corrected.after_px < 0.1);
+//!
+//! // The way there and back.
+//! let undistorted = corrected.distortion.undistorted([900.0, 200.0]);
+//! let [column, row] = corrected.distortion.distorted(undistorted).expect("inside the plate");
+//! assert!((column - 900.0).abs() < 1e-6 && (row - 200.0).abs() < 1e-6);
+//! # Ok::<(), fluoropose_distortion::DistortionError>(())
+//! ```
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -13,80 +57,23 @@
 #[cfg(test)]
 extern crate std;
 
-pub mod automatic;
-pub mod correction;
+// In the order of the data.
+mod error;
+
 pub mod discs;
-pub mod distortion;
 pub mod lattice;
-pub mod plate;
+
+pub mod automatic;
+
 pub mod polynomial;
+
+pub mod correction;
+pub mod distortion;
+
 pub mod resample;
+
+pub mod plate;
 pub mod ruler;
 
-use thiserror::Error;
-
-/// Why a picture of a grid or a ruler says nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum GridError {
-    /// Lent memory is too short.
-    #[error("{needed} numbers of working memory are needed and {given} were lent")]
-    Memory {
-        /// How many are needed.
-        needed: usize,
-        /// How many were lent.
-        given: usize,
-    },
-    /// The bead radius to look for is not usable.
-    #[error("beads of {0} px radius cannot be found; 1 to 64 px can")]
-    Radius(f64),
-    /// Too few beads form a lattice.
-    #[error(
-        "{found} beads in a square lattice were found and at least {needed} are needed; choose a frame in which the plate fills the picture, or say whether its beads are bright"
-    )]
-    FewBeads {
-        /// Beads in a lattice.
-        found: usize,
-        /// How many are needed.
-        needed: usize,
-    },
-    /// The beads do not determine the polynomial.
-    #[error(
-        "the beads lie too close to one line for a correction of order {order}; they must be spread over the picture"
-    )]
-    Degenerate {
-        /// Order of the polynomial.
-        order: u8,
-    },
-    /// A length or distance is not above zero, or not finite.
-    #[error("the {name} is {value}; it must be above zero")]
-    Length {
-        /// Which length.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The object would lie behind the detector.
-    #[error(
-        "the object is {object} mm from the source and the detector {detector} mm; the object must lie between them"
-    )]
-    Order {
-        /// Source to object, mm.
-        object: f64,
-        /// Source to detector, mm.
-        detector: f64,
-    },
-    /// The two marks of a ruler lie on one spot.
-    #[error("the two marks are {0} px apart; they must be at least 2 px apart")]
-    Marks(f64),
-    /// A stored correction is not one.
-    #[error("these numbers are no correction of distortion: {0}")]
-    Correction(&'static str),
-}
-
-/// Refuses what is not above zero and finite.
-fn above_zero(name: &'static str, value: f64) -> Result<f64, GridError> {
-    match value.is_finite() && value > 0.0 {
-        true => Ok(value),
-        false => Err(GridError::Length { name, value }),
-    }
-}
+pub use distortion::Distortion;
+pub use error::DistortionError;

@@ -1,98 +1,102 @@
-//! The camera from one picture of a flat bead plate of known spacing and the two distances.
+//! The camera from one frame of a flat bead plate of known spacing and two distances.
 //!
-//! Source to detector is the principal distance. Source to plate gives the focal length in pixels, and so the pitch.
-//! The principal point shows in a single plane only as far as the plate is tilted: it is fitted with a prior at the
-//! frame's middle, and its standard deviation says whether the picture or the prior spoke.
+//! The distance from source to detector is the principal distance. That from source to plate gives the focal length in
+//! pixels and with it the pixel pitch. A single plane shows the principal point only as far as it is tilted: the point is
+//! fitted with a prior at the middle of the frame, and its standard deviation tells whether it comes from the frame or from
+//! the prior.
 
-use super::correction::Straight;
-use super::lattice::{Bead, FEWEST, mean};
-use super::polynomial::root_mean_square;
-use super::ruler::distances;
-use super::{GridError, above_zero};
+use crate::correction::UndistortedLattice;
+use crate::error::{DistortionError, above_zero};
+use crate::lattice::{Bead, FEWEST, mean};
+use crate::polynomial::root_mean_square;
+use crate::ruler::distances;
 use fluoropose::math::{
     Matrix3, apply, atan2, degrees, exp, inverse_spd, ln, multiply, rotation_by, sin_cos,
     solve_spd, sqrt,
 };
 
-/// What was measured by hand.
+/// Lengths that were measured by hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distances {
-    /// Between neighbouring beads, mm.
+    /// Distance between neighbouring beads, mm.
     pub spacing_mm: f64,
-    /// From the X-ray source to the detector, mm.
+    /// Distance from the X-ray source to the detector, mm.
     pub source_to_detector_mm: f64,
-    /// From the X-ray source to the middle of the plate along the axis, mm.
+    /// Distance from the X-ray source to the middle of the plate along the axis, mm.
     pub source_to_plate_mm: f64,
 }
 
-/// The camera that took a plate.
+/// The camera that took a frame of a plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlateCamera {
-    /// Between pixels at the detector, mm, and its standard deviation from the beads alone: an error of either distance
-    /// comes on top, in proportion.
+    /// Distance between pixels at the detector, mm.
     pub pitch_mm: f64,
-    /// Standard deviation of the pitch, mm.
+    /// Standard deviation of the pitch from the beads alone, mm. The relative error of either distance comes on top.
     pub pitch_deviation_mm: f64,
-    /// Principal point from the frame's middle, mm at the detector: x right, y up.
+    /// Principal point from the middle of the frame, mm at the detector: x to the right, y up.
     pub offset_mm: [f64; 2],
-    /// Standard deviations of it, mm.
+    /// Its standard deviations, mm.
     pub offset_deviation_mm: [f64; 2],
-    /// Did the picture tell the principal point, and not the prior?
+    /// Whether the principal point comes from the frame and not from the prior.
     pub offset_is_measured: bool,
-    /// Between the plate and the detector, degrees.
+    /// Angle between the plate and the detector, degrees.
     pub tilt_deg: f64,
-    /// Root mean square distance of the beads from where this camera sees them, px.
+    /// Root mean square distance of the beads from their places by this camera, px.
     pub residual_px: f64,
-    /// Beads that it rests on.
+    /// Number of beads that it was fitted to.
     pub used: usize,
 }
 
 /// Standard deviation of the prior at the frame's middle, mm at the detector.
 pub const PRIOR_MM: f64 = 10.0;
 
-/// Parameters: logarithm of the focal length, principal point, turn, place across.
+/// Parameters: logarithm of the focal length, principal point (2), rotation (3), place across the axis (2).
 const N: usize = 8;
 type Vector = [f64; N];
 type Matrix = [[f64; N]; N];
 
-/// Fits the camera to numbered beads (straightened ones, where the picture was distorted) in frames of `size` (columns,
-/// rows).
+/// Fits the camera to numbered beads in a frame of `size` (columns, rows). Where the frame was distorted, the beads are the
+/// undistorted ones.
 ///
 /// # Errors
-/// [`GridError::FewBeads`], [`GridError::Length`], [`GridError::Order`], and [`GridError::Degenerate`] for beads in one
+/// [`DistortionError::FewBeads`], [`DistortionError::Length`], [`DistortionError::Order`], and [`DistortionError::Degenerate`] for beads in one
 /// line.
 pub fn camera(
     beads: &[Bead],
     measured: Distances,
     size: (usize, usize),
-) -> Result<PlateCamera, GridError> {
+) -> Result<PlateCamera, DistortionError> {
     let spacing = above_zero("spacing of the beads", measured.spacing_mm)?;
     let (detector, object) =
         distances(measured.source_to_detector_mm, measured.source_to_plate_mm)?;
     let used = beads.iter().filter(|bead| bead.index.is_some()).count();
     if used < FEWEST {
-        return Err(GridError::FewBeads {
+        return Err(DistortionError::FewBeads {
             found: used,
             needed: FEWEST,
         });
     }
-    let lattice = Straight::nearest_to(beads);
+    let lattice = UndistortedLattice::nearest_to(beads);
     let middle = [size.0 as f64 / 2.0, size.1 as f64 / 2.0];
     let focal = lattice.spacing_px() * object / spacing;
     let mut view = View::first(beads, &lattice, spacing, focal, object, middle);
     let prior_px = PRIOR_MM * focal / detector;
     // The noise is not known before the first fit.
     let mut noise = 0.1;
-    for _ in 0..ROUNDS {
+    for _ in 0..FITS {
         view = settle(view, beads, middle, noise / prior_px)?;
         noise = view.residual(beads).max(LEAST_NOISE_PX);
     }
     let (normal, _) = view.equations(beads, middle, noise / prior_px);
-    let inverse = inverse_spd(&normal).ok_or(GridError::Degenerate { order: 1 })?;
+    let inverse = inverse_spd(&normal).ok_or(DistortionError::Degenerate { order: 1 })?;
     let deviation = |k: usize| noise * sqrt(inverse[k][k]);
     let pitch = detector / view.focal();
     let offset_deviation_mm = [deviation(1) * pitch, deviation(2) * pitch];
-    let normal_of_plate = [view.turn[0][2], view.turn[1][2], view.turn[2][2]];
+    let normal_of_plate = [
+        view.rotation[0][2],
+        view.rotation[1][2],
+        view.rotation[2][2],
+    ];
     let across =
         sqrt(normal_of_plate[0] * normal_of_plate[0] + normal_of_plate[1] * normal_of_plate[1]);
     Ok(PlateCamera {
@@ -110,29 +114,29 @@ pub fn camera(
     })
 }
 
-/// Fits, each with the noise that the one before found.
-const ROUNDS: usize = 3;
-/// Centroids are no better than this.
+/// Number of fits, each with the noise that the fit before it found.
+const FITS: usize = 3;
+/// No centroid is more accurate than this.
 const LEAST_NOISE_PX: f64 = 0.005;
-/// Steps of a fit.
+/// The greatest number of steps of a fit.
 const STEPS: usize = 40;
 
-/// A camera and a plate before it: y up, looking along -z.
+/// A camera that looks along -z with y up, and a plate in front of it.
 #[derive(Clone, Copy)]
 struct View {
     log_focal: f64,
     point: [f64; 2],
-    turn: Matrix3,
+    rotation: Matrix3,
     place: [f64; 3],
     spacing: f64,
     middle: [f64; 2],
 }
 
 impl View {
-    /// Parallel to the detector, its middle where the beads' middle is seen.
+    /// The first guess: parallel to the detector, its middle where the middle of the beads is seen.
     fn first(
         beads: &[Bead],
-        lattice: &Straight,
+        lattice: &UndistortedLattice,
         spacing: f64,
         focal: f64,
         object: f64,
@@ -151,7 +155,7 @@ impl View {
         Self {
             log_focal: ln(focal),
             point,
-            turn: [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]],
+            rotation: [[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]],
             place: [
                 (seen[0] - point[0]) * object / focal,
                 (point[1] - seen[1]) * object / focal,
@@ -166,11 +170,11 @@ impl View {
         exp(self.log_focal)
     }
 
-    /// A bead from the plate's middle, turned as the plate is, mm.
+    /// Vector from the middle of the plate to a bead, mm.
     fn arm(&self, index: [i32; 2]) -> [f64; 3] {
         let [i, j] = index.map(f64::from);
         apply(
-            &self.turn,
+            &self.rotation,
             &[
                 self.spacing * (i - self.middle[0]),
                 -self.spacing * (j - self.middle[1]),
@@ -179,7 +183,7 @@ impl View {
         )
     }
 
-    /// Where a bead is seen, and how that changes with the parameters.
+    /// The place where a bead is seen, px, and its derivatives by the parameters.
     fn project(&self, index: [i32; 2]) -> ([f64; 2], [Vector; 2]) {
         let arm = self.arm(index);
         let [x, y, z] = [
@@ -189,30 +193,29 @@ impl View {
         ];
         let (focal, depth) = (self.focal(), -z);
         let (right, down) = (focal * x / depth, -focal * y / depth);
-        // By x, y and z of the bead.
+        // Derivatives by x, y and z of the bead.
         let slopes = [
             [focal / depth, 0.0, right / depth],
             [0.0, -focal / depth, down / depth],
         ];
-        // A turn by w about the plate's middle moves the bead by w x arm.
-        let turned = [
+        // A rotation by w about the middle of the plate moves the bead by w x arm.
+        let moved = [
             [0.0, -arm[2], arm[1]],
             [arm[2], 0.0, -arm[0]],
             [-arm[1], arm[0], 0.0],
         ];
         let gradient = |axis: usize, image: f64| {
             let slope = slopes[axis];
-            let by_turn = |k: usize| {
-                slope[0] * turned[k][0] + slope[1] * turned[k][1] + slope[2] * turned[k][2]
-            };
+            let by_rotation =
+                |k: usize| slope[0] * moved[k][0] + slope[1] * moved[k][1] + slope[2] * moved[k][2];
             let point = |k: usize| if k == axis { 1.0 } else { 0.0 };
             [
                 image,
                 point(0),
                 point(1),
-                by_turn(0),
-                by_turn(1),
-                by_turn(2),
+                by_rotation(0),
+                by_rotation(1),
+                by_rotation(2),
                 slope[0],
                 slope[1],
             ]
@@ -231,7 +234,7 @@ impl View {
         }))
     }
 
-    /// Normal matrix and right side of a step. `weight` is noise over prior.
+    /// Normal matrix and right side of a step. `weight` is the noise divided by the standard deviation of the prior.
     fn equations(&self, beads: &[Bead], prior: [f64; 2], weight: f64) -> (Matrix, Vector) {
         let (mut normal, mut side) = ([[0.0; N]; N], [0.0; N]);
         for bead in beads {
@@ -268,15 +271,20 @@ impl View {
         Self {
             log_focal: self.log_focal + log_focal,
             point: [self.point[0] + column, self.point[1] + row],
-            turn: multiply(&rotation_by(&[a, b, c]), &self.turn),
+            rotation: multiply(&rotation_by(&[a, b, c]), &self.rotation),
             place: [self.place[0] + x, self.place[1] + y, self.place[2]],
             ..*self
         }
     }
 }
 
-/// Levenberg and Marquardt to rest.
-fn settle(mut view: View, beads: &[Bead], prior: [f64; 2], weight: f64) -> Result<View, GridError> {
+/// The method of Levenberg and Marquardt, until the cost no longer falls.
+fn settle(
+    mut view: View,
+    beads: &[Bead],
+    prior: [f64; 2],
+    weight: f64,
+) -> Result<View, DistortionError> {
     let mut damping = 1e-6;
     let mut cost = view.cost(beads, prior, weight);
     for _ in 0..STEPS {
@@ -285,7 +293,7 @@ fn settle(mut view: View, beads: &[Bead], prior: [f64; 2], weight: f64) -> Resul
         for (k, row) in damped.iter_mut().enumerate() {
             row[k] *= 1.0 + damping;
         }
-        let step = solve_spd(damped, side).ok_or(GridError::Degenerate { order: 1 })?;
+        let step = solve_spd(damped, side).ok_or(DistortionError::Degenerate { order: 1 })?;
         let next = view.moved(&step);
         let lower = next.cost(beads, prior, weight);
         // A NaN is no improvement.

@@ -1,14 +1,13 @@
-//! Polynomials of two variables, and their least squares with the residuals that each point would have if it had been
-//! left out.
+//! Polynomials of two variables, their fit by least squares, and the residual of each point in a fit without it.
 
 use fluoropose::math::{inverse_spd, sqrt};
 
-/// Terms of a polynomial of order [`MAX_ORDER`].
+/// Number of terms of a polynomial of order [`MAX_ORDER`].
 pub const TERMS: usize = 21;
-/// Highest order, the sum of both exponents.
+/// The highest order, that is the greatest sum of both exponents.
 pub const MAX_ORDER: u8 = 5;
 
-/// How many terms a polynomial of this order has; lower orders are the beginning of higher ones.
+/// Number of terms of a polynomial of an order. The terms of a lower order are the first terms of a higher one.
 #[must_use]
 pub fn terms_of(order: u8) -> usize {
     let order = usize::from(order.min(MAX_ORDER));
@@ -31,7 +30,7 @@ pub fn monomials(x: f64, y: f64) -> [f64; TERMS] {
     out
 }
 
-/// The monomials' derivatives by x and by y.
+/// The derivatives of the monomials by x and by y.
 #[must_use]
 pub fn slopes(x: f64, y: f64) -> [[f64; TERMS]; 2] {
     let values = monomials(x, y);
@@ -55,7 +54,7 @@ pub fn sum(coefficients: &[f64; TERMS], terms: &[f64; TERMS]) -> f64 {
     coefficients.iter().zip(terms).map(|(a, b)| a * b).sum()
 }
 
-/// Sums of a least-squares fit of two values over the same points.
+/// The normal equations of a least-squares fit of two values over the same points.
 #[derive(Clone)]
 pub struct Fit {
     order: u8,
@@ -66,14 +65,14 @@ pub struct Fit {
 /// A solved fit.
 #[derive(Clone)]
 pub struct Solved {
-    /// Coefficients of either value, zero beyond the order.
+    /// Coefficients of the first and of the second value, zero beyond the order.
     pub coefficients: [[f64; TERMS]; 2],
     inverse: [[f64; TERMS]; TERMS],
     terms: usize,
 }
 
 impl Fit {
-    /// Of this order, at most [`MAX_ORDER`].
+    /// A fit of an order, at most [`MAX_ORDER`], without points.
     #[must_use]
     pub fn new(order: u8) -> Self {
         Self {
@@ -83,7 +82,7 @@ impl Fit {
         }
     }
 
-    /// Takes in a point and the two values there.
+    /// Adds a point and the two values there.
     pub fn add(&mut self, x: f64, y: f64, values: [f64; 2]) {
         let terms = monomials(x, y);
         let count = terms_of(self.order);
@@ -104,13 +103,13 @@ impl Fit {
     pub fn solve(&self) -> Option<Solved> {
         let terms = terms_of(self.order);
         let mut normal = self.normal;
-        // Terms beyond the order are kept out by a unit diagonal: their sides are zero.
+        // A unit diagonal keeps the terms beyond the order at zero, as their right sides are zero.
         for (k, row) in normal.iter_mut().enumerate().skip(terms) {
             row[k] = 1.0;
         }
         let largest = (0..terms).map(|k| normal[k][k]).fold(0.0, f64::max);
         let inverse = inverse_spd(&normal)?;
-        // A variance beyond this against the best determined term is rounding, not measurement.
+        // If the variance of a term is this many times that of the best determined one, rounding determines it, not the points.
         let worst = (0..terms).map(|k| inverse[k][k]).fold(0.0, f64::max);
         if worst * largest >= 1e11 || worst.is_nan() {
             return None;
@@ -135,10 +134,11 @@ impl Solved {
         ]
     }
 
-    /// What one divides a point's residual by to have the residual it would have if it had been left out of the fit
-    /// (Allen's PRESS: exact for linear least squares). 0 to 1.
+    /// 1 minus the leverage of a point, 0 to 1. The residual of a point divided by it is the residual of the point in a fit
+    /// without it (Allen, *The relationship between variable selection and data augmentation and a method for prediction*,
+    /// Technometrics 16, 1974: PRESS, exact for linear least squares).
     #[must_use]
-    pub fn share_left(&self, x: f64, y: f64) -> f64 {
+    pub fn one_minus_leverage(&self, x: f64, y: f64) -> f64 {
         let terms = monomials(x, y);
         let rows = self.inverse.iter().zip(&terms).take(self.terms);
         let leverage: f64 = rows
@@ -156,8 +156,8 @@ impl Solved {
     }
 }
 
-/// Root of the mean of squares, 0 for none.
-pub(super) fn root_mean_square(squares: impl Iterator<Item = f64>) -> f64 {
+/// Square root of the mean of squares; 0 for none.
+pub(crate) fn root_mean_square(squares: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = squares.fold((0.0, 0usize), |(sum, count), value| {
         (sum + value, count + 1)
     });
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn residuals_left_out_are_those_of_a_fit_without_the_point() {
+    fn residuals_divided_by_one_minus_leverage_are_those_of_a_fit_without_the_point() {
         let noise = |k: usize| ((k * 7919) % 101) as f64 / 101.0;
         let all = || points().enumerate().map(|(k, (x, y))| (x, y, noise(k)));
         let mut fit = Fit::new(3);
@@ -234,7 +234,7 @@ mod tests {
                 }
             }
             let left_out = v - without.solve().expect("determined").at(x, y)[0];
-            let formula = (v - whole.at(x, y)[0]) / whole.share_left(x, y);
+            let formula = (v - whole.at(x, y)[0]) / whole.one_minus_leverage(x, y);
             assert!((left_out - formula).abs() < 1e-9);
         }
     }

@@ -1,30 +1,31 @@
-//! A frame as it would be without distortion: each pixel of the straight frame is looked up where the polynomial says it
-//! was, by cubic interpolation.
+//! Undistorted frames: each pixel is read at its place in the frame as taken, by cubic interpolation.
 
-use super::distortion::Distortion;
+use crate::distortion::Distortion;
 use fluoropose::image::frame::{Frame, Pixel};
 use fluoropose::math::{floor, round};
 
-/// Where each pixel of one row of the straight frame is in the frame as taken: column and row, NaN where it is nowhere.
+/// Writes for the first pixels of row `row` of the undistorted frame, one for each place in `out`, their places (column,
+/// row) in the frame as taken, px; NaN where there is none.
 ///
-/// `out` holds as many places as are wanted, from the left. The map of a correction is the same for all its frames.
+/// The places are the same for all frames that a correction is applied to.
 pub fn map_row(distortion: &Distortion, row: usize, out: &mut [[f32; 2]]) {
     let mut shift = [0.0; 2];
     for (column, place) in out.iter_mut().enumerate() {
-        let straight = [column as f64 + 0.5, row as f64 + 0.5];
+        let undistorted = [column as f64 + 0.5, row as f64 + 0.5];
         // The neighbour to the left was moved nearly alike.
-        let guess = [straight[0] + shift[0], straight[1] + shift[1]];
+        let guess = [undistorted[0] + shift[0], undistorted[1] + shift[1]];
         let found = distortion
-            .bent_from(straight, guess)
-            .or_else(|| distortion.bent(straight));
+            .distorted_from(undistorted, guess)
+            .or_else(|| distortion.distorted(undistorted));
         *place = found.map_or([f32::NAN; 2], |[column, row]| [column as f32, row as f32]);
         shift = found.map_or([0.0; 2], |[column, row]| {
-            [column - straight[0], row - straight[1]]
+            [column - undistorted[0], row - undistorted[1]]
         });
     }
 }
 
-/// Grey values at the places of a row's map (Catmull and Rom's cubic); black where the frame has none.
+/// Writes the grey values at the places that [`map_row`] gave, by the cubic of Catmull and Rom (*A class of local
+/// interpolating splines*, 1974); 0 where there is no place.
 pub fn resample_row<P: Pixel>(frame: &Frame<'_, P>, map: &[[f32; 2]], out: &mut [P]) {
     for (place, pixel) in map.iter().zip(out) {
         *pixel = at(frame, *place);
@@ -44,21 +45,21 @@ fn at<P: Pixel>(frame: &Frame<'_, P>, [column, row]: [f32; 2]) -> P {
     let mut value = 0.0;
     for (k, weight) in along.iter().enumerate() {
         let mut inner = 0.0;
-        for (l, share) in across.iter().enumerate() {
+        for (l, factor) in across.iter().enumerate() {
             let grey: u32 = frame
                 .nearest(
                     left as isize + l as isize - 1,
                     above as isize + k as isize - 1,
                 )
                 .into();
-            inner += share * f64::from(grey);
+            inner += factor * f64::from(grey);
         }
         value += weight * inner;
     }
     P::from_u32(round(value.max(0.0)) as u32)
 }
 
-/// Shares of the four samples about a place that lies `t` after the second.
+/// Weights of four samples for a place that lies `t` after the second.
 fn weights(t: f64) -> [f64; 4] {
     let (t2, t3) = (t * t, t * t * t);
     [
@@ -71,11 +72,11 @@ fn weights(t: f64) -> [f64; 4] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::distortion::NUMBERS;
     use super::*;
+    use crate::distortion::NUMBERS;
     use std::vec;
 
-    /// The correction that moves every place by so much.
+    /// The correction that moves every place to the right and down by these distances, px.
     fn shift(right: f64, down: f64) -> Distortion {
         let mut numbers = [0.0; NUMBERS];
         numbers[..6].copy_from_slice(&[3.0, 40.0, 30.0, 20.0, 15.0, 10.0]);

@@ -1,38 +1,39 @@
-//! Pixel pitch from two marks of known distance.
+//! The pixel pitch from two marks of known distance.
 
-use super::{GridError, above_zero};
+use crate::error::{DistortionError, above_zero};
 use fluoropose::math::sqrt;
 
-/// What a ruler says of the camera.
+/// What a ruler says about the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RulerScale {
-    /// Between the marks, px.
+    /// Distance between the marks, px.
     pub length_px: f64,
-    /// Between pixels at the detector, mm: its length divided by the magnification.
+    /// Distance between pixels at the detector, mm.
     pub pitch_mm: f64,
-    /// Principal distance over pitch, px; the distance to the detector cancels in it.
+    /// Focal length, that is principal distance divided by pitch, px. The distance to the detector cancels in it.
     pub focal_px: f64,
 }
 
-/// Pixel pitch from two marks (column, row) that are `length_mm` apart on a ruler parallel to the detector.
+/// The pixel pitch from two marks (column, row), px, that are `length_mm` apart on a ruler parallel to the detector.
 ///
-/// Both distances are from the X-ray source along the axis, mm; a ruler on the detector has both alike.
+/// Both distances are from the X-ray source along the axis, mm; for a ruler on the detector they are equal.
 ///
 /// # Errors
-/// [`GridError::Marks`] for marks on one spot, [`GridError::Length`] and [`GridError::Order`] for impossible lengths.
+/// [`DistortionError::Marks`] for marks less than 2 px apart, [`DistortionError::Length`] and [`DistortionError::Order`]
+/// for impossible lengths.
 pub fn scale(
     marks: [[f64; 2]; 2],
     length_mm: f64,
     source_to_detector_mm: f64,
     source_to_ruler_mm: f64,
-) -> Result<RulerScale, GridError> {
+) -> Result<RulerScale, DistortionError> {
     let length = above_zero("length", length_mm)?;
     let (detector, object) = distances(source_to_detector_mm, source_to_ruler_mm)?;
     let [a, b] = marks;
     let (right, down) = (b[0] - a[0], b[1] - a[1]);
     let length_px = sqrt(right * right + down * down);
     if length_px.is_nan() || length_px < 2.0 {
-        return Err(GridError::Marks(length_px));
+        return Err(DistortionError::Marks(length_px));
     }
     let focal_px = length_px * object / length;
     Ok(RulerScale {
@@ -42,13 +43,13 @@ pub fn scale(
     })
 }
 
-/// Checks the distances from the source: to the detector, then to the object.
-pub(super) fn distances(detector: f64, object: f64) -> Result<(f64, f64), GridError> {
+/// Checks the distances from the source to the detector and to the object.
+pub(crate) fn distances(detector: f64, object: f64) -> Result<(f64, f64), DistortionError> {
     above_zero("distance from source to detector", detector)?;
     above_zero("distance from source to object", object)?;
     match object <= detector {
         true => Ok((detector, object)),
-        false => Err(GridError::Order { object, detector }),
+        false => Err(DistortionError::Order { object, detector }),
     }
 }
 
@@ -73,19 +74,19 @@ mod tests {
         let marks = [[0.0, 0.0], [10.0, 0.0]];
         assert_eq!(
             scale([[1.0, 1.0], [2.0, 1.0]], 10.0, 1000.0, 900.0),
-            Err(GridError::Marks(1.0))
+            Err(DistortionError::Marks(1.0))
         );
         assert!(matches!(
             scale(marks, f64::NAN, 1000.0, 900.0),
-            Err(GridError::Length { name: "length", .. })
+            Err(DistortionError::Length { name: "length", .. })
         ));
         assert!(matches!(
             scale(marks, 10.0, -1.0, 900.0),
-            Err(GridError::Length { .. })
+            Err(DistortionError::Length { .. })
         ));
         assert_eq!(
             scale(marks, 10.0, 900.0, 1000.0),
-            Err(GridError::Order {
+            Err(DistortionError::Order {
                 object: 1000.0,
                 detector: 900.0
             })

@@ -2,7 +2,7 @@
 
 use crate::camera::Camera;
 use crate::canonical::CanonicalSpec;
-use crate::math::Vector3;
+use crate::math::{Vector3, round};
 use crate::mesh::ModelDigest;
 
 /// One axis of the grid of views: `first`, `first + step`, ... degrees.
@@ -59,6 +59,34 @@ impl Default for ViewGrid {
 }
 
 impl ViewGrid {
+    /// Views from all sides, `step_deg` degrees apart: x from one pole to the other, y all around. `step_deg` is brought
+    /// to a whole part of 180 degrees, from 1 to 15. Towards the poles, where x is near 90 or -90 degrees, views lie closer
+    /// than they need to.
+    #[must_use]
+    pub fn sphere(step_deg: f64) -> Self {
+        let count = round(180.0 / step_deg.clamp(1.0, 15.0));
+        let step = 180.0 / count;
+        Self {
+            x: ViewAxis {
+                first: step / 2.0 - 90.0,
+                step,
+                count: count as usize,
+            },
+            y: ViewAxis {
+                first: -180.0,
+                step,
+                count: 2 * count as usize,
+            },
+        }
+    }
+
+    /// Whether rotations about y go all around, so that the last are neighbours of the first.
+    #[must_use]
+    pub fn is_around(&self) -> bool {
+        let reach = self.y.step * self.y.count as f64;
+        (reach - 360.0).abs() < 0.5 * self.y.step
+    }
+
     /// Number of views.
     #[must_use]
     pub fn views(&self) -> usize {

@@ -1,4 +1,4 @@
-//! The edges between the triangles of a closed surface, from which its silhouette can be drawn.
+//! Which triangles share an edge: what a surface's silhouette can be drawn from.
 
 mod boxes;
 mod edge;
@@ -6,9 +6,10 @@ mod edge;
 pub(crate) mod fake;
 mod link;
 mod list;
+mod orient;
 
 pub use boxes::{EdgeBox, EdgeGroup};
 pub(crate) use boxes::{IN_BOX, place};
-pub use edge::MeshEdge;
-pub use link::{edges_needed, groups_needed, link};
+pub use edge::{MeshEdge, RimEdge};
+pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;

@@ -3,11 +3,13 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-use crate::mesh::edges::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
+use crate::mesh::edges::{
+    EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, SurfaceFaults, link, link_needed,
+};
 use crate::mesh::model::Model;
 use crate::mesh::surface::{Bounds, Mesh, MeshError};
 
-/// Vertices, triangles and, of a closed surface, the edges that its silhouettes are drawn from.
+/// Vertices, triangles and the edges that silhouettes are drawn from.
 ///
 /// It keeps the two vectors that it was given and reads them three numbers at a time.
 #[derive(Clone, Debug)]
@@ -15,24 +17,38 @@ pub struct OwnedModel {
     vertices: Vec<f32>,
     triangles: Vec<u32>,
     bounds: Bounds,
-    edges: Option<(Vec<EdgeBox>, Vec<EdgeGroup>)>,
+    edges: OwnedEdges,
+    faults: SurfaceFaults,
+}
+
+#[derive(Clone, Debug)]
+struct OwnedEdges {
+    boxes: Vec<EdgeBox>,
+    groups: Vec<EdgeGroup>,
+    rims: Vec<RimEdge>,
 }
 
 impl OwnedModel {
     /// Takes vertices (x, y and z of each, mm) and triangles (three vertex numbers each). One or two numbers left over at
-    /// the end are ignored.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.
     pub fn new(vertices: Vec<f32>, triangles: Vec<u32>) -> Result<Self, MeshError> {
         let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0)?;
-        let (bounds, edges) = (mesh.bounds(), linked(&mesh));
+        let (bounds, (edges, faults)) = (mesh.bounds(), linked(&mesh));
         Ok(Self {
             vertices,
             triangles,
             bounds,
             edges,
+            faults,
         })
+    }
+
+    /// What was found wrong with the surface; nothing of it changes what is drawn.
+    #[must_use]
+    pub fn faults(&self) -> SurfaceFaults {
+        self.faults
     }
 
     /// The model, borrowed.
@@ -43,25 +59,44 @@ impl OwnedModel {
             self.triangles.as_chunks().0,
             self.bounds,
         );
-        let edges = self.edges.as_ref();
-        match edges.and_then(|(boxes, groups)| Edges::new(boxes, groups)) {
+        let OwnedEdges {
+            boxes,
+            groups,
+            rims,
+        } = &self.edges;
+        match Edges::new(boxes, groups, rims) {
             Some(edges) => Model::with_edges(mesh, edges),
             None => Model::new(mesh),
         }
     }
 }
 
-/// Nothing where the surface is not closed.
-fn linked(mesh: &Mesh<'_>) -> Option<(Vec<EdgeBox>, Vec<EdgeGroup>)> {
-    let mut room = vec![MeshEdge::default(); edges_needed(mesh)];
-    let mut boxes = vec![EdgeBox::default(); groups_needed(mesh)];
-    let mut groups = vec![EdgeGroup::default(); groups_needed(mesh)];
-    // A closed surface has exactly this number of edges, unless some triangles have two equal corners.
-    let (used, _) = link(mesh, &mut room, &mut boxes, &mut groups)?.parts();
-    let used = used.len();
-    boxes.truncate(used);
-    groups.truncate(used);
-    Some((boxes, groups))
+/// The edges of a mesh in memory of their own, and what was counted on the way.
+fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults) {
+    let needs = link_needed(mesh);
+    let mut kept = OwnedEdges {
+        boxes: vec![EdgeBox::default(); needs.groups],
+        groups: vec![EdgeGroup::default(); needs.groups],
+        rims: vec![RimEdge::default(); needs.halves],
+    };
+    let memory = LinkMemory {
+        halves: &mut vec![MeshEdge::default(); needs.halves],
+        numbers: &mut vec![0; needs.numbers],
+        boxes: &mut kept.boxes,
+        groups: &mut kept.groups,
+        rims: &mut kept.rims,
+    };
+    let used = link(mesh, memory).map(|(edges, faults)| {
+        let (boxes, _, rims) = edges.parts();
+        (boxes.len(), rims.len(), faults)
+    });
+    // There is as much memory as was asked for.
+    let (groups, rims, faults) = used.unwrap_or_default();
+    kept.boxes.truncate(groups);
+    kept.groups.truncate(groups);
+    kept.rims.truncate(rims);
+    kept.rims.shrink_to_fit();
+    (kept, faults)
 }
 
 #[cfg(test)]
@@ -69,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_stay_where_they_came_and_a_closed_surface_has_edges() {
+    fn numbers_stay_where_they_came_and_a_closed_surface_has_no_faults() {
         let vertices = vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         let triangles = vec![0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
         let (first, address) = (vertices[3], vertices.as_ptr());
@@ -80,13 +115,13 @@ mod tests {
             (model.vertices()[1][0], model.triangles().len()),
             (first, 4)
         );
-        assert!(model.edges().is_some());
+        assert_eq!(owned.faults(), SurfaceFaults::default());
     }
 
     #[test]
-    fn an_open_surface_has_no_edges() {
+    fn an_open_surface_has_rims() {
         let vertices = vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let owned = OwnedModel::new(vertices, vec![0, 1, 2]).expect("valid");
-        assert!(owned.as_model().edges().is_none());
+        assert_eq!(owned.faults().rims, 3);
     }
 }

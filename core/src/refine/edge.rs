@@ -6,14 +6,15 @@
 
 use super::border::{BorderPixel, NormalReading};
 use super::view::{ImageTarget, Polarity};
+use crate::image::profile::{gaussian_derivative, grey_across};
 use crate::math::exp;
 
 /// Distance between readings along the normal, pixels.
 const STEP: f64 = 0.5;
 /// Readings to each side of the outline at most: the longest range and the filter's reach.
 const REACH: usize = 32;
-/// Weights of the readings along the tangent, one pixel apart.
-const TANGENT: [f64; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
+/// Weights of the readings along the tangent, one pixel apart: sixteenths.
+const TANGENT: [f64; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
 /// Half width of the derivative's filter, readings.
 const HALF_FILTER: usize = 6;
 /// Width of the Gaussian whose derivative is taken, pixels.
@@ -48,9 +49,8 @@ pub(super) fn edge(
 /// Grey value at a distance along a sample's normal, averaged along its tangent. `None` where
 /// one of the pixels is unknown or beyond the frame.
 fn reading(image: &ImageTarget<'_>, sample: &BorderPixel, t: f64) -> Option<f64> {
-    let [right, down] = sample.normal.map(f64::from);
-    let [column, row] = sample.place();
-    let (column, row) = (column + t * right, row + t * down);
+    let (place, normal) = (sample.place(), sample.normal.map(f64::from));
+    let [column, row] = [0, 1].map(|axis| place[axis] + t * normal[axis]);
     if let Some(unknown) = image.unknown
         && column >= 0.0
         && row >= 0.0
@@ -58,24 +58,12 @@ fn reading(image: &ImageTarget<'_>, sample: &BorderPixel, t: f64) -> Option<f64>
     {
         return None;
     }
-    let mut sum = 0.0;
-    for (k, weight) in TANGENT.iter().enumerate() {
-        let along = k as f64 - (TANGENT.len() / 2) as f64;
-        sum += weight * image.frame.at(column - along * down, row + along * right)?;
-    }
-    Some(sum / TANGENT.iter().sum::<f64>())
+    grey_across(image.frame, place, normal, &TANGENT, t)
 }
 
 /// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides.
 fn differentiate(profile: &[f64], slopes: &mut [f64]) {
-    let mut weights = [0.0; HALF_FILTER + 1];
-    let mut norm = 0.0;
-    for (k, weight) in weights.iter_mut().enumerate() {
-        let t = STEP * k as f64;
-        *weight = t * exp(-t * t / (2.0 * BLUR * BLUR));
-        // A slope of one must come out as one.
-        norm += 2.0 * *weight * t;
-    }
+    let (weights, norm) = gaussian_derivative::<{ HALF_FILTER + 1 }>(BLUR, STEP);
     for (index, slope) in slopes.iter_mut().enumerate() {
         let middle = index + HALF_FILTER;
         let pairs =

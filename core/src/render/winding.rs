@@ -1,16 +1,17 @@
-//! The silhouette of a closed surface from its silhouette edges.
+//! The silhouette of any surface from its silhouette edges.
 //!
-//! The triangles that face the camera bound each other but where one that faces it meets one that
-//! does not: the sides there, run as the facing triangle runs them, are the boundary of the
-//! facing part, and its winding number about a pixel's centre is the number of facing triangles
-//! that cover it. The surface is closed, so the same number that face away cover it too: the pixels of
-//! winding number above zero are those that any triangle covers. Facing is decided by the sign of
-//! the area between the rounded vertices, and crossings are those of the scan conversion, so this
-//! holds exactly.
+//! The boundaries of all triangles that face the camera, run as the triangles run them, add up to a
+//! chain in which sides between two of them cancel: what is left are edges beside which one triangle
+//! faces the camera and the other does not, and rims of triangles that do. The winding number of that
+//! chain about a pixel's centre is the number of facing triangles that cover it. The same holds for
+//! the triangles that face away, run backwards: the same silhouette edges, and the other rims. A pixel
+//! is covered where one of the two numbers is above zero; of a closed surface, which has no rims, the
+//! two chains are one. Facing is decided by the sign of the area between the rounded vertices, and
+//! crossings are those of the scan conversion, so this holds exactly, for any triangles.
 
 use crate::image::mask::MaskMut;
 use crate::image::scan::{Edge, FixedPoint};
-use crate::mesh::edges::Edges;
+use crate::mesh::edges::{Edges, RimEdge};
 use crate::render::facing::FacingTest;
 use crate::render::project::Images;
 
@@ -21,11 +22,11 @@ const PLACES: usize = 16_384;
 const NONE: u64 = u64::MAX;
 
 /// Working memory of [`fill`].
-pub(crate) const fn room_needed() -> usize {
-    PLACES
+pub(crate) fn room_needed(edges: &Edges<'_>) -> usize {
+    PLACES + 4 * edges.rims().len()
 }
 
-/// Adds the silhouette of a closed surface to `out`. Gives `false`, and has drawn nothing, where
+/// Adds the silhouette of a surface to `out`. Gives `false`, and has drawn a part of it at most, where
 /// the room does not hold all crossings. Afterwards [`contour`] reads the edges from `room`.
 pub(crate) fn fill(
     facing: &FacingTest<'_>,
@@ -34,63 +35,100 @@ pub(crate) fn fill(
     room: &mut [FixedPoint],
     out: &mut MaskMut<'_>,
 ) -> bool {
-    let Some((count_slot, room)) = room.split_first_mut() else {
+    let Some((count, room)) = room.split_first_mut() else {
         return false;
     };
-    *count_slot = NONE.into();
+    *count = NONE.into();
     let Some((rows, room)) = room.split_at_mut_checked(out.height()) else {
         return false;
     };
-    let Some(count) = find_contour(facing, edges, images, room) else {
+    let Some(chains) = find_contour(facing, edges, images, room) else {
         return false;
     };
-    let (crossings, contour) = room.split_at_mut(room.len() - count);
-    rows.fill(END.into());
+    let (crossings, kept) = room.split_at_mut(room.len() - chains.all());
+    let (away, towards) = kept.split_at(chains.away);
+    let (rims, both) = towards.split_at(chains.towards);
     let mut lists = Lists {
         rows,
         crossings,
         count: 0,
     };
-    for &kept in &*contour {
-        let ends = vertices_of(kept).map(|vertex| images.of(vertex));
-        if !lists.add(ends, out.width()) {
+    // Of a closed surface the two chains are one.
+    let second = (!edges.rims().is_empty()).then_some(away);
+    for chain in [Some(rims), second].into_iter().flatten() {
+        lists.clear();
+        if !lists.add_all([both, chain], images, out.width()) {
             return false;
         }
+        lists.fill(out);
     }
-    lists.fill(out);
-    *count_slot = (count as u64).into();
+    *count = (chains.all() as u64).into();
     true
 }
 
-/// The edges between triangles that face the camera and those that do not, from working memory as
-/// [`fill`] left it; nothing where it did not draw. Each is a pair of vertices, in the direction of
-/// the triangle that faces the camera: at each vertex the same number begin and end.
+/// The edges that [`fill`] drew a surface from, as their vertices, read from its working memory; nothing
+/// where it was not drawn.
 pub(crate) fn contour(room: &[FixedPoint]) -> Option<impl Iterator<Item = [u32; 2]>> {
     let count = usize::try_from(u64::from(*room.first()?)).ok()?;
     let first = room.len().checked_sub(count)?;
     Some(room.get(first..)?.iter().map(|&kept| vertices_of(kept)))
 }
 
-/// Keeps the silhouette edges at the end of `room`: their number, or nothing where there is no
-/// room for all.
+/// How many edges a contour has.
+struct Chains {
+    /// Between a triangle that faces the camera and one that does not.
+    both: usize,
+    /// Rims of triangles that face the camera, and of those that do not.
+    towards: usize,
+    away: usize,
+}
+
+impl Chains {
+    fn all(&self) -> usize {
+        self.both + self.towards + self.away
+    }
+}
+
+/// Writes the edges of the contour to the end of the room: from the back those of both chains, rims of triangles that face
+/// the camera, other rims. `None` where it does not hold them.
 fn find_contour(
     facing: &FacingTest<'_>,
     edges: &Edges<'_>,
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
-) -> Option<usize> {
+) -> Option<Chains> {
     let mut free = room.iter_mut().rev();
-    let (mut count, mut fits) = (0, true);
+    let mut fits = true;
+    let mut keep = |[from, to]: [u32; 2], count: &mut usize| {
+        match free.next() {
+            Some(place) => *place = (u64::from(from) << 32 | u64::from(to)).into(),
+            None => fits = false,
+        }
+        *count += 1;
+    };
+    let (mut both, mut towards, mut away) = (0, 0, 0);
     for (bounds, group) in edges.groups() {
-        facing.contour(bounds, group, images, |[from, to]| {
-            match free.next() {
-                Some(place) => *place = (u64::from(from) << 32 | u64::from(to)).into(),
-                None => fits = false,
-            }
-            count += 1;
-        });
+        facing.contour(bounds, group, images, |ends| keep(ends, &mut both));
     }
-    fits.then_some(count)
+    let faces = |rim: &RimEdge, images: &mut Images<'_>| {
+        let corners = [rim.from, rim.to, rim.third].map(|vertex| images.of(vertex));
+        FixedPoint::doubled_area(corners) > 0
+    };
+    for rim in edges.rims() {
+        if faces(rim, images) {
+            keep([rim.from, rim.to], &mut towards);
+        }
+    }
+    for rim in edges.rims() {
+        if !faces(rim, images) {
+            keep([rim.to, rim.from], &mut away);
+        }
+    }
+    fits.then_some(Chains {
+        both,
+        towards,
+        away,
+    })
 }
 
 /// The ends of a silhouette edge from its place in working memory.
@@ -113,6 +151,24 @@ struct Lists<'r> {
 }
 
 impl Lists<'_> {
+    fn clear(&mut self) {
+        self.rows.fill(END.into());
+        self.count = 0;
+    }
+
+    /// The crossings of two parts of a chain; `false` where there is no room for all.
+    fn add_all(
+        &mut self,
+        parts: [&[FixedPoint]; 2],
+        images: &mut Images<'_>,
+        width: usize,
+    ) -> bool {
+        parts.into_iter().flatten().all(|&kept| {
+            let ends = vertices_of(kept).map(|vertex| images.of(vertex));
+            self.add(ends, width)
+        })
+    }
+
     /// Adds the crossings of a silhouette edge; `false` where there is no room for all.
     fn add(&mut self, [from, to]: [FixedPoint; 2], width: usize) -> bool {
         // Facing triangles are run clockwise: what is run upwards has them to its right.
@@ -179,8 +235,8 @@ mod tests {
     use super::*;
     use crate::camera::Camera;
     use crate::image::mask::{Word, words_needed};
-    use crate::mesh::Model;
     use crate::mesh::edges::fake::{self, Linked};
+    use crate::mesh::{Mesh, Model};
     use crate::pose::{EulerPose, Pose};
     use crate::render::{Projected, render, scratch_needed};
     use proptest::prelude::*;
@@ -222,6 +278,52 @@ mod tests {
                 x_mm, y_mm, z_mm: nearer - 500.0, z_rot_deg, x_rot_deg, y_rot_deg
             });
             prop_assert_eq!(draw(&model, &pose), draw(&Model::with_edges(*model.mesh(), linked.edges()), &pose));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn edges_draw_any_triangles(
+            dents in proptest::collection::vec(-1.0..1.0f32, 1..40),
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            faults in proptest::collection::vec(0u8..24, 1..90),
+        ) {
+            // Holes, triangles that run against their neighbours, doubled ones, torn off ones.
+            let (mut vertices, whole) = fake::torus(&dents);
+            let mut triangles = Vec::new();
+            for (&[a, b, c], fault) in whole.iter().zip(faults.iter().cycle()) {
+                match fault {
+                    0 => {}
+                    1 | 2 => triangles.push([a, c, b]),
+                    3 => triangles.extend([[a, b, c], [b, c, a]]),
+                    4 => triangles.extend([[a, b, c], [a, c, b]]),
+                    5 => {
+                        let torn = [a, b, c].map(|vertex| {
+                            vertices.push(vertices[vertex as usize]);
+                            vertices.len() as u32 - 1
+                        });
+                        triangles.push(torn);
+                    }
+                    6 => triangles.extend([[a, b, c], [a, a, b]]),
+                    _ => triangles.push([a, b, c]),
+                }
+            }
+            let Ok(mesh) = Mesh::new(&vertices, &triangles) else { return Ok(()) };
+            let linked = Linked::new(&mesh);
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let pose = Pose::from(EulerPose {
+                z_mm: -480.0, z_rot_deg, x_rot_deg, y_rot_deg, ..EulerPose::default()
+            });
+            let edges = linked.edges();
+            let camera = camera();
+            let mut slots = vec![FixedPoint::default(); vertices.len()];
+            let mut images = Images::new(&mesh, &camera, &pose, &mut slots);
+            let facing = FacingTest::new(&mesh, &camera, &pose);
+            let mut room = vec![FixedPoint::default(); room_needed(&edges)];
+            let mut words = vec![0; words_needed(SIDE, SIDE)];
+            let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            prop_assert!(fill(&facing, &edges, &mut images, &mut room, &mut out));
+            prop_assert_eq!(words, draw(&Model::new(mesh), &pose));
         }
     }
 

@@ -45,12 +45,19 @@ pub const fn scores_needed(views: usize) -> usize {
     2 * views
 }
 
-/// The eight views around a view of a grid, fewer at its border, in view order.
+/// The eight views around a view of a grid, or as many as there are.
 pub(crate) fn neighbours(grid: &ViewGrid, view: usize) -> impl Iterator<Item = usize> + use<> {
     let grid = *grid;
     let (x, y) = grid.place(view);
     let columns = x.saturating_sub(1)..=(x + 1).min(grid.x.count - 1);
-    let rows = y.saturating_sub(1)..=(y + 1).min(grid.y.count - 1);
+    // A row before the first is the last where the grid goes all around, else there is none.
+    let rows = [y.checked_sub(1), Some(y), Some(y + 1)].map(|row| match row {
+        Some(row) if row < grid.y.count => Some(row),
+        None if grid.is_around() => Some(grid.y.count - 1),
+        Some(_) if grid.is_around() => Some(0),
+        _ => None,
+    });
+    let rows = rows.into_iter().flatten();
     rows.flat_map(move |y| columns.clone().map(move |x| grid.view(x, y)))
         .filter(move |&neighbour| neighbour != view)
 }

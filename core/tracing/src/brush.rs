@@ -1,9 +1,9 @@
 //! A disc drawn along a stroke, added to an outline or taken away from it.
 //!
-//! The outline is cut at the border of the stroke exactly, not by pixels: points outside the stroke are untouched to the
-//! last bit. The stroke is taken as one capsule after another, each a convex polygon; where an outline leaves a capsule
-//! one goes along the outline, where it enters one goes along the capsule (after Weiler and Atherton, *Hidden surface
-//! removal using polygon area sorting*, SIGGRAPH 1977).
+//! The outline is cut exactly at the border of the stroke, not pixel by pixel: points outside the stroke stay unchanged
+//! to the last bit. The stroke is painted capsule by capsule, each of them a convex polygon. The new outline follows the
+//! old one from where it leaves a capsule to where it enters one, and there the border of the capsule (after Weiler and
+//! Atherton, *Hidden surface removal using polygon area sorting*, SIGGRAPH 1977).
 
 mod capsule;
 mod clip;
@@ -11,61 +11,58 @@ mod clip;
 use capsule::Capsule;
 use clip::{Clip, Clipped};
 
-use super::list::List;
-use super::polyline::check;
-use super::simplify::{Simplify, simplify};
-use super::{AidError, NEW, Vertex, check_length, check_setting};
+use crate::error::{TracingError, check_setting};
+use crate::list::List;
+use crate::polyline::check;
+use crate::simplify::{Simplify, simplify};
+use crate::vertex::{NEW, Vertex};
 use fluoropose::image::contour::Point;
+use fluoropose::memory::check_length;
 
-pub use clip::Cut;
+pub use clip::{Brush, Cut};
 
-/// The least and the greatest radius of the disc, pixels.
+/// The least radius of the disc, pixels.
 pub const LEAST_RADIUS: f64 = 0.5;
 /// The greatest radius of the disc, pixels.
 pub const MOST_RADIUS: f64 = 512.0;
 /// New points are left out where the stroke's border moves by no more than this, pixels.
 const TOLERANCE: f64 = 0.1;
-/// Where points fall onto lines nothing can be told; then the capsule is moved by so little, in other directions, so
-/// often.
+/// Where a point of the outline lies on a side of the capsule, inside and outside cannot be told apart. The capsule is
+/// then moved and widened by a tiny amount, up to this number of times.
 const ATTEMPTS: usize = 8;
 
-/// What a stroke does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Brush {
-    /// The disc belongs to the implant.
-    Add,
-    /// The disc does not.
-    Erase,
-}
-
-/// Working memory of [`brush`]: each slice as long as [`brush_needed`] says.
+/// Working memory of [`brush`]: each slice is at least as long as [`brush_needed`] says.
 #[derive(Debug)]
 pub struct BrushMemory<'a> {
-    /// The outline before and after a capsule.
+    /// The outline before a capsule is painted.
     pub before: &'a mut [Vertex],
-    /// The same, by turns.
+    /// The outline after that; the two are swapped from capsule to capsule.
     pub after: &'a mut [Vertex],
-    /// Where the outline meets the border of a capsule.
+    /// Where the outline crosses the border of a capsule.
     pub cuts: &'a mut [Cut],
-    /// One for each point.
+    /// One mark for each point.
     pub marks: &'a mut [bool],
 }
 
-/// The length of a [`BrushMemory`]'s slices for an outline of `points` points and a stroke through `places` places.
+/// The length of each slice of a [`BrushMemory`] for an outline of `points` points and a stroke through `places` places.
 #[must_use]
 pub fn brush_needed(points: usize, places: usize) -> usize {
     // A capsule has at most as many corners as it can add, and cuts a side at most twice.
     2 * (points + (places + 1) * capsule::MOST_CORNERS)
 }
 
-/// Draws a disc of `radius` pixels along `stroke` and adds it to the outline or takes it away. An outline without points
-/// becomes that of the stroke. Writes the new outline to
-/// `out`, in the same direction round, and gives the area in square pixels of the pieces that were left out: of several
-/// the largest stays. Holes are not made: where the stroke lies inside and is to be erased, or encloses something,
-/// nothing happens there. Nothing is written where all is erased.
+/// Draws a disc of `radius` pixels ([`LEAST_RADIUS`] to [`MOST_RADIUS`]) along `stroke`, and adds it to the closed outline
+/// `points` or erases it from it. The new outline is written to `out` and runs around in the same direction.
+///
+/// - An outline without points becomes that of the stroke.
+/// - If the outline falls into several pieces, the largest stays. The area of the others, square pixels, is returned.
+/// - The outline never gets a hole: erasing wholly inside of it changes nothing, and a hole that would arise is filled.
+/// - If everything is erased, `out` stays empty.
 ///
 /// # Errors
-/// [`AidError`] about the outline, the stroke or the memory.
+/// - [`TracingError::TooFewPoints`] and [`TracingError::NotAPlace`] about the outline (3 points) or the stroke (1 point);
+/// - [`TracingError::Setting`] about the radius;
+/// - [`TracingError::Memory`], and [`TracingError::TooLong`] where `out` is too short.
 pub fn brush(
     points: &[Point],
     stroke: &[Point],
@@ -73,7 +70,7 @@ pub fn brush(
     what: Brush,
     memory: BrushMemory<'_>,
     out: &mut List<'_, Vertex>,
-) -> Result<f64, AidError> {
+) -> Result<f64, TracingError> {
     if !points.is_empty() {
         check(points, 3)?;
     }
@@ -126,22 +123,24 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// Paints capsule after capsule. One that lies inside, to be erased, or outside, to be added, waits for another to
-    /// join it to the border: so all are looked at again, from the end and from the beginning by turns, until none
-    /// changes anything. What is left is in `outline`.
+    /// Paints capsule after capsule and leaves the result in `outline`.
+    ///
+    /// A capsule to be erased that lies wholly inside, or one to be added that lies wholly outside, has to wait until
+    /// another capsule connects it with the border. Therefore the capsules that changed nothing are tried again,
+    /// alternately from the end and from the beginning, until none of them changes anything.
     fn paint<'o>(
         &mut self,
         outline: &mut List<'o, Vertex>,
         other: &mut List<'o, Vertex>,
         done: &mut [bool],
-    ) -> Result<(), AidError> {
+    ) -> Result<(), TracingError> {
         let count = self.stroke.len().saturating_sub(1).max(1);
         let done = done.get_mut(..count).unwrap_or_default();
         done.fill(false);
-        for round in 0..=count {
+        for pass in 0..=count {
             let mut changed = false;
             for k in 0..count {
-                let number = if round % 2 == 0 { k } else { count - 1 - k };
+                let number = if pass % 2 == 0 { k } else { count - 1 - k };
                 if done.get(number).is_none_or(|done| *done) {
                     continue;
                 }
@@ -158,13 +157,13 @@ impl Painter<'_> {
         Ok(())
     }
 
-    /// Paints one capsule and gives whether that changed anything.
+    /// Paints one capsule and returns whether that changed anything.
     fn paint_one<'o>(
         &mut self,
         number: usize,
         outline: &mut List<'o, Vertex>,
         other: &mut List<'o, Vertex>,
-    ) -> Result<bool, AidError> {
+    ) -> Result<bool, TracingError> {
         let at = |number: usize| self.stroke[number.min(self.stroke.len() - 1)];
         let ends = (at(number), at(number + 1));
         if outline.is_empty() {
@@ -185,14 +184,14 @@ impl Painter<'_> {
     }
 }
 
-/// One capsule; a little moved where it touches the outline in a way that cannot be told.
+/// Paints one capsule, slightly moved where it touches the outline in a way that cannot be decided.
 fn stroked(
     clip: &mut Clip<'_>,
     outline: &[Vertex],
     (from, to): (Point, Point),
     radius: f64,
     out: &mut List<'_, Vertex>,
-) -> Result<Clipped, AidError> {
+) -> Result<Clipped, TracingError> {
     for attempt in 0..ATTEMPTS {
         let by = attempt as f64 * 1e-7;
         let moved = |p: Point| Point::new(p.column + 1.37 * by, p.row - 0.91 * by);

@@ -1,17 +1,17 @@
-//! Which part of a path has stayed the same for long.
+//! Which part of a path has stayed the same for some time.
 
-/// Stretches that the time is counted in.
+/// Intervals that the time is counted in.
 const SLOTS: usize = 8;
 
-/// Watches the paths from one seed: the points that have been the same for a while may be fixed ("path cooling",
-/// Mortensen and Barrett 1998).
+/// Watches the paths from one seed. Points that have been the same for some time may be fixed ("path cooling": Mortensen
+/// and Barrett, *Interactive segmentation with intelligent scissors*, GMIP 60, 1998).
 #[derive(Clone, Debug)]
 pub struct Cooling {
-    /// Milliseconds of a slot.
+    /// Length of a slot, milliseconds.
     slot: f64,
-    /// The fewest points that two successive paths had in common in each slot, the latest first.
+    /// For each slot, the latest first: the least number of points that two successive paths had in common.
     least: [usize; SLOTS],
-    /// When the latest slot began; nothing before the first path.
+    /// When the latest slot began, milliseconds; `None` before the first path.
     began: Option<f64>,
 }
 
@@ -26,15 +26,14 @@ impl Cooling {
         }
     }
 
-    /// Forgets everything: for a new seed.
+    /// Forgets all paths: for a new seed.
     pub fn restart(&mut self) {
         self.least = [0; SLOTS];
         self.began = None;
     }
 
-    /// Takes notice of a path of `length` points of which `common`, from the seed on, are those of the path before it,
-    /// at the time `now` in milliseconds. Gives the number of points, from the seed on, that have been the same for
-    /// long enough.
+    /// Counts a path of `length` points at the time `now`, milliseconds; its first `common` points are those of the path
+    /// before it. Returns how many points, from the seed on, have been the same for long enough.
     pub fn observe(&mut self, now: f64, common: usize, length: usize) -> usize {
         self.advance(now);
         self.least[0] = self.least[0].min(common);
@@ -46,14 +45,14 @@ impl Cooling {
             .min(length)
     }
 
-    /// Opens the slots that have begun since. Nothing changed in those without a path.
+    /// Opens the slots that have begun since the last path. In a slot without a path nothing changed.
     fn advance(&mut self, now: f64) {
         let Some(began) = self.began else {
             self.began = Some(now);
             return;
         };
         let passed = (now - began) / self.slot;
-        // A NaN and a clock that goes backwards open none.
+        // A NaN and a clock that goes backwards open no slot.
         let slots = if passed >= 1.0 { passed as usize } else { 0 };
         for _ in 0..slots.min(SLOTS) {
             self.least.rotate_right(1);
@@ -66,7 +65,7 @@ impl Cooling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::films::Random;
+    use crate::synthetic::Random;
 
     #[test]
     fn what_changed_lately_is_not_fixed() {
@@ -75,8 +74,8 @@ mod tests {
         let mut seen: std::vec::Vec<(f64, usize)> = std::vec::Vec::new();
         let mut now = 0.0;
         for _ in 0..400 {
-            now += 60.0 * random.share();
-            let common = (100.0 + 60.0 * random.share()) as usize;
+            now += 60.0 * random.uniform();
+            let common = (100.0 + 60.0 * random.uniform()) as usize;
             seen.push((now, common));
             let fixed = cooling.observe(now, common, 150);
             // Oracle: the least of the last 800 ms at least, of the last 900 ms at most.

@@ -1,14 +1,15 @@
 //! What it costs a path to pass a pixel: little along edges that have the implant on the right side.
 //!
-//! The gradient is taken at two scales. The strength of an edge is the square root of the scalar product of both:
-//! noise does not agree with itself at two scales, edges do, and the finer scale says where (Xu et al., *IEEE
-//! Trans. Image Processing* 3, 1994). Where the strength is no maximum across the edge it counts less, so that paths
-//! keep to the middle of it.
+//! The gradient is computed at two scales. The strength of an edge is the square root of the scalar product of the two
+//! gradients: those of an edge agree, those of noise do not, and the finer scale tells the place (Xu et al., *IEEE Trans.
+//! Image Processing* 3, 1994). A strength that is not a maximum across the edge is reduced, so that paths keep to the
+//! middle of the edge.
 
-use super::smoothed::{Scale, greatest, smooth_row};
-use super::threshold::Inside;
-use super::{AidError, check_length};
+use crate::error::TracingError;
+use crate::side::Inside;
+use crate::smoothed::{Scale, greatest, smooth_row};
 use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::memory::{TooLittleMemory, check_length};
 
 mod gradient;
 
@@ -17,14 +18,14 @@ use gradient::{angle_of, coarse_row, gradients_row, is_ridge, rows_around};
 /// An edge at a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Edge {
-    /// 0 for none to 255.
+    /// Strength, from 0 for no edge to 255.
     pub strength: u8,
-    /// Where it gets brighter (darker for a bright implant), that is out of the implant: in 256ths of a turn from the
-    /// direction to the right, clockwise on the screen.
+    /// The direction out of the implant, in which it gets brighter (darker for a bright implant): in 256ths of a full
+    /// turn, clockwise on the screen from the direction to the right.
     pub outwards: u8,
 }
 
-/// Edges of every pixel of a frame, borrowed.
+/// The edges of every pixel of a frame, borrowed.
 #[derive(Clone, Copy, Debug)]
 pub struct Costs<'a> {
     edges: &'a [Edge],
@@ -33,11 +34,11 @@ pub struct Costs<'a> {
 }
 
 impl<'a> Costs<'a> {
-    /// Edges, row by row without gaps.
+    /// Edges of `width` x `height` pixels, row by row without gaps.
     ///
     /// # Errors
-    /// [`AidError::Memory`] where there are too few.
-    pub fn new(edges: &'a [Edge], width: usize, height: usize) -> Result<Self, AidError> {
+    /// [`TooLittleMemory`] where there are fewer edges than pixels.
+    pub fn new(edges: &'a [Edge], width: usize, height: usize) -> Result<Self, TooLittleMemory> {
         let needed = width.saturating_mul(height);
         check_length("edges", needed, edges.len())?;
         Ok(Self {
@@ -69,45 +70,46 @@ impl<'a> Costs<'a> {
     }
 
     /// The edge at the pixel of a number, row by row.
-    pub(super) fn number(&self, number: usize) -> Edge {
+    pub(crate) fn number(&self, number: usize) -> Edge {
         self.edges.get(number).copied().unwrap_or_default()
     }
 }
 
-/// Working memory of a [`CostBuilder`]: each slice has a place for every pixel. Must be the same from step to step.
+/// Working memory of a [`CostBuilder`], the same from the first step to the last: each slice has at least a place for every
+/// pixel.
 #[derive(Debug)]
 pub struct CostMemory<'a> {
-    /// The smoothed frame.
+    /// The frame, smoothed.
     pub fine: &'a mut [u16],
-    /// The frame smoothed more.
+    /// The frame, smoothed more.
     pub coarse: &'a mut [u16],
-    /// Strengths before they are compared with the frame's.
+    /// Strengths before they are related to those of the whole frame.
     pub magnitude: &'a mut [u16],
-    /// What is made.
+    /// The result.
     pub edges: &'a mut [Edge],
 }
 
 /// The stages through which all rows go, one after another.
 const STAGES: usize = 4;
-/// A strength is compared with this share of what only one pixel in a hundred exceeds...
-const STRONG_SHARE: f64 = 0.15;
-/// ... and with so many times the middle strength, which is that of noise.
+/// A magnitude counts as half the greatest strength at this fraction of the magnitude that one pixel in 100 exceeds,
+const STRONG_FRACTION: f64 = 0.15;
+/// and at least at this multiple of the median magnitude, which is that of noise.
 const NOISE_TIMES: f64 = 3.0;
-/// Beside an edge's middle its strength counts as so many 256ths.
+/// Strength beside the middle of an edge, in 256ths of that in its middle.
 const OFF_RIDGE: u32 = 144;
 /// Bins of magnitudes.
 const BINS: usize = 4096;
 
-/// Works out the edges of a frame some rows at a time, so that a page can go on painting.
+/// Computes the edges of a frame some rows at a time, so that a page can go on painting in between.
 #[derive(Clone, Debug)]
 pub struct CostBuilder {
     width: usize,
     height: usize,
     inside: Inside,
     scale: Option<Scale>,
-    /// Rows of all stages.
+    /// Rows that are done, over all stages.
     done: usize,
-    /// Half strength.
+    /// The magnitude of half the greatest strength.
     reference: u32,
 }
 
@@ -131,18 +133,18 @@ impl CostBuilder {
         self.done >= STAGES * self.height
     }
 
-    /// Works on `rows` more rows (of four times as many as the frame has) and says whether all is done.
+    /// Does `rows` more rows, of four times the number of rows of the frame, and returns whether all is done.
     ///
     /// # Errors
-    /// [`AidError`] where the frame has another size or memory is short.
+    /// [`TracingError::OtherFrame`] where the frame has another size, and [`TracingError::Memory`].
     pub fn step<P: Pixel>(
         &mut self,
         frame: &Frame<'_, P>,
         memory: &mut CostMemory<'_>,
         rows: usize,
-    ) -> Result<bool, AidError> {
+    ) -> Result<bool, TracingError> {
         if (frame.width(), frame.height()) != (self.width, self.height) {
-            return Err(AidError::OtherFrame);
+            return Err(TracingError::OtherFrame);
         }
         let needed = self.width * self.height;
         check_length("fine cells", needed, memory.fine.len())?;
@@ -172,7 +174,7 @@ impl CostBuilder {
             0 => smooth_row(frame, scale, row, memory.fine),
             1 => coarse_row(memory.fine, width, height, row, memory.coarse),
             2 => {
-                let grids = [&*memory.fine, &*memory.coarse];
+                let scales = [&*memory.fine, &*memory.coarse];
                 let turn = if self.inside == Inside::Bright {
                     128
                 } else {
@@ -180,7 +182,7 @@ impl CostBuilder {
                 };
                 let magnitudes = &mut memory.magnitude[row * width..(row + 1) * width];
                 let edges = &mut memory.edges[row * width..(row + 1) * width];
-                gradients_row(grids, width, height, row, |column, magnitude, [x, y]| {
+                gradients_row(scales, width, height, row, |column, magnitude, [x, y]| {
                     magnitudes[column] = magnitude;
                     edges[column].outwards = angle_of(x, y).wrapping_add(turn);
                 });
@@ -201,21 +203,21 @@ impl CostBuilder {
             let magnitude = u32::from(magnitude);
             let strength = 255 * magnitude / (magnitude + self.reference);
             let ridge = is_ridge(rows, column, edge.outwards);
-            let share = if ridge { 256 } else { OFF_RIDGE };
-            edge.strength = ((strength * share) >> 8) as u8;
+            let weight = if ridge { 256 } else { OFF_RIDGE };
+            edge.strength = ((strength * weight) >> 8) as u8;
         }
     }
 }
 
-/// The magnitude that counts as half: far above noise, and what a strong edge has some times over.
+/// The magnitude of half the greatest strength: far above noise, and a fraction of that of a strong edge.
 fn reference(magnitudes: &[u16]) -> u32 {
     let width = (usize::from(u16::MAX) + 1) / BINS;
     let mut counts = [0u32; BINS];
     for &magnitude in magnitudes {
         counts[usize::from(magnitude) / width] += 1;
     }
-    let below = |share: f64| {
-        let rank = share * magnitudes.len() as f64;
+    let quantile = |fraction: f64| {
+        let rank = fraction * magnitudes.len() as f64;
         let mut sum = 0;
         let bin = counts.iter().position(|&count| {
             sum += count;
@@ -223,8 +225,8 @@ fn reference(magnitudes: &[u16]) -> u32 {
         });
         (bin.unwrap_or_default() * width) as f64
     };
-    let strong = STRONG_SHARE * below(0.99);
-    strong.max(NOISE_TIMES * below(0.5)).max(1.0) as u32
+    let strong = STRONG_FRACTION * quantile(0.99);
+    strong.max(NOISE_TIMES * quantile(0.5)).max(1.0) as u32
 }
 
 #[cfg(test)]

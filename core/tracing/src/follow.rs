@@ -1,31 +1,33 @@
 //! The end of a live-wire under the cursor, held so that the path does not jump while the hand is still.
 //!
-//! Two things make paths jump. The cursor is never exactly on the edge, and the strongest pixel near it changes with
-//! each of its pixels: so of the edges near the cursor the one that was held stays until another is clearly stronger,
-//! and the path ends on that edge as near to the cursor as it goes. And two ways to nearly the same cost lie side by
-//! side in the tree of paths: so the way that was held is prolonged until it is dearer than another by more than a
-//! pixel off the edges.
+//! Two things make paths jump:
+//! - The cursor is never exactly on the edge, and the strongest pixel near it changes with every pixel that it moves.
+//!   Therefore the edge that was held stays until another edge near the cursor is clearly stronger, and the path ends
+//!   on the held edge as near to the cursor as it goes.
+//! - Two ways of nearly the same cost lie side by side in the tree of cheapest paths. Therefore the way that was held is
+//!   prolonged until it costs more than the other by the price of a pixel without an edge.
 
-use super::AidError;
-use super::costs::{Costs, Edge};
-use super::list::List;
-use super::wire::{Node, Wire, WireMemory};
+use crate::costs::{Costs, Edge};
+use crate::error::TracingError;
+use crate::list::List;
+use crate::polyline::distance;
+use crate::wire::{Node, Wire, WireMemory};
 use fluoropose::image::contour::Point;
 use fluoropose::math::{sin_cos, sqrt};
 
-/// Weaker edges do not attract the cursor, unless they are held.
+/// Edges of less strength do not attract the cursor, unless they are held.
 const LEAST_STRENGTH: f64 = 72.0;
 const LEAST_HELD: f64 = 48.0;
 /// How many times as attractive another edge must be than that which is held.
 const CLEARLY: f64 = 1.4;
-/// Attraction at the end of the radius, as a share of that in the middle.
+/// Attraction at the end of the radius, as a fraction of that in the middle.
 const AT_RADIUS: f64 = 0.4;
-/// A path that gives up no more than so many steps of the one before has not jumped.
+/// A path has not jumped if it gives up at most this many steps of the path before it.
 const BRANCH: usize = 24;
-/// How much dearer a way that is held may be: a pixel where there is no edge.
+/// How much more the held way may cost: the price of a pixel without an edge.
 const MARGIN: u32 = 256;
 
-/// What is held from one position of the cursor to the next.
+/// What is held from one position of the cursor to the next. A new one holds nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Follower {
     held: Option<Held>,
@@ -44,21 +46,24 @@ struct Held {
 pub struct Cursor {
     /// Where it is.
     pub at: Point,
-    /// How far it is drawn to edges, pixels; at 0 the path ends exactly under it, and nothing is held.
+    /// The distance within which edges attract it, pixels, at most 64. At 0 the path ends exactly under the cursor, and
+    /// nothing is held.
     pub radius: f64,
 }
 
 impl Follower {
-    /// Lets go: for a new seed.
+    /// Holds nothing any more: for a new seed.
     pub fn release(&mut self) {
         self.held = None;
     }
 
-    /// Writes the path from the seed to the edge near the cursor to `path`, as numbers of pixels. Where that edge is not
-    /// reached yet up to `budget` more pixels are, and where that is not enough `path` stays empty.
+    /// Writes the path from the seed to the edge near the cursor to `path`, as pixel numbers row by row.
+    ///
+    /// Where the search has not reached that edge yet, it is expanded by up to `budget` more pixels; `path` stays empty
+    /// where that does not suffice.
     ///
     /// # Errors
-    /// [`AidError::TooLong`], and those of [`Wire::expand`].
+    /// [`TracingError::TooLong`], and those of [`Wire::expand`].
     pub fn follow(
         &mut self,
         wire: &mut Wire,
@@ -66,7 +71,7 @@ impl Follower {
         memory: &mut WireMemory<'_>,
         (cursor, budget): (Cursor, usize),
         path: &mut List<'_, u32>,
-    ) -> Result<(), AidError> {
+    ) -> Result<(), TracingError> {
         path.clear();
         if cursor.radius <= 0.0 {
             self.release();
@@ -109,7 +114,7 @@ impl Follower {
         let mut best = (0.0, cursor.at);
         let mut best_held = (0.0, cursor.at);
         for (edge, middle) in near(costs, cursor) {
-            let away = super::polyline::distance(middle, cursor.at) / cursor.radius.max(1.0);
+            let away = distance(middle, cursor.at) / cursor.radius.max(1.0);
             let attraction = f64::from(edge.strength) * (1.0 - (1.0 - AT_RADIUS) * away * away);
             if attraction > best.0 {
                 best = (attraction, middle);
@@ -135,7 +140,7 @@ impl Follower {
         };
         let (column, row) = (target % costs.width(), target / costs.width());
         let held = costs.at(column, row);
-        let turned = edge.outwards.wrapping_sub(held.outwards) as i8;
+        let rotated = edge.outwards.wrapping_sub(held.outwards) as i8;
         let (sin, cos) = sin_cos(f64::from(held.outwards) * (core::f64::consts::TAU / 256.0));
         let (right, down) = (
             middle.column - (column as f64 + 0.5),
@@ -143,7 +148,7 @@ impl Follower {
         );
         let across = (right * cos + down * sin).abs();
         let along = sqrt((right * right + down * down - across * across).max(0.0));
-        turned.unsigned_abs() <= 40 && across <= 1.0 + 0.4 * along
+        rotated.unsigned_abs() <= 40 && across <= 1.0 + 0.4 * along
     }
 }
 
@@ -164,7 +169,7 @@ fn near<'a>(
         span(at.row, costs.height()).flat_map(move |row| columns.clone().map(move |c| (c, row)));
     pixels.filter_map(move |(column, row)| {
         let middle = Point::new(column as f64 + 0.5, row as f64 + 0.5);
-        let within = super::polyline::distance(middle, at) <= radius;
+        let within = distance(middle, at) <= radius;
         within.then(|| (costs.at(column, row), middle))
     })
 }

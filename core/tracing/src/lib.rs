@@ -1,8 +1,61 @@
-//! Aids for tracing an outline: a threshold at the cursor ([`threshold`]), a path that follows edges ([`wire`]),
-//! a rough outline pulled to edges ([`snap`]), [`simplify`], [`soften`] and a [`brush`].
+//! Tools for tracing an implant's outline on a grey X-ray frame, without allocation.
 //!
-//! What changes an outline tells for each point where on the old outline it comes from ([`Vertex::from`]), so that
-//! marks on its sides can follow, and how far the shape has moved ([`ShapeError`]).
+//! What each tool takes and gives, from a frame to an outline:
+//!
+//! ```text
+//! frame --> Smoothed --> threshold::region_at(cursor, level) --------------+
+//!       --> CostBuilder --> Costs --> Wire --> Follower::follow(cursor) ---+--> outline of Vertex
+//!       --> one_click::OneClick(click or box) --> pose and outline         |
+//!                                                                          v
+//!       --> snap::snap(outline): onto the edges of the frame      brush, soften, simplify
+//! ```
+//!
+//! - [`threshold`] outlines the region around the cursor at a grey level; [`smoothed`] prepares its frame.
+//! - [`wire`] is the live-wire: cheapest paths along edges. [`costs`] prepares them, [`follow`] holds the path's end
+//!   under the cursor, [`cooling`] tells which part of the path may be fixed.
+//! - [`one_click`] needs one click inside the implant or a rough box around it.
+//! - [`snap`](mod@snap) pulls a rough outline onto edges, [`soften`](mod@soften) takes the shaking of the hand from
+//!   it, [`simplify`](mod@simplify) leaves out points, [`brush`](mod@brush) adds to it and erases from it.
+//!
+//! A tool that changes an outline tells of each new point which place of the old outline it comes from
+//! ([`Vertex::from`]), so that marks on the outline can follow, and how far the shape has moved ([`ShapeError`]).
+//!
+//! All memory is borrowed from the caller: a function next to each tool tells how much it needs, more is welcome, and
+//! less is the error [`TracingError::Memory`]. Places are in pixels, a pixel's centre at its index + 0.5.
+//!
+//! # Example
+//! A dark disc is outlined at the grey level 125 around a cursor inside it.
+//!
+//! ```
+//! use fluoropose::image::contour::Point;
+//! use fluoropose::image::frame::Frame;
+//! use fluoropose_tracing::smoothed::Smoothed;
+//! use fluoropose_tracing::threshold::{Threshold, ThresholdMemory, region_at, threshold_needed};
+//! use fluoropose_tracing::{Inside, List, Vertex};
+//!
+//! const SIDE: usize = 64;
+//! let distance = |column: usize, row: usize| f64::hypot(column as f64 - 31.5, row as f64 - 31.5);
+//! let grey = |k: usize| if distance(k % SIDE, k / SIDE) < 20.0 { 50u8 } else { 200 };
+//! let pixels: Vec<u8> = (0..SIDE * SIDE).map(grey).collect();
+//! let frame = Frame::new(&pixels, SIDE, SIDE, SIDE)?;
+//!
+//! let mut cells = vec![0; SIDE * SIDE];
+//! let smoothed = Smoothed::new(&frame, &mut cells)?;
+//! let (words, points) = threshold_needed(SIDE, SIDE);
+//! let memory = ThresholdMemory {
+//!     words: &mut vec![0; words],
+//!     line: &mut vec![Vertex::default(); points],
+//!     marks: &mut vec![false; points],
+//! };
+//! let mut places = vec![Vertex::default(); points];
+//! let mut outline = List::new(&mut places);
+//! let threshold = Threshold { inside: Inside::Dark, level: 125.0, bridge: 0, tolerance: 0.5 };
+//! let error = region_at(&smoothed, Point::new(32.0, 32.0), &threshold, memory, &mut outline)?;
+//!
+//! assert!(error.expect("there is a region").max <= 0.75);
+//! assert!((8..64).contains(&outline.len()));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![no_std]
 #![forbid(unsafe_code)]
@@ -10,154 +63,34 @@
 #[cfg(test)]
 extern crate std;
 
-pub mod brush;
+// In the order of use: what all tools share, then how an outline is made, then how it is changed.
+mod error;
+pub mod list;
+mod noise;
+mod polyline;
+mod side;
+mod vertex;
+
+pub mod smoothed;
+pub mod threshold;
+
 pub mod cooling;
 pub mod costs;
 pub mod follow;
-pub mod list;
-pub mod morphology;
-mod noise;
-pub mod one_click;
-mod polyline;
-pub mod simplify;
-pub mod smoothed;
-pub mod snap;
-pub mod soften;
-pub mod threshold;
 pub mod wire;
 
-use thiserror::Error;
+pub mod one_click;
 
-use fluoropose::image::contour::Point;
-
-/// A point that an aid has made or kept.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Vertex {
-    /// Where it is.
-    pub at: Point,
-    /// Where on the outline that was given: `k` for its point number `k`, untouched to the last bit; `k + t` for a
-    /// point that lies on its side `k` (from point `k` to the next) at the share `t`, or was moved from there, `t`
-    /// strictly between 0 and 1; [`NEW`] for a point that has no such place.
-    pub from: f64,
-}
-
-/// [`Vertex::from`] of a point that lies nowhere on the outline that was given.
-pub const NEW: f64 = -1.0;
-
-impl Vertex {
-    /// Point `number` of an outline, untouched.
-    #[must_use]
-    pub fn kept(number: usize, at: Point) -> Self {
-        Self {
-            at,
-            from: number as f64,
-        }
-    }
-
-    /// A point from side `number` at the share `t`, which is brought strictly between 0 and 1.
-    #[must_use]
-    pub fn from_side(number: usize, t: f64, at: Point) -> Self {
-        let least = 1e-9;
-        Self {
-            at,
-            from: number as f64 + t.clamp(least, 1.0 - least),
-        }
-    }
-
-    /// A point that lies nowhere on the outline that was given.
-    #[must_use]
-    pub fn new(at: Point) -> Self {
-        Self { at, from: NEW }
-    }
-
-    /// The point of the given outline that this one is, if it is one.
-    #[must_use]
-    pub fn kept_number(&self) -> Option<usize> {
-        let whole = self.from >= 0.0 && fluoropose::math::floor(self.from) == self.from;
-        whole.then_some(self.from as usize)
-    }
-}
-
-/// How far the shape that was given lies from the one that was made, pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ShapeError {
-    /// The greatest distance of a point of the given line from the line that was made.
-    pub max: f64,
-    /// Root mean square distance along the given line.
-    pub rms: f64,
-}
-
-/// Why an aid made nothing. Fields count points from 0, sentences from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum AidError {
-    /// A lent slice is too short.
-    #[error("the aid needs {needed} {what} to work with but {given} were lent")]
-    Memory {
-        /// Which slice.
-        what: &'static str,
-        /// Its least length.
-        needed: usize,
-        /// The length that was lent.
-        given: usize,
-    },
-    /// The result has more points than were lent.
-    #[error("the outline would have more than {0} points")]
-    TooLong(usize),
-    /// Fewer points than a line of this kind has.
-    #[error("the line has {given} points; it needs at least {needed}")]
-    TooFewPoints {
-        /// Points that were given.
-        given: usize,
-        /// Points that are needed.
-        needed: usize,
-    },
-    /// A coordinate is NaN, infinite or far beyond any frame.
-    #[error("point {} of the line has a coordinate that is not a place on a frame", .0 + 1)]
-    NotAPlace(usize),
-    /// A setting is not possible.
-    #[error("{what} is {value}; it must be from {least} to {most}")]
-    Setting {
-        /// Which setting.
-        what: &'static str,
-        /// Its value.
-        value: f64,
-        /// The least that is possible.
-        least: f64,
-        /// The greatest that is possible.
-        most: f64,
-    },
-    /// The frame is not the one that memory was prepared for.
-    #[error("the aid was prepared for another frame")]
-    OtherFrame,
-    /// The costs of the frame have not been worked out to the end.
-    #[error("the frame's edges have not been worked out yet")]
-    NotPrepared,
-}
-
-/// Refuses a setting outside `least..=most`; a NaN is outside.
-fn check_setting(what: &'static str, value: f64, least: f64, most: f64) -> Result<(), AidError> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(AidError::Setting {
-        what,
-        value,
-        least,
-        most,
-    })
-}
-
-/// Refuses a slice that is too short.
-fn check_length(what: &'static str, needed: usize, given: usize) -> Result<(), AidError> {
-    if given >= needed {
-        return Ok(());
-    }
-    Err(AidError::Memory {
-        what,
-        needed,
-        given,
-    })
-}
+pub mod brush;
+pub mod morphology;
+pub mod simplify;
+pub mod snap;
+pub mod soften;
 
 #[cfg(test)]
-pub(crate) mod films;
+mod synthetic;
+
+pub use error::TracingError;
+pub use list::List;
+pub use side::{Hand, Inside};
+pub use vertex::{NEW, ShapeError, Vertex};

@@ -1,8 +1,8 @@
-//! A list in lent memory.
+//! A list in borrowed memory.
 
-use super::AidError;
+use crate::error::TracingError;
 
-/// Elements at the beginning of a slice that the caller has lent.
+/// Elements at the beginning of a borrowed slice.
 #[derive(Debug)]
 pub struct List<'a, T> {
     places: &'a mut [T],
@@ -19,11 +19,11 @@ impl<'a, T: Copy> List<'a, T> {
     /// Puts an element at the end.
     ///
     /// # Errors
-    /// [`AidError::TooLong`] where all places are taken.
-    pub fn push(&mut self, element: T) -> Result<(), AidError> {
+    /// [`TracingError::TooLong`] where all places are taken.
+    pub fn push(&mut self, element: T) -> Result<(), TracingError> {
         let most = self.places.len();
         let place = self.places.get_mut(self.used);
-        *place.ok_or(AidError::TooLong(most))? = element;
+        *place.ok_or(TracingError::TooLong(most))? = element;
         self.used += 1;
         Ok(())
     }
@@ -50,7 +50,7 @@ impl<'a, T: Copy> List<'a, T> {
         self.places.get_mut(..self.used).unwrap_or_default()
     }
 
-    /// The elements, for as long as the memory is lent.
+    /// The elements, for as long as the memory is borrowed.
     #[must_use]
     pub fn into_slice(self) -> &'a mut [T] {
         self.places.get_mut(..self.used).unwrap_or_default()
@@ -68,7 +68,7 @@ impl<'a, T: Copy> List<'a, T> {
         self.used == 0
     }
 
-    /// Keeps the elements that `keep` says, in their order.
+    /// Keeps the elements for which `keep` is true, in their order.
     pub fn retain(&mut self, mut keep: impl FnMut(&T) -> bool) {
         let mut kept = 0;
         for at in 0..self.used {
@@ -87,13 +87,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_list_is_as_long_as_what_was_lent() {
+    fn a_list_is_no_longer_than_its_memory() {
         let mut places = [0; 3];
         let mut list = List::new(&mut places);
         for k in 1..=3 {
             assert_eq!(list.push(k), Ok(()));
         }
-        assert_eq!(list.push(4), Err(AidError::TooLong(3)));
+        assert_eq!(list.push(4), Err(TracingError::TooLong(3)));
         list.retain(|k| k % 2 == 1);
         assert_eq!(list.as_slice(), [1, 3]);
         list.truncate(1);

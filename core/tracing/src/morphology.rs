@@ -1,8 +1,8 @@
-//! Masks grown and shrunk by some pixels, 32 pixels at a time.
+//! Masks dilated and eroded by one pixel a step, 32 pixels at a time.
 
 use fluoropose::image::mask::{Mask, MaskMut, WORD_BITS, Word, tail_mask};
 
-/// Which neighbours a step takes: steps of both by turns make an octagon, which is nearly a disc.
+/// Which neighbours a step takes. Steps of both kinds in alternation make an octagon, which is nearly a disc.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Neighbours {
     /// Left, right, above and below.
@@ -12,7 +12,7 @@ pub enum Neighbours {
 }
 
 impl Neighbours {
-    /// Those of step `number` of an octagon.
+    /// The neighbours of step `number`, from 0, of an octagon.
     #[must_use]
     pub fn of_step(number: usize) -> Self {
         if number.is_multiple_of(2) {
@@ -23,19 +23,19 @@ impl Neighbours {
     }
 }
 
-/// Writes to `out` the pixels of `mask` and those that have one among their neighbours. Nothing where the two differ
-/// in size.
+/// Dilates: writes to `out` the pixels of `mask` and those with a neighbour in it. Nothing is written where the two masks
+/// differ in size.
 pub fn grow(mask: &Mask<'_>, neighbours: Neighbours, out: &mut MaskMut<'_>) {
     step(mask, neighbours, false, out);
 }
 
-/// Writes to `out` the pixels of `mask` whose neighbours in the frame all belong to it: at the frame's border nothing
-/// is lost. Nothing where the two differ in size.
+/// Erodes: writes to `out` the pixels of `mask` whose neighbours inside the frame all belong to it, so that nothing is
+/// lost at the frame's border. Nothing is written where the two masks differ in size.
 pub fn shrink(mask: &Mask<'_>, neighbours: Neighbours, out: &mut MaskMut<'_>) {
     step(mask, neighbours, true, out);
 }
 
-/// Growing, or growing the complement.
+/// Dilates the mask, or its complement.
 fn step(mask: &Mask<'_>, neighbours: Neighbours, complement: bool, out: &mut MaskMut<'_>) {
     out.clear();
     if (mask.width(), mask.height()) != (out.width(), out.height()) {

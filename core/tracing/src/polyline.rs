@@ -1,14 +1,15 @@
 //! Lines through points: lengths, distances, and points along them.
 
-use super::{AidError, Vertex};
+use crate::error::TracingError;
+use crate::vertex::Vertex;
 use fluoropose::image::contour::Point;
 use fluoropose::image::scan::MAX_COORDINATE;
 use fluoropose::math::sqrt;
 
 /// Refuses a line of fewer points than `least`, or with a coordinate that is no place on a frame.
-pub(super) fn check(points: &[Point], least: usize) -> Result<(), AidError> {
+pub(crate) fn check(points: &[Point], least: usize) -> Result<(), TracingError> {
     if points.len() < least {
-        return Err(AidError::TooFewPoints {
+        return Err(TracingError::TooFewPoints {
             given: points.len(),
             needed: least,
         });
@@ -17,11 +18,11 @@ pub(super) fn check(points: &[Point], least: usize) -> Result<(), AidError> {
     let wrong = points
         .iter()
         .position(|p| !place(p.column) || !place(p.row));
-    wrong.map_or(Ok(()), |at| Err(AidError::NotAPlace(at)))
+    wrong.map_or(Ok(()), |at| Err(TracingError::NotAPlace(at)))
 }
 
 /// Number of sides of a line through `count` points.
-pub(super) fn side_count(count: usize, closed: bool) -> usize {
+pub(crate) fn side_count(count: usize, closed: bool) -> usize {
     if closed {
         count
     } else {
@@ -30,19 +31,19 @@ pub(super) fn side_count(count: usize, closed: bool) -> usize {
 }
 
 /// The ends of side `number`; the last side of a closed line ends at the first point.
-pub(super) fn side(points: &[Point], number: usize) -> (Point, Point) {
+pub(crate) fn side(points: &[Point], number: usize) -> (Point, Point) {
     let count = points.len().max(1);
     let at = |k: usize| points.get(k % count).copied().unwrap_or_default();
     (at(number), at(number + 1))
 }
 
-pub(super) fn distance(a: Point, b: Point) -> f64 {
+pub(crate) fn distance(a: Point, b: Point) -> f64 {
     let (right, down) = (b.column - a.column, b.row - a.row);
     sqrt(right * right + down * down)
 }
 
-/// The point of a segment at the share `t`.
-pub(super) fn between((a, b): (Point, Point), t: f64) -> Point {
+/// The point of a segment at the fraction `t` of it.
+pub(crate) fn between((a, b): (Point, Point), t: f64) -> Point {
     Point::new(
         a.column + t * (b.column - a.column),
         a.row + t * (b.row - a.row),
@@ -50,7 +51,7 @@ pub(super) fn between((a, b): (Point, Point), t: f64) -> Point {
 }
 
 /// Squared distance of a point from a segment.
-pub(super) fn squared_distance(point: Point, (a, b): (Point, Point)) -> f64 {
+pub(crate) fn squared_distance(point: Point, (a, b): (Point, Point)) -> f64 {
     let (right, down) = (b.column - a.column, b.row - a.row);
     let (x, y) = (point.column - a.column, point.row - a.row);
     let length = right * right + down * down;
@@ -64,7 +65,7 @@ pub(super) fn squared_distance(point: Point, (a, b): (Point, Point)) -> f64 {
 }
 
 /// Length of a line.
-pub(super) fn length(points: &[Point], closed: bool) -> f64 {
+pub(crate) fn length(points: &[Point], closed: bool) -> f64 {
     (0..side_count(points.len(), closed))
         .map(|number| side(points, number))
         .map(|(a, b)| distance(a, b))
@@ -72,7 +73,7 @@ pub(super) fn length(points: &[Point], closed: bool) -> f64 {
 }
 
 /// Twice the enclosed area, positive where the line runs clockwise on the screen.
-pub(super) fn twice_area(points: &[Point]) -> f64 {
+pub(crate) fn twice_area(points: &[Point]) -> f64 {
     let origin = points.first().copied().unwrap_or_default();
     (0..points.len())
         .map(|number| side(points, number))
@@ -83,8 +84,8 @@ pub(super) fn twice_area(points: &[Point]) -> f64 {
         .sum()
 }
 
-/// Points that [`subdivide`] gives.
-pub(super) fn subdivided_count(points: &[Point], closed: bool, spacing: f64) -> usize {
+/// Number of points that [`subdivide`] emits.
+pub(crate) fn subdivided_count(points: &[Point], closed: bool, spacing: f64) -> usize {
     let sides =
         (0..side_count(points.len(), closed)).map(|number| parts(side(points, number), spacing));
     sides.sum::<usize>() + usize::from(!closed)
@@ -94,13 +95,13 @@ fn parts((a, b): (Point, Point), spacing: f64) -> usize {
     (libm::ceil(distance(a, b) / spacing) as usize).max(1)
 }
 
-/// Calls `emit` for the line's points and for others at equal distances, at most `spacing`, along each of its sides.
-pub(super) fn subdivide(
+/// Calls `emit` for the line's points and, along each of its sides, for points at equal distances of at most `spacing`.
+pub(crate) fn subdivide(
     points: &[Point],
     closed: bool,
     spacing: f64,
-    mut emit: impl FnMut(Vertex) -> Result<(), AidError>,
-) -> Result<(), AidError> {
+    mut emit: impl FnMut(Vertex) -> Result<(), TracingError>,
+) -> Result<(), TracingError> {
     for number in 0..side_count(points.len(), closed) {
         let ends = side(points, number);
         let count = parts(ends, spacing);
@@ -117,11 +118,11 @@ pub(super) fn subdivide(
 }
 
 /// Calls `emit` for `count` points at equal distances along a closed line, from its first point on.
-pub(super) fn space_evenly(
+pub(crate) fn space_evenly(
     points: &[Point],
     count: usize,
-    mut emit: impl FnMut(Vertex) -> Result<(), AidError>,
-) -> Result<(), AidError> {
+    mut emit: impl FnMut(Vertex) -> Result<(), TracingError>,
+) -> Result<(), TracingError> {
     let step = length(points, true) / count.max(1) as f64;
     let (mut passed, mut emitted) = (0.0, 0);
     for number in 0..points.len() {
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn even_points_go_round_once() {
+    fn even_points_go_around_once() {
         let mut made = std::vec::Vec::new();
         let emit = |vertex: Vertex| {
             made.push(vertex.at);
@@ -189,8 +190,8 @@ mod tests {
         let mut points = square();
         assert_eq!(check(&points, 3), Ok(()));
         points[2].row = f64::NAN;
-        assert_eq!(check(&points, 3), Err(AidError::NotAPlace(2)));
-        let few = AidError::TooFewPoints {
+        assert_eq!(check(&points, 3), Err(TracingError::NotAPlace(2)));
+        let few = TracingError::TooFewPoints {
             given: 2,
             needed: 3,
         };

@@ -2,17 +2,19 @@
 
 use heapless::Vec;
 
-use super::list::List;
-use super::polyline::{between, check, distance, side_count, squared_distance, twice_area};
-use super::{AidError, ShapeError, Vertex, check_length, check_setting};
+use crate::error::{TracingError, check_setting};
+use crate::list::List;
+use crate::polyline::{between, check, distance, side_count, squared_distance, twice_area};
+use crate::vertex::{ShapeError, Vertex};
 use fluoropose::image::contour::{Point, first_crossing};
 use fluoropose::math::sqrt;
+use fluoropose::memory::check_length;
 
 /// The greatest tolerance, pixels.
 pub const MOST_TOLERANCE: f64 = 64.0;
-/// A tolerance that would make a line cross itself is halved so often at most.
+/// A tolerance that would make a line cross itself is halved at most this number of times.
 const ATTEMPTS: usize = 6;
-/// Spans of points that wait: the shorter half is always looked at first, so there are fewer than bits in a length.
+/// Spans of points that wait: the shorter half is always split first, so they are fewer than the bits of a length.
 const WAITING: usize = 64;
 
 /// How a line is simplified.
@@ -20,32 +22,33 @@ const WAITING: usize = 64;
 pub struct Simplify {
     /// Whether the last point is joined to the first.
     pub closed: bool,
-    /// No part of the line moves by more than so many pixels when points are left out.
+    /// The greatest distance by which any part of the line moves when points are left out, pixels: 0 to
+    /// [`MOST_TOLERANCE`].
     pub tolerance: f64,
-    /// Whether points that were not given but made are moved a little so that the new line lies as much to one side of
-    /// the old as to the other. Chords of a convex outline lie inside of it, all of them: without that a silhouette
-    /// would lose a part of the tolerance all round, and seem farther away than it is.
+    /// Whether points that were made, not given, are moved a little so that the new line lies on both sides of the old
+    /// one in equal parts. All chords of a convex outline lie inside of it: without this a silhouette would lose a part
+    /// of the tolerance all around, and the implant would seem farther away than it is.
     pub balanced: bool,
 }
 
-/// Leaves out points of a line, after Douglas and Peucker (*Cartographica* 10, 1973). Where the closed line that is left
-/// would cross itself the tolerance is halved, up to six times.
+/// Leaves out points of a line, after Douglas and Peucker (*Cartographica* 10, 1973). Where a closed line would cross
+/// itself afterwards, the tolerance is halved, up to six times.
 ///
-/// Two points far apart of a closed line, the ends of an open one and those that `keep` names always stay. `marks`
-/// holds a place for each point, `out` as many as stay.
+/// The ends of an open line, two points of a closed one that are far apart, and the points for which `keep` is true
+/// always stay. `marks` has at least one place for each point of the line, `out` one for each point that stays.
 ///
-/// The distances of the error are those from the given line to the simple one. Where nothing was balanced those the
-/// other way are no greater than the greatest of them.
+/// Returns the distance of the given line from the simplified one. Without [`Simplify::balanced`] no point of the
+/// simplified line is farther from the given one than [`ShapeError::max`].
 ///
 /// # Errors
-/// [`AidError`] about the line, the tolerance or the memory.
+/// [`TracingError::Setting`] about the tolerance, [`TracingError::Memory`] about `marks`, and [`TracingError::TooLong`].
 pub fn simplify(
     line: &[Vertex],
     settings: &Simplify,
     keep: impl Fn(&Vertex) -> bool,
     marks: &mut [bool],
     out: &mut List<'_, Vertex>,
-) -> Result<ShapeError, AidError> {
+) -> Result<ShapeError, TracingError> {
     check_setting("the tolerance", settings.tolerance, 0.0, MOST_TOLERANCE)?;
     check_length("marks", line.len(), marks.len())?;
     let marks = marks.get_mut(..line.len()).unwrap_or_default();
@@ -69,15 +72,16 @@ pub fn simplify(
     Ok(error_of(line, closed, marks, out.as_slice()))
 }
 
-/// Points of a line as [`Vertex`]es that come from themselves.
+/// Writes the points of a given line as unchanged [`Vertex`]es.
 ///
 /// # Errors
-/// [`AidError`] for a line of fewer points than 2 (open) or 3 (closed), one that is no place, or a short list.
+/// [`TracingError::TooFewPoints`] for fewer than 2 points (open) or 3 (closed), [`TracingError::NotAPlace`], and
+/// [`TracingError::TooLong`].
 pub fn as_vertices(
     points: &[Point],
     closed: bool,
     out: &mut List<'_, Vertex>,
-) -> Result<(), AidError> {
+) -> Result<(), TracingError> {
     check(points, if closed { 3 } else { 2 })?;
     out.clear();
     let mut numbered = points.iter().enumerate();
@@ -113,7 +117,7 @@ fn mark(
     }
 }
 
-/// Marks the points that stay in any case and gives one of them to begin with.
+/// Marks the points that stay in any case and returns one of them to begin with.
 fn anchor(line: &[Vertex], closed: bool, marks: &mut [bool]) -> Option<usize> {
     let last = line.len().checked_sub(1)?;
     if !closed {
@@ -122,7 +126,7 @@ fn anchor(line: &[Vertex], closed: bool, marks: &mut [bool]) -> Option<usize> {
         return Some(0);
     }
     let first = marks.iter().position(|marked| *marked);
-    // Independent of which point is the first: a live outline must not change with that.
+    // It must not depend on which point is the first: that changes while an outline is being traced.
     let first = first.unwrap_or_else(|| farthest(line, middle(line)));
     marks[first] = true;
     marks[farthest(line, line[first].at)] = true;
@@ -148,7 +152,7 @@ fn farthest(line: &[Vertex], from: Point) -> usize {
     best.0
 }
 
-/// Marks what stays strictly between two points that do. Numbers beyond the last point begin again.
+/// Marks the points that stay strictly between two points that stay. Numbers beyond the last point begin again at 0.
 fn mark_between(line: &[Vertex], from: usize, to: usize, tolerance: f64, marks: &mut [bool]) {
     let mut waiting: Vec<(usize, usize), WAITING> = Vec::new();
     let mut span = Some((from, to));
@@ -164,7 +168,7 @@ fn mark_between(line: &[Vertex], from: usize, to: usize, tolerance: f64, marks: 
                 } else {
                     [halves[1], halves[0]]
                 };
-                // Never full: every span waiting is at least as long as all that is looked at before it.
+                // Never full: every waiting span is at least as long as all spans that are split before it.
                 let _ = waiting.push(longer);
                 Some(shorter)
             }
@@ -201,8 +205,8 @@ fn spans(marks: &[bool], closed: bool) -> impl Iterator<Item = (usize, usize)> +
     starts.zip(ends)
 }
 
-/// The distances of a line from the one that was made of its marked points. Each part is held against its own chord and
-/// those beside it.
+/// The distances of a line from the one that was made of its marked points. Each part is compared with its own chord and
+/// the chords next to it.
 fn error_of(line: &[Vertex], closed: bool, marks: &[bool], made: &[Vertex]) -> ShapeError {
     let (count, chords) = (line.len(), side_count(made.len(), closed));
     let (mut sum, mut long, mut greatest) = (0.0, 0.0, 0.0f64);
@@ -232,8 +236,8 @@ fn error_of(line: &[Vertex], closed: bool, marks: &[bool], made: &[Vertex]) -> S
     }
 }
 
-/// Moves the points of the simple line that are not the given outline's own, each by the mean distance of the line from
-/// the chords on both sides of it.
+/// Moves the points of the simplified line that are not unchanged points of the given one, each by the mean distance of
+/// the line from the chords on both sides of the point.
 fn balance(line: &[Vertex], closed: bool, marks: &[bool], made: &mut [Vertex]) {
     let chords = || spans(marks, closed).map(|span| Chord::new(line, span));
     let mut before = if closed { chords().last() } else { None };
@@ -247,13 +251,13 @@ fn balance(line: &[Vertex], closed: bool, marks: &[bool], made: &mut [Vertex]) {
     }
 }
 
-/// A side of the simple line and the part of the line that it stands for.
+/// A side of the simplified line, with the part of the line that it replaces.
 #[derive(Clone, Copy)]
 struct Chord {
-    /// Unit vector to its left hand.
+    /// Unit vector to its left.
     left: [f64; 2],
     long: f64,
-    /// Area between it and its part of the line, positive on the left hand.
+    /// Area between it and its part of the line, square pixels, positive on its left.
     area: f64,
 }
 
@@ -275,7 +279,7 @@ impl Chord {
         let [x, y] = [0, 1].map(|k| self.left[k] + before.left[k]);
         let size = sqrt(x * x + y * y);
         if size < 1.0 {
-            // A sharp corner: what lies beside it tells nothing of its place.
+            // A sharp corner: the chords next to it say nothing about its place.
             return at;
         }
         // Both chords move by the mean where the point moves by that over the cosine of half the bend, size / 2.

@@ -1,22 +1,22 @@
 //! A frame without the noise of single pixels, in 16 bits whatever it came in.
 
-use super::{AidError, check_length};
 use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::memory::{TooLittleMemory, check_length};
 
 /// Weights of the smoothing kernel along one axis; they sum to 16. A binomial: about a Gaussian of 1 pixel.
 const WEIGHTS: [u32; 5] = [1, 4, 6, 4, 1];
 const HALF: usize = WEIGHTS.len() / 2;
 
-/// Grey values of a [`Smoothed`] for one of its frame: a power of two, so that as much of what averaging gains is kept
-/// as 16 bits hold.
+/// Values of a [`Smoothed`] for one grey value of its frame. It is a power of two, the greatest with which all values fit
+/// into 16 bits: averaging gains fractions of a grey value, and as many of them as possible are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// Sums of 256 weighted grey values are divided by two so often.
+    /// Sums of grey values with weights that sum to 256 are shifted right by this number of bits.
     shift: u32,
 }
 
 impl Scale {
-    /// The scale for frames without grey values above `greatest`.
+    /// The scale for frames whose greatest grey value is `greatest`.
     #[must_use]
     pub fn of(greatest: u32) -> Self {
         let bits = u32::BITS - greatest.leading_zeros();
@@ -39,7 +39,7 @@ pub fn greatest<P: Pixel>(frame: &Frame<'_, P>) -> u32 {
     rows.flatten().max().unwrap_or_default().into()
 }
 
-/// A frame smoothed by a binomial kernel of 5 x 5 pixels: borrowed, row by row without gaps.
+/// A frame smoothed by a binomial kernel of 5 x 5 pixels, over borrowed values, row by row without gaps.
 #[derive(Clone, Copy, Debug)]
 pub struct Smoothed<'a> {
     cells: &'a [u16],
@@ -49,12 +49,15 @@ pub struct Smoothed<'a> {
 }
 
 impl<'a> Smoothed<'a> {
-    /// Smooths a frame into `cells`, which has a place for each of its pixels. Beyond the border the frame's nearest
-    /// pixel is taken.
+    /// Smooths a frame into `cells`, one value for each of its pixels. Beyond its border a frame is continued by its
+    /// nearest pixel.
     ///
     /// # Errors
-    /// [`AidError::Memory`].
-    pub fn new<P: Pixel>(frame: &Frame<'_, P>, cells: &'a mut [u16]) -> Result<Self, AidError> {
+    /// [`TooLittleMemory`] where there are fewer cells than pixels.
+    pub fn new<P: Pixel>(
+        frame: &Frame<'_, P>,
+        cells: &'a mut [u16],
+    ) -> Result<Self, TooLittleMemory> {
         let scale = Scale::of(greatest(frame));
         check_length("cells", frame.width() * frame.height(), cells.len())?;
         for row in 0..frame.height() {
@@ -63,16 +66,16 @@ impl<'a> Smoothed<'a> {
         Self::from_cells(cells, frame.width(), frame.height(), scale)
     }
 
-    /// What was smoothed before.
+    /// A frame of `width` x `height` pixels whose values were smoothed before, at this scale.
     ///
     /// # Errors
-    /// [`AidError::Memory`] where there are too few cells.
+    /// [`TooLittleMemory`] where there are fewer cells than pixels.
     pub fn from_cells(
         cells: &'a [u16],
         width: usize,
         height: usize,
         scale: Scale,
-    ) -> Result<Self, AidError> {
+    ) -> Result<Self, TooLittleMemory> {
         let needed = width.saturating_mul(height);
         check_length("cells", needed, cells.len())?;
         Ok(Self {
@@ -137,13 +140,13 @@ pub(super) fn smooth_row<P: Pixel>(
             .map(|(row, weight)| weight * row[column].into())
             .sum()
     };
-    let round = (1 << scale.shift) >> 1;
-    // The window of column sums moves along: each is worked out once.
+    let half = (1 << scale.shift) >> 1;
+    // The window of column sums moves along, so that each sum is computed once.
     let at = |column: usize| down(column.min(width - 1));
     let mut window = [at(0), at(0), at(0), at(1), at(2)];
     for (column, value) in out.iter_mut().enumerate() {
         let sum: u32 = window.iter().zip(WEIGHTS).map(|(v, w)| v * w).sum();
-        *value = ((sum + round) >> scale.shift).min(u32::from(u16::MAX)) as u16;
+        *value = ((sum + half) >> scale.shift).min(u32::from(u16::MAX)) as u16;
         window.rotate_left(1);
         window[WEIGHTS.len() - 1] = at(column + HALF + 1);
     }

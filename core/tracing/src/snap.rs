@@ -1,112 +1,88 @@
-//! A rough line pulled onto the edges of a film.
+//! A rough line pulled onto the edges of a frame.
 //!
-//! Along the normal of each of the line's samples the slope of the grey value is read at places half a pixel apart.
-//! Which place each sample goes to is decided for all of them together, by dynamic programming: strong slopes attract,
-//! near ones more than far ones, and neighbours keep together (after Amini, Weymouth and Jain, *Using dynamic
-//! programming for solving variational problems in vision*, IEEE PAMI 12, 1990). So no single point jumps to a speck, and
-//! where there is no edge the line stays.
+//! The line is sampled, and along the normal of each sample the slope of the grey value is measured at places half a pixel
+//! apart. Dynamic programming then chooses a place for all samples together: strong slopes attract, near ones more than
+//! far ones, and neighbours stay close to each other (after Amini, Weymouth and Jain, *Using dynamic programming for
+//! solving variational problems in vision*, IEEE PAMI 12, 1990). Therefore no single point jumps to a speck, and where
+//! there is no edge the line stays.
 
 mod profile;
+mod sample;
 mod track;
 
 use profile::Reader;
-use track::{STATES, track};
+use sample::STATES;
+use track::track;
 
-use super::list::List;
-use super::noise::noise;
-use super::polyline::{check, subdivide, subdivided_count, twice_area};
-use super::simplify::{Simplify, simplify};
-use super::threshold::Inside;
-use super::wire::Hand;
-use super::{AidError, ShapeError, Vertex, check_length, check_setting};
+use crate::error::{TracingError, check_setting};
+use crate::list::List;
+use crate::noise::noise;
+use crate::polyline::{check, distance, side, subdivide, subdivided_count, twice_area};
+use crate::side::{Hand, Inside};
+use crate::simplify::{Simplify, simplify};
+use crate::vertex::{ShapeError, Vertex};
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::{Frame, Pixel};
-use fluoropose::math::sqrt;
+use fluoropose::math::{floor, sqrt};
+use fluoropose::memory::check_length;
 
-/// The greatest reach, pixels.
-pub const MOST_REACH: f64 = 16.0;
-/// Between samples along the line, pixels at most.
+pub use sample::{MOST_REACH, Sample, Snap};
+
+/// The greatest distance between samples along the line, pixels.
 const SPACING: f64 = 2.0;
-/// The direction of the line at a sample is that between its points so far before and behind it, pixels.
+/// The direction of the line at a sample is that between its points at this distance behind and ahead of it, pixels.
 const TANGENT: f64 = 3.0;
-/// Points of the given line that did not move stay where a side beside them is longer than this, pixels: lines of
-/// points closer together are simplified like what moved.
+/// Points of the given line that did not move are never left out where a side next to them is longer than this, pixels.
+/// Where points are closer together, the line is simplified like the parts that moved.
 const LONG: f64 = 3.0;
-/// What moved by less has not moved, pixels.
+/// A sample that moved by less than this has not moved, pixels.
 const STILL: f64 = 1e-9;
-
-/// Which line, and how far it may go.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Snap {
-    /// Whether the last point is joined to the first.
-    pub closed: bool,
-    /// On which hand of the line the implant is. Of a closed line it is inside, whatever is said here.
-    pub hand: Hand,
-    /// Whether the implant is darker or brighter than what surrounds it.
-    pub inside: Inside,
-    /// How far edges are looked for to both sides, pixels.
-    pub reach: f64,
-    /// The new line is simplified by at most so many pixels.
-    pub tolerance: f64,
-}
-
-/// A sample of a line. Opaque: only a length to be lent.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Sample {
-    vertex: Vertex,
-    /// Unit vector that edges brighten along.
-    normal: [f64; 2],
-    /// From the sample before, pixels.
-    step: f64,
-    /// Where along the normal it goes, pixels.
-    offset: f64,
-    /// Whether there is an edge.
-    on_edge: bool,
-}
 
 /// Working memory of [`snap`]: each slice at least as long as [`snap_needed`] says.
 #[derive(Debug)]
 pub struct SnapMemory<'a> {
     /// Samples along the line.
     pub samples: &'a mut [Sample],
-    /// Slopes, place by place of each sample, and what the best way to each is worth.
+    /// The slope at each place of each sample, grey values a pixel.
     pub slopes: &'a mut [f32],
-    /// From which place the best way comes.
+    /// For each place of each sample: the place of the sample before it on the best way there.
     pub ways: &'a mut [u8],
     /// The line before it is simplified.
     pub line: &'a mut [Vertex],
-    /// One for each of its points.
+    /// One mark for each of its points.
     pub marks: &'a mut [bool],
 }
 
-/// Lengths of a [`SnapMemory`]'s slices: of samples, line and marks; and of slopes and ways.
+/// Lengths of the slices of a [`SnapMemory`]: that of samples, line and marks, then that of slopes and ways.
 #[must_use]
 pub fn snap_needed(points: &[Point], closed: bool) -> (usize, usize) {
     let samples = subdivided_count(points, closed, SPACING);
     (samples, samples * STATES)
 }
 
-/// Pulls a line to edges of `frame` and writes it to `out`. The ends of an open line stay. Gives how far the given
-/// line's samples were moved.
+/// Pulls a line onto the edges of `frame` and writes it to `out`. The ends of an open line stay. Returns how far the
+/// samples of the given line were moved.
 ///
-/// An edge is a slope (the derivative of a Gaussian of 1 pixel) that noise alone does not make; the noise is measured
-/// in the frame. Its place is that of the greatest slope, to a part of a pixel.
+/// An edge is a slope (filtered by the derivative of a Gaussian of 1 pixel) that noise alone does not make; the noise is
+/// measured in the frame. Its place is that of the greatest slope, to a fraction of a pixel.
 ///
 /// # Errors
-/// [`AidError`] about the line, the settings or the memory.
+/// [`TracingError::TooFewPoints`] and [`TracingError::NotAPlace`] about the line, [`TracingError::Setting`] about reach
+/// and tolerance, [`TracingError::Memory`], and [`TracingError::TooLong`].
 pub fn snap<P: Pixel>(
     frame: &Frame<'_, P>,
     points: &[Point],
     settings: &Snap,
     memory: SnapMemory<'_>,
     out: &mut List<'_, Vertex>,
-) -> Result<ShapeError, AidError> {
+) -> Result<ShapeError, TracingError> {
     check(points, if settings.closed { 3 } else { 2 })?;
     check_setting("the reach", settings.reach, 0.5, MOST_REACH)?;
     let (count, cells) = snap_needed(points, settings.closed);
     check_length("samples", count, memory.samples.len())?;
     check_length("slopes", cells, memory.slopes.len())?;
     check_length("ways", cells, memory.ways.len())?;
+    check_length("line points", count, memory.line.len())?;
     let samples = memory.samples.get_mut(..count).unwrap_or_default();
     lay_out(points, settings, samples)?;
     let reader = Reader::new(frame, noise(frame), settings);
@@ -145,19 +121,19 @@ fn stays(points: &[Point], closed: bool, vertex: &Vertex) -> bool {
     if !closed && (number == 0 || number + 1 == count) {
         return true;
     }
-    let before = super::polyline::side(points, (number + count - 1) % count);
-    let after = super::polyline::side(points, number);
+    let before = side(points, (number + count - 1) % count);
+    let after = side(points, number);
     [before, after]
         .iter()
-        .any(|ends| super::polyline::distance(ends.0, ends.1) > LONG)
+        .any(|ends| distance(ends.0, ends.1) > LONG)
 }
 
 /// Samples along the line with their normals.
-fn lay_out(points: &[Point], settings: &Snap, samples: &mut [Sample]) -> Result<(), AidError> {
+fn lay_out(points: &[Point], settings: &Snap, samples: &mut [Sample]) -> Result<(), TracingError> {
     let mut at = 0;
     subdivide(points, settings.closed, SPACING, |vertex| {
         let most = samples.len();
-        let sample = samples.get_mut(at).ok_or(AidError::TooLong(most))?;
+        let sample = samples.get_mut(at).ok_or(TracingError::TooLong(most))?;
         *sample = Sample {
             vertex,
             ..Sample::default()
@@ -168,7 +144,7 @@ fn lay_out(points: &[Point], settings: &Snap, samples: &mut [Sample]) -> Result<
     let count = samples.len();
     for number in 0..count {
         let before = samples[(number + count - 1) % count].vertex.at;
-        samples[number].step = super::polyline::distance(before, samples[number].vertex.at);
+        samples[number].step = distance(before, samples[number].vertex.at);
     }
     let brighter_left = brighter_left(points, settings);
     for number in 0..count {
@@ -199,7 +175,7 @@ fn direction(samples: &[Sample], number: usize, closed: bool) -> [f64; 2] {
     let ahead = walk(samples, number, closed, true);
     let (right, down) = (ahead.column - behind.column, ahead.row - behind.row);
     let long = sqrt(right * right + down * down);
-    // A line that turns back on itself has no direction there, and is not moved.
+    // Where a line turns back on itself it has no direction and is not moved.
     if long > 1e-6 {
         [right / long, down / long]
     } else {
@@ -207,7 +183,7 @@ fn direction(samples: &[Sample], number: usize, closed: bool) -> [f64; 2] {
     }
 }
 
-/// The sample [`TANGENT`] or the next more ahead of or behind one; the end of an open line where that is nearer.
+/// The first sample that lies at least [`TANGENT`] ahead of or behind another; the end of an open line where that is nearer.
 fn walk(samples: &[Sample], number: usize, closed: bool, ahead: bool) -> Point {
     let count = samples.len();
     let (mut at, mut passed) = (number, 0.0);
@@ -237,9 +213,13 @@ fn moved(samples: &[Sample]) -> ShapeError {
     }
 }
 
-/// Writes the samples where they go. Those that would run against the line's direction are left out: on the inner side
-/// of a sharp bend normals cross.
-fn place(samples: &[Sample], closed: bool, line: &mut List<'_, Vertex>) -> Result<(), AidError> {
+/// Writes the samples at their new places. Samples that would run against the direction of the line are left out: on the
+/// inner side of a sharp bend normals cross.
+fn place(
+    samples: &[Sample],
+    closed: bool,
+    line: &mut List<'_, Vertex>,
+) -> Result<(), TracingError> {
     let count = samples.len();
     let mut last: Option<(Point, Point)> = None;
     for (number, sample) in samples.iter().enumerate() {
@@ -273,7 +253,7 @@ fn place(samples: &[Sample], closed: bool, line: &mut List<'_, Vertex>) -> Resul
 }
 
 fn vertex_moved(vertex: &Vertex, at: Point) -> Vertex {
-    let number = fluoropose::math::floor(vertex.from);
+    let number = floor(vertex.from);
     Vertex::from_side(number as usize, vertex.from - number, at)
 }
 

@@ -1,57 +1,60 @@
 //! An outline without the shaking of the hand.
 
-use super::list::List;
-use super::polyline::{check, length, space_evenly, squared_distance};
-use super::simplify::{Simplify, simplify};
-use super::{AidError, ShapeError, Vertex, check_length, check_setting};
+use crate::error::{TracingError, check_setting};
+use crate::list::List;
+use crate::polyline::{check, length, space_evenly, squared_distance};
+use crate::simplify::{Simplify, simplify};
+use crate::vertex::{ShapeError, Vertex};
 use fluoropose::image::contour::Point;
 use fluoropose::math::{exp, sqrt};
+use fluoropose::memory::check_length;
 
 /// The greatest width of smoothing, pixels.
 pub const MOST_SIGMA: f64 = 64.0;
-/// Distance between the samples that are averaged, as a share of the width of smoothing.
+/// Distance between the samples that are averaged, as a fraction of the width of smoothing.
 const SPACING: f64 = 0.25;
 /// The Gaussian's reach in samples: three times its width.
 const REACH: usize = (3.0 / SPACING) as usize;
-/// Sides to either hand of its own among which the nearest to a sample is looked for.
+/// The side nearest to a sample is searched among its own and this number of sides before and after it.
 const BESIDE: usize = 1;
 
-/// Working memory of [`soften`]: each slice as long as [`soften_needed`] says.
+/// Working memory of [`soften`]: each slice is at least as long as [`soften_needed`] says.
 #[derive(Debug)]
 pub struct SoftenMemory<'a> {
-    /// The outline at equal distances.
+    /// Points at equal distances along the outline.
     pub samples: &'a mut [Vertex],
-    /// What smoothing takes away.
+    /// What smoothing takes away from each of them.
     pub rest: &'a mut [Point],
     /// The samples, smoothed.
     pub smooth: &'a mut [Vertex],
-    /// One for each of them.
+    /// One mark for each of them.
     pub marks: &'a mut [bool],
 }
 
-/// The length of a [`SoftenMemory`]'s slices for an outline smoothed by `sigma` pixels.
+/// The length of each slice of a [`SoftenMemory`] for an outline smoothed by `sigma` pixels.
 #[must_use]
 pub fn soften_needed(points: &[Point], sigma: f64) -> usize {
     let samples = length(points, true) / (SPACING * sigma.clamp(0.1, MOST_SIGMA));
     (libm::ceil(samples) as usize).max(8)
 }
 
-/// Smooths an outline along its length by a Gaussian of `sigma` pixels, then leaves out points as [`simplify`] does
-/// with `tolerance`. Gives how far the given outline lies from the new one.
+/// Smooths a closed outline along its length by a Gaussian of `sigma` pixels (0.1 to [`MOST_SIGMA`]), then leaves out
+/// points as [`simplify`] does with `tolerance` pixels. Returns how far the given outline lies from the new one.
 ///
-/// The Gaussian is applied twice (`2 g - g * g`, "twicing": Tukey, *Exploratory Data Analysis*, 1977), which takes the
-/// shaking but leaves gentle curves where they are: a circle of radius `r` shrinks by about
-/// `r (sigma / r)^4 / 4` instead of `sigma^2 / 2 r`.
+/// The Gaussian is applied twice (`2 g - g * g`, "twicing": Tukey, *Exploratory Data Analysis*, 1977), which removes the
+/// shaking but leaves gentle curves in their place: a circle of radius `r` shrinks by about `r (sigma / r)^4 / 4` instead
+/// of `sigma^2 / 2 r`.
 ///
 /// # Errors
-/// [`AidError`] about the outline, the settings or the memory.
+/// [`TracingError::TooFewPoints`] and [`TracingError::NotAPlace`] about the outline, [`TracingError::Setting`] about
+/// `sigma` and `tolerance`, [`TracingError::Memory`], and [`TracingError::TooLong`].
 pub fn soften(
     points: &[Point],
     sigma: f64,
     tolerance: f64,
     memory: SoftenMemory<'_>,
     out: &mut List<'_, Vertex>,
-) -> Result<ShapeError, AidError> {
+) -> Result<ShapeError, TracingError> {
     check(points, 3)?;
     check_setting("the width of smoothing", sigma, 0.1, MOST_SIGMA)?;
     let count = soften_needed(points, sigma);
@@ -92,7 +95,7 @@ fn twice(samples: &[Vertex], rest: &mut [Point], smooth: &mut [Vertex]) {
     }
 }
 
-/// The Gaussian from its middle on, so that both halves sum to 1.
+/// The Gaussian from its middle on, scaled so that both halves together sum to 1.
 fn weights() -> [f64; REACH + 1] {
     let mut weights = core::array::from_fn(|k| {
         let t = SPACING * k as f64;
@@ -103,7 +106,7 @@ fn weights() -> [f64; REACH + 1] {
     weights
 }
 
-/// The weighted mean of the points round one of `count` in a ring.
+/// The weighted mean of the points around one of `count` in a ring.
 fn average(count: usize, at: usize, weights: &[f64], point: impl Fn(usize) -> Point) -> Point {
     let here = point(at);
     let mut sum = Point::new(weights[0] * here.column, weights[0] * here.row);
@@ -118,8 +121,8 @@ fn average(count: usize, at: usize, weights: &[f64], point: impl Fn(usize) -> Po
     sum
 }
 
-/// How far samples lie from the outline that some of them, smoothed, make. Each is held against the side of its own
-/// stretch and those beside it, so the figure may be too large for an outline that comes near itself, never too small.
+/// How far the samples lie from the outline that some of them, smoothed, make. Each is compared with the side of its own
+/// stretch and the sides next to it, so the result may be too large where an outline comes near itself, never too small.
 fn error(samples: &[Vertex], outline: &[Vertex]) -> ShapeError {
     let count = outline.len();
     if count == 0 || samples.is_empty() {
@@ -149,8 +152,8 @@ fn error(samples: &[Vertex], outline: &[Vertex]) -> ShapeError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::films::{Random, circle};
-    use crate::polyline::{distance, side, twice_area};
+    use crate::polyline::{between, distance, side, twice_area};
+    use crate::synthetic::{Random, circle};
     use std::vec::Vec;
 
     fn softened(points: &[Point], sigma: f64, tolerance: f64) -> (Vec<Vertex>, ShapeError) {
@@ -175,7 +178,7 @@ mod tests {
         let mut random = Random(9);
         let points = circle([100.0, 100.0], radius, 240).into_iter();
         let shaken = points.map(|p| {
-            let by = shake * (2.0 * random.share() - 1.0) / radius;
+            let by = shake * (2.0 * random.uniform() - 1.0) / radius;
             let grown = |v: f64| 100.0 + (v - 100.0) * (1.0 + by);
             Point::new(grown(p.column), grown(p.row))
         });
@@ -199,9 +202,9 @@ mod tests {
         assert!(off_circle(&line, 40.0) < 0.2, "{}", off_circle(&line, 40.0));
         assert!(error.rms > 0.4 && error.max < 1.3, "{error:?}");
         // Nothing shrinks: 0.2 pixels a side would be 1 % of the area.
-        let round: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
-        let share = twice_area(&round) / twice_area(&points);
-        assert!((share - 1.0).abs() < 0.004, "{share}");
+        let smooth: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
+        let ratio = twice_area(&smooth) / twice_area(&points);
+        assert!((ratio - 1.0).abs() < 0.004, "{ratio}");
     }
 
     #[test]
@@ -214,7 +217,7 @@ mod tests {
                 let ends = side(&points, number);
                 let parts = (distance(ends.0, ends.1) / 0.1) as usize + 1;
                 for part in 0..parts {
-                    let at = super::super::polyline::between(ends, part as f64 / parts as f64);
+                    let at = between(ends, part as f64 / parts as f64);
                     let sides = (0..made.len()).map(|k| squared_distance(at, side(&made, k)));
                     let away = sides.fold(f64::INFINITY, f64::min);
                     sum += away;

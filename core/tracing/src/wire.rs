@@ -1,28 +1,21 @@
 //! Live-wire: cheapest paths along edges from a seed to every pixel (Mortensen and Barrett, *Interactive segmentation
 //! with intelligent scissors*, GMIP 60, 1998).
 //!
-//! Dijkstra's search with whole costs and a ring of buckets (Dial, CACM 12, 1969), a few pixels at a time. Lists run
-//! through the pixels themselves, so the memory is bounded: one [`Node`] a pixel.
+//! Dijkstra's search with integer costs and a ring of buckets (Dial, CACM 12, 1969), which can be expanded a few pixels at
+//! a time. The buckets are lists that are linked through borrowed memory, so the memory is bounded: one [`Node`] and one
+//! [`Waiting`] for each pixel.
 
-use super::costs::{Costs, Edge};
-use super::list::List;
-use super::{AidError, check_length};
+use crate::costs::{Costs, Edge};
+use crate::error::TracingError;
+use crate::list::List;
+use crate::polyline::between;
+use crate::side::Hand;
 use fluoropose::image::contour::Point;
 use fluoropose::math::{sin_cos, sqrt};
-
-/// On which hand the implant is, along the path from the seed on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hand {
-    /// On the left: the outline is traced anticlockwise on the screen.
-    Left,
-    /// Not known: edges of either polarity are followed.
-    Either,
-    /// On the right: clockwise.
-    Right,
-}
+use fluoropose::memory::{TooLittleMemory, check_length};
 
 /// What the search knows of a pixel: the cost of the path to it, the heading of its last step, and whether both are
-/// final. Opaque: only a length to be lent.
+/// final. Opaque: callers only provide the memory for it.
 #[derive(Clone, Copy, Debug)]
 pub struct Node(u32);
 
@@ -32,39 +25,40 @@ impl Default for Node {
     }
 }
 
-/// A pixel that waits in a bucket. Opaque: only a length to be lent.
+/// A pixel that waits in a bucket. Opaque: callers only provide the memory for it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Waiting {
     pixel: u32,
-    /// The next one of the same bucket, or of those that are free.
+    /// The next one in the same bucket, or in the list of free places.
     next: u32,
 }
 
-/// What a [`Wire`] works on: one of each a pixel, and the same from [`Wire::start`] on.
+/// Working memory of a [`Wire`], the same from [`Wire::start`] on: at least one node and one waiting place for each pixel.
 #[derive(Debug)]
 pub struct WireMemory<'a> {
     /// What is known of each pixel.
     pub nodes: &'a mut [Node],
-    /// What waits in the buckets: seldom more than some ten thousand at once, but for no frame more than it has pixels.
+    /// The pixels that wait in buckets. Seldom more than some ten thousand wait at once, and never more than there are
+    /// pixels.
     pub waiting: &'a mut [Waiting],
 }
 
 impl WireMemory<'_> {
-    fn check(&self, pixels: usize) -> Result<(), AidError> {
+    fn check(&self, pixels: usize) -> Result<(), TooLittleMemory> {
         check_length("nodes", pixels, self.nodes.len())?;
-        check_length("places to wait", pixels, self.waiting.len())
+        check_length("waiting places", pixels, self.waiting.len())
     }
 }
 
-/// No place.
+/// No waiting place.
 const NONE: u32 = u32::MAX;
-/// A state in which no path is known.
+/// A node to which no path is known.
 const UNSEEN: u32 = u32::MAX;
-/// The lower bits of a state: one that says final, three of heading.
+/// The lower bits of a node: one that says final, three for the heading.
 const FINAL: u32 = 1;
 const LOW_BITS: u32 = 4;
 
-/// Costs of a step along the strongest edge and where there is none, for one pixel.
+/// Cost of a step of one pixel along the strongest edge, and where there is no edge.
 const LEAST: f64 = 6.0;
 const MOST: f64 = 256.0;
 /// Buckets: more than the cost of any step, and a power of two.
@@ -87,7 +81,7 @@ impl Node {
         Self(cost << LOW_BITS | (heading as u32) << 1)
     }
 
-    /// More than any path's where none is known.
+    /// The cost of the path; more than that of any path where none is known.
     fn cost(self) -> u32 {
         self.0 >> LOW_BITS
     }
@@ -108,9 +102,9 @@ impl Node {
 /// What steps cost.
 #[derive(Clone, Debug)]
 struct Prices {
-    /// By the strength of the edge along the step; for steps to the side and to a corner.
+    /// Cost by the strength of the edge along the step: for steps to the side, then for steps across a corner.
     by_strength: [[u16; 256]; 2],
-    /// How well an edge lies along a step, 0 to 256, by the angle between its outward direction and the step's left.
+    /// How well an edge lies along a step, 0 to 256, by the angle from the step's left to the edge's outward direction.
     alignment: [u16; 256],
 }
 
@@ -154,28 +148,28 @@ pub struct Wire {
     prices: Prices,
     /// The first place of each bucket.
     heads: [u32; BUCKETS],
-    /// The first free place of those used before.
+    /// The first of the places that were used before and are free.
     free: u32,
-    /// Places used so far.
+    /// Waiting places used so far.
     used: usize,
-    /// Places in buckets.
+    /// Number of places in buckets.
     waiting: usize,
-    /// The cost of what is settled now.
+    /// The cost of the pixels that are settled now.
     cost: u32,
     settled: usize,
 }
 
 impl Wire {
-    /// Begins at the pixel under `seed` (brought into the frame), with the implant on one hand of the path.
+    /// Begins at the pixel under `seed`, or the frame's pixel nearest to it, with the implant on one hand of the path.
     ///
     /// # Errors
-    /// [`AidError::Memory`] where there is less of it than pixels.
+    /// [`TooLittleMemory`] where there are fewer nodes or waiting places than pixels.
     pub fn start(
         costs: &Costs<'_>,
         seed: Point,
         hand: Hand,
         memory: &mut WireMemory<'_>,
-    ) -> Result<Self, AidError> {
+    ) -> Result<Self, TooLittleMemory> {
         let (width, height) = (costs.width(), costs.height());
         memory.check(width * height)?;
         memory.nodes.fill(Node::default());
@@ -195,7 +189,7 @@ impl Wire {
         Ok(wire)
     }
 
-    /// The number of the pixel under a point, brought into the frame.
+    /// The number of the pixel under a point, or of the frame's pixel nearest to it.
     pub(super) fn pixel_at(&self, point: Point) -> usize {
         // A cast takes negative numbers and NaN to 0.
         let column = (point.column as usize).min(self.width - 1);
@@ -203,14 +197,14 @@ impl Wire {
         row * self.width + column
     }
 
-    /// The middle of the pixel of a number.
+    /// The centre of the pixel with a number (row by row from the top).
     #[must_use]
     pub fn centre(&self, pixel: u32) -> Point {
         let (column, row) = (pixel as usize % self.width, pixel as usize / self.width);
         Point::new(column as f64 + 0.5, row as f64 + 0.5)
     }
 
-    /// Pixels that are reached.
+    /// Number of pixels to which the cheapest path is known.
     #[must_use]
     pub fn settled(&self) -> usize {
         self.settled
@@ -227,20 +221,20 @@ impl Wire {
         self.is_settled(nodes, self.pixel_at(point))
     }
 
-    /// Reaches up to `budget` more pixels, in the order of their cost, and stops early once `target` is reached. Gives
-    /// whether there is nothing more to do.
+    /// Reaches up to `budget` more pixels in the order of their cost, and stops early once `target` is reached. Returns
+    /// whether nothing is left to do.
     ///
     /// # Errors
-    /// [`AidError`] where costs or memory are not those of the frame.
+    /// [`TracingError::OtherFrame`] where the costs are those of a frame of another size, and [`TracingError::Memory`].
     pub fn expand(
         &mut self,
         costs: &Costs<'_>,
         memory: &mut WireMemory<'_>,
         budget: usize,
         target: Option<Point>,
-    ) -> Result<bool, AidError> {
+    ) -> Result<bool, TracingError> {
         if (costs.width(), costs.height()) != (self.width, self.height) {
-            return Err(AidError::OtherFrame);
+            return Err(TracingError::OtherFrame);
         }
         memory.check(self.width * self.height)?;
         let target = target.map_or(usize::MAX, |target| self.pixel_at(target));
@@ -259,7 +253,7 @@ impl Wire {
         while self.waiting > 0 {
             let head = &mut self.heads[self.cost as usize % BUCKETS];
             let Some(place) = memory.waiting.get_mut(*head as usize) else {
-                // Never more often than there are buckets: all that waits costs less than that more.
+                // At most once for each bucket: what waits costs less than the number of buckets more.
                 self.cost += 1;
                 continue;
             };
@@ -311,7 +305,7 @@ impl Wire {
     /// Puts a pixel into the bucket of its cost.
     fn enter(&mut self, memory: &mut WireMemory<'_>, pixel: usize, node: Node) {
         memory.nodes[pixel] = node;
-        if self.free == NONE && self.used == memory.waiting.len() {
+        if self.free == NONE && self.used == self.width * self.height {
             self.sweep(memory);
         }
         let place = if self.free == NONE {
@@ -334,8 +328,8 @@ impl Wire {
         }
     }
 
-    /// Frees the places of pixels that wait elsewhere for less, or not any more: what is left is one place for each
-    /// pixel at most.
+    /// Frees the places of pixels that are final or wait in the bucket of a lower cost, so that at most one place for each
+    /// pixel is left.
     fn sweep(&mut self, memory: &mut WireMemory<'_>) {
         for bucket in 0..BUCKETS {
             let mut at = core::mem::replace(&mut self.heads[bucket], NONE);
@@ -366,16 +360,16 @@ impl Wire {
         nodes.get(pixel).map_or(u32::MAX, |node| node.cost())
     }
 
-    /// Writes the numbers of the pixels from the seed to the pixel of a number; nothing where that is not reached.
+    /// Writes the numbers of the pixels from the seed to the pixel with a number; nothing where that is not reached.
     ///
     /// # Errors
-    /// [`AidError::TooLong`].
+    /// [`TracingError::TooLong`].
     pub(super) fn path_to(
         &self,
         nodes: &[Node],
         pixel: usize,
         path: &mut List<'_, u32>,
-    ) -> Result<(), AidError> {
+    ) -> Result<(), TracingError> {
         path.clear();
         if !self.is_settled(nodes, pixel) {
             return Ok(());
@@ -392,17 +386,17 @@ impl Wire {
     /// Writes the numbers of the pixels from the seed to the one under a point; nothing where that is not reached.
     ///
     /// # Errors
-    /// [`AidError::TooLong`].
+    /// [`TracingError::TooLong`] where `path` has too few places.
     pub fn path(
         &self,
         nodes: &[Node],
         to: Point,
         path: &mut List<'_, u32>,
-    ) -> Result<(), AidError> {
+    ) -> Result<(), TracingError> {
         self.path_to(nodes, self.pixel_at(to), path)
     }
 
-    /// The cost of the straight way from one pixel to another, and a call of `emit` for each pixel after the first.
+    /// Calls `emit` for each pixel of the straight way from one pixel to another, without the first, and returns its cost.
     pub(super) fn straight(
         &self,
         costs: &Costs<'_>,
@@ -432,8 +426,8 @@ impl Wire {
     }
 }
 
-/// On which hand of a line the implant is: 1 where every edge along it has it on the right, -1 on the left, weighed by
-/// the strength of the edges; 0 where there is none.
+/// On which hand of a line the implant lies, by the edges along it weighted by their strength: 1 where all of them have
+/// it on the right, -1 where all have it on the left, 0 where there is no edge.
 #[must_use]
 pub fn hand_of(costs: &Costs<'_>, line: &[Point]) -> f64 {
     let (mut sum, mut all) = (0.0, 0.0);
@@ -442,8 +436,7 @@ pub fn hand_of(costs: &Costs<'_>, line: &[Point]) -> f64 {
         let long = sqrt(right * right + down * down);
         let steps = (long as usize).clamp(1, costs.width() + costs.height());
         for step in 0..steps {
-            let at =
-                super::polyline::between((pair[0], pair[1]), (step as f64 + 0.5) / steps as f64);
+            let at = between((pair[0], pair[1]), (step as f64 + 0.5) / steps as f64);
             let edge = costs.at(at.column as usize, at.row as usize);
             let (sin, cos) = sin_cos(f64::from(edge.outwards) * (core::f64::consts::TAU / 256.0));
             // The left of (right, down) is (down, -right).

@@ -228,7 +228,7 @@ export async function until(ask, wanted, what) {
  * @param {import('playwright-core').Page} page
  */
 export async function drawn(page) {
-  await inTime(page.evaluate(() => globalThis.fluoropose.shown()), 'the page to show what it knows');
+  await whatThePageSays(page, 'shown');
 }
 
 /**
@@ -237,7 +237,16 @@ export async function drawn(page) {
  * @param {import('playwright-core').Page} page
  */
 export async function atRest(page) {
-  await inTime(page.evaluate(() => globalThis.fluoropose.atRest()), 'the page to come to rest');
+  await whatThePageSays(page, 'atRest');
+}
+
+/** A page that was loaded anew says nothing before it has started. @param {import('playwright-core').Page} page @param {'shown' | 'atRest'} what */
+async function whatThePageSays(page, what) {
+  const answer = page.evaluate(async (what) => {
+    while (!globalThis.fluoropose) await new Promise((resolve) => setTimeout(resolve, 10));
+    await globalThis.fluoropose[what]();
+  }, what);
+  await inTime(answer, `the page to say "${what}"`);
 }
 
 /** @template T @param {Promise<T>} promise @param {string} what completes "waited in vain for ..." @returns {Promise<T>} */

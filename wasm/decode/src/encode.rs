@@ -6,7 +6,7 @@ use crate::error::{DecodeError, Problem};
 use crate::frame::checked_area;
 
 /// A grey PNG of 8 bits from `width * height` pixels, row by row from the top: 255 where `inside` is not 0, else 0.
-/// That is what programs of this field read without asking.
+/// That is the form of masks that programs of this field read.
 ///
 /// # Errors
 /// [`DecodeError`] when the number of pixels is not that of the size, or the size is beyond the [limits](crate::limits).

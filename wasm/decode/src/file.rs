@@ -9,7 +9,7 @@ use crate::limits::MAX_PIXEL_BYTES_AT_ONCE;
 use crate::sniff::{Kind, sniff};
 use crate::{jpeg, jpeg2000, png, tiff};
 
-/// A PNG, JPEG, JPEG 2000, TIFF or DICOM file whose structure has been checked and whose frames are decoded when asked for.
+/// A PNG, JPEG, JPEG 2000, TIFF or DICOM file whose structure has been checked, and whose frames are decoded one by one.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -15,7 +15,7 @@ pub struct GreyFrame {
     /// Significant bits of a pixel: values are below `2^bits`. 8 or less for [`Pixels::U8`], 9 to 16 for
     /// [`Pixels::U16`].
     pub bits: u8,
-    /// How the file asks to be shown.
+    /// The range of grey values that the file asks to be shown.
     pub window: Option<Window>,
     /// Geometry that the file states.
     pub geometry: Geometry,
@@ -35,8 +35,8 @@ pub enum Pixels {
 /// The range of pixel values that is shown from black to white: black at `centre - width / 2` and below, white
 /// at `centre + width / 2` and above, linear between, in units of the frame's own pixels.
 ///
-/// DICOM's half-unit convention (PS3.3 C.11.2.1.2: `centre - 0.5`, `width - 1`), rescale slope and intercept,
-/// sign offset and inversion are already worked in, so that a painter needs only this sentence.
+/// DICOM's half-unit convention (PS3.3 C.11.2.1.2: `centre - 0.5`, `width - 1`), rescale slope and intercept, sign offset
+/// and inversion are already applied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Middle of the range, pixel values.
@@ -51,14 +51,15 @@ pub struct Geometry {
     /// Distance between pixel centres at the detector (DICOM Imager Pixel Spacing), mm: along a row, then from
     /// row to row.
     pub detector_spacing_mm: Option<[f64; 2]>,
-    /// Distance between pixel centres (DICOM Pixel Spacing), mm: along a row, then from row to row. Where it holds,
-    /// [`Self::pixel_spacing_calibration`] tells; without that it may be the detector or anything else.
+    /// Distance between pixel centres (DICOM Pixel Spacing), mm: along a row, then from row to row.
+    /// [`Self::pixel_spacing_calibration`] says at which depth it holds; without that it may hold at the detector or
+    /// anywhere else.
     pub pixel_spacing_mm: Option<[f64; 2]>,
-    /// How the pixel spacing was worked out.
+    /// How the pixel spacing was determined.
     pub pixel_spacing_calibration: Option<SpacingCalibration>,
     /// Distance between pixel centres on a digitised film (DICOM Nominal Scanned Pixel Spacing), mm.
     pub scanned_spacing_mm: Option<[f64; 2]>,
-    /// Distance from the X-ray focus to the point that the stand turns about, mm.
+    /// Distance from the X-ray focus to the point that the C-arm rotates around, mm.
     pub source_to_isocentre_mm: Option<f64>,
     /// Estimated ratio of the size at the detector to the size of the object.
     pub magnification: Option<f64>,
@@ -70,7 +71,7 @@ pub struct Geometry {
     pub pixel_aspect: Option<f64>,
 }
 
-/// How a pixel spacing that is not the detector's was worked out (DICOM Pixel Spacing Calibration Type).
+/// How a pixel spacing that is not the detector's was determined (DICOM Pixel Spacing Calibration Type).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpacingCalibration {
     /// From distances: it holds at one assumed depth in the patient.
@@ -138,7 +139,7 @@ pub(crate) fn checked_area(width: u64, height: u64) -> Result<usize, Problem> {
     usize::try_from(width * height).map_err(|_| Problem::FrameSize { width, height })
 }
 
-/// Whether a file of `file` bytes can hold so many bits of pixels in any coding (see [`MAX_EXPANSION`]).
+/// Whether a file of `file` bytes can hold `area` pixels of `bits_per_pixel` bits in any coding (see [`MAX_EXPANSION`]).
 pub(crate) fn can_hold(file: usize, area: usize, bits_per_pixel: u64) -> bool {
     area as u64 * bits_per_pixel / 8 <= MAX_EXPANSION * file as u64
 }

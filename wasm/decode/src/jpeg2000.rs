@@ -1,14 +1,13 @@
 //! JPEG 2000: bare codestreams, as DICOM files hold them, and JP2 files; lossless and lossy, 1 to 16 bits.
 //!
-//! The tile-parts are walked before the library sees a byte: it fills what is missing from a cut file, and a wrong
-//! measure is worse here than no measure.
+//! The tile-parts are walked before the library sees a byte: the library fills what is missing from a cut file, and a wrong
+//! measurement is worse than none.
 
 use hayro_jpeg2000::{DecodeSettings, DecoderContext, Image};
 
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
-use crate::jpeg::LosslessColour;
-use crate::luminance::luminance;
+use crate::luminance::{ComponentColours, luminance};
 
 const FORMAT: &str = "JPEG 2000";
 const REMEDY: &str = "Export it as PNG, TIFF or uncompressed DICOM";
@@ -75,11 +74,12 @@ fn codestream(bytes: &[u8]) -> Result<&[u8], Problem> {
     Err(damaged("it holds no codestream"))
 }
 
-fn size(stream: &[u8]) -> Result<Size, Problem> {
-    let odd = || damaged("the segment of its size is cut short");
-    if !stream.starts_with(&CODESTREAM) {
-        return Err(damaged("its codestream does not begin with its mark"));
-    }
+fn cut_short() -> Problem {
+    damaged("the segment of its size is cut short")
+}
+
+/// Width and height of the image, pixels, if it is cut into an allowed number of tiles.
+fn image_size(stream: &[u8]) -> Result<(u32, u32), Problem> {
     let [
         right,
         bottom,
@@ -90,7 +90,7 @@ fn size(stream: &[u8]) -> Result<Size, Problem> {
         tile_left,
         tile_top,
     ] = [8, 12, 16, 20, 24, 28, 32, 36].map(|at| u32_at(stream, at));
-    let all = |value: Option<u32>| value.ok_or_else(odd);
+    let all = |value: Option<u32>| value.ok_or_else(cut_short);
     let (width, height) = (
         all(right)?.saturating_sub(all(left)?),
         all(bottom)?.saturating_sub(all(top)?),
@@ -103,17 +103,26 @@ fn size(stream: &[u8]) -> Result<Size, Problem> {
     {
         return Err(damaged("its tiles have no size or leave the image"));
     }
-    let components = u16_at(stream, 40).ok_or_else(odd)?;
     let count = |side: u32, tile: u32| u64::from(side).div_ceil(tile.into()) + 1;
     if count(width, tile_width) * count(height, tile_height) > MAX_TILES {
         return Err(damaged("it is cut into more tiles than any frame needs"));
     }
+    Ok((width, height))
+}
+
+/// Reads the size segment.
+fn size(stream: &[u8]) -> Result<Size, Problem> {
+    if !stream.starts_with(&CODESTREAM) {
+        return Err(damaged("its codestream does not begin with its mark"));
+    }
+    let (width, height) = image_size(stream)?;
+    let components = u16_at(stream, 40).ok_or_else(cut_short)?;
     let specifications = stream
         .get(42..42 + 3 * usize::from(components))
-        .ok_or_else(odd)?
+        .ok_or_else(cut_short)?
         .as_chunks::<3>()
         .0;
-    let [depth, ..] = *specifications.first().ok_or_else(odd)?;
+    let [depth, ..] = *specifications.first().ok_or_else(cut_short)?;
     let alike = specifications
         .iter()
         .all(|[other, across, down]| *other == depth && (*across, *down) == (1, 1));
@@ -124,10 +133,10 @@ fn size(stream: &[u8]) -> Result<Size, Problem> {
             REMEDY,
         ));
     }
-    if usize::from(u16_at(stream, 4).ok_or_else(odd)?)
+    if usize::from(u16_at(stream, 4).ok_or_else(cut_short)?)
         != SIZE_FIXED + 2 + 3 * usize::from(components)
     {
-        return Err(odd());
+        return Err(cut_short());
     }
     Ok(Size {
         width,
@@ -210,14 +219,14 @@ pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
 
 /// Decodes an image file.
 pub(crate) fn decode(bytes: &[u8]) -> Result<GreyFrame, Problem> {
-    decode_with(bytes, LosslessColour::Rgb, false)
+    decode_with(bytes, ComponentColours::Rgb, false)
 }
 
-/// Decodes the image of a DICOM file. `colour` tells what three components are. Signed samples come moved up by half
-/// their range, or with `two_s_complement` as stored.
+/// Decodes the image of a DICOM file. `colour` says what three components are. Signed samples are moved up by half their
+/// range, or with `two_s_complement` returned as stored.
 pub(crate) fn decode_with(
     bytes: &[u8],
-    colour: LosslessColour,
+    colour: ComponentColours,
     two_s_complement: bool,
 ) -> Result<GreyFrame, Problem> {
     let size = checked(bytes)?;
@@ -239,7 +248,7 @@ pub(crate) fn decode_with(
     };
     let whole = |sample: &f32| (sample.round().clamp(0.0, f32::from(most)) as u16) ^ flipped;
     let grey: Vec<u16> = match (decoded.components(), colour) {
-        ([red, green, blue], LosslessColour::Rgb) => {
+        ([red, green, blue], ComponentColours::Rgb) => {
             let channels = red
                 .samples()
                 .iter()

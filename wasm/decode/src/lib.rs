@@ -1,27 +1,55 @@
 //! Image and model files decoded, natively and in a page's worker.
 //!
-//! [`decode_frames`] and [`FrameFile`] give grey frames from PNG, JPEG, JPEG 2000, TIFF and DICOM; [`decode_mask`] gives masks
-//! from the same; [`decode_model`] gives an indexed mesh from STL, OBJ and PLY; [`sniff`] tells what a file is. The
-//! decoding is done by existing libraries. What is here is the choice of what is read, checks that keep hostile
-//! lengths away from them (a panic would end the page's module), conversion to grey, and errors in sentences.
+//! ```text
+//! bytes --> sniff --> Kind
+//!       --> FrameFile::open --> frame(index) --> GreyFrame      PNG, JPEG, JPEG 2000, TIFF, DICOM
+//!       --> decode_mask ------------------------> MaskImage     the same, one frame
+//!       --> decode_model -----------------------> Model         STL, OBJ, PLY
+//! ```
 //!
-//! Everything that is refused for its size is in [`limits`].
+//! Existing libraries do the decoding. This crate chooses what is read, keeps hostile lengths away from the libraries (a
+//! panic would end the page's module), converts to grey, and says in sentences what is wrong with a file ([`DecodeError`]).
+//! [`limits`] are the sizes from which files are refused. [`page`] is what JavaScript calls.
+//!
+//! # Example
+//! A mask is written as a PNG and read back.
+//!
+//! ```
+//! let inside = vec![0, 1, 1, 0, 0, 1];
+//! let png = fluoropose_decode::encode_mask(inside.clone(), 3, 2)?;
+//! assert_eq!(fluoropose_decode::sniff(&png, "mask.png").word(), "png");
+//!
+//! let mask = fluoropose_decode::decode_mask(&png, "mask.png")?;
+//! assert_eq!((mask.width, mask.height, mask.pixels), (3, 2, inside));
+//!
+//! let error = fluoropose_decode::decode_mask(&png[..20], "mask.png").expect_err("cut short");
+//! assert!(error.to_string().starts_with("mask.png: this PNG file is damaged or incomplete"));
+//! # Ok::<(), fluoropose_decode::DecodeError>(())
+//! ```
+
+// In the order of the data.
+mod error;
+pub mod limits;
+
+mod sniff;
+
+mod frame;
+mod luminance;
 
 mod dicom;
-mod encode;
-mod error;
-mod file;
-mod frame;
 mod jpeg;
 mod jpeg2000;
-pub mod limits;
-mod luminance;
-mod mask;
-mod model;
-pub mod page;
 mod png;
-mod sniff;
 mod tiff;
+
+mod file;
+
+mod encode;
+mod mask;
+
+mod model;
+
+pub mod page;
 
 pub use encode::encode_mask;
 pub use error::{DecodeError, Problem};

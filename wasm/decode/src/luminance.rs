@@ -1,7 +1,16 @@
-//! Colour to grey.
+//! Grey from colour.
 //!
 //! Weights of ITU-R BT.601 (0.299, 0.587, 0.114) in thousandths, rounded to nearest: a grey stored as three equal
 //! channels comes back exactly.
+
+/// What the three components of a compressed image are, where the image itself does not say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ComponentColours {
+    /// Red, green, blue.
+    Rgb,
+    /// Luminance first, then two colour differences.
+    LuminanceFirst,
+}
 
 const RED: u32 = 299;
 const GREEN: u32 = 587;

@@ -32,8 +32,8 @@ pub enum MaskRule {
     AtLeast(u16),
 }
 
-/// Decodes a mask image: every pixel that is not 0 is inside, or at least 128 for JPEG, whose coding leaves
-/// ripples round every edge.
+/// Decodes a mask image. Every pixel that is not 0 is inside; in a JPEG, whose coding leaves ripples around every edge,
+/// every pixel of at least 128.
 ///
 /// # Errors
 /// [`DecodeError`] if the file is not an image, is damaged, too large, or holds more than one frame.
@@ -45,7 +45,7 @@ pub fn decode_mask(bytes: &[u8], name: &str) -> Result<MaskImage, DecodeError> {
     decode_mask_by(bytes, name, rule)
 }
 
-/// Decodes a mask image by a rule of the caller's.
+/// Decodes a mask image by a rule.
 ///
 /// # Errors
 /// Those of [`decode_mask`].

@@ -1,4 +1,5 @@
-//! What a page's worker calls. Files are moved in once and what is decoded moved out once. Errors arrive as a JavaScript `Error` whose message is the sentence.
+//! What a page's worker calls. A file is moved into the module once, and what is decoded is moved out once. Errors arrive
+//! as a JavaScript `Error` whose message is the sentence.
 
 use js_sys::{Error, Float32Array, Uint8Array, Uint16Array, Uint32Array};
 use wasm_bindgen::prelude::*;
@@ -9,7 +10,7 @@ fn thrown(error: DecodeError) -> Error {
     Error::new(&error.to_string())
 }
 
-/// Tells what a file is by its beginning ([`SNIFFED`](crate::SNIFFED) bytes, or all of a shorter one) and its length in
+/// What a file is, by its beginning ([`SNIFFED`](crate::SNIFFED) bytes, or all of a shorter file) and its length in
 /// bytes: one of `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
 /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `video`, `unknown`.
 #[wasm_bindgen]
@@ -129,7 +130,7 @@ impl PageFrame {
         self.0.geometry.source_to_patient_mm
     }
 
-    /// Distance from the X-ray focus to the stand's centre of turning, mm, if stated.
+    /// Distance from the X-ray focus to the stand's centre of rotation, mm, if stated.
     #[wasm_bindgen(getter, js_name = sourceToIsocentreMm)]
     pub fn source_to_isocentre_mm(&self) -> Option<f64> {
         self.0.geometry.source_to_isocentre_mm
@@ -147,7 +148,7 @@ impl PageFrame {
         pair(self.0.geometry.pixel_spacing_mm)
     }
 
-    /// How the pixel spacing was worked out, if stated: `geometry` or `fiducial`.
+    /// How the pixel spacing was determined, if stated: `geometry` or `fiducial`.
     #[wasm_bindgen(getter, js_name = pixelSpacingCalibration)]
     pub fn pixel_spacing_calibration(&self) -> Option<String> {
         let word = match self.0.geometry.pixel_spacing_calibration? {

@@ -1,7 +1,7 @@
 //! PNG: 1 to 16 bits, grey, colour or palette, with or without transparency.
 //!
-//! Fewer than 8 bits are spread over 0 to 255 (a 1-bit image is 0 and 255). Transparency is left out, not
-//! blended. Only the still image of an animation is read.
+//! Grey values of fewer than 8 bits are spread over 0 to 255 (a 1-bit image has the values 0 and 255). Transparency is left
+//! out, not blended. Only the still image of an animation is read.
 
 use std::io::Cursor;
 

@@ -1,6 +1,6 @@
-//! What a file is, told by its content.
+//! What a file is, by its content.
 
-use crate::model::stl;
+pub(crate) mod stl_form;
 
 /// Kinds of files that a page or a command may be given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -45,9 +45,8 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`, `mayacam`,
-    /// `library`, `session`, `outlines`, `coco`, `distortion`, `video`,
-    /// `unknown`.
+    /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
+    /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -96,13 +95,13 @@ impl Kind {
     }
 }
 
-/// How much of the beginning of a file is looked at, bytes.
+/// Bytes of the beginning of a file that are examined.
 pub const SNIFFED: usize = 64 << 10;
 
 /// Any of these stands near the beginning of a COCO file, in whatever order it lists its parts.
 const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""];
 
-/// First bytes that leave no doubt.
+/// First bytes that belong to one kind alone.
 const SIGNATURES: [(&[u8], Kind); 13] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
@@ -119,15 +118,14 @@ const SIGNATURES: [(&[u8], Kind); 13] = [
     (b"JT_INTCALIB", Kind::Calibration),
 ];
 
-/// Tells what a file is. Content decides; the extension of `name` is asked only when the content fits nothing or
-/// is cut too short to tell, so that the person is told what is wrong with the file rather than that it is
-/// unknown.
+/// What a file is. The content decides. The extension of `name` is used only where the content fits nothing or is too short
+/// to tell, so that the person learns what is wrong with the file and not that it is unknown.
 pub fn sniff(bytes: &[u8], name: &str) -> Kind {
     sniff_head(&bytes[..bytes.len().min(SNIFFED)], bytes.len(), name)
 }
 
-/// The same from the first [`SNIFFED`] bytes of a file of `length` bytes, or all of a shorter one: the rest need not be
-/// moved to where it is told.
+/// The same from the first [`SNIFFED`] bytes of a file of `length` bytes, or all bytes of a shorter one, so that the rest
+/// need not be moved into the module.
 pub fn sniff_head(head: &[u8], length: usize, name: &str) -> Kind {
     by_content(head, length).unwrap_or_else(|| match head.is_empty() {
         true => Kind::Unknown,
@@ -148,7 +146,7 @@ fn by_content(bytes: &[u8], length: usize) -> Option<Kind> {
     if is_video(bytes) {
         return Some(Kind::Video);
     }
-    if stl::is_binary(bytes, length) {
+    if stl_form::is_binary(bytes, length) {
         return Some(Kind::Stl);
     }
     text_kind(bytes)
@@ -187,7 +185,7 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
         Some(Kind::Distortion)
     } else if text.starts_with('{') && COCO_WORDS.iter().any(|word| text.contains(word)) {
         Some(Kind::Coco)
-    } else if stl::is_ascii(bytes) {
+    } else if stl_form::is_ascii(bytes) {
         Some(Kind::Stl)
     } else if text.lines().any(is_obj_line) {
         Some(Kind::Obj)

@@ -8,9 +8,9 @@ use wasm_bindgen::prelude::*;
 
 use super::Matcher;
 use crate::found::Match;
-use crate::pose_numbers::{PoseNumbers, from_numbers};
-use crate::traced::Traced;
 use crate::working_model::{Fit, Ranked};
+use fluoropose_page::pose_numbers::{PoseNumbers, from_numbers};
+use fluoropose_page::traced::Traced;
 
 /// Where a pose leaves more than so many times what it left before, and more than so many pixels, the outline may show
 /// another view by now.

@@ -7,13 +7,13 @@ use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
-use crate::calibration::camera;
-use crate::error::sentence;
-use crate::film::Film;
 use crate::found::deviation_numbers;
-use crate::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
-use crate::traced::Traced;
 use crate::working_model::WorkingModel;
+use fluoropose_page::calibration::camera;
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
+use fluoropose_page::traced::Traced;
 
 /// What refinement made of a pose.
 #[wasm_bindgen]
@@ -148,7 +148,7 @@ impl Matcher {
     #[wasm_bindgen(js_name = refineOnFilm)]
     pub fn refine_on_film(
         &mut self,
-        film: &Film,
+        film: &FrameImage,
         hidden: &HiddenPixels,
         start: &[f64],
         locked: &[u8],

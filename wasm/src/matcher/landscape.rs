@@ -14,9 +14,9 @@ use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 
 use super::{MINIMA, Matcher};
-use crate::error::sentence;
-use crate::pose_numbers::{PoseNumbers, to_numbers};
-use crate::traced::Traced;
+use fluoropose_page::error::sentence;
+use fluoropose_page::pose_numbers::{PoseNumbers, to_numbers};
+use fluoropose_page::traced::Traced;
 
 /// Unmatched pixels of every view, the better direction of the principal axis.
 #[wasm_bindgen]

@@ -7,8 +7,8 @@ use fluoropose::search::{Directions, Query, ViewSearch, ViewSearchMemory, query_
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
-use crate::error::sentence;
-use crate::traced::Traced;
+use fluoropose_page::error::sentence;
+use fluoropose_page::traced::Traced;
 
 /// An outline's silhouette in the canonical form of a library.
 #[wasm_bindgen]

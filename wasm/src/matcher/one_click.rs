@@ -17,20 +17,20 @@ use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
-    Answer, OneClick as Work, OneClickMemory, Part, Progress, Prompt, Scene,
+    Answer, Component, Observation, OneClick as Work, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
 use super::from_here::model_of;
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
-use crate::calibration::camera;
 use crate::choice::{Chosen, Surroundings};
-use crate::error::sentence;
 use crate::exchange::simplified;
-use crate::film::Film;
 use crate::found::{Candidate, Match, deviation_numbers};
-use crate::pose_numbers::to_numbers;
 use answer::told;
+use fluoropose_page::calibration::camera;
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::to_numbers;
 
 /// The outline that is handed out stays so near to the silhouette, pixels.
 const TOLERANCE: f64 = 0.5;
@@ -55,7 +55,7 @@ fn prompt_of(numbers: &[f64]) -> Result<Prompt, JsError> {
 /// The work from a click or a box on a film to outlines and poses.
 #[wasm_bindgen]
 pub struct OneClick {
-    film: Film,
+    film: FrameImage,
     camera: Camera,
     polarity: Polarity,
     prompt: Prompt,
@@ -72,7 +72,7 @@ struct Buffers {
     distance: Vec<u16>,
     marks: Vec<u8>,
     links: Vec<u32>,
-    tallies: Vec<u32>,
+    statistics: Vec<u32>,
     words: Vec<Word>,
 }
 
@@ -90,7 +90,7 @@ impl Buffers {
         }
         self.marks.resize(needs.pixels, 0);
         self.links.resize(needs.links, 0);
-        self.tallies.resize(needs.tallies, 0);
+        self.statistics.resize(needs.statistics, 0);
         self.words.resize(needs.words, 0);
         OneClickMemory {
             grey: &mut self.grey,
@@ -98,7 +98,7 @@ impl Buffers {
             distance: &mut self.distance,
             marks: &mut self.marks,
             links: &mut self.links,
-            tallies: &mut self.tallies,
+            statistics: &mut self.statistics,
             words: &mut self.words,
             workspace,
             refine,
@@ -114,7 +114,7 @@ impl OneClick {
     /// A sentence about the calibration or the prompt.
     #[wasm_bindgen(constructor)]
     pub fn new(
-        film: &Film,
+        film: &FrameImage,
         calibration: &str,
         prompt: &[f64],
         bright_implant: bool,
@@ -185,20 +185,21 @@ impl OneClick {
     /// # Errors
     /// A sentence about why there is no outline.
     pub fn step(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
-        matcher.with_part(&self.camera, |part, workspace, refine| {
-            let fresh = || Work::new(self.prompt, &self.camera, Some(part));
+        matcher.with_component(&self.camera, |component, workspace, refine| {
+            let fresh = || Work::new(self.prompt, &self.camera, Some(component));
             let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
             let mut memory = self.buffers.lend(&work, &self.camera, workspace, refine);
             let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
             let more = self.film.look(|frame| {
                 with_mask(excluded.as_deref(), camera, |excluded| {
-                    let scene = Scene {
+                    let observation = Observation {
                         frame,
                         camera,
                         polarity,
                         excluded,
                     };
-                    work.step(&scene, Some(part), &mut memory).map_err(sentence)
+                    work.step(&observation, Some(component), &mut memory)
+                        .map_err(sentence)
                 })
             });
             self.work = Some(work);
@@ -212,7 +213,9 @@ impl OneClick {
     /// A sentence about why there is no outline.
     #[wasm_bindgen(js_name = stepAlone)]
     pub fn step_alone(&mut self) -> Result<bool, JsError> {
-        self.alone(|work, scene, memory| work.step(scene, None, memory).map_err(sentence))
+        self.alone(|work, observation, memory| {
+            work.step(observation, None, memory).map_err(sentence)
+        })
     }
 
     /// What came of it without library and model: the region with the sharpest border.
@@ -221,8 +224,8 @@ impl OneClick {
     /// A sentence where there is none.
     #[wasm_bindgen(js_name = finishAlone)]
     pub fn finish_alone(&mut self) -> Result<OneClickAnswer, JsError> {
-        let outline = self.alone(|work, scene, memory| {
-            let region = work.draw_region(scene, memory).map_err(sentence)?;
+        let outline = self.alone(|work, observation, memory| {
+            let region = work.draw_region(observation, memory).map_err(sentence)?;
             outline_of(&region)
         })?;
         Ok(OneClickAnswer {
@@ -262,7 +265,7 @@ impl OneClick {
             answer
                 .outlines
                 .push(matcher.outline_at(&one.refined.pose, &self.camera)?);
-            answer.supports.push(one.support.share);
+            answer.supports.push(one.support.fraction);
             candidates.push(self.candidate(one, matcher)?);
         }
         answer.sentence = told(&answer.supports);
@@ -279,7 +282,7 @@ impl OneClick {
 impl OneClick {
     fn alone<T>(
         &mut self,
-        with: impl FnOnce(&mut Work, &Scene<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,
+        with: impl FnOnce(&mut Work, &Observation<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         let fresh = || Work::new(self.prompt, &self.camera, None);
         let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
@@ -300,13 +303,13 @@ impl OneClick {
         let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
         let done = self.film.look(|frame| {
             with_mask(excluded.as_deref(), camera, |excluded| {
-                let scene = Scene {
+                let observation = Observation {
                     frame,
                     camera,
                     polarity,
                     excluded,
                 };
-                with(&mut work, &scene, &mut memory)
+                with(&mut work, &observation, &mut memory)
             })
         });
         self.work = Some(work);
@@ -344,10 +347,10 @@ impl OneClick {
 
 impl Matcher {
     /// Calls `with` with the component and the memory to match and refine it.
-    fn with_part<T>(
+    fn with_component<T>(
         &mut self,
         camera: &Camera,
-        with: impl FnOnce(&Part<'_>, Workspace<'_>, RefineMemory<'_>) -> Result<T, JsError>,
+        with: impl FnOnce(&Component<'_>, Workspace<'_>, RefineMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         let library = self.library.borrow_dependent();
         let workspace = Workspace {
@@ -358,12 +361,12 @@ impl Matcher {
             kernels: Kernels::PORTABLE,
         };
         model_of(&mut self.model)?.lend(camera, |mesh, planes, refine| {
-            let part = Part {
+            let component = Component {
                 library,
                 model: mesh,
                 planes,
             };
-            with(&part, workspace, refine)
+            with(&component, workspace, refine)
         })
     }
 

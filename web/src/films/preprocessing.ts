@@ -1,4 +1,4 @@
-import { FilmLook as Derived, type Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
+import { Derived, type FrameImage } from '../pkg/page/fluoropose_page.js';
 import type { Preprocessing } from '../terms/seeing';
 import type { GreyWindow } from '../document/types';
 

@@ -1,7 +1,7 @@
 import init, {
   CalibrationText,
   checkLibrary,
-  Film as FrameImage,
+  FrameImage,
   jointMotion,
   jtIntcalibText,
   Model,
@@ -11,8 +11,8 @@ import init, {
   rulerScale,
   unknownReach,
   writeJts,
-} from '../pkg/page/fluoropose_wasm.js';
-import wasmAddress from '../pkg/page/fluoropose_wasm_bg.wasm?url';
+} from '../pkg/page/fluoropose_page.js';
+import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';

@@ -1,4 +1,4 @@
-import { Straightener as Undistorter, type Film as FrameImage, type Model } from '../pkg/page/fluoropose_wasm.js';
+import { Undistorter, type FrameImage, type Model } from '../pkg/page/fluoropose_page.js';
 import { type Distortion, distortionKey, fits, numbersOf } from '../document/distortion';
 import type { MovePoints } from '../document/set_distortion';
 

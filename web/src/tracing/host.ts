@@ -2,7 +2,7 @@ import type { Command, Place } from '../document/command';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import type { Outline } from '../document/types';
 import type { FramePoint } from '../geometry/points';
-import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
+import type { FrameImage } from '../pkg/page/fluoropose_page.js';
 import { snappedPath } from './pixels';
 import type { ThresholdHost } from './threshold';
 import type { WireHost } from './wire';

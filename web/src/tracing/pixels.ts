@@ -9,9 +9,9 @@ import {
   snapOutline,
   snapPath,
   ThresholdAid,
-  type Film as FrameImage,
+  type FrameImage,
   type Reshaped,
-} from '../pkg/page/fluoropose_wasm.js';
+} from '../pkg/page/fluoropose_page.js';
 
 /** What a tool made of an outline. */
 export interface Reshape {

@@ -1,7 +1,7 @@
 import { clockwise } from '../geometry/rings';
 import type { Outline } from '../document/types';
 import type { FramePoint } from '../geometry/points';
-import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
+import type { FrameImage } from '../pkg/page/fluoropose_page.js';
 import { snapped, snappedPath, type Reshape } from './pixels';
 
 /**

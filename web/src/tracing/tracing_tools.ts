@@ -3,7 +3,7 @@ import { cellOf } from '../document/types';
 import type { FramePoint } from '../geometry/points';
 import type { TracingIntent } from '../interaction/tracing_intent';
 import type { ToolName } from '../terms/tool';
-import type { Film as FrameImage } from '../pkg/page/fluoropose_wasm.js';
+import type { FrameImage } from '../pkg/page/fluoropose_page.js';
 import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';

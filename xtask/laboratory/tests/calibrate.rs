@@ -114,7 +114,7 @@ fn a_plate_gives_camera_and_correction_and_the_correction_makes_it_straight() {
         .remove(0);
     let beads = beads_of(&straight, false, None).unwrap();
     assert!(beads.len() > 300, "{} beads", beads.len());
-    let lattice = fluoropose_distortion::correction::Straight::nearest_to(&beads);
+    let lattice = fluoropose_distortion::correction::UndistortedLattice::nearest_to(&beads);
     let squares: f64 = beads
         .iter()
         .map(|bead| lattice.residual(bead).unwrap())

@@ -6,16 +6,18 @@ use std::process::Command;
 use anyhow::{Context, Result};
 
 use super::figures::Figures;
-use crate::setup::{announce, command, node, programs};
+use crate::output::announce;
+use crate::page::{self, Build};
+use crate::setup::{command, node, programs};
 use crate::static_server::Server;
-use crate::{package, page, workspace};
+use crate::{package, workspace};
 
 /// Builds the page, serves it and has it driven.
 ///
 /// Errors when something that is needed could not be had, or when the page does not do what is to be measured.
 pub(super) fn measure() -> Result<Figures> {
     let chromium = programs::chromium()?;
-    let dist = page::build()?;
+    let dist = page::build(Build::Shipped)?;
     package::make(&dist, &package::usual_folder())?;
     let folder = workspace::root().join("tests/browser");
     node::install(&folder)?;

@@ -2,12 +2,15 @@
 //!
 //! None of them gets our standard input: cargo hands it on to a `rustc -`, which would take it for source.
 
+use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, anyhow, bail, ensure};
+
+use crate::output::{self, say};
 
 /// The first of these names that is an executable file on the PATH.
 pub(crate) fn find(names: &[&str]) -> Option<PathBuf> {
@@ -38,8 +41,26 @@ fn is_executable(file: &Path) -> bool {
     file.is_file()
 }
 
+/// A command that gives way to others where its lane does.
+pub(crate) fn of_lane(program: impl AsRef<OsStr>) -> Command {
+    let gives_way = output::lane().is_some_and(|lane| lane.gives_way);
+    match find(&["nice"]).filter(|_| gives_way) {
+        Some(nice) => {
+            let mut command = Command::new(nice);
+            command.args(["-n", "10"]).arg(program);
+            command
+        }
+        None => Command::new(program),
+    }
+}
+
 /// Runs a command with its output shown; an exit code other than 0 is an error that names the command.
 pub(crate) fn run(command: &mut Command) -> Result<()> {
+    if output::lane().is_some() {
+        let (success, _) = tee(command)?;
+        ensure!(success, "{} failed", shown(command));
+        return Ok(());
+    }
     let status = command
         .stdin(Stdio::null())
         .status()
@@ -68,26 +89,43 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
-/// Runs a command, shows its standard output line by line and keeps it too.
+/// Runs a command, shows its output line by line and keeps what goes to standard output.
 ///
 /// Returns whether it succeeded and what it wrote there.
 pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
+    let lane = output::lane();
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
+    if lane.is_some() {
+        command.stderr(Stdio::piped());
+    }
     let mut child = command
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
         .spawn()
         .with_context(|| format!("cannot start {}", shown(command)))?;
-    let mut kept = String::new();
-    if let Some(stdout) = child.stdout.take() {
-        for line in BufReader::new(stdout).split(b'\n') {
-            let line = line?;
-            let line = String::from_utf8_lossy(&line);
-            println!("{line}");
-            kept.push_str(&line);
-            kept.push('\n');
+    let (stdout, stderr) = (child.stdout.take(), child.stderr.take());
+    let errors = std::thread::spawn(move || {
+        let show = || stderr.map(show).transpose();
+        match lane {
+            Some(lane) => lane.work(show),
+            None => show(),
         }
-    }
+    });
+    let kept = stdout.map(show).transpose()?.unwrap_or_default();
+    let errors = errors.join();
+    errors.map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
     Ok((child.wait()?.success(), kept))
+}
+
+/// Shows lines as they come and keeps them.
+fn show(from: impl Read) -> Result<String> {
+    let mut kept = String::new();
+    for line in BufReader::new(from).split(b'\n') {
+        let line = line?;
+        let line = String::from_utf8_lossy(&line);
+        say(&line);
+        kept.push_str(&line);
+        kept.push('\n');
+    }
+    Ok(kept)
 }
 
 /// Runs a command quietly for at most `limit` and returns its standard output; one that takes longer is ended.
@@ -146,6 +184,7 @@ fn last_lines(text: &str, count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::Lane;
 
     #[test]
     fn a_program_that_is_nowhere_is_not_found() {
@@ -162,6 +201,21 @@ mod tests {
             error.starts_with("`cargo --no-such-option` failed"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn in_a_lane_both_outputs_are_shown_and_failures_told() {
+        let lane = Lane {
+            name: "lane",
+            gives_way: true,
+        };
+        lane.work(|| {
+            let mut shell = of_lane("sh");
+            let (success, kept) = tee(shell.args(["-c", "echo out; echo error >&2"])).unwrap();
+            assert!(success);
+            assert_eq!(kept, "out\n");
+            assert!(run(of_lane("sh").args(["-c", "exit 3"])).is_err());
+        });
     }
 
     #[test]

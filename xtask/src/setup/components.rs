@@ -2,11 +2,14 @@
 
 use std::process::Command;
 
+use super::command;
+use super::missing::Missing;
 use super::rust_target::own_cargo;
-use super::{Missing, announce, command};
+use crate::output::announce;
 
 /// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
 pub(crate) fn ensure(subcommand: &str) -> Result<(), Missing> {
+    let _turn = super::turns::RUSTUP.turn();
     if works(subcommand) {
         return Ok(());
     }

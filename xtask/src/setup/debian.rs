@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 
 use anyhow::Result;
 
-use super::{Missing, announce, command};
+use super::command;
+use super::missing::Missing;
+use crate::output::announce;
 
 /// How packages can be installed on this machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,6 +38,7 @@ pub(crate) fn install(what: &str, packages: &[&str]) -> Result<(), Missing> {
     if let Some(missing) = refusal(access(), what, packages) {
         return Err(missing);
     }
+    let _turn = super::turns::APT.turn();
     announce(&format!(
         "installing {what} (apt-get install {})",
         packages.join(" ")

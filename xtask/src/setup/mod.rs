@@ -5,36 +5,11 @@
 
 pub(crate) mod command;
 pub(crate) mod components;
-pub(crate) mod debian;
+mod debian;
+mod missing;
 pub(crate) mod node;
 pub(crate) mod programs;
 pub(crate) mod rust_target;
+mod turns;
 
-use std::fmt;
-
-/// Something needed that is not on this machine and could not be got.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Missing {
-    /// The thing, as in "no Chromium".
-    pub what: String,
-    /// Why it could not be got.
-    pub why: String,
-    /// What a person can do about it.
-    pub remedy: String,
-    /// Whether getting it was tried and failed (a source that does not offer it, no network). Otherwise this
-    /// machine gave no way to try, which its owner can change.
-    pub tried: bool,
-}
-
-impl fmt::Display for Missing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no {}: {}; {}", self.what, self.why, self.remedy)
-    }
-}
-
-impl std::error::Error for Missing {}
-
-/// Says on standard error what is being done now: every slow step has such a line.
-pub(crate) fn announce(what: &str) {
-    eprintln!("==> {what}");
-}
+pub(crate) use missing::Missing;

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Missing, announce, command};
+use super::command;
+use super::missing::Missing;
+use crate::clock::timed;
 use crate::workspace::Stamp;
 
 /// The oldest Node.js the page's tools run on (major version).
@@ -49,6 +51,7 @@ fn major_version(text: &str) -> Option<u32> {
 /// Installs exactly the packages that a folder's lock file names, if that has not been done for this lock file.
 pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     let npm = npm()?;
+    let _turn = super::turns::NPM.turn();
     let name = folder
         .file_name()
         .unwrap_or_default()
@@ -72,11 +75,14 @@ pub(crate) fn install(folder: &Path) -> Result<(), Missing> {
     if stamp.is_current() {
         return Ok(());
     }
-    announce(&format!("installing the npm packages of {name}/ (npm ci)"));
     let mut ci = Command::new(npm);
     ci.args(["ci", "--no-audit", "--no-fund", "--loglevel=error"])
         .current_dir(folder);
-    command::output(&mut ci).map_err(missing)?;
+    timed(
+        &format!("installing the npm packages of {name}/ (npm ci)"),
+        || command::output(&mut ci),
+    )
+    .map_err(missing)?;
     stamp.write().map_err(missing)
 }
 

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{Missing, command, debian};
+use super::missing::Missing;
+use super::{command, debian};
 
 /// A program a suite needs, under the names it goes by.
 struct Program {

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::{Missing, announce, command, debian};
+use super::missing::Missing;
+use super::{command, debian};
+use crate::output::announce;
 use crate::workspace;
 
 /// The page's target.
@@ -55,7 +57,7 @@ impl Toolchain {
 
 /// The cargo that runs us.
 pub(crate) fn own_cargo() -> Command {
-    let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut cargo = command::of_lane(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(workspace::root());
     cargo
 }
@@ -95,6 +97,7 @@ fn debian_cargo(subcommand: &str, target: &str, linker: &Path, target_dir: &Path
 
 /// A compiler for `target`: the installed one, else with the target added by rustup, else Debian's.
 pub(crate) fn ensure(target: &'static str) -> Result<Toolchain, Missing> {
+    let _turn = super::turns::RUSTUP.turn();
     if is_installed(target) {
         return Ok(Toolchain::Own { target });
     }

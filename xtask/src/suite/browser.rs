@@ -6,10 +6,11 @@ use std::process::Command;
 use anyhow::{Result, ensure};
 
 use super::counts;
-use super::report::Report;
+use super::report::{Report, Said};
+use crate::page::{self, Build};
 use crate::setup::{command, node, programs};
 use crate::static_server::Server;
-use crate::{package, page, workspace};
+use crate::{package, workspace};
 
 const TYPES: &str = "browser: types of the page";
 const UNITS: &str = "browser: unit tests of the page";
@@ -19,17 +20,20 @@ const FIREFOX: &str = "browser: the page in Firefox";
 
 /// What is driven in Firefox too: the ways from opening to a pose, every tool, and the keys. Of the rest its driver has no
 /// words for downloads and dropped files.
-const IN_FIREFOX: [&str; 4] = [
-    "tracing_tools.test.mjs",
+const IN_FIREFOX: [&str; 7] = [
+    "edges.test.mjs",
     "firefox.test.mjs",
     "keys.test.mjs",
+    "new_user.test.mjs",
+    "outline_tools.test.mjs",
+    "tool_keys.test.mjs",
     "tracing.test.mjs",
 ];
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
     if !report.step("browser: page built", || {
-        page::build().map(|_| String::new())
+        page::build(Build::Shipped).map(|_| Said::default())
     }) {
         for name in [TYPES, UNITS, PACKAGES, CHROMIUM, FIREFOX] {
             report.skip(name, "the page was not built");
@@ -38,7 +42,7 @@ pub(crate) fn run(report: &mut Report) {
     }
     let web = workspace::root().join("web");
     report.step(TYPES, || {
-        command::run(&mut node::script(&web, "typecheck")?).map(|()| String::new())
+        Ok(command::run(&mut node::script(&web, "typecheck")?)?.into())
     });
     report.step(UNITS, || {
         let (success, output) = command::tee(&mut node::script(&web, "test")?)?;
@@ -46,24 +50,24 @@ pub(crate) fn run(report: &mut Report) {
             success,
             "the page's unit tests failed; their output above says where"
         );
-        counts::of_vitest(&output)
+        Ok(counts::of_vitest(&output)?.into())
     });
     let dist = web.join("dist");
     report.step(PACKAGES, || {
-        package::make(&dist, &package::usual_folder()).map(|_| String::new())
+        package::make(&dist, &package::usual_folder()).map(|_| Said::default())
     });
     report.step(CHROMIUM, || in_chromium(&dist));
     report.step(FIREFOX, || in_firefox(&dist));
 }
 
-fn in_chromium(dist: &Path) -> Result<String> {
+fn in_chromium(dist: &Path) -> Result<Said> {
     let chromium = programs::chromium()?;
     drive(dist, |tests| {
         tests.env("FLUOROPOSE_CHROMIUM", chromium);
     })
 }
 
-fn in_firefox(dist: &Path) -> Result<String> {
+fn in_firefox(dist: &Path) -> Result<Said> {
     let firefox = programs::firefox()?;
     drive(dist, |tests| {
         tests.env("FLUOROPOSE_FIREFOX", firefox).args(IN_FIREFOX);
@@ -71,15 +75,15 @@ fn in_firefox(dist: &Path) -> Result<String> {
 }
 
 /// Serves the page and runs the tests of `tests/browser` against it; `with` says in which browser, and which tests.
-fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<String> {
+fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<Said> {
     let folder = workspace::root().join("tests/browser");
     let node = node::node()?;
     node::install(&folder)?;
     let server = Server::start(dist, 0)?;
     let mut tests = Command::new(node);
     tests
-        // A page waits for its workers half of the time.
-        .args(["--test", "--test-reporter=spec", "--test-concurrency=2"])
+        // On two cores: most of the time a page waits for a screen frame, or a hand for the page.
+        .args(["--test", "--test-reporter=spec", "--test-concurrency=4"])
         .current_dir(&folder)
         .env("FLUOROPOSE_URL", server.url())
         .env("FLUOROPOSE_PACKAGE", package::usual_folder());
@@ -89,5 +93,5 @@ fn drive(dist: &Path, with: impl FnOnce(&mut Command)) -> Result<String> {
         success,
         "the tests in the browser failed; their output above says where"
     );
-    counts::of_node(&output)
+    Ok(counts::of_node(&output)?.into())
 }

@@ -1,11 +1,44 @@
 //! How many tests a runner says it ran.
 
+use std::collections::BTreeSet;
+
 use anyhow::{Result, ensure};
+
+/// Tests that ran, and tests that checked nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Counts {
+    /// Those that passed.
+    pub passed: u32,
+    /// Those that were left out, or found nothing to check.
+    pub skipped: u32,
+}
+
+impl Counts {
+    /// Errors when no test ran: a filter or a wrong folder would otherwise pass for success.
+    fn of(passed: u32, skipped: u32) -> Result<Self> {
+        ensure!(passed > 0, "the runner reports that no test passed");
+        Ok(Self { passed, skipped })
+    }
+
+    /// Counts tests as skipped that passed because what they check is not here: each wrote a line that begins with
+    /// `SKIPPED: NAME:`.
+    pub(crate) fn with_notes(self, notes: &str) -> Self {
+        let names: BTreeSet<&str> = notes
+            .lines()
+            .filter_map(|line| line.strip_prefix("SKIPPED: ")?.split(": ").next())
+            .collect();
+        let skipped = names.len() as u32;
+        Self {
+            passed: self.passed.saturating_sub(skipped),
+            skipped: self.skipped + skipped,
+        }
+    }
+}
 
 /// Sums the `test result:` lines of `cargo test`.
 ///
-/// Errors when no test ran: a filter or a wrong folder would otherwise pass for success.
-pub(crate) fn of_cargo(output: &str) -> Result<String> {
+/// Errors when no test passed.
+pub(crate) fn of_cargo(output: &str) -> Result<Counts> {
     let results = output
         .lines()
         .filter_map(|line| line.trim().strip_prefix("test result: "));
@@ -14,46 +47,35 @@ pub(crate) fn of_cargo(output: &str) -> Result<String> {
         passed += number_before(result, "passed").unwrap_or(0);
         ignored += number_before(result, "ignored").unwrap_or(0);
     }
-    let said = tests(passed)?;
-    Ok(if ignored == 0 {
-        said
-    } else {
-        format!("{said}, {ignored} ignored")
-    })
+    Counts::of(passed, ignored)
 }
 
-/// Reads the `Tests  12 passed (12)` line of vitest.
-pub(crate) fn of_vitest(output: &str) -> Result<String> {
+/// Reads the `Tests  12 passed | 1 skipped (13)` line of vitest.
+///
+/// Errors when no test passed.
+pub(crate) fn of_vitest(output: &str) -> Result<Counts> {
     let plain = without_colours(output);
     let line = plain
         .lines()
         .find(|line| line.trim_start().starts_with("Tests "));
-    tests(
-        line.and_then(|line| number_before(line, "passed"))
-            .unwrap_or(0),
-    )
+    let count = |word| line.and_then(|line| number_before(line, word)).unwrap_or(0);
+    Counts::of(count("passed"), count("skipped"))
 }
 
 /// Reads the `pass 12` line of Node's test runner, and how many it skipped.
-pub(crate) fn of_node(output: &str) -> Result<String> {
+///
+/// Errors when no test passed.
+pub(crate) fn of_node(output: &str) -> Result<Counts> {
     let plain = without_colours(output);
     let count = |word: &str| {
-        plain.lines().rev().find_map(|line| {
+        let found = plain.lines().rev().find_map(|line| {
             let mut words = line.split_whitespace().rev();
             let number = words.next()?.parse::<u32>().ok()?;
             (words.next()? == word && words.count() == 1).then_some(number)
-        })
+        });
+        found.unwrap_or(0)
     };
-    let said = tests(count("pass").unwrap_or(0))?;
-    Ok(match count("skipped") {
-        None | Some(0) => said,
-        Some(skipped) => format!("{said}, {skipped} skipped"),
-    })
-}
-
-fn tests(count: u32) -> Result<String> {
-    ensure!(count > 0, "the runner reports that no test passed");
-    Ok(format!("{count} tests"))
+    Counts::of(count("pass"), count("skipped"))
 }
 
 /// The number in front of a word, as in `12 passed`.
@@ -81,12 +103,16 @@ fn without_colours(text: &str) -> String {
 mod tests {
     use super::*;
 
+    fn counts(passed: u32, skipped: u32) -> Counts {
+        Counts { passed, skipped }
+    }
+
     #[test]
     fn cargo_results_are_summed() {
         let output = "running 2 tests\n\
             test result: ok. 2 passed; 0 failed; 1 ignored; 0 measured; 0 filtered out; finished in 0.00s\n\
             test result: ok. 10 passed; 0 failed; 0 ignored; 0 measured; 0 filtered out; finished in 0.10s\n";
-        assert_eq!(of_cargo(output).unwrap(), "12 tests, 1 ignored");
+        assert_eq!(of_cargo(output).unwrap(), counts(12, 1));
         assert!(of_cargo("test result: ok. 0 passed; 0 failed; 0 ignored;").is_err());
         assert!(of_cargo("").is_err());
     }
@@ -94,21 +120,28 @@ mod tests {
     #[test]
     fn vitest_is_read_through_its_colours() {
         let output = " \u{1b}[2m Test Files \u{1b}[22m 3 passed (3)\n\u{1b}[2m      Tests \u{1b}[22m \u{1b}[1m\u{1b}[32m41 passed\u{1b}[39m\u{1b}[22m\u{1b}[90m (41)\u{1b}[39m\n";
-        assert_eq!(of_vitest(output).unwrap(), "41 tests");
+        assert_eq!(of_vitest(output).unwrap(), counts(41, 0));
         assert_eq!(
-            of_vitest("      Tests  2 failed | 3 passed (5)").unwrap(),
-            "3 tests"
+            of_vitest("      Tests  2 failed | 3 passed | 4 skipped (9)").unwrap(),
+            counts(3, 4)
         );
         assert!(of_vitest("No test files found").is_err());
+    }
+
+    #[test]
+    fn a_test_that_found_nothing_to_check_is_skipped_once() {
+        let notes = "SKIPPED: sides::a: no study\nSKIPPED: sides::b: no study\nSKIPPED: sides::a: no study\nother\n";
+        assert_eq!(counts(10, 1).with_notes(notes), counts(8, 3));
+        assert_eq!(counts(10, 1).with_notes(""), counts(10, 1));
     }
 
     #[test]
     fn both_reporters_of_node_are_read() {
         assert_eq!(
             of_node("ℹ tests 6\nℹ pass 5\nℹ fail 0\nℹ skipped 1\n").unwrap(),
-            "5 tests, 1 skipped"
+            counts(5, 1)
         );
-        assert_eq!(of_node("# pass 5\n# skipped 0\n").unwrap(), "5 tests");
+        assert_eq!(of_node("# pass 5\n# skipped 0\n").unwrap(), counts(5, 0));
         assert!(of_node("ℹ tests 0\nℹ pass 0\n").is_err());
         assert!(of_node("the pedals pass 7\n").is_err());
     }

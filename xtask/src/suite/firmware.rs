@@ -7,8 +7,9 @@ use std::time::Duration;
 use anyhow::{Context, Result, ensure};
 use fluoropose::pose::{Pose, geodesic_deg};
 
-use super::report::Report;
+use super::report::{Report, Said};
 use crate::firmware::{Proof, TRUTH, write_inputs};
+use crate::output::say;
 use crate::setup::rust_target::{self, Toolchain, own_cargo};
 use crate::setup::{command, components, programs};
 use crate::workspace;
@@ -18,7 +19,7 @@ const QEMU_LIMIT: Duration = Duration::from_secs(120);
 
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
-    let inputs = || write_inputs(&inputs_folder()).map(|()| String::new());
+    let inputs = || write_inputs(&inputs_folder()).map(Said::from);
     if !report.step("firmware: library and outline", inputs) {
         report.skip("firmware: the proof", "there is nothing to put into flash");
         return;
@@ -47,7 +48,7 @@ fn at_firmware(cargo: &mut Command) -> &mut Command {
         .env("FLUOROPOSE_FIRMWARE_INPUTS", inputs_folder())
 }
 
-fn check_source() -> Result<String> {
+fn check_source() -> Result<Said> {
     components::ensure("fmt")?;
     components::ensure("clippy")?;
     command::run(at_firmware(own_cargo().args(["fmt", "--check"])))?;
@@ -56,10 +57,12 @@ fn check_source() -> Result<String> {
     lint(&mut host)?;
     let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
     if matches!(toolchain, Toolchain::Debian { .. }) {
-        return Ok("the host's part alone: Debian's compiler brings no lints".into());
+        return Ok("the host's part alone: Debian's compiler brings no lints"
+            .to_owned()
+            .into());
     }
     lint(&mut toolchain.cargo("clippy", &folder()))?;
-    Ok(String::new())
+    Ok(().into())
 }
 
 fn lint(clippy: &mut Command) -> Result<()> {
@@ -67,17 +70,17 @@ fn lint(clippy: &mut Command) -> Result<()> {
 }
 
 /// Runs the same proof here and on the board; both must write the same lines, and a pose near the true one.
-fn compare(features: &[&str]) -> Result<String> {
+fn compare(features: &[&str]) -> Result<Said> {
     let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
     let qemu = programs::qemu_arm()?;
     let host = on_host(features)?;
     let board = on_board(&toolchain, qemu, features)?;
     for line in board.lines().filter(|line| is_information(line)) {
-        println!("{line}");
+        say(line);
     }
     let count = ensure_alike(&host, &board)?;
     check_pose(&host)?;
-    Ok(format!("{count} lines alike"))
+    Ok(format!("{count} lines alike").into())
 }
 
 /// The number of lines, which must be the same but for the board's own information.
@@ -130,7 +133,9 @@ fn check_pose(lines: &str) -> Result<()> {
     let truth = Pose::from(TRUTH);
     let turned = geodesic_deg(&proof.pose.rotation, &truth.rotation);
     let [x, y, z] = std::array::from_fn(|k| proof.pose.translation[k] - truth.translation[k]);
-    println!("off the true pose by {turned:.2} deg, {x:.3}, {y:.3} and {z:.2} mm");
+    say(&format!(
+        "off the true pose by {turned:.2} deg, {x:.3}, {y:.3} and {z:.2} mm"
+    ));
     ensure!(
         turned < 0.5 && x.abs() < 0.3 && y.abs() < 0.3 && z.abs() < 6.0,
         "the pose is {turned:.2} deg and {x:.2}, {y:.2}, {z:.2} mm off the true one"

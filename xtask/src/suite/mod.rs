@@ -1,7 +1,9 @@
 //! The suites of the verb `test`.
 
-pub(crate) mod browser;
-pub(crate) mod counts;
-pub(crate) mod firmware;
-pub(crate) mod native;
+mod browser;
+pub(crate) mod changed;
+mod counts;
+mod firmware;
+mod native;
 pub(crate) mod report;
+pub(crate) mod side_by_side;

@@ -1,15 +1,18 @@
 //! Layout, formatting, lints and the Rust tests on this machine.
 
+use std::fs;
 use std::process::Command;
 
 use anyhow::{Result, ensure};
 
 use super::counts;
-use super::report::Report;
+use super::report::{Report, Said};
+use crate::output::say;
 use crate::setup::command;
 use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
 use crate::tidy;
+use crate::workspace;
 
 /// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
 /// arithmetic and assertions are checked in them.
@@ -50,13 +53,18 @@ pub(crate) fn run(report: &mut Report) {
     });
 }
 
-fn quiet(command: &mut Command) -> Result<String> {
-    command::run(command).map(|()| String::new())
+fn quiet(command: &mut Command) -> Result<Said> {
+    Ok(command::run(command)?.into())
 }
 
-/// Runs `cargo test` and counts what it ran.
-pub(crate) fn tests(cargo: &mut Command) -> Result<String> {
-    let (success, output) = command::tee(cargo)?;
+/// Runs `cargo test` and counts what it ran, and what of that found nothing to check.
+pub(crate) fn tests(cargo: &mut Command) -> Result<Said> {
+    let notes = workspace::target_dir().join("skipped-tests");
+    // None is left from a run before.
+    let _ = fs::remove_file(&notes);
+    let (success, output) = command::tee(cargo.env("FLUOROPOSE_SKIPPED", &notes))?;
     ensure!(success, "`cargo test` failed; its output above says where");
-    counts::of_cargo(&output)
+    let notes = fs::read_to_string(&notes).unwrap_or_default();
+    notes.lines().for_each(say);
+    Ok(counts::of_cargo(&output)?.with_notes(&notes).into())
 }

@@ -5,14 +5,47 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 
-use crate::setup::{Missing, announce};
+use super::counts::Counts;
+use crate::output::announce;
+use crate::setup::Missing;
 
 /// What became of a step, with a few words about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Outcome {
-    Passed(String),
+    Passed(Said),
     Failed(String),
     Skipped(String),
+}
+
+/// What is said of a step that passed.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Said {
+    counts: Option<Counts>,
+    words: String,
+}
+
+impl From<()> for Said {
+    fn from((): ()) -> Self {
+        Self::default()
+    }
+}
+
+impl From<Counts> for Said {
+    fn from(counts: Counts) -> Self {
+        Self {
+            counts: Some(counts),
+            words: String::new(),
+        }
+    }
+}
+
+impl From<String> for Said {
+    fn from(words: String) -> Self {
+        Self {
+            counts: None,
+            words,
+        }
+    }
 }
 
 struct Line {
@@ -39,17 +72,22 @@ impl Report {
 
     /// Runs a step, says so as it starts, and records what became of it. Returns whether it passed.
     ///
-    /// The work returns what to say of it ("12 tests"). An error fails the step, except for a [`Missing`] thing,
+    /// The work returns what to say of it, such as how many tests it ran. An error fails the step, except for a [`Missing`] thing,
     /// which skips it.
-    pub(crate) fn step(&mut self, name: &str, work: impl FnOnce() -> Result<String>) -> bool {
+    pub(crate) fn step(&mut self, name: &str, work: impl FnOnce() -> Result<Said>) -> bool {
         announce(name);
         let start = Instant::now();
         let outcome = match work() {
             Ok(said) => Outcome::Passed(said),
             Err(error) => self.outcome_of(&error),
         };
-        if let Outcome::Failed(said) | Outcome::Skipped(said) = &outcome {
-            eprintln!("{said}");
+        let seconds = start.elapsed().as_secs_f64();
+        match &outcome {
+            Outcome::Passed(_) => announce(&format!("{name}: passed in {seconds:.1} s")),
+            Outcome::Failed(said) => {
+                announce(&format!("{name}: FAILED after {seconds:.1} s: {said}"))
+            }
+            Outcome::Skipped(said) => announce(&format!("{name}: skipped: {said}")),
         }
         let passed = matches!(outcome, Outcome::Passed(_));
         self.lines.push(Line {
@@ -68,6 +106,11 @@ impl Report {
             outcome,
             time: Duration::ZERO,
         });
+    }
+
+    /// Takes over the steps of another lane, after those of this one.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.lines.extend(other.lines);
     }
 
     fn outcome_of(&self, error: &anyhow::Error) -> Outcome {
@@ -100,20 +143,13 @@ impl Default for Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f)?;
+        writeln!(
+            f,
+            "\n{:<8}{:<50} {:>8}  {:>6} {:>8}",
+            "", "step", "seconds", "tests", "skipped"
+        )?;
         for line in &self.lines {
-            let (word, said) = match &line.outcome {
-                Outcome::Passed(said) => ("passed ", said),
-                Outcome::Failed(said) => ("FAILED ", said),
-                Outcome::Skipped(said) => ("skipped", said),
-            };
-            let seconds = line.time.as_secs_f64();
-            writeln!(
-                f,
-                "{word} {:<50} {seconds:6.1} s  {}",
-                line.step,
-                said.trim()
-            )?;
+            writeln!(f, "{}", line.to_string().trim_end())?;
         }
         let passed = self.count(|outcome| matches!(outcome, Outcome::Passed(_)));
         let failed = self.count(|outcome| matches!(outcome, Outcome::Failed(_)));
@@ -122,6 +158,21 @@ impl fmt::Display for Report {
             0 => writeln!(f),
             skipped => writeln!(f, ", {skipped} skipped"),
         }
+    }
+}
+
+impl fmt::Display for Line {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (word, counts, words) = match &self.outcome {
+            Outcome::Passed(said) => ("passed", said.counts, &said.words),
+            Outcome::Failed(words) => ("FAILED", None, words),
+            Outcome::Skipped(words) => ("skipped", None, words),
+        };
+        let seconds = self.time.as_secs_f64();
+        write!(f, "{word:<7} {:<50} {seconds:>8.1}", self.step)?;
+        let number = |of: fn(Counts) -> u32| counts.map_or(String::new(), |c| of(c).to_string());
+        let (passed, skipped) = (number(|c| c.passed), number(|c| c.skipped));
+        write!(f, "  {passed:>6} {skipped:>8}  {}", words.trim())
     }
 }
 
@@ -151,11 +202,21 @@ mod tests {
     #[test]
     fn the_last_line_counts_steps() {
         let mut report = report(false);
-        assert!(report.step("one", || Ok("3 tests".into())));
+        assert!(report.step("one", || {
+            Ok(Counts {
+                passed: 3,
+                skipped: 2,
+            }
+            .into())
+        }));
         assert!(
             report.to_string().ends_with("\n1 passed, 0 failed\n"),
             "{report}"
         );
+        let line = report.to_string();
+        let line = line.lines().find(|line| line.contains(" one ")).unwrap();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        assert_eq!(words, ["passed", "one", "0.0", "3", "2"]);
         assert!(!report.step("two", || Err(anyhow!("broken"))));
         report.skip("three", "two did not pass");
         assert!(

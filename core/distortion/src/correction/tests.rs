@@ -1,13 +1,13 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::super::lattice::{
-    number,
-    tests::{bent, plate},
-};
 use super::*;
+use crate::lattice::{
+    number,
+    tests::{distorted, plate},
+};
 
-/// A numbered plate bent by `strength`, each centre off by up to `noise` px.
+/// A numbered plate distorted by `strength`, each centre off by up to `noise` px.
 fn beads(strength: f64, noise: f64) -> Vec<Bead> {
     let mut seed = 11u32;
     let mut random = || {
@@ -24,8 +24,8 @@ fn beads(strength: f64, noise: f64) -> Vec<Bead> {
     beads
 }
 
-/// Root mean square by which corrected places inside the plate miss a copy of the ideal ones that may be moved,
-/// turned and scaled: no picture of a grid can tell more.
+/// Root mean square distance of corrected places inside the plate from a copy of the ideal ones that may be moved, rotated
+/// and scaled: no frame of a distortion grid can tell more.
 fn missed(correction: &Distortion, strength: f64) -> f64 {
     let places: Vec<Bead> = (-20..=20)
         .flat_map(|i| (-20..=20).map(move |j| [i, j]))
@@ -35,10 +35,13 @@ fn missed(correction: &Distortion, strength: f64) -> f64 {
                 512.0 + 20.0 * f64::from(index[0]),
                 512.0 + 20.0 * f64::from(index[1]),
             ];
-            Bead::new(correction.straight(bent(ideal, strength)), Some(index))
+            Bead::new(
+                correction.undistorted(distorted(ideal, strength)),
+                Some(index),
+            )
         })
         .collect();
-    let lattice = Straight::nearest_to(&places);
+    let lattice = UndistortedLattice::nearest_to(&places);
     root_mean_square(places.iter().map(|place| square(lattice.residual(place))))
 }
 
@@ -74,7 +77,9 @@ fn there_and_back_is_the_same_place() {
             40.0 + 9.4 * f64::from(k),
             980.0 - 9.1 * f64::from((k * 37) % 100),
         ];
-        let [column, row] = correction.bent(correction.straight(at)).expect("inside");
+        let [column, row] = correction
+            .distorted(correction.undistorted(at))
+            .expect("inside");
         assert!((column - at[0]).abs() < 1e-6 && (row - at[1]).abs() < 1e-6);
     }
     let again = Distortion::from_numbers(&correction.numbers());
@@ -83,7 +88,7 @@ fn there_and_back_is_the_same_place() {
 
 #[test]
 fn cross_validation_takes_the_order_that_is_worth_it() {
-    // A plate that is not bent is noise in every order: the lowest.
+    // Without distortion there is only noise in every order, and the lowest is chosen.
     assert_eq!(
         fit(&mut beads(0.0, 0.1), (1024, 1024))
             .expect("fits")
@@ -120,14 +125,14 @@ fn too_few_or_lined_up_beads_are_refused() {
     few.truncate(15);
     assert!(matches!(
         fit(&mut few, (1024, 1024)),
-        Err(GridError::FewBeads { .. })
+        Err(DistortionError::FewBeads { .. })
     ));
     let mut line: Vec<Bead> = (0..40)
         .map(|i| Bead::new([f64::from(i) * 20.0 + 100.0, 300.0], Some([i, 0])))
         .collect();
     assert!(matches!(
         fit(&mut line, (1024, 1024)),
-        Err(GridError::Degenerate { .. })
+        Err(DistortionError::Degenerate { .. })
     ));
 }
 

@@ -2,7 +2,7 @@ use super::*;
 use std::vec;
 use std::vec::Vec;
 
-/// A frame of soft-edged discs of depth 90 on a slope of brightness, with noise of +-4.
+/// A frame of discs of depth 90 with soft edges on a slope of brightness, with noise of +-4.
 fn picture(centres: &[(f64, f64)], radius: f64, bright: bool) -> Vec<u16> {
     let mut seed = 7u32;
     let mut pixels = vec![0u16; 200 * 160];
@@ -38,7 +38,7 @@ fn centres_are_found_to_a_few_hundredths_of_a_pixel() {
             let frame = Frame::new(&pixels, 200, 160, 200).expect("fits");
             let mut sums = vec![0; sums_needed(200, 160)];
             let mut out = [Disc::default(); 64];
-            let search = Search {
+            let search = DiscSearch {
                 radius_px: radius,
                 bright,
             };
@@ -70,7 +70,7 @@ fn what_is_not_round_is_left_out() {
     let frame = Frame::new(&pixels, 200, 160, 200).expect("fits");
     let mut sums = vec![0; sums_needed(200, 160)];
     let mut out = [Disc::default(); 64];
-    let search = Search {
+    let search = DiscSearch {
         radius_px: 4.0,
         bright: false,
     };
@@ -89,7 +89,7 @@ fn short_memory_and_odd_radii_are_refused_and_an_empty_picture_holds_nothing() {
     let pixels = [100u8; 60 * 40];
     let frame = Frame::new(&pixels, 60, 40, 60).expect("fits");
     let mut out = [Disc::default(); 8];
-    let search = |radius_px| Search {
+    let search = |radius_px| DiscSearch {
         radius_px,
         bright: false,
     };
@@ -98,14 +98,14 @@ fn short_memory_and_odd_radii_are_refused_and_an_empty_picture_holds_nothing() {
     assert_eq!(find(&frame, search(60.0), &mut sums, &mut out), Ok(0));
     assert!(matches!(
         find(&frame, search(0.2), &mut sums, &mut out),
-        Err(GridError::Radius(_))
+        Err(DistortionError::Radius(_))
     ));
     assert!(matches!(
         find(&frame, search(f64::NAN), &mut sums, &mut out),
-        Err(GridError::Radius(_))
+        Err(DistortionError::Radius(_))
     ));
     assert!(matches!(
         find(&frame, search(3.0), &mut sums[..100], &mut out),
-        Err(GridError::Memory { .. })
+        Err(DistortionError::Memory(_))
     ));
 }

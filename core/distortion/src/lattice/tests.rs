@@ -2,8 +2,8 @@ use super::*;
 use std::vec;
 use std::vec::Vec;
 
-/// Pin-cushion and a twist, as an image intensifier has them: the picture of an ideal place, px.
-pub(crate) fn bent([column, row]: [f64; 2], strength: f64) -> [f64; 2] {
+/// Pin-cushion and a twist, as an image intensifier has them: the place in the frame of an ideal place, px.
+pub(crate) fn distorted([column, row]: [f64; 2], strength: f64) -> [f64; 2] {
     let [x, y] = [(column - 505.0) / 512.0, (row - 520.0) / 512.0];
     let square = x * x + y * y;
     let grow = 1.0 + strength * square;
@@ -14,7 +14,7 @@ pub(crate) fn bent([column, row]: [f64; 2], strength: f64) -> [f64; 2] {
     ]
 }
 
-/// An ideal lattice of 40 px turned by 0.1, bent, with the numbers of its beads.
+/// An ideal lattice of 40 px rotated by 0.1 radians, distorted, with the numbers of its beads.
 pub(crate) fn plate(strength: f64) -> Vec<([i32; 2], [f64; 2])> {
     let (sine, cosine) = f64::sin_cos(0.1);
     let mut out = Vec::new();
@@ -22,7 +22,7 @@ pub(crate) fn plate(strength: f64) -> Vec<([i32; 2], [f64; 2])> {
         for i in -11..=11 {
             let (x, y) = (40.0 * f64::from(i), 40.0 * f64::from(j));
             let ideal = [512.0 + cosine * x - sine * y, 512.0 + sine * x + cosine * y];
-            let at = bent(ideal, strength);
+            let at = distorted(ideal, strength);
             if at.iter().all(|v| (20.0..1004.0).contains(v)) {
                 out.push(([i, j], at));
             }
@@ -40,7 +40,7 @@ fn beads(all: &[([i32; 2], [f64; 2])]) -> Vec<Bead> {
         .collect()
 }
 
-/// All numbered beads have the right number, up to one shift and one turn by right angles; returns how many.
+/// All numbered beads have the right number, up to one shift; returns how many they are.
 fn right_numbers(found: &[Bead], truth: &[([i32; 2], [f64; 2])]) -> usize {
     let pairs: Vec<_> = found
         .iter()
@@ -58,7 +58,7 @@ fn right_numbers(found: &[Bead], truth: &[([i32; 2], [f64; 2])]) -> usize {
 }
 
 #[test]
-fn a_bent_lattice_is_numbered_whole() {
+fn a_distorted_lattice_is_numbered_completely() {
     for strength in [0.0, 0.06, 0.12] {
         let truth = plate(strength);
         let mut found = beads(&truth);
@@ -104,7 +104,7 @@ fn no_lattice_is_said() {
     let mut queue = vec![0; 400];
     assert!(matches!(
         number(&mut [], &mut queue),
-        Err(GridError::FewBeads { .. })
+        Err(DistortionError::FewBeads { .. })
     ));
     let mut seed = 3u32;
     let mut random = || {
@@ -119,13 +119,13 @@ fn no_lattice_is_said() {
         .collect();
     assert!(matches!(
         number(&mut scattered, &mut queue),
-        Err(GridError::FewBeads { .. })
+        Err(DistortionError::FewBeads { .. })
     ));
     let mut one_spot = vec![Bead::default(); 50];
     assert!(number(&mut one_spot, &mut queue).is_err());
     let mut short = beads(&plate(0.0));
     assert!(matches!(
         number(&mut short, &mut queue[..3]),
-        Err(GridError::Memory { .. })
+        Err(DistortionError::Memory(_))
     ));
 }

@@ -9,7 +9,7 @@ const MEASURED: Distances = Distances {
 
 /// Beads of a plate tilted by degrees about x and y, seen by a camera of 0.35 mm pitch and this principal point (mm).
 fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
-    let turn = multiply(
+    let rotation = multiply(
         &rotation_by(&[tilt[0].to_radians(), 0.0, 0.0]),
         &multiply(
             &rotation_by(&[0.0, tilt[1].to_radians(), 0.0]),
@@ -19,7 +19,7 @@ fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
     let view = View {
         log_focal: f64::ln(1200.0 / 0.35),
         point: [512.0 + offset[0] / 0.35, 512.0 - offset[1] / 0.35],
-        turn,
+        rotation,
         place: [8.0, -5.0, -1000.0],
         spacing: 12.0,
         middle: [0.0, 0.0],
@@ -39,7 +39,7 @@ fn beads(tilt: [f64; 2], offset: [f64; 2], noise: f64) -> Vec<Bead> {
 }
 
 #[test]
-fn a_level_plate_gives_the_pitch_and_says_nothing_of_the_principal_point() {
+fn a_level_plate_gives_the_pitch_and_no_principal_point() {
     let found = camera(
         &beads([0.0, 0.0], [4.0, -2.0], 0.05),
         MEASURED,
@@ -52,7 +52,7 @@ fn a_level_plate_gives_the_pitch_and_says_nothing_of_the_principal_point() {
         found.tilt_deg < 0.5 && (0.03..0.06).contains(&found.residual_px),
         "{found:?}"
     );
-    // The truth lies within what it claims not to know.
+    // The truth lies within the stated uncertainty.
     assert!(found.offset_mm[0].abs() < 10.0 && found.offset_deviation_mm[0] > 5.0);
 }
 
@@ -99,15 +99,15 @@ fn impossible_lengths_and_lines_of_beads_are_refused() {
     };
     assert!(matches!(
         with(|m| m.spacing_mm = 0.0),
-        Err(GridError::Length { .. })
+        Err(DistortionError::Length { .. })
     ));
     assert!(matches!(
         with(|m| m.source_to_plate_mm = 1300.0),
-        Err(GridError::Order { .. })
+        Err(DistortionError::Order { .. })
     ));
     assert!(matches!(
         camera(&level[..10], MEASURED, (1024, 1024)),
-        Err(GridError::FewBeads { .. })
+        Err(DistortionError::FewBeads { .. })
     ));
     let line: Vec<Bead> = level
         .iter()

@@ -1,6 +1,6 @@
 //! Closed surfaces for tests.
 
-use super::{EdgeBox, EdgeGroup, Edges, MeshEdge, edges_needed, groups_needed, link};
+use super::{EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, link, link_needed};
 use crate::mesh::Mesh;
 use std::vec;
 use std::vec::Vec;
@@ -9,23 +9,33 @@ use std::vec::Vec;
 pub(crate) struct Linked {
     boxes: Vec<EdgeBox>,
     groups: Vec<EdgeGroup>,
+    rims: Vec<RimEdge>,
 }
 
 impl Linked {
     pub(crate) fn new(mesh: &Mesh<'_>) -> Self {
-        let mut room = vec![MeshEdge::default(); edges_needed(mesh)];
-        let mut boxes = vec![EdgeBox::default(); groups_needed(mesh)];
-        let mut groups = vec![EdgeGroup::default(); groups_needed(mesh)];
-        let edges = link(mesh, &mut room, &mut boxes, &mut groups).expect("closed");
-        let (boxes, groups) = edges.parts();
+        let needs = link_needed(mesh);
+        let mut boxes = vec![EdgeBox::default(); needs.groups];
+        let mut groups = vec![EdgeGroup::default(); needs.groups];
+        let mut rims = vec![RimEdge::default(); needs.halves];
+        let memory = LinkMemory {
+            halves: &mut vec![MeshEdge::default(); needs.halves],
+            numbers: &mut vec![0; needs.numbers],
+            boxes: &mut boxes,
+            groups: &mut groups,
+            rims: &mut rims,
+        };
+        let (edges, _) = link(mesh, memory).expect("enough memory");
+        let (boxes, groups, rims) = edges.parts();
         Self {
             boxes: boxes.to_vec(),
             groups: groups.to_vec(),
+            rims: rims.to_vec(),
         }
     }
 
     pub(crate) fn edges(&self) -> Edges<'_> {
-        Edges::new(&self.boxes, &self.groups).expect("as many")
+        Edges::new(&self.boxes, &self.groups, &self.rims).expect("as many")
     }
 }
 

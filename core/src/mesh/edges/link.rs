@@ -1,117 +1,228 @@
-//! Finding the edges of a closed surface.
+//! Finding the edges of a surface.
 
 use super::boxes::{self, EdgeBox, EdgeGroup, IN_BOX};
-use super::edge::MeshEdge;
+use super::edge::{MeshEdge, RimEdge};
 use super::list::Edges;
+use super::orient::{Orientation, run_end, weld};
+use crate::memory::{TooLittleMemory, first};
 use crate::mesh::surface::Mesh;
 
-/// In place of a vertex while edges are being paired.
-const NONE: u32 = u32::MAX;
-
-/// Edges of working memory that [`link`] needs for `mesh`.
-#[must_use]
-pub fn edges_needed(mesh: &Mesh<'_>) -> usize {
-    3 * mesh.triangles().len()
+/// Memory of [`link`]: what it works in, and what the edges are kept in.
+#[derive(Debug)]
+pub struct LinkMemory<'e, 'm> {
+    /// Working memory: [`LinkNeeds::halves`] sides of triangles.
+    pub halves: &'m mut [MeshEdge],
+    /// Working memory: [`LinkNeeds::numbers`] numbers.
+    pub numbers: &'m mut [u32],
+    /// [`LinkNeeds::groups`] boxes at most are kept.
+    pub boxes: &'e mut [EdgeBox],
+    /// [`LinkNeeds::groups`] groups.
+    pub groups: &'e mut [EdgeGroup],
+    /// Edges of one triangle alone: none of a closed surface, [`LinkNeeds::halves`] at most.
+    pub rims: &'e mut [RimEdge],
 }
 
-/// Boxes and groups that [`link`] needs for `mesh` at most.
-#[must_use]
-pub fn groups_needed(mesh: &Mesh<'_>) -> usize {
-    edges_needed(mesh).div_ceil(2).div_ceil(IN_BOX)
+/// Lengths of a [`LinkMemory`]'s slices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LinkNeeds {
+    /// Of `halves`, and of `rims` at most.
+    pub halves: usize,
+    /// Of `numbers`.
+    pub numbers: usize,
+    /// Of `boxes` and `groups`.
+    pub groups: usize,
 }
 
-/// Finds the edges of a closed surface: pairs the sides of the triangles of `mesh` in working memory `room`
-/// ([`edges_needed`]) and writes them to `boxes` and `groups` ([`groups_needed`] each), for
-/// [`crate::mesh::Model::with_edges`]. Where more than two triangles meet at an edge any pairing serves.
+/// How much memory [`link`] needs for `mesh`.
+#[must_use]
+pub fn link_needed(mesh: &Mesh<'_>) -> LinkNeeds {
+    let (vertices, triangles) = (mesh.vertices().len(), mesh.triangles().len());
+    LinkNeeds {
+        halves: 3 * triangles,
+        numbers: 2 * vertices + triangles,
+        groups: (3 * triangles).div_ceil(2).div_ceil(IN_BOX),
+    }
+}
+
+/// What a surface is like, as counted while its edges were found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SurfaceFaults {
+    /// Vertices at the place of another.
+    pub welded: usize,
+    /// Triangles with two corners at one place, which cover nothing.
+    pub degenerate: usize,
+    /// Triangles that run against their neighbours.
+    pub turned: usize,
+    /// Sides of triangles without a neighbour: rims of holes, cracks and sheets.
+    pub rims: usize,
+}
+
+impl SurfaceFaults {
+    /// Whether the surface encloses a volume.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.rims == 0
+    }
+}
+
+/// Pairs the sides of the triangles of `mesh` and writes its edges to borrowed memory, for
+/// [`crate::mesh::Model::with_edges`]. Any mesh has edges: vertices at one place count as one, triangles are turned to run
+/// as their neighbours do, more than two at an edge are paired in any way, and what finds no partner is kept as a rim.
+/// Nothing of this changes a pixel of what is drawn.
 ///
-/// `None` where the surface is not closed or not consistently oriented (an edge is run along
-/// more often in one direction than in the other), and where the memory is too short: such a
-/// mesh is drawn triangle by triangle.
+/// # Errors
+/// [`TooLittleMemory`] names the slice.
 pub fn link<'e>(
     mesh: &Mesh<'_>,
-    room: &mut [MeshEdge],
-    boxes: &'e mut [EdgeBox],
-    groups: &'e mut [EdgeGroup],
-) -> Option<Edges<'e>> {
-    let mut count = 0;
-    for &[a, b, c] in mesh.triangles() {
-        for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
-            if from != to {
-                *room.get_mut(count)? = half(from, to, third);
-                count += 1;
-            }
-        }
-    }
-    let halves = room.get_mut(..count)?;
-    halves.sort_unstable_by_key(|edge| (edge.from, edge.to, edge.forth, edge.back));
-    let paired = pair(halves)?;
-    let edges = room.get_mut(..paired)?;
-    let count = paired.div_ceil(IN_BOX);
-    let (boxes, groups) = (boxes.get_mut(..count)?, groups.get_mut(..count)?);
-    boxes::gather(mesh, edges, boxes, groups);
-    Edges::new(boxes, groups)
-}
-
-/// One side of a triangle, from the lower to the higher vertex.
-fn half(from: u32, to: u32, third: u32) -> MeshEdge {
-    let (forth, back) = if from < to {
-        (third, NONE)
-    } else {
-        (NONE, third)
+    memory: LinkMemory<'e, '_>,
+) -> Result<(Edges<'e>, SurfaceFaults), TooLittleMemory> {
+    let needs = link_needed(mesh);
+    let halves = first("sides of triangles", needs.halves, memory.halves)?;
+    let numbers = first("numbers", needs.numbers, memory.numbers)?;
+    let (vertices, parents) = numbers.split_at_mut(2 * mesh.vertices().len());
+    let (order, same) = vertices.split_at_mut(mesh.vertices().len());
+    let mut faults = SurfaceFaults {
+        welded: weld(mesh, order, same),
+        ..SurfaceFaults::default()
     };
-    MeshEdge {
-        from: from.min(to),
-        to: from.max(to),
-        forth,
-        back,
-        order: 0,
-    }
+    let count = write_halves(mesh, same, halves, &mut faults);
+    let halves = &mut halves[..count];
+    halves.sort_unstable_by_key(|half| (half.from, half.to, half.order, half.back));
+    orient(halves, parents, &mut faults);
+    let (paired, rims) = pair(halves, memory.rims)?;
+    faults.rims = rims;
+    let edges = &mut halves[..paired];
+    let groups = paired.div_ceil(IN_BOX);
+    let boxes = first("boxes of edges", groups, memory.boxes)?;
+    let groups = first("groups of edges", groups, memory.groups)?;
+    boxes::gather(mesh, edges, boxes, groups);
+    let kept = Edges::new(boxes, groups, &memory.rims[..rims]);
+    // They are as many, because both were cut to one length.
+    kept.map(|edges| (edges, faults)).ok_or(TooLittleMemory {
+        what: "groups of edges",
+        needed: boxes.len(),
+        given: groups.len(),
+    })
 }
 
-/// Joins sides that follow each other, sorted by their vertices and then those forth before those
-/// back, and moves the pairs to the front.
-fn pair(halves: &mut [MeshEdge]) -> Option<usize> {
-    let (mut paired, mut start) = (0, 0);
-    while let Some(first) = halves.get(start).copied() {
-        let same = |edge: &&MeshEdge| (edge.from, edge.to) == (first.from, first.to);
-        let run = halves.get(start..)?.iter().take_while(same);
-        let (mut length, mut forth) = (0, 0);
-        for edge in run {
-            length += 1;
-            forth += usize::from(edge.forth != NONE);
+/// The sides of all triangles that cover anything, from the lower to the higher vertex: `forth` has the third vertex, `back`
+/// the triangle, `order` whether it runs that way. Gives their number.
+fn write_halves(
+    mesh: &Mesh<'_>,
+    same: &[u32],
+    halves: &mut [MeshEdge],
+    faults: &mut SurfaceFaults,
+) -> usize {
+    let mut count = 0;
+    for (triangle, corners) in mesh.triangles().iter().enumerate() {
+        let [a, b, c] = corners.map(|vertex| same[vertex as usize]);
+        if a == b || b == c || c == a {
+            faults.degenerate += 1;
+            continue;
         }
-        if length != 2 * forth {
-            return None;
+        for (from, to, third) in [(a, b, c), (b, c, a), (c, a, b)] {
+            halves[count] = MeshEdge {
+                from: from.min(to),
+                to: from.max(to),
+                forth: third,
+                back: triangle as u32,
+                order: u32::from(from < to),
+            };
+            count += 1;
         }
-        for k in 0..forth {
-            let (a, b) = (*halves.get(start + k)?, *halves.get(start + forth + k)?);
-            *halves.get_mut(paired)? = MeshEdge { back: b.back, ..a };
+    }
+    count
+}
+
+/// Turns the triangles of a connected piece alike, as most edges between two of them allow.
+fn orient(halves: &mut [MeshEdge], parents: &mut [u32], faults: &mut SurfaceFaults) {
+    let triangles = parents.len();
+    let mut orientation = Orientation::new(parents);
+    let mut start = 0;
+    while start < halves.len() {
+        let end = run_end(halves, start);
+        if let [a, b] = halves[start..end] {
+            orientation.join(a.back, b.back, a.order == b.order);
+        }
+        start = end;
+    }
+    for half in &mut *halves {
+        half.order ^= u32::from(orientation.root(half.back).1);
+    }
+    let turned = (0..triangles as u32).filter(|&triangle| orientation.root(triangle).1);
+    faults.turned = turned.count();
+}
+
+/// Joins sides that run along one edge in opposite directions and moves the pairs to the front; writes the others to `rims`.
+/// Gives the numbers of both.
+fn pair(halves: &mut [MeshEdge], rims: &mut [RimEdge]) -> Result<(usize, usize), TooLittleMemory> {
+    let (mut paired, mut alone, mut start) = (0, 0, 0);
+    while start < halves.len() {
+        let end = run_end(halves, start);
+        let run = &mut halves[start..end];
+        run.sort_unstable_by_key(|half| (half.order == 0, half.forth));
+        let forth = run.iter().take_while(|half| half.order == 1).count();
+        let pairs = forth.min(end - start - forth);
+        for k in 0..pairs {
+            let (a, b) = (halves[start + k], halves[start + forth + k]);
+            halves[paired] = MeshEdge { back: b.forth, ..a };
             paired += 1;
         }
-        start += length;
+        for k in (start + pairs..start + forth).chain(start + forth + pairs..end) {
+            let half = halves[k];
+            let room = rims.len();
+            *rims.get_mut(alone).ok_or(TooLittleMemory {
+                what: "rims of triangles",
+                needed: room + 1,
+                given: room,
+            })? = rim(&half);
+            alone += 1;
+        }
+        start = end;
     }
-    Some(paired)
+    Ok((paired, alone))
+}
+
+fn rim(half: &MeshEdge) -> RimEdge {
+    let (from, to) = match half.order {
+        1 => (half.from, half.to),
+        _ => (half.to, half.from),
+    };
+    RimEdge {
+        from,
+        to,
+        third: half.forth,
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::vec;
+    use std::vec::Vec;
 
     const CORNERS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     const CLOSED: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
 
-    fn linked(triangles: &[[u32; 3]]) -> Option<std::vec::Vec<MeshEdge>> {
-        let mesh = Mesh::new(&CORNERS, triangles).expect("valid");
-        let mut room = std::vec![MeshEdge::default(); edges_needed(&mesh)];
-        let mut boxes = std::vec![EdgeBox::default(); groups_needed(&mesh)];
-        let mut groups = std::vec![EdgeGroup::default(); groups_needed(&mesh)];
-        let edges = link(&mesh, &mut room, &mut boxes, &mut groups)?;
-        Some(
-            edges
-                .groups()
-                .flat_map(|(_, group)| group.edges())
-                .collect(),
-        )
+    fn linked(
+        vertices: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+    ) -> (Vec<MeshEdge>, Vec<RimEdge>, SurfaceFaults) {
+        let mesh = Mesh::new(vertices, triangles).expect("valid");
+        let needs = link_needed(&mesh);
+        let mut boxes = vec![EdgeBox::default(); needs.groups];
+        let mut groups = vec![EdgeGroup::default(); needs.groups];
+        let mut rims = vec![RimEdge::default(); needs.halves];
+        let memory = LinkMemory {
+            halves: &mut vec![MeshEdge::default(); needs.halves],
+            numbers: &mut vec![0; needs.numbers],
+            boxes: &mut boxes,
+            groups: &mut groups,
+            rims: &mut rims,
+        };
+        let (edges, faults) = link(&mesh, memory).expect("enough memory");
+        let pairs = edges.groups().flat_map(|(_, group)| group.edges());
+        (pairs.collect(), edges.rims().to_vec(), faults)
     }
 
     /// Oracle: both triangles beside an edge are there and run along it as is said.
@@ -129,38 +240,71 @@ mod tests {
 
     #[test]
     fn a_closed_surface_has_an_edge_for_every_two_sides() {
-        let edges = linked(&CLOSED).expect("closed");
-        assert_eq!(edges.len(), 6);
+        let (edges, rims, faults) = linked(&CORNERS, &CLOSED);
+        assert_eq!((edges.len(), rims.len()), (6, 0));
+        assert_eq!(faults, SurfaceFaults::default());
         assert_sides(&edges, &CLOSED);
         // Two surfaces on the same vertices: four triangles at each edge.
-        let twice: std::vec::Vec<_> = CLOSED.iter().chain(&CLOSED).copied().collect();
-        let edges = linked(&twice).expect("closed");
-        assert_eq!(edges.len(), 12);
+        let twice: Vec<_> = CLOSED.iter().chain(&CLOSED).copied().collect();
+        let (edges, rims, _) = linked(&CORNERS, &twice);
+        assert_eq!((edges.len(), rims.len()), (12, 0));
         assert_sides(&edges, &twice);
     }
 
     #[test]
-    fn open_and_inconsistent_surfaces_have_none() {
-        assert_eq!(linked(&CLOSED[..3]), None);
+    fn a_hole_has_a_rim_and_a_turned_triangle_none() {
+        let (edges, rims, faults) = linked(&CORNERS, &CLOSED[..3]);
+        assert_eq!((edges.len(), rims.len(), faults.rims), (3, 3, 3));
+        assert!(!faults.is_closed());
         let mut turned = CLOSED;
-        turned[0].swap(0, 1);
-        assert_eq!(linked(&turned), None);
+        turned[2].swap(0, 1);
+        let (edges, rims, faults) = linked(&CORNERS, &turned);
+        assert_eq!((edges.len(), rims.len(), faults.turned), (6, 0, 1));
+        assert!(faults.is_closed());
     }
 
     #[test]
-    fn a_triangle_without_area_does_no_harm() {
-        let with_sliver: std::vec::Vec<_> = CLOSED.iter().copied().chain([[1, 1, 2]]).collect();
-        assert_eq!(linked(&with_sliver).expect("closed").len(), 7);
+    fn vertices_at_one_place_are_one() {
+        let corners: Vec<[f32; 3]> = CLOSED
+            .iter()
+            .flatten()
+            .map(|&vertex| CORNERS[vertex as usize].map(|x| if x == 0.0 { -0.0 } else { x }))
+            .collect();
+        let triangles: Vec<[u32; 3]> = (0..4).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let (edges, rims, faults) = linked(&corners, &triangles);
+        assert_eq!((edges.len(), rims.len(), faults.welded), (6, 0, 8));
     }
 
     #[test]
-    fn too_little_room_is_no_panic() {
-        let mesh = Mesh::new(&CORNERS, &CLOSED).expect("valid");
-        let (mut boxes, mut groups) = ([EdgeBox::default()], [EdgeGroup::default()]);
-        let mut room = [MeshEdge::default(); 12];
-        assert!(link(&mesh, &mut room[..11], &mut boxes, &mut groups).is_none());
-        assert!(link(&mesh, &mut room, &mut [], &mut groups).is_none());
-        assert!(link(&mesh, &mut room, &mut boxes, &mut []).is_none());
-        assert!(link(&mesh, &mut room, &mut boxes, &mut groups).is_some());
+    fn a_triangle_without_area_is_left_out() {
+        let with_sliver: Vec<_> = CLOSED.iter().copied().chain([[1, 1, 2]]).collect();
+        let (edges, rims, faults) = linked(&CORNERS, &with_sliver);
+        assert_eq!((edges.len(), rims.len(), faults.degenerate), (6, 0, 1));
+    }
+
+    #[test]
+    fn too_little_memory_is_an_error() {
+        let mesh = Mesh::new(&CORNERS, &CLOSED[..3]).expect("valid");
+        let needs = link_needed(&mesh);
+        let link_with = |halves: usize, numbers: usize, groups: usize, rims: usize| {
+            let memory = LinkMemory {
+                halves: &mut vec![MeshEdge::default(); halves],
+                numbers: &mut vec![0; numbers],
+                boxes: &mut vec![EdgeBox::default(); groups],
+                groups: &mut vec![EdgeGroup::default(); groups],
+                rims: &mut vec![RimEdge::default(); rims],
+            };
+            link(&mesh, memory).map(|_| ())
+        };
+        let LinkNeeds {
+            halves,
+            numbers,
+            groups,
+        } = needs;
+        assert_eq!(link_with(halves, numbers, groups, 3), Ok(()));
+        assert!(link_with(halves - 1, numbers, groups, 3).is_err());
+        assert!(link_with(halves, numbers - 1, groups, 3).is_err());
+        assert!(link_with(halves, numbers, 0, 3).is_err());
+        assert!(link_with(halves, numbers, groups, 2).is_err());
     }
 }

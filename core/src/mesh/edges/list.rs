@@ -1,29 +1,41 @@
 //! The edges of a surface, borrowed.
 
 use super::boxes::{EdgeBox, EdgeGroup};
+use super::edge::RimEdge;
 
-/// The edges of a closed surface, grouped so that those of a group are on the contour together or not at all, mostly.
+/// The edges of a surface: those between two triangles, together where their triangles turn from the camera together, and
+/// those that belong to one triangle alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Edges<'e> {
     boxes: &'e [EdgeBox],
     groups: &'e [EdgeGroup],
+    rims: &'e [RimEdge],
 }
 
 impl<'e> Edges<'e> {
-    /// Boxes and groups that [`super::link()`] gave, kept in other memory; `None` where their numbers differ.
+    /// What [`super::link`] gave, kept in other memory; `None` where there are not as many boxes as groups.
     #[must_use]
-    pub fn new(boxes: &'e [EdgeBox], groups: &'e [EdgeGroup]) -> Option<Self> {
-        (boxes.len() == groups.len()).then_some(Self { boxes, groups })
+    pub fn new(boxes: &'e [EdgeBox], groups: &'e [EdgeGroup], rims: &'e [RimEdge]) -> Option<Self> {
+        (boxes.len() == groups.len()).then_some(Self {
+            boxes,
+            groups,
+            rims,
+        })
     }
 
     /// The boxes and groups, to be kept in other memory.
     #[must_use]
-    pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup]) {
-        (self.boxes, self.groups)
+    pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup], &'e [RimEdge]) {
+        (self.boxes, self.groups, self.rims)
     }
 
-    /// Groups and their boxes.
+    /// Groups of edges between two triangles, and their boxes.
     pub(crate) fn groups(&self) -> impl Iterator<Item = (&'e EdgeBox, &'e EdgeGroup)> {
         self.boxes.iter().zip(self.groups)
+    }
+
+    /// Edges of one triangle alone; none of a closed surface.
+    pub(crate) fn rims(&self) -> &'e [RimEdge] {
+        self.rims
     }
 }

@@ -2,6 +2,7 @@
 
 use heapless::Vec;
 
+use crate::polyline::side;
 use fluoropose::image::contour::Point;
 use fluoropose::math::{atan2, sin_cos, sqrt};
 
@@ -23,11 +24,11 @@ impl Capsule {
         let (right, down) = (to.column - from.column, to.row - from.row);
         let ahead = atan2(down, right);
         let mut corners = Vec::new();
-        // Round the far end from its left hand to its right, then round the near one.
+        // Around the far end from its left hand to its right, then around the near end.
         for (end, turn) in [(to, ahead), (from, ahead + core::f64::consts::PI)] {
             for part in 0..=parts {
-                let share = part as f64 / parts as f64 - 0.5;
-                let (sin, cos) = sin_cos(turn + share * core::f64::consts::PI);
+                let fraction = part as f64 / parts as f64 - 0.5;
+                let (sin, cos) = sin_cos(turn + fraction * core::f64::consts::PI);
                 let corner = Point::new(end.column + radius * cos, end.row + radius * sin);
                 // At most `MOST_CORNERS`. Of a disc that does not move the ends of both halves fall together.
                 let twice = corners.last().is_some_and(|&last| near(last, corner));
@@ -46,8 +47,7 @@ impl Capsule {
 
     /// Whether a point lies inside.
     pub(super) fn holds(&self, point: Point) -> bool {
-        let mut sides = (0..self.corners.len())
-            .map(|number| super::super::polyline::side(&self.corners, number));
+        let mut sides = (0..self.corners.len()).map(|number| side(&self.corners, number));
         sides.all(|(a, b)| {
             (b.column - a.column) * (point.row - a.row)
                 > (b.row - a.row) * (point.column - a.column)
@@ -69,7 +69,7 @@ fn half_parts(radius: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::polyline::{squared_distance, twice_area};
+    use crate::polyline::{distance, squared_distance, twice_area};
 
     #[test]
     fn a_capsule_is_convex_clockwise_and_as_wide_as_the_disc() {
@@ -96,7 +96,7 @@ mod tests {
             }
             assert!(capsule.holds(from) && capsule.holds(to));
             assert!(!capsule.holds(Point::new(20.0 - 1.01 * radius, 30.0)));
-            let long = crate::polyline::distance(from, to);
+            let long = distance(from, to);
             let wanted = core::f64::consts::PI * radius * radius + 2.0 * radius * long;
             assert!((twice_area(corners) / 2.0 / wanted - 1.0).abs() < 0.02);
         }

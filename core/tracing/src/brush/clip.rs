@@ -1,19 +1,28 @@
-//! An outline and a capsule: their union, or the one without the other.
+//! An outline and a capsule: their union, or the outline without the capsule.
 
-use super::Brush;
 use super::capsule::Capsule;
+use crate::error::TracingError;
 use crate::list::List;
 use crate::polyline::{between, side, twice_area};
-use crate::{AidError, NEW, Vertex};
+use crate::vertex::{NEW, Vertex};
 use fluoropose::image::contour::Point;
 use fluoropose::math::floor;
 
-/// Where an outline meets the border of a capsule. Opaque: only a length to be lent.
+/// What a stroke does to an outline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Brush {
+    /// The area of the stroke becomes part of the implant.
+    Add,
+    /// The area of the stroke is taken from the implant.
+    Erase,
+}
+
+/// Where an outline crosses the border of a capsule. Opaque: callers only provide the memory for it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cut {
-    /// Along the outline: the number of the side and the share of it.
+    /// Place along the outline: the number of the side plus the fraction of it.
     along_outline: f64,
-    /// The same along the capsule.
+    /// The same along the border of the capsule.
     along_capsule: f64,
     /// Whether the outline goes into the capsule.
     enters: bool,
@@ -33,19 +42,19 @@ pub(super) enum Clipped {
 
 pub(super) struct Clip<'a> {
     pub(super) what: Brush,
-    /// Points of the outline that was given first, which [`Vertex::from`] counts.
+    /// Number of points of the outline before the first capsule, to which [`Vertex::from`] refers.
     pub(super) given: usize,
     pub(super) cuts: List<'a, Cut>,
 }
 
 impl Clip<'_> {
-    /// Writes what becomes of `outline` to `out`; `None` where the two touch in a way that cannot be told.
+    /// Writes what becomes of `outline` to `out`; `None` where the two touch in a way that cannot be decided.
     pub(super) fn clip(
         &mut self,
         outline: &[Vertex],
         capsule: &Capsule,
         out: &mut List<'_, Vertex>,
-    ) -> Result<Option<Clipped>, AidError> {
+    ) -> Result<Option<Clipped>, TracingError> {
         self.find_cuts(outline, capsule)?;
         let cuts = self.cuts.as_slice();
         let alternate = cuts.windows(2).all(|pair| pair[0].enters != pair[1].enters);
@@ -59,7 +68,7 @@ impl Clip<'_> {
         self.largest(&outline, capsule, out)
     }
 
-    fn find_cuts(&mut self, outline: &[Vertex], capsule: &Capsule) -> Result<(), AidError> {
+    fn find_cuts(&mut self, outline: &[Vertex], capsule: &Capsule) -> Result<(), TracingError> {
         self.cuts.clear();
         let corners = capsule.corners();
         let bounds = Bounds::of(corners);
@@ -90,7 +99,7 @@ impl Clip<'_> {
         outline: &[Vertex],
         capsule: &Capsule,
         out: &mut List<'_, Vertex>,
-    ) -> Result<Clipped, AidError> {
+    ) -> Result<Clipped, TracingError> {
         let swallowed = outline.first().is_some_and(|first| capsule.holds(first.at));
         if !swallowed {
             return Ok(Clipped::Untouched);
@@ -118,7 +127,7 @@ impl Clip<'_> {
         outline: &Ring<'_>,
         capsule: &Capsule,
         out: &mut List<'_, Vertex>,
-    ) -> Result<Option<Clipped>, AidError> {
+    ) -> Result<Option<Clipped>, TracingError> {
         let clockwise = outline.is_clockwise();
         let (mut best, mut left_out) = ((0.0, None), 0.0);
         for start in 0..self.cuts.len() {
@@ -130,8 +139,8 @@ impl Clip<'_> {
             if !self.walk(outline, capsule, clockwise, start, out)? {
                 return Ok(None);
             }
-            let turned = if clockwise { 1.0 } else { -1.0 };
-            let area = turned
+            let sign = if clockwise { 1.0 } else { -1.0 };
+            let area = sign
                 * Ring {
                     line: out.as_slice(),
                 }
@@ -141,7 +150,7 @@ impl Clip<'_> {
                 left_out += best.0;
                 best = (area, Some(start));
             } else {
-                // What runs the other way round is a hole that is filled.
+                // A loop in the other direction is a hole, which is filled.
                 left_out += area.max(0.0);
             }
         }
@@ -153,8 +162,8 @@ impl Clip<'_> {
         Ok(Some(Clipped::Changed { left_out }))
     }
 
-    /// Goes round one loop: from where the outline leaves the capsule to where it enters it, along the capsule's border
-    /// to where it leaves again, and on. Gives whether it came back to where it began.
+    /// Writes one loop: along the outline from where it leaves the capsule to where it enters it, along the capsule's
+    /// border to where the outline leaves again, and so on. Returns whether the loop came back to where it began.
     fn walk(
         &mut self,
         outline: &Ring<'_>,
@@ -162,7 +171,7 @@ impl Clip<'_> {
         clockwise: bool,
         start: usize,
         out: &mut List<'_, Vertex>,
-    ) -> Result<bool, AidError> {
+    ) -> Result<bool, TracingError> {
         let count = self.cuts.len();
         let forwards = (self.what == Brush::Add) == clockwise;
         let mut at = start;
@@ -235,7 +244,7 @@ impl Ring<'_> {
         self.twice_area() > 0.0
     }
 
-    /// The point at a place along the outline, and where that is on the one that was given first.
+    /// The point at a place along the outline, with its place on the outline before the first capsule.
     fn vertex(&self, along: f64, given: usize) -> Vertex {
         let number = floor(along);
         let count = self.line.len();
@@ -265,8 +274,8 @@ impl Ring<'_> {
         &self,
         from: f64,
         to: f64,
-        mut emit: impl FnMut(Vertex) -> Result<(), AidError>,
-    ) -> Result<(), AidError> {
+        mut emit: impl FnMut(Vertex) -> Result<(), TracingError>,
+    ) -> Result<(), TracingError> {
         let count = self.line.len();
         let first = floor(from) as usize + 1;
         let last = floor(to) as usize + if to < from { count } else { 0 };
@@ -282,8 +291,8 @@ fn emit_corners(
     corners: &[Point],
     (from, to): (f64, f64),
     forwards: bool,
-    mut emit: impl FnMut(Point) -> Result<(), AidError>,
-) -> Result<(), AidError> {
+    mut emit: impl FnMut(Point) -> Result<(), TracingError>,
+) -> Result<(), TracingError> {
     let count = corners.len();
     let (low, high) = if forwards { (from, to) } else { (to, from) };
     let first = floor(low) as usize + 1;
@@ -299,7 +308,7 @@ fn emit_corners(
     Ok(())
 }
 
-/// The box round some points.
+/// The box around some points.
 struct Bounds {
     low: [f64; 2],
     high: [f64; 2],
@@ -330,7 +339,8 @@ impl Bounds {
     }
 }
 
-/// The shares of a side of the outline and of one of a capsule at which they cross, and whether the outline goes in.
+/// The fractions of a side of the outline and of a side of a capsule at which they cross, and whether the outline enters
+/// the capsule there.
 fn crossing((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<(f64, f64, bool)> {
     let (px, py) = (b.column - a.column, b.row - a.row);
     let (qx, qy) = (d.column - c.column, d.row - c.row);

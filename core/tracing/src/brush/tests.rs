@@ -1,6 +1,6 @@
 use super::*;
-use crate::films::{Random, circle};
 use crate::polyline::{squared_distance, twice_area};
+use crate::synthetic::{Random, circle};
 use fluoropose::image::contour::Outline;
 use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use std::vec::Vec;
@@ -131,23 +131,26 @@ fn strokes_do_to_outlines_what_they_do_to_pixels() {
             .to_vec(),
     );
     let (mut checked, mut different) = (0, 0);
-    for round in 0..60 {
-        let mut points = shapes[round % 3].clone();
-        if round % 2 == 1 {
+    for case in 0..60 {
+        let mut points = shapes[case % 3].clone();
+        if case % 2 == 1 {
             points.reverse();
         }
-        let count = 1 + round % 6;
-        let mut at = place(30.0 + 68.0 * random.share(), 30.0 + 68.0 * random.share());
+        let count = 1 + case % 6;
+        let mut at = place(
+            30.0 + 68.0 * random.uniform(),
+            30.0 + 68.0 * random.uniform(),
+        );
         let mut stroke = std::vec![at];
         for _ in 1..count {
-            let mut step = || 16.0 * (random.share() - 0.5);
+            let mut step = || 16.0 * (random.uniform() - 0.5);
             at = place(
                 (at.column + step()).clamp(25.0, 103.0),
                 (at.row + step()).clamp(25.0, 103.0),
             );
             stroke.push(at);
         }
-        let radius = 3.0 + 12.0 * random.share();
+        let radius = 3.0 + 12.0 * random.uniform();
         // A ring or a gap thinner than a pixel is none to pixels.
         let nearest = sides_away(&points, &stroke);
         if (nearest - radius).abs() < 2.0 {
@@ -165,8 +168,8 @@ fn strokes_do_to_outlines_what_they_do_to_pixels() {
 /// The least distance of an outline from a stroke's middle line.
 fn sides_away(points: &[Point], stroke: &[Point]) -> f64 {
     let places = (0..points.len()).flat_map(|k| {
-        let ends = super::super::polyline::side(points, k);
-        (0..100).map(move |part| super::super::polyline::between(ends, f64::from(part) / 100.0))
+        let ends = crate::polyline::side(points, k);
+        (0..100).map(move |part| crate::polyline::between(ends, f64::from(part) / 100.0))
     });
     places
         .map(|at| away(stroke, at))
@@ -191,7 +194,7 @@ fn points_outside_the_stroke_are_untouched_and_in_their_order() {
             if let Some(number) = vertex.kept_number() {
                 assert_eq!(vertex.at, points[number]);
             } else if vertex.from != NEW {
-                let ends = super::super::polyline::side(&points, vertex.from as usize);
+                let ends = crate::polyline::side(&points, vertex.from as usize);
                 assert!(squared_distance(vertex.at, ends) < 1e-12);
             }
         }
@@ -288,14 +291,14 @@ fn wrong_settings_are_said() {
         |stroke: &[Point], radius| brush(&points, stroke, radius, Brush::Add, memory(), &mut out);
     assert!(matches!(
         wrong(&points[..1], f64::NAN),
-        Err(AidError::Setting { .. })
+        Err(TracingError::Setting { .. })
     ));
     assert!(matches!(
         wrong(&[], 5.0),
-        Err(AidError::TooFewPoints { .. })
+        Err(TracingError::TooFewPoints { .. })
     ));
     assert!(matches!(
         wrong(&points[..1], 5.0),
-        Err(AidError::Memory { .. })
+        Err(TracingError::Memory(_))
     ));
 }

@@ -7,9 +7,11 @@ const WEIGHTS: [u32; 5] = [1, 4, 6, 4, 1];
 /// Distance between the pixels that are averaged for the coarse scale.
 const SPREAD: usize = 2;
 
-/// A row of a grid, as long as the frame is wide.
-fn row_of(grid: &[u16], width: usize, row: usize) -> &[u16] {
-    grid.get(row * width..(row + 1) * width).unwrap_or_default()
+/// A row of values, as long as the frame is wide.
+fn row_of(values: &[u16], width: usize, row: usize) -> &[u16] {
+    values
+        .get(row * width..(row + 1) * width)
+        .unwrap_or_default()
 }
 
 /// The number `by` away from `at`, kept below `count`.
@@ -17,7 +19,7 @@ fn moved(at: usize, by: isize, count: usize) -> usize {
     at.saturating_add_signed(by).min(count - 1)
 }
 
-/// Smooths a row of the fine grid once more, with every second pixel: a Gaussian of about 2.2 pixels in all.
+/// Smooths a row of the fine scale once more, with every second pixel: a Gaussian of about 2.2 pixels in all.
 pub(super) fn coarse_row(fine: &[u16], width: usize, height: usize, row: usize, out: &mut [u16]) {
     let rows: [&[u16]; WEIGHTS.len()] = core::array::from_fn(|k| {
         let by = (SPREAD * k) as isize - (2 * SPREAD) as isize;
@@ -33,7 +35,7 @@ pub(super) fn coarse_row(fine: &[u16], width: usize, height: usize, row: usize, 
             .sum()
     };
     let at = |column: usize| down(column.min(width - 1));
-    // Column sums from four to the left to four to the right: each is worked out once.
+    // Column sums from four to the left to four to the right, so that each is computed once.
     let mut window = [0; 4 * SPREAD + 1];
     for (k, sum) in window.iter_mut().enumerate() {
         *sum = at(k.saturating_sub(2 * SPREAD));
@@ -55,8 +57,8 @@ pub(super) fn gradients_row(
     row: usize,
     mut emit: impl FnMut(usize, u16, [i32; 2]),
 ) {
-    let rows = |grid, reach: isize| {
-        [-reach, 0, reach].map(|by| row_of(grid, width, moved(row, by, height)))
+    let rows = |values, reach: isize| {
+        [-reach, 0, reach].map(|by| row_of(values, width, moved(row, by, height)))
     };
     let fine = rows(fine, 1);
     let coarse = rows(coarse, SPREAD as isize);
@@ -135,12 +137,12 @@ pub(super) fn is_ridge(rows: [&[u16]; 3], column: usize, outwards: u8) -> bool {
     let last = rows[1].len() - 1;
     let columns = [column.saturating_sub(1), column, (column + 1).min(last)];
     let at = |(right, down): (usize, usize)| u32::from(rows[down][columns[right]]);
-    // The two neighbours that the direction passes between, and the share of the second in 32nds.
-    // The opposite direction has the same two sides: what is the middle does not depend on which is the implant's.
-    let (first, share) = (usize::from(outwards / 32) % 4, u32::from(outwards % 32));
-    let beside = |first: usize| at(AROUND[first]) * (32 - share) + at(AROUND[first + 1]) * share;
+    // The two neighbours that the direction passes between, and the weight of the second in 32nds. The opposite
+    // direction has the same two sides, so the middle of an edge does not depend on the side of the implant.
+    let (first, weight) = (usize::from(outwards / 32) % 4, u32::from(outwards % 32));
+    let beside = |first: usize| at(AROUND[first]) * (32 - weight) + at(AROUND[first + 1]) * weight;
     let here = 32 * at((1, 1));
-    // One side strictly, so that of two equal pixels one is the middle.
+    // Strictly greater on one side, so that one of two equal pixels is the middle.
     here >= beside(first) && here > beside(first + 4)
 }
 

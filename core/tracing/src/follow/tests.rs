@@ -1,9 +1,9 @@
 use super::*;
 use crate::costs::tests::edges_of;
-use crate::films::{Film, Random};
 use crate::polyline::distance;
-use crate::threshold::Inside;
-use crate::wire::{Hand, Waiting};
+use crate::side::{Hand, Inside};
+use crate::synthetic::{Random, SyntheticFrame};
+use crate::wire::Waiting;
 use std::vec::Vec;
 
 /// A live-wire with its memory.
@@ -17,22 +17,22 @@ struct Session {
 }
 
 impl Session {
-    fn new(film: &Film, seed: [f64; 2], hand: Hand) -> Self {
-        let edges = edges_of(film, Inside::Dark, 64);
+    fn new(frame: &SyntheticFrame, seed: [f64; 2], hand: Hand) -> Self {
+        let edges = edges_of(frame, Inside::Dark, 64);
         let mut nodes = std::vec![Node::default(); edges.len()];
         let mut waiting = std::vec![Waiting::default(); edges.len()];
         let mut memory = WireMemory {
             nodes: &mut nodes,
             waiting: &mut waiting,
         };
-        let costs = Costs::new(&edges, film.width, film.height).expect("fits");
+        let costs = Costs::new(&edges, frame.width, frame.height).expect("fits");
         let seed = Point::new(seed[0], seed[1]);
         let wire = Wire::start(&costs, seed, hand, &mut memory).expect("fits");
         Self {
             wire,
             nodes,
             waiting,
-            width: film.width,
+            width: frame.width,
             edges,
             follower: Follower::default(),
         }
@@ -64,11 +64,11 @@ impl Session {
 
 const ALL: usize = usize::MAX;
 
-fn disc(noise: f64) -> Film {
-    let mut film = Film::new(160, 150, 190.0);
-    film.disc([80.0, 75.0], 50.0, 90.0);
-    film.add_noise(noise, 6);
-    film
+fn disc(noise: f64) -> SyntheticFrame {
+    let mut frame = SyntheticFrame::new(160, 150, 190.0);
+    frame.disc([80.0, 75.0], 50.0, 90.0);
+    frame.add_noise(noise, 6);
+    frame
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn the_path_ends_on_the_edge_and_follows_the_hand_along_it() {
     let mut before: Vec<u32> = Vec::new();
     for step in 0..150 {
         let turn = core::f64::consts::PI * (1.0 + f64::from(step) / 150.0);
-        let away = 50.0 + 8.0 * (random.share() - 0.5);
+        let away = 50.0 + 8.0 * (random.uniform() - 0.5);
         let at = Point::new(80.0 + away * turn.cos(), 75.0 + away * turn.sin());
         let path = session.follow(at.column, at.row, 6.0, ALL);
         let end = session.end(&path);
@@ -102,7 +102,7 @@ fn a_hand_that_trembles_leaves_the_path_alone() {
     let mut random = Random(12);
     let mut before = session.follow(80.0, 26.0, 6.0, ALL);
     for _ in 0..200 {
-        let mut shift = || 3.0 * (random.share() - 0.5);
+        let mut shift = || 3.0 * (random.uniform() - 0.5);
         let path = session.follow(80.0 + shift(), 26.0 + shift(), 6.0, ALL);
         assert!(common_length(&before, &path) + 6 >= before.len());
         before = path;
@@ -111,17 +111,17 @@ fn a_hand_that_trembles_leaves_the_path_alone() {
 
 #[test]
 fn between_two_edges_the_one_that_is_held_stays() {
-    let mut film = Film::new(160, 60, 190.0);
-    film.plate([80.0, 30.0], [70.0, 2.5], 0.0, 90.0);
-    film.add_noise(5.0, 3);
-    let mut session = Session::new(&film, [20.0, 27.5], Hand::Right);
+    let mut frame = SyntheticFrame::new(160, 60, 190.0);
+    frame.plate([80.0, 30.0], [70.0, 2.5], 0.0, 90.0);
+    frame.add_noise(5.0, 3);
+    let mut session = Session::new(&frame, [20.0, 27.5], Hand::Right);
     let mut random = Random(2);
     let begin = session.follow(100.0, 27.0, 6.0, ALL);
     assert!((session.end(&begin).row - 27.5).abs() < 1.1);
     for _ in 0..100 {
-        // Round the middle of the plate, nearer to either edge by turns.
-        let row = 30.0 + 2.0 * (random.share() - 0.5);
-        let path = session.follow(100.0 + 4.0 * random.share(), row, 6.0, ALL);
+        // Around the middle of the plate, nearer to one edge or the other.
+        let row = 30.0 + 2.0 * (random.uniform() - 0.5);
+        let path = session.follow(100.0 + 4.0 * random.uniform(), row, 6.0, ALL);
         assert!(
             (session.end(&path).row - 27.5).abs() < 1.1,
             "{:?}",
@@ -136,7 +136,7 @@ fn between_two_edges_the_one_that_is_held_stays() {
 #[test]
 fn two_ways_of_one_cost_do_not_take_turns() {
     let mut session = Session::new(&disc(6.0), [30.0, 75.0], Hand::Either);
-    // Opposite to the seed, where both ways round cost nearly the same; find where they change.
+    // Opposite to the seed, where both ways around cost nearly the same; find where they change.
     let ways: Vec<bool> = (-20..=20)
         .map(|k| {
             session.follower.release();
@@ -150,7 +150,7 @@ fn two_ways_of_one_cost_do_not_take_turns() {
     let mut random = Random(7);
     let (mut before, mut jumps) = (Vec::new(), 0);
     for _ in 0..200 {
-        let row = row + 4.0 * (random.share() - 0.5);
+        let row = row + 4.0 * (random.uniform() - 0.5);
         let path = session.follow(129.0, row, 6.0, ALL);
         jumps += usize::from(common_length(&before, &path) + 60 < before.len());
         before = path;

@@ -1,4 +1,4 @@
-//! Regions, first poses and answers, and lists that keep the best of them once.
+//! Regions, poses of the library, first poses and answers, and lists that keep the best of them, each once.
 
 use heapless::Vec;
 
@@ -10,62 +10,64 @@ use fluoropose::shortlist;
 
 use super::support::Support;
 
-/// How a region was cut out.
+/// How a region is cut out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Region {
-    pub(super) look: usize,
+    /// The preprocessing pass.
+    pub(super) pass: usize,
+    /// The threshold.
     pub(super) level: u16,
-    /// Of the disc that cut its bridges, pixels.
+    /// Radius of the disc that cuts its bridges, pixels.
     pub(super) radius: f64,
 }
 
 /// A pose that the library has for a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Find {
+pub(super) struct LocatedPose {
     pub(super) pose: Pose,
-    /// The region that led to it, where one did: others are judged by edges alone.
+    /// The region that led to it; poses without a region are scored by edges alone.
     pub(super) region: Option<Region>,
-    /// Canonical pixels that differ, parts of the canonical area.
+    /// Number of canonical pixels that differ, divided by the canonical area.
     pub(super) mismatch: f64,
 }
 
-/// A first pose and what speaks for it.
+/// A first pose and its evidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// `camera_from_model`.
     pub pose: Pose,
     pub(super) region: Option<Region>,
-    /// What the region and the model drawn at the pose have in common, 0 to 1; 1 without a region.
+    /// Intersection of the region and the model drawn at the pose, divided by their union: 0 to 1. 1 without a region.
     pub overlap: f64,
-    /// What the frame says of the outline there.
+    /// What the frame says about the outline there.
     pub support: Support,
-    /// Overlap and strength of edges together, 0 to 2, where the prompt agrees.
+    /// Sum of overlap and strength of edges, multiplied by how well the prompt agrees: 0 to 2.
     pub score: f64,
 }
 
-/// A refined pose and what speaks for it.
+/// A refined pose and its evidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
     /// The pose, refined on the frame.
     pub refined: Refined,
     /// The first pose that led to it.
     pub start: Pose,
-    /// What the frame says of the outline.
+    /// What the frame says about the outline.
     pub support: Support,
     /// Whether it was refined from the mirror image of another answer.
     pub mirrored: bool,
-    /// Strength of edges, less where they lie off the outline, where the prompt agrees, 0 to 1:
-    /// answers are in its order.
+    /// Strength of edges, multiplied by how near they lie to the outline and by how well the prompt agrees: 0 to 1.
+    /// Answers are sorted by it.
     pub score: f64,
 }
 
-/// Something that is found by a pose and ranked by a number, the greatest first.
+/// Something with a pose that is ranked by a number, the greatest first.
 pub(super) trait Ranked: Copy {
     fn pose(&self) -> &Pose;
     fn rank(&self) -> f64;
 }
 
-impl Ranked for Find {
+impl Ranked for LocatedPose {
     fn pose(&self) -> &Pose {
         &self.pose
     }
@@ -92,16 +94,28 @@ impl Ranked for Answer {
     }
 }
 
-/// Up to where two poses are one.
+/// Up to where two poses count as one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearness {
+    /// Angle between the rotations.
     pub(super) degrees: f64,
-    /// Distance of the model's middles, parts of that from the focus.
+    /// Distance between the model's centres, divided by that from the focus.
     pub(super) place: f64,
 }
 
+/// Located and first poses that lead to the same answer.
+pub(super) const SAME_START: Nearness = Nearness {
+    degrees: 5.0,
+    place: 0.04,
+};
+/// Answers that are the same, up to what refinement leaves.
+pub(super) const SAME_ANSWER: Nearness = Nearness {
+    degrees: 2.0,
+    place: 0.01,
+};
+
 impl Nearness {
-    /// Whether two poses of a model are one.
+    /// Whether two poses of a model count as one.
     pub(super) fn holds(&self, a: &Pose, b: &Pose, model: &Model<'_>) -> bool {
         let middle = model.bounds().centre;
         let (here, there) = (a.transform(&middle), b.transform(&middle));
@@ -110,8 +124,8 @@ impl Nearness {
     }
 }
 
-/// Puts `item` in its place in a list, best first. Of items that are one the best stays, and of
-/// more than there is room for the best.
+/// Inserts `item` at its place in a list, the best first. Of items that count as one the best stays, and if there are more
+/// than there is room for, the best stay.
 pub(super) fn keep<T: Ranked, const N: usize>(
     list: &mut Vec<T, N>,
     item: T,
@@ -139,9 +153,9 @@ mod tests {
         place: 0.02,
     };
 
-    fn find(x_mm: f64, z_rot_deg: f64, mismatch: f64) -> Find {
+    fn located(x_mm: f64, z_rot_deg: f64, mismatch: f64) -> LocatedPose {
         let region = Region {
-            look: 0,
+            pass: 0,
             level: 0,
             radius: 0.0,
         };
@@ -151,7 +165,7 @@ mod tests {
             z_rot_deg,
             ..EulerPose::default()
         };
-        Find {
+        LocatedPose {
             pose: pose.into(),
             region: Some(region),
             mismatch,
@@ -162,22 +176,22 @@ mod tests {
     fn the_best_of_each_kind_stay_in_order() {
         let vertices = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]];
         let model = Model::from_triangles(&vertices, &[[0, 1, 2]]).expect("valid");
-        let mut list: Vec<Find, 3> = Vec::new();
+        let mut list: Vec<LocatedPose, 3> = Vec::new();
         let given = [
-            find(0.0, 0.0, 0.3),
+            located(0.0, 0.0, 0.3),
             // The same, better and worse.
-            find(5.0, 2.0, 0.2),
-            find(3.0, 1.0, 0.4),
+            located(5.0, 2.0, 0.2),
+            located(3.0, 1.0, 0.4),
             // Others: by place, by rotation, and one too many.
-            find(40.0, 0.0, 0.1),
-            find(0.0, 90.0, 0.5),
-            find(0.0, 45.0, 0.05),
-            find(0.0, -90.0, 0.6),
+            located(40.0, 0.0, 0.1),
+            located(0.0, 90.0, 0.5),
+            located(0.0, 45.0, 0.05),
+            located(0.0, -90.0, 0.6),
         ];
         for item in given {
             keep(&mut list, item, NEAR, &model);
         }
-        let kept: std::vec::Vec<_> = list.iter().map(|find| find.mismatch).collect();
+        let kept: std::vec::Vec<_> = list.iter().map(|located| located.mismatch).collect();
         assert_eq!(kept, [0.05, 0.1, 0.2]);
     }
 }

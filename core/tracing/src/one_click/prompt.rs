@@ -1,38 +1,46 @@
-//! What was pointed at: the window to look at, places to grow from, and whether a silhouette
-//! agrees with it.
+//! What the person pointed at: the window to search, the seeds of regions, and how well a silhouette agrees with it.
 
 use heapless::Vec;
 
-use super::shape::Shaper;
+use super::error::OneClickError;
+use super::memory::OneClickMemory;
+use super::opening::Opening;
 use super::window::{BLOCKED, LEVELS, Window};
-use super::{OneClickError, OneClickMemory, Prompt};
 use fluoropose::camera::Camera;
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::Mask;
 
-/// Places that growing begins from, at most.
+/// The greatest number of seeds.
 pub(super) const SEEDS: usize = 4;
 
-/// Parts of a box that are taken to be metal, by turns.
+/// Fractions of a box that are taken to be metal, one after the other.
 const DARKEST: [f64; SEEDS] = [0.2, 0.1, 0.35, 0.5];
-/// How far round a click the darkest pixel is taken for the seed, pixels.
+/// The seed is the darkest pixel at most this number of columns and rows from a click.
 const AROUND: isize = 3;
 
-/// Sides of a box are at least so long, pixels.
+/// The least length of a side of a box, pixels.
 const LEAST_BOX: f64 = 16.0;
-/// A box is widened by this part of its sides: it may be drawn a little too tight.
+/// A box is widened by this fraction of its sides, because it may be drawn a little too tight.
 const WIDEN: f64 = 0.03;
 
-/// A click may miss the silhouette by so much, pixels; one that misses by more speaks against it,
-/// and wholly where it is far.
+/// A click that misses the silhouette by at most this many pixels agrees fully.
 const MISSED: usize = 4;
+/// A click that misses it by this many pixels does not agree at all.
 const FAR: usize = 24;
-/// Part that a rough box and that round the silhouette have in common at least.
+/// A box agrees fully whose intersection with the box around the silhouette is this fraction of their union.
 const ROUGH: f64 = 0.5;
 
+/// What the person pointed at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Prompt {
+    /// A place inside the implant, pixels.
+    Click(Point),
+    /// A rough box around it: two opposite corners, pixels.
+    Box(Point, Point),
+}
+
 impl Prompt {
-    /// The part of the frame to look at, for a component that reaches no farther than `extent`
-    /// pixels from the click.
+    /// The part of the frame to search, for a component that reaches no farther than `extent` pixels from the click.
     pub(super) fn window(&self, camera: &Camera, extent: f64) -> Result<Window, OneClickError> {
         let size = (camera.width(), camera.height());
         let (width, height) = (size.0 as f64, size.1 as f64);
@@ -66,7 +74,7 @@ impl Prompt {
         }
     }
 
-    /// The places that growing begins from, in a window whose grey values are in `memory`.
+    /// The seeds of regions, in a window whose levels are in `memory`.
     pub(super) fn seeds(
         &self,
         window: &Window,
@@ -80,7 +88,7 @@ impl Prompt {
         }
     }
 
-    /// How well a drawn silhouette agrees with what was pointed at, 0 to 1.
+    /// How well a drawn silhouette agrees with the prompt, 0 to 1.
     pub(super) fn agreement(&self, drawn: &Mask<'_>) -> f64 {
         match *self {
             Self::Click(at) => {
@@ -105,7 +113,7 @@ impl Prompt {
     }
 }
 
-/// Whether a mask has a pixel on the square round a place, `away` pixels from it.
+/// Whether a mask has a pixel on the square around a place, `away` pixels from it.
 fn touches(mask: &Mask<'_>, at: Point, away: usize) -> bool {
     let (column, row) = (at.column as usize, at.row as usize);
     let near = |at: usize| at.saturating_sub(away)..=at + away;
@@ -128,7 +136,7 @@ fn common(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     inside / (area(*a) + area(*b) - inside).max(f64::MIN_POSITIVE)
 }
 
-/// The darkest pixel near a click: it may have met a speck of noise, or missed a thin part.
+/// The darkest pixel near a click, which may have hit a speck of noise or missed a thin part.
 fn darkest_near(click: Point, window: &Window, grey: &[u16]) -> usize {
     let middle = window.index(click.column, click.row);
     let mut best = (grey.get(middle).copied().unwrap_or(BLOCKED), middle);
@@ -144,11 +152,10 @@ fn darkest_near(click: Point, window: &Window, grey: &[u16]) -> usize {
     best.1
 }
 
-/// The middles of the thickest dark things in a window, each once, for several shares of dark
-/// pixels.
+/// The middle of the thickest dark thing in a window for each fraction of dark pixels, each pixel once.
 fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEEDS> {
     let mut seeds = Vec::new();
-    let histogram = &mut *memory.tallies;
+    let histogram = &mut *memory.statistics;
     histogram.fill(0);
     for &grey in memory
         .grey
@@ -159,23 +166,23 @@ fn thickest(window: &Window, memory: &mut OneClickMemory<'_>) -> Vec<usize, SEED
             *count += 1;
         }
     }
-    for share in DARKEST {
-        let wanted = share * window.pixels() as f64;
+    for fraction in DARKEST {
+        let wanted = fraction * window.pixels() as f64;
         let mut sum = 0.0;
-        let level = memory.tallies.iter().position(|&count| {
+        let level = memory.statistics.iter().position(|&count| {
             sum += f64::from(count);
             sum >= wanted
         });
-        let mut shaper = Shaper {
+        let mut opening = Opening {
             window: *window,
             reached: &*memory.grey,
             distance: &mut *memory.distance,
             marks: &mut *memory.marks,
             stack: &mut *memory.links,
         };
-        let seed = shaper.thickest(level.unwrap_or(0) as u16);
+        let seed = opening.thickest(level.unwrap_or(0) as u16);
         if let Some(seed) = seed.filter(|seed| !seeds.contains(seed)) {
-            // There are as many places as shares.
+            // There is a place for each fraction.
             let _ = seeds.push(seed);
         }
     }
@@ -207,7 +214,7 @@ mod tests {
         );
         let agreement = |corners| boxed(corners).agreement(&drawn);
         assert_eq!(agreement([8.0, 18.0, 52.0, 42.0]), 1.0);
-        // A fifth of it in common, whichever corners are told.
+        // A fifth of the union is common, whichever corners are given.
         for corners in [[10.0, 20.0, 50.0, 120.0], [50.0, 20.0, 10.0, 120.0]] {
             assert!((agreement(corners) - 0.4).abs() < 1e-12);
         }

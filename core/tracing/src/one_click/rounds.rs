@@ -1,9 +1,11 @@
-//! Poses judged and refined, round after round.
+//! Poses scored and refined, round after round.
 
-use super::candidates::{Answer, Find, Nearness, Start, keep};
-use super::eye::Eye;
-use super::job::{OneClick, SAME_START, Stage};
-use super::{OneClickError, OneClickMemory, Part, Prompt, Scene};
+use super::candidates::{Answer, LocatedPose, SAME_ANSWER, SAME_START, Start, keep};
+use super::error::OneClickError;
+use super::memory::OneClickMemory;
+use super::observation::{Component, Observation};
+use super::prompt::Prompt;
+use super::state::{OneClick, Stage};
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::math::{apply, multiply, radians, rotation_by};
@@ -11,27 +13,23 @@ use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::pose::Pose;
 use fluoropose::render::render;
 
-/// Answers that are one: up to what refinement leaves.
-const SAME_ANSWER: Nearness = Nearness {
-    degrees: 2.0,
-    place: 0.01,
-};
-
-/// Once the score of an answer exceeds this, nothing else is tried.
+/// Once an answer has this score, no further round is tried.
 const CONVINCING: f64 = 0.6;
-/// In the third round the best answer is turned about the camera's x and y by so many steps of so
-/// many degrees to either side.
+/// From the third round on the best answer is rotated about the camera's x and y axes by up to this number of steps to
+/// either side,
 const TURNS: i32 = 2;
+/// each of this many degrees,
 const TURN_DEG: f64 = 7.0;
-/// And stands at these parts of its distance: a region that lacks a faint part of the implant, or
-/// holds something else, has led to a wrong one.
+/// and placed at these multiples of its distance, which is wrong where the region lacked a faint part of the implant or held
+/// something else.
 const DISTANCES: [f64; 3] = [1.0, 0.96, 1.04];
-/// The box of the second round is wider than the best answer's silhouette by this part of its
-/// longer side, as a box that a person draws.
+/// The box of the second round is wider than the best answer's silhouette by this fraction of its longer side, like a box
+/// that a person draws.
 const MARGIN: f64 = 0.1;
-/// Rounds at most.
+/// The greatest number of rounds.
 const ROUNDS: usize = 4;
-/// A mirror image is refined where its outline lies near edges as strongly, but for this part.
+/// A mirror image is refined where the edges near its outline have at least this fraction of the strength of the best
+/// answer's.
 const MIRRORED: f64 = 0.8;
 
 impl OneClick {
@@ -41,7 +39,7 @@ impl OneClick {
             .is_some_and(|best| best.score >= CONVINCING)
     }
 
-    /// What to do when no start is left: look more closely, where the best answer is not good.
+    /// What to do when no first pose is left: search more closely, unless the best answer is convincing.
     pub(super) fn next_round(&mut self) -> Stage {
         self.round += 1;
         let hopeless = self.answers.is_empty() && self.round > 1;
@@ -54,26 +52,25 @@ impl OneClick {
                 self.matched.clear();
                 Stage::Narrow
             }
-            2..ROUNDS if self.answers.first() != self.turned_from.as_ref() => {
-                self.turned_from = self.answers.first().copied();
+            2..ROUNDS if self.answers.first() != self.rotated_from.as_ref() => {
+                self.rotated_from = self.answers.first().copied();
                 Stage::Around(0)
             }
             _ => Stage::Mirror(0),
         }
     }
 
-    /// Narrows the window to a rough box round the silhouette of the best answer: whatever regions
-    /// have leaked into lies beyond it, and fainter parts of the implant can be reached. Where
-    /// there is no answer, to one round the click that is as large as the component at most: the
-    /// click may have met a faint part, and what is dark round about leads on.
+    /// Narrows the window to a rough box around the silhouette of the best answer: what regions have leaked into lies
+    /// beyond it, and fainter parts of the implant can be reached. Where there is no answer, the box is one around the
+    /// click of at most the component's size: the click may have hit a faint part, and the dark parts around it lead on.
     pub(super) fn narrow(
         &mut self,
-        scene: &Scene<'_>,
-        part: &Part<'_>,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
     ) {
         let sides = match (self.answers.first(), self.prompt) {
-            (Some(best), _) => sides_of(&best.refined.pose, scene, part, memory),
+            (Some(best), _) => sides_of(&best.refined.pose, observation, component, memory),
             (None, Prompt::Click(Point { column, row })) => {
                 let reach = self.expected.extent / 2.0;
                 Some([column - reach, row - reach, column + reach, row + reach])
@@ -89,7 +86,7 @@ impl OneClick {
         let row = |at: f64| within(at, self.window.top, self.window.height);
         let low = Point::new(column(left), row(top));
         let narrowed = Prompt::Box(low, Point::new(column(right), row(bottom)));
-        if let Ok(window) = narrowed.window(scene.camera, 0.0)
+        if let Ok(window) = narrowed.window(observation.camera, 0.0)
             && window.pixels() <= self.window.pixels()
         {
             self.window = window;
@@ -99,8 +96,8 @@ impl OneClick {
         }
     }
 
-    /// The best answer turned the `at`-th way; `None` after the last.
-    pub(super) fn turned(&self, at: usize, part: &Part<'_>) -> Option<Find> {
+    /// The best answer rotated and moved in way number `at`; `None` after the last way.
+    pub(super) fn rotated(&self, at: usize, component: &Component<'_>) -> Option<LocatedPose> {
         let best = self.answers.first()?;
         let side = 2 * TURNS + 1;
         let number = i32::try_from(at)
@@ -110,11 +107,11 @@ impl OneClick {
         let number = number % (side * side);
         let steps = [number % side - TURNS, number / side - TURNS];
         let [x, y] = steps.map(|steps| radians(TURN_DEG * f64::from(steps)));
-        let (pose, middle) = (&best.refined.pose, part.model.bounds().centre);
+        let (pose, middle) = (&best.refined.pose, component.model.bounds().centre);
         let rotation = multiply(&rotation_by(&[x, y, 0.0]), &pose.rotation);
         let moved = apply(&rotation, &middle);
         let centre = pose.transform(&middle);
-        Some(Find {
+        Some(LocatedPose {
             pose: Pose {
                 rotation,
                 translation: core::array::from_fn(|k| distance * centre[k] - moved[k]),
@@ -124,92 +121,89 @@ impl OneClick {
         })
     }
 
-    pub(super) fn eye<'e>(&'e self, scene: &'e Scene<'e>, part: &'e Part<'e>) -> Eye<'e> {
-        Eye {
-            scene,
-            part,
-            prompt: &self.prompt,
-            expected: &self.expected,
-            slope: self.slope,
-        }
-    }
-
-    /// Draws the model at a find and puts it among the starts.
-    pub(super) fn judge(
+    /// Draws the model at a located pose and puts it among the first poses.
+    pub(super) fn score(
         &mut self,
-        find: &Find,
-        scene: &Scene<'_>,
-        part: &Part<'_>,
+        located: &LocatedPose,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<(), OneClickError> {
-        if let Some(region) = find.region {
-            self.draw(&region, scene, memory)?;
+        if let Some(region) = located.region {
+            self.draw(&region, observation, memory)?;
         }
-        if let Some(start) = self.eye(scene, part).judge(find, memory)? {
-            keep(&mut self.starts, start, SAME_START, part.model);
+        if let Some(start) = self.scorer(observation, component).score(located, memory)? {
+            keep(&mut self.starts, start, SAME_START, component.model);
         }
         Ok(())
     }
 
-    /// Refines a start and puts what comes of it among the answers.
+    /// Refines a first pose and puts the result among the answers.
     pub(super) fn refine(
         &mut self,
         start: &Start,
-        scene: &Scene<'_>,
-        part: &Part<'_>,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<(), OneClickError> {
         if let Some(region) = start.region {
-            self.draw(&region, scene, memory)?;
+            self.draw(&region, observation, memory)?;
         }
-        if let Some(answer) = self.eye(scene, part).refine(start, memory)? {
-            keep(&mut self.answers, answer, SAME_ANSWER, part.model);
+        if let Some(answer) = self.scorer(observation, component).refine(start, memory)? {
+            keep(&mut self.answers, answer, SAME_ANSWER, component.model);
         }
         Ok(())
     }
 
-    /// Refines one mirror image of the best answer, its rival, where it lies near edges too. Gives
-    /// whether there may be another.
+    /// Refines one mirror image of the best answer, its rival, where it lies near edges too. Returns whether there may be
+    /// another.
     pub(super) fn mirror(
         &mut self,
         at: usize,
-        scene: &Scene<'_>,
-        part: &Part<'_>,
+        observation: &Observation<'_>,
+        component: &Component<'_>,
         memory: &mut OneClickMemory<'_>,
     ) -> Result<bool, OneClickError> {
         let own = |answer: &&Answer| !answer.mirrored;
         let best = self.answers.iter().find(own).copied();
-        let (Some(best), Some(plane)) = (best, part.planes.get(at)) else {
+        let (Some(best), Some(plane)) = (best, component.planes.get(at)) else {
             return Ok(false);
         };
         let pose = mirror_pose(&best.refined.pose, plane);
-        let eye = self.eye(scene, part);
-        if eye.strength(&pose, memory) < MIRRORED * best.support.strength {
+        let scorer = self.scorer(observation, component);
+        if scorer.strength(&pose, memory) < MIRRORED * best.support.strength {
             return Ok(true);
         }
-        if let Some(answer) = eye.onto_frame(&pose, memory)? {
+        if let Some(answer) = scorer.onto_frame(&pose, memory)? {
             let mirrored = Answer {
                 mirrored: true,
                 ..answer
             };
-            keep(&mut self.answers, mirrored, SAME_ANSWER, part.model);
+            keep(&mut self.answers, mirrored, SAME_ANSWER, component.model);
         }
         Ok(true)
     }
 }
 
-/// Left, top, right and bottom of a rough box round the model at a pose.
+/// Left, top, right and bottom of a rough box around the model at a pose.
 fn sides_of(
     pose: &Pose,
-    scene: &Scene<'_>,
-    part: &Part<'_>,
+    observation: &Observation<'_>,
+    component: &Component<'_>,
     memory: &mut OneClickMemory<'_>,
 ) -> Option<[f64; 4]> {
-    let (width, height) = (scene.camera.width(), scene.camera.height());
+    let (width, height) = (observation.camera.width(), observation.camera.height());
     let words = memory.refine.drawn.get_mut(..words_needed(width, height))?;
     let mut drawn = MaskMut::new(words, width, height).ok()?;
     let projected = &mut *memory.refine.projected;
-    render(part.model, scene.camera, pose, projected, &mut drawn).ok()?;
+    render(
+        component.model,
+        observation.camera,
+        pose,
+        projected,
+        &mut drawn,
+    )
+    .ok()?;
     let (columns, rows) = drawn.as_mask().bounds();
     let margin = MARGIN * columns.len().max(rows.len()) as f64;
     let [low, high] = [-margin, margin];

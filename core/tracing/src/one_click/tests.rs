@@ -1,11 +1,15 @@
 use super::*;
+use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
+use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
-use fluoropose::image::mask::MaskMut;
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::library::Library;
 use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
-use fluoropose::locate::workspace_needed;
+use fluoropose::locate::{Workspace, workspace_needed};
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::refine::BorderPixel;
+use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
 use fluoropose::render::{Projected, render};
 use fluoropose::search::kernels::Kernels;
 use std::vec::Vec;
@@ -84,9 +88,9 @@ fn silhouette(model: &Model<'_>, pose: &Pose) -> Vec<Word> {
     words
 }
 
-/// A noisy, blurred film of the implant on tissue that grows darker to one side. `cluttered`: a
+/// A noisy, blurred frame of the implant on tissue that grows darker to one side. `cluttered`: a
 /// line that crosses it, as of a sheet, leads to another implant that is as dark.
-fn film(model: &Model<'_>, cluttered: bool) -> Vec<u16> {
+fn drawn(model: &Model<'_>, cluttered: bool) -> Vec<u16> {
     let words = silhouette(model, &pose());
     let mask = Mask::new(&words, SIDE, SIDE).expect("valid");
     let dark = |column: usize, row: usize| {
@@ -121,7 +125,7 @@ fn film(model: &Model<'_>, cluttered: bool) -> Vec<u16> {
         .collect()
 }
 
-/// A model with its library, and a film.
+/// A model with its library.
 struct Bench {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
@@ -144,44 +148,56 @@ impl Bench {
         Model::from_triangles(&self.vertices, &self.triangles).expect("valid")
     }
 
-    /// What comes of a prompt, with the region that is left to say without a component.
+    /// The work for a prompt, done to the end, and the region where there is no component.
     fn work(
         &self,
         pixels: &[u16],
         prompt: Prompt,
         polarity: Polarity,
-        with_part: bool,
+        with_component: bool,
+    ) -> Result<(OneClick, Vec<Word>), OneClickError> {
+        self.work_with_reserve(pixels, prompt, polarity, with_component, 0)
+    }
+
+    /// The same in memory that is longer than needed by `reserve` and not empty.
+    fn work_with_reserve(
+        &self,
+        pixels: &[u16],
+        prompt: Prompt,
+        polarity: Polarity,
+        with_component: bool,
+        reserve: usize,
     ) -> Result<(OneClick, Vec<Word>), OneClickError> {
         let (model, camera) = (self.model(), camera());
         let library = Library::open(&self.library).expect("valid");
         let frame = Frame::new(pixels, SIDE, SIDE, SIDE).expect("fits");
-        let scene = Scene {
+        let observation = Observation {
             frame: &frame,
             camera: &camera,
             polarity,
             excluded: None,
         };
-        let part = Part {
+        let component = Component {
             library: &library,
             model: &model,
             planes: &[],
         };
-        let part = with_part.then_some(&part);
-        let mut work = OneClick::new(prompt, &camera, part)?;
-        let (needs, lent) = (work.needs(&camera), workspace_needed(&library));
+        let component = with_component.then_some(&component);
+        let mut work = OneClick::new(prompt, &camera, component)?;
+        let (needs, locating) = (work.needs(&camera), workspace_needed(&library));
         let mut memory = OneClickMemory {
-            grey: &mut std::vec![0; needs.pixels],
-            reached: &mut std::vec![0; needs.pixels],
-            distance: &mut std::vec![0; needs.pixels],
-            marks: &mut std::vec![0; needs.pixels],
-            links: &mut std::vec![0; needs.links],
-            tallies: &mut std::vec![0; needs.tallies],
-            words: &mut std::vec![0; needs.words],
+            grey: &mut std::vec![3; needs.pixels + reserve],
+            reached: &mut std::vec![3; needs.pixels + reserve],
+            distance: &mut std::vec![3; needs.pixels + reserve],
+            marks: &mut std::vec![3; needs.pixels + reserve],
+            links: &mut std::vec![3; needs.links + reserve],
+            statistics: &mut std::vec![3; needs.statistics + reserve],
+            words: &mut std::vec![3; needs.words + reserve],
             workspace: Workspace {
-                canonical: &mut std::vec![0; lent.words],
-                rotated: &mut std::vec![0; lent.words],
-                scores: &mut std::vec![0; lent.scores],
-                bytes: &mut std::vec![0; lent.bytes],
+                canonical: &mut std::vec![0; locating.words],
+                rotated: &mut std::vec![0; locating.words],
+                scores: &mut std::vec![0; locating.scores],
+                bytes: &mut std::vec![0; locating.bytes],
                 kernels: Kernels::PORTABLE,
             },
             refine: RefineMemory {
@@ -191,21 +207,37 @@ impl Bench {
                 border: &mut std::vec![BorderPixel::default(); 4096],
             },
         };
-        let mut before = 0.0;
-        while work.step(&scene, part, &mut memory)? {
-            let (Progress::Regions(done) | Progress::Poses(done)) = work.progress() else {
-                panic!("there is more to do");
-            };
-            assert!((before..1.0).contains(&done), "{before} {done}");
-            before = done;
-        }
-        assert_eq!(work.progress(), Progress::Done);
-        let region = match part {
+        let step = |work: &mut OneClick, memory: &mut OneClickMemory<'_>| {
+            work.step(&observation, component, memory)
+        };
+        until_done(&mut work, &mut memory, step)?;
+        let region = match component {
             Some(_) => Vec::new(),
-            None => work.draw_region(&scene, &mut memory)?.words().to_vec(),
+            None => work
+                .draw_region(&observation, &mut memory)?
+                .words()
+                .to_vec(),
         };
         Ok((work, region))
     }
+}
+
+/// Takes all steps; progress never falls.
+fn until_done(
+    work: &mut OneClick,
+    memory: &mut OneClickMemory<'_>,
+    step: impl Fn(&mut OneClick, &mut OneClickMemory<'_>) -> Result<bool, OneClickError>,
+) -> Result<(), OneClickError> {
+    let mut before = 0.0;
+    while step(work, memory)? {
+        let (Progress::Regions(done) | Progress::Poses(done)) = work.progress() else {
+            panic!("there is more to do");
+        };
+        assert!((before..1.0).contains(&done), "{before} {done}");
+        before = done;
+    }
+    assert_eq!(work.progress(), Progress::Done);
+    Ok(())
 }
 
 fn overlap(a: &[Word], b: &[Word]) -> f64 {
@@ -237,7 +269,7 @@ fn a_click_or_a_box_leads_to_outline_and_pose() {
     let model = bench.model();
     let truth = silhouette(&model, &pose());
     for cluttered in [false, true] {
-        let pixels = film(&model, cluttered);
+        let pixels = drawn(&model, cluttered);
         for prompt in prompts() {
             let found = bench.work(&pixels, prompt, Polarity::DarkImplant, true);
             let (work, _) = found.expect("an answer");
@@ -246,16 +278,16 @@ fn a_click_or_a_box_leads_to_outline_and_pose() {
             let iou = overlap(&silhouette(&model, &best.refined.pose), &truth);
             let what = std::format!("{prompt:?}, cluttered {cluttered}");
             assert!(turn < 0.7 && iou > 0.97, "{what}: {turn} deg, {iou}");
-            assert!(best.support.share > 0.8, "{what}: {:?}", best.support);
+            assert!(best.support.fraction > 0.8, "{what}: {:?}", best.support);
         }
     }
 }
 
 #[test]
-fn a_film_with_its_greys_turned_round_gives_the_same() {
+fn a_frame_with_inverted_greys_gives_the_same() {
     let bench = Bench::new();
     let model = bench.model();
-    let bright: Vec<u16> = film(&model, true).iter().map(|grey| 4095 - grey).collect();
+    let bright: Vec<u16> = drawn(&model, true).iter().map(|grey| 4095 - grey).collect();
     let found = bench.work(&bright, prompts()[1], Polarity::BrightImplant, true);
     let (work, _) = found.expect("an answer");
     let rotation = &work.answers()[0].refined.pose.rotation;
@@ -266,7 +298,7 @@ fn a_film_with_its_greys_turned_round_gives_the_same() {
 fn without_a_component_the_region_is_the_outline() {
     let bench = Bench::new();
     let model = bench.model();
-    let pixels = film(&model, false);
+    let pixels = drawn(&model, false);
     for prompt in prompts() {
         let found = bench.work(&pixels, prompt, Polarity::DarkImplant, false);
         let (work, region) = found.expect("a region");
@@ -277,9 +309,24 @@ fn without_a_component_the_region_is_the_outline() {
 }
 
 #[test]
+fn longer_memory_gives_the_same() {
+    let bench = Bench::new();
+    let pixels = drawn(&bench.model(), true);
+    for (prompt, with_component) in [(prompts()[0], true), (prompts()[2], false)] {
+        let [exact, longer] = [0, 1000].map(|reserve| {
+            let polarity = Polarity::DarkImplant;
+            bench.work_with_reserve(&pixels, prompt, polarity, with_component, reserve)
+        });
+        let [(a, region), (b, other)] = [exact.expect("done"), longer.expect("done")];
+        assert_eq!((a.answers(), a.starts()), (b.answers(), b.starts()));
+        assert_eq!(region, other);
+    }
+}
+
+#[test]
 fn where_there_is_no_implant_a_sentence_says_so() {
     let bench = Bench::new();
-    let pixels = film(&bench.model(), true);
+    let pixels = drawn(&bench.model(), true);
     let click = |column, row| {
         let prompt = Prompt::Click(Point::new(column, row));
         bench
@@ -304,14 +351,14 @@ fn the_window_holds_the_component_and_no_more() {
         .needs(&camera);
     assert_eq!(needs.pixels, SIDE * SIDE);
     let library = Library::open(&bench.library).expect("valid");
-    let part = Part {
+    let component = Component {
         library: &library,
         model: &model,
         planes: &[],
     };
-    // The window round a click holds the component at its nearest, and no more.
+    // The window around a click holds the component at its nearest, and no more.
     let click = Prompt::Click(Point::new(0.0, 0.0));
-    let needs = OneClick::new(click, &camera, Some(&part))
+    let needs = OneClick::new(click, &camera, Some(&component))
         .expect("inside")
         .needs(&camera);
     let extent = 2.0 * model.bounds().radius * 1800.0 / 750.0;

@@ -1,17 +1,17 @@
-//! The part of a frame that is looked at: smoothed, dark implant, whole steps of grey.
+//! The part of a frame that is searched: smoothed, with a dark implant, in integer grey levels.
 
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::refine::Polarity;
 
-/// Steps of grey that are told apart.
+/// Number of grey levels.
 pub(super) const LEVELS: usize = 1024;
-/// The grey of a pixel that belongs to something else; no region enters it.
+/// The level of an excluded pixel; no region enters it.
 pub(super) const BLOCKED: u16 = u16::MAX;
 
-/// Part of the pixels at either end of the scale that share its first or last step.
+/// Fraction of the pixels at either end of the scale that get its first or its last level.
 const CLIPPED: f64 = 0.0005;
-/// Bits that a grey value loses to find its place in a histogram of [`LEVELS`] bins.
+/// A grey value is shifted right by this number of bits to find its bin in a histogram of [`LEVELS`] bins.
 const BIN_SHIFT: u32 = 6;
 
 /// A rectangle of a frame's pixels, never empty.
@@ -24,7 +24,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The pixels of a frame of `size` that meet the rectangle; at least one.
+    /// The pixels of a frame of `size` that touch the rectangle (left, top, right, bottom); at least one.
     pub(super) fn cut([left, top, right, bottom]: [f64; 4], size: (usize, usize)) -> Self {
         let span = |from: f64, to: f64, size: usize| {
             let first = (from.max(0.0) as usize).min(size.saturating_sub(1));
@@ -54,7 +54,7 @@ impl Window {
         cut(row, self.top, self.height) * self.width + cut(column, self.left, self.width)
     }
 
-    /// Column and row in the window of a pixel.
+    /// Column and row of a pixel in the window.
     pub(super) fn place(&self, index: usize) -> (usize, usize) {
         (index % self.width, index / self.width)
     }
@@ -77,11 +77,11 @@ impl Window {
     }
 }
 
-/// Fills `grey` with the window's pixels in steps of grey, dark metal whatever the film's
-/// polarity, after `passes` of the binomial filter 1 2 1 each way (variance 1/2 square pixel a
-/// pass). Pixels of `excluded` become [`BLOCKED`]. `histogram` is working memory of [`LEVELS`]
-/// numbers. Returns the film's grey values that one step stands for; 0 for a uniform window.
-pub(super) fn look(
+/// Fills `grey` with the levels of the window's pixels, with dark metal whatever the polarity of the frame, after `passes`
+/// passes of the binomial filter 1 2 1 in both directions (each adds a variance of 1/2 square pixel). Pixels of
+/// `excluded` become [`BLOCKED`]. `histogram` is working memory of [`LEVELS`] numbers. Returns the number of grey values of
+/// the frame for one level; 0 for a uniform window.
+pub(super) fn levels(
     frame: &dyn Grey,
     window: &Window,
     (polarity, passes): (Polarity, usize),
@@ -152,7 +152,7 @@ fn smooth(grey: &mut [u16], window: &Window) {
     }
 }
 
-/// The ends of the scale: all but a few pixels lie between them; the second is the greater.
+/// The ends of the scale, the greater last: all but a few pixels lie between them.
 fn ends(grey: &[u16], histogram: &mut [u32]) -> (u16, u16) {
     histogram.fill(0);
     for &value in grey {
@@ -170,7 +170,7 @@ fn ends(grey: &[u16], histogram: &mut [u32]) -> (u16, u16) {
     (dark, bright.max(dark + 1))
 }
 
-/// Place of the count at which the sum of counts exceeds `few`.
+/// Number of the count at which the sum of counts exceeds `few`.
 fn rank<'c>(mut counts: impl Iterator<Item = &'c u32>, few: f64) -> usize {
     let mut sum = 0.0;
     let place = counts.position(|&count| {
@@ -214,14 +214,14 @@ mod tests {
         assert_eq!(Window::cut([30.0, 0.0, 40.0, 1.0], (20, 10)).width, 1);
     }
 
-    /// A dark square on a ramp, and the same film with its greys turned round.
-    fn film(turned: bool) -> std::vec::Vec<u16> {
+    /// A dark square on a ramp, and the same frame with its greys inverted.
+    fn pixels(inverted: bool) -> std::vec::Vec<u16> {
         (0..64 * 64)
             .map(|k| {
                 let (column, row) = (k % 64, k / 64);
                 let inside = (20..40).contains(&column) && (20..40).contains(&row);
                 let value = if inside { 900 } else { 3000 + 4 * column };
-                if turned { 4095 - value } else { value }
+                if inverted { 4095 - value } else { value }
             })
             .collect()
     }
@@ -229,12 +229,12 @@ mod tests {
     #[test]
     fn either_polarity_gives_the_same_picture() {
         let window = Window::cut([0.0, 0.0, 63.0, 63.0], (64, 64));
-        let picture = |polarity: Polarity, turned: bool| {
-            let pixels = film(turned);
+        let picture = |polarity: Polarity, inverted: bool| {
+            let pixels = self::pixels(inverted);
             let frame = Frame::new(&pixels, 64, 64, 64).expect("fits");
             let mut grey = std::vec![0; window.pixels()];
             let mut histogram = [0; LEVELS];
-            let step = look(
+            let step = levels(
                 &frame,
                 &window,
                 (polarity, 2),
@@ -250,7 +250,7 @@ mod tests {
         let differ = dark.iter().zip(&bright).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(differ <= Some(1), "{differ:?}");
         assert_eq!(dark[30 * 64 + 30], 0);
-        // A step stands for the range of greys divided by the number of steps.
+        // A level stands for the range of greys divided by the number of levels.
         assert!((step - (3252.0 - 900.0) / 1023.0).abs() < 0.1, "{step}");
     }
 
@@ -264,7 +264,7 @@ mod tests {
         let (mut grey, mut histogram) = ([0; 128], [0; LEVELS]);
         let how = (Polarity::DarkImplant, 0);
         assert!(
-            look(
+            levels(
                 &frame,
                 &window,
                 how,
@@ -278,7 +278,7 @@ mod tests {
         let flat = [7u8; 128];
         let frame = Frame::new(&flat, 32, 4, 32).expect("fits");
         assert_eq!(
-            look(&frame, &window, how, None, &mut grey, &mut histogram),
+            levels(&frame, &window, how, None, &mut grey, &mut histogram),
             0.0
         );
     }

@@ -1,6 +1,7 @@
 use super::*;
-use crate::films::{Random, circle};
 use crate::polyline::side;
+use crate::synthetic::{Random, circle};
+use fluoropose::memory::TooLittleMemory;
 use std::vec::Vec;
 
 fn vertices(points: &[Point]) -> Vec<Vertex> {
@@ -24,7 +25,7 @@ fn simple(points: &[Point], closed: bool, tolerance: f64) -> (Vec<Vertex>, Shape
     (out.as_slice().to_vec(), error)
 }
 
-fn round(tolerance: f64) -> Simplify {
+fn ring(tolerance: f64) -> Simplify {
     Simplify {
         closed: true,
         tolerance,
@@ -39,7 +40,7 @@ fn wobbly(count: usize) -> Vec<Point> {
     let points = circle([0.0, 0.0], 1.0, count).into_iter().enumerate();
     points
         .map(|(k, p)| {
-            let radius = radius(k) + 0.4 * random.share();
+            let radius = radius(k) + 0.4 * random.uniform();
             Point::new(60.0 + radius * p.column, 60.0 + radius * p.row)
         })
         .collect()
@@ -84,7 +85,7 @@ fn the_error_is_that_of_the_shape_and_within_the_tolerance() {
         let (line, error) = simple(&points, true, tolerance);
         assert!(line.len() < 150, "{}", line.len());
         let simple: Vec<Point> = line.iter().map(|vertex| vertex.at).collect();
-        // Every point of the given line is as near to the simple one as is said, or nearer.
+        // Every point of the given line is at least as near to the simplified one as the error says.
         let mut greatest = 0.0f64;
         let (mut sum, mut count) = (0.0, 0.0);
         for number in 0..points.len() {
@@ -112,9 +113,9 @@ fn a_closed_line_does_not_depend_on_its_first_point() {
     let mut wanted: Vec<_> = line.iter().map(key).collect();
     wanted.sort_unstable();
     for first in [1, 37, 100] {
-        let mut turned = points.clone();
-        turned.rotate_left(first);
-        let (line, other) = simple(&turned, true, 0.6);
+        let mut rotated = points.clone();
+        rotated.rotate_left(first);
+        let (line, other) = simple(&rotated, true, 0.6);
         let mut got: Vec<_> = line.iter().map(key).collect();
         got.sort_unstable();
         assert_eq!(got, wanted);
@@ -136,11 +137,11 @@ fn a_balanced_outline_keeps_its_area() {
     let mut lost = |balanced: bool| {
         let settings = Simplify {
             balanced,
-            ..round(0.5)
+            ..ring(0.5)
         };
         let error = simplify(&made, &settings, |_| false, &mut marks, &mut out).expect("valid");
         assert!(out.len() < 40 && error.max < 0.5);
-        // As a distance all round.
+        // As a distance all around.
         (area(&made) - area(out.as_slice())) / (120.0 * core::f64::consts::PI)
     };
     assert!(lost(false) > 0.15);
@@ -155,7 +156,7 @@ fn what_is_to_stay_stays() {
     let mut places = [Vertex::default(); 64];
     let mut out = List::new(&mut places);
     let keep = |vertex: &Vertex| vertex.from == 5.0 || vertex.from == 6.0;
-    simplify(&line, &round(3.0), keep, &mut marks, &mut out).expect("valid");
+    simplify(&line, &ring(3.0), keep, &mut marks, &mut out).expect("valid");
     let numbers: Vec<_> = out
         .as_slice()
         .iter()
@@ -184,16 +185,13 @@ fn what_is_impossible_is_said() {
     let line = vertices(&circle([9.0, 9.0], 5.0, 8));
     let mut places = [Vertex::default(); 8];
     let mut out = List::new(&mut places);
-    let short = simplify(&line, &round(0.1), |_| false, &mut [false; 7], &mut out);
-    assert!(matches!(short, Err(AidError::Memory { needed: 8, .. })));
-    let wrong = simplify(
-        &line,
-        &round(f64::NAN),
-        |_| false,
-        &mut [false; 8],
-        &mut out,
-    );
-    assert!(matches!(wrong, Err(AidError::Setting { .. })));
-    let nothing = simplify(&[], &round(1.0), |_| false, &mut [], &mut out);
+    let short = simplify(&line, &ring(0.1), |_| false, &mut [false; 7], &mut out);
+    assert!(matches!(
+        short,
+        Err(TracingError::Memory(TooLittleMemory { needed: 8, .. }))
+    ));
+    let wrong = simplify(&line, &ring(f64::NAN), |_| false, &mut [false; 8], &mut out);
+    assert!(matches!(wrong, Err(TracingError::Setting { .. })));
+    let nothing = simplify(&[], &ring(1.0), |_| false, &mut [], &mut out);
     assert_eq!(nothing, Ok(ShapeError::default()));
 }

@@ -1,25 +1,25 @@
 //! The slope of the grey value along a sample's normal.
 
-use super::Snap;
-use super::track::{STATES, STEP};
-use super::{Hand, Sample};
-use fluoropose::image::frame::{Frame, Grey, Pixel};
-use fluoropose::math::{exp, sqrt};
+use super::sample::{STATES, STEP, Sample, Snap};
+use crate::side::Hand;
+use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose::image::profile::{gaussian_derivative, grey_across};
+use fluoropose::math::sqrt;
 
-/// Half width of the derivative's filter, readings: three times its Gaussian.
+/// Half width of the filter in readings: three times the width of its Gaussian.
 const HALF_FILTER: usize = 6;
-/// Width of the Gaussian whose derivative is taken, pixels (Canny, IEEE PAMI 8, 1986).
+/// Width of the Gaussian whose derivative is the filter, pixels.
 const BLUR: f64 = 1.0;
 /// Weights of the readings along the line, one pixel apart.
 const TANGENT: [f64; 3] = [0.25, 0.5, 0.25];
-/// Slopes that are so many times what noise makes are edges.
+/// A slope is an edge from this multiple of the slopes that noise makes.
 const TIMES_NOISE: f64 = 4.0;
 
 /// Reads slopes of a frame.
 pub(super) struct Reader<'a, P> {
     frame: &'a Frame<'a, P>,
     weights: [f64; HALF_FILTER + 1],
-    /// Slopes below are those of noise, grey values a pixel.
+    /// Smaller slopes are those of noise, grey values a pixel.
     least: f64,
     /// Places to each side of the line.
     half: usize,
@@ -28,8 +28,10 @@ pub(super) struct Reader<'a, P> {
 
 impl<'a, P: Pixel> Reader<'a, P> {
     pub(super) fn new(frame: &'a Frame<'a, P>, noise: f64, settings: &Snap) -> Self {
-        let weights = weights();
-        // The variances of the readings add up; those half a pixel apart share pixels and are about one.
+        // Divided by the norm here, once: dividing each slope instead, as `fluoropose::refine` does, rounds differently.
+        let (weights, norm) = gaussian_derivative::<{ HALF_FILTER + 1 }>(BLUR, STEP);
+        let weights = weights.map(|weight| weight / norm);
+        // The variances of readings one pixel apart add up. Two readings half a pixel apart share pixels and count as one.
         let along: f64 = TANGENT.iter().map(|w| w * w).sum();
         let across: f64 = weights.iter().map(|w| 2.0 * w * w).sum();
         Self {
@@ -46,8 +48,8 @@ impl<'a, P: Pixel> Reader<'a, P> {
         self.least
     }
 
-    /// Writes the slope at each place along a sample's normal; 0 beyond the reach and beyond the frame, and where it
-    /// falls instead of rising.
+    /// Writes the slope at each place along a sample's normal. It is 0 beyond the reach, beyond the frame, and where the
+    /// grey value falls instead of rising.
     pub(super) fn slopes(&self, sample: &Sample, slopes: &mut [f32]) {
         const READINGS: usize = STATES + 2 * HALF_FILTER;
         let mut readings = [None; READINGS];
@@ -86,30 +88,7 @@ impl<'a, P: Pixel> Reader<'a, P> {
 
     /// The grey value at a distance along the normal, averaged along the line.
     fn reading(&self, sample: &Sample, t: f64) -> Option<f64> {
-        let [right, down] = sample.normal;
-        let (column, row) = (
-            sample.vertex.at.column + t * right,
-            sample.vertex.at.row + t * down,
-        );
-        let mut sum = 0.0;
-        for (k, weight) in TANGENT.iter().enumerate() {
-            let along = k as f64 - (TANGENT.len() / 2) as f64;
-            sum += weight * self.frame.at(column - along * down, row + along * right)?;
-        }
-        Some(sum)
+        let place = [sample.vertex.at.column, sample.vertex.at.row];
+        grey_across(self.frame, place, sample.normal, &TANGENT, t)
     }
-}
-
-/// The derivative of a Gaussian from its middle on: a slope of one comes out as one.
-fn weights() -> [f64; HALF_FILTER + 1] {
-    let mut weights = core::array::from_fn(|k| {
-        let t = STEP * k as f64;
-        t * exp(-t * t / (2.0 * BLUR * BLUR))
-    });
-    let pairs = weights.iter().enumerate();
-    let norm: f64 = pairs
-        .map(|(k, weight)| 2.0 * weight * STEP * k as f64)
-        .sum();
-    weights.iter_mut().for_each(|weight| *weight /= norm);
-    weights
 }

@@ -1,11 +1,12 @@
 use super::*;
-use crate::films::{Film, Random, circle};
-use crate::polyline::distance;
+use crate::polyline::{between, distance};
+use crate::synthetic::{Random, SyntheticFrame, circle};
+use fluoropose::memory::TooLittleMemory;
 use std::vec::Vec;
 
-fn snapped(film: &Film, points: &[Point], settings: &Snap) -> (Vec<Vertex>, ShapeError) {
-    let pixels = film.eight_bit();
-    let frame = Frame::new(&pixels, film.width, film.height, film.width).expect("fits");
+fn snapped(drawn: &SyntheticFrame, points: &[Point], settings: &Snap) -> (Vec<Vertex>, ShapeError) {
+    let pixels = drawn.eight_bit();
+    let frame = Frame::new(&pixels, drawn.width, drawn.height, drawn.width).expect("fits");
     let (samples, slopes) = snap_needed(points, settings.closed);
     let mut places = std::vec![Vertex::default(); samples];
     let mut out = List::new(&mut places);
@@ -30,11 +31,11 @@ const RING: Snap = Snap {
 
 const MIDDLE: [f64; 2] = [80.3, 75.6];
 
-fn disc(noise: f64) -> Film {
-    let mut film = Film::new(160, 150, 190.0);
-    film.disc(MIDDLE, 50.0, 90.0);
-    film.add_noise(noise, 6);
-    film
+fn disc(noise: f64) -> SyntheticFrame {
+    let mut drawn = SyntheticFrame::new(160, 150, 190.0);
+    drawn.disc(MIDDLE, 50.0, 90.0);
+    drawn.add_noise(noise, 6);
+    drawn
 }
 
 /// A ring that is up to four pixels off the disc's edge.
@@ -55,7 +56,7 @@ fn from_edge(vertex: &Vertex) -> f64 {
 fn off_edge(ring: &[Vertex]) -> f64 {
     let parts = (0..ring.len()).flat_map(|k| {
         let ends = (ring[k].at, ring[(k + 1) % ring.len()].at);
-        (0..8).map(move |part| super::super::polyline::between(ends, f64::from(part) / 8.0))
+        (0..8).map(move |part| between(ends, f64::from(part) / 8.0))
     });
     let middle = Point::new(MIDDLE[0], MIDDLE[1]);
     let off: Vec<f64> = parts.map(|p| distance(p, middle) - 50.0).collect();
@@ -74,7 +75,7 @@ fn a_rough_ring_comes_onto_the_edge_to_a_part_of_a_pixel() {
             let (ring, error) = snapped(&disc(noise), &points, &RING);
             assert!(off_edge(&ring) < most, "{}", off_edge(&ring));
             assert!(error.max > 3.0 && error.max < 7.0 && ring.len() < 150);
-            // The other way round it is the same.
+            // In the other direction the result is the same.
             points.reverse();
             let (back, _) = snapped(&disc(noise), &points, &RING);
             assert!(off_edge(&back) < most);
@@ -84,21 +85,21 @@ fn a_rough_ring_comes_onto_the_edge_to_a_part_of_a_pixel() {
 
 #[test]
 fn where_there_is_no_edge_nothing_moves() {
-    let mut film = Film::new(160, 150, 140.0);
-    film.add_noise(7.0, 3);
+    let mut drawn = SyntheticFrame::new(160, 150, 140.0);
+    drawn.add_noise(7.0, 3);
     let points = rough(24);
-    let (ring, error) = snapped(&film, &points, &RING);
+    let (ring, error) = snapped(&drawn, &points, &RING);
     let kept: Vec<Point> = ring.iter().map(|vertex| vertex.at).collect();
     assert_eq!(kept, points);
     assert!(error.max < 1e-9);
     assert!(ring.iter().enumerate().all(|(k, v)| v.from == k as f64));
     // On the right half there is none, on the left half there is.
-    let mut film = disc(0.0);
-    for row in film.grey.chunks_exact_mut(160) {
+    let mut drawn = disc(0.0);
+    for row in drawn.grey.chunks_exact_mut(160) {
         row[80..].fill(140.0);
     }
-    film.add_noise(4.0, 9);
-    let (ring, _) = snapped(&film, &points, &RING);
+    drawn.add_noise(4.0, 9);
+    let (ring, _) = snapped(&drawn, &points, &RING);
     for point in points.iter().filter(|p| p.column > 95.0) {
         assert!(ring.iter().any(|vertex| vertex.at == *point), "{point:?}");
     }
@@ -108,13 +109,13 @@ fn where_there_is_no_edge_nothing_moves() {
 
 #[test]
 fn a_thin_plate_keeps_its_two_edges_apart() {
-    let mut film = Film::new(160, 60, 170.0);
-    film.plate([80.0, 30.0], [60.0, 3.0], 0.0, 90.0);
-    film.add_noise(4.0, 2);
+    let mut drawn = SyntheticFrame::new(160, 60, 170.0);
+    drawn.plate([80.0, 30.0], [60.0, 3.0], 0.0, 90.0);
+    drawn.add_noise(4.0, 2);
     // Two pixels inside of the one edge, two outside of the other.
     let points = [(22.0, 29.0), (138.0, 29.0), (138.0, 35.0), (22.0, 35.0)];
     let points = points.map(|(column, row)| Point::new(column, row));
-    let (ring, _) = snapped(&film, &points, &RING);
+    let (ring, _) = snapped(&drawn, &points, &RING);
     let long = ring.iter().filter(|v| (30.0..130.0).contains(&v.at.column));
     for vertex in long.clone() {
         let edge = if vertex.at.row < 30.0 { 27.0 } else { 33.0 };
@@ -125,26 +126,26 @@ fn a_thin_plate_keeps_its_two_edges_apart() {
 
 #[test]
 fn a_speck_draws_no_point_away() {
-    let mut film = disc(3.0);
+    let mut drawn = disc(3.0);
     // Dark specks outside of the edge, of more contrast than the edge has.
     let mut random = Random(5);
     for k in 0..12 {
         let turn = core::f64::consts::TAU * f64::from(k) / 12.0;
-        let away = 54.0 + random.share();
-        film.disc(
+        let away = 54.0 + random.uniform();
+        drawn.disc(
             [MIDDLE[0] + away * turn.cos(), MIDDLE[1] + away * turn.sin()],
             1.2,
             20.0,
         );
     }
-    let (ring, _) = snapped(&film, &circle(MIDDLE, 51.5, 80), &RING);
+    let (ring, _) = snapped(&drawn, &circle(MIDDLE, 51.5, 80), &RING);
     let farthest = ring.iter().map(|v| from_edge(v).abs()).fold(0.0, f64::max);
     assert!(farthest < 1.2, "{farthest}");
 }
 
 #[test]
 fn the_ends_of_a_path_stay_and_its_hand_is_minded() {
-    let film = disc(4.0);
+    let drawn = disc(4.0);
     // Over the top from left to right: the disc is on the right hand.
     let path: Vec<Point> = circle(MIDDLE, 52.0, 120)[70..111].to_vec();
     let open = |hand| Snap {
@@ -153,19 +154,19 @@ fn the_ends_of_a_path_stay_and_its_hand_is_minded() {
         ..RING
     };
     for hand in [Hand::Right, Hand::Either] {
-        let (line, _) = snapped(&film, &path, &open(hand));
+        let (line, _) = snapped(&drawn, &path, &open(hand));
         assert_eq!((line[0].at, line[line.len() - 1].at), (path[0], path[40]));
         let inner = line.iter().filter(|v| v.from > 5.0 && v.from < 35.0);
         assert!(rms(inner.map(from_edge)) < 0.25);
     }
-    let (line, error) = snapped(&film, &path, &open(Hand::Left));
+    let (line, error) = snapped(&drawn, &path, &open(Hand::Left));
     // Only thinned out: nothing was pulled in.
     assert!(error.max <= RING.tolerance && line.iter().all(|v| from_edge(v) > 1.7));
     let bright = Snap {
         inside: Inside::Bright,
         ..open(Hand::Left)
     };
-    let (line, _) = snapped(&film, &path, &bright);
+    let (line, _) = snapped(&drawn, &path, &bright);
     assert!(
         line.iter()
             .filter(|v| v.from > 5.0 && v.from < 35.0)
@@ -175,9 +176,9 @@ fn the_ends_of_a_path_stay_and_its_hand_is_minded() {
 
 #[test]
 fn wrong_settings_and_lines_are_said() {
-    let film = disc(0.0);
-    let pixels = film.eight_bit();
-    let frame = Frame::new(&pixels, film.width, film.height, film.width).expect("fits");
+    let drawn = disc(0.0);
+    let pixels = drawn.eight_bit();
+    let frame = Frame::new(&pixels, drawn.width, drawn.height, drawn.width).expect("fits");
     let memory = || SnapMemory {
         samples: &mut [],
         slopes: &mut [],
@@ -192,15 +193,15 @@ fn wrong_settings_and_lines_are_said() {
         ..RING
     };
     let wrong = snap(&frame, &points, &far, memory(), &mut out);
-    assert!(matches!(wrong, Err(AidError::Setting { .. })));
+    assert!(matches!(wrong, Err(TracingError::Setting { .. })));
     let short = snap(&frame, &points, &RING, memory(), &mut out);
     assert!(matches!(
         short,
-        Err(AidError::Memory {
+        Err(TracingError::Memory(TooLittleMemory {
             what: "samples",
             ..
-        })
+        }))
     ));
     let few = snap(&frame, &points[..2], &RING, memory(), &mut out);
-    assert!(matches!(few, Err(AidError::TooFewPoints { .. })));
+    assert!(matches!(few, Err(TracingError::TooFewPoints { .. })));
 }

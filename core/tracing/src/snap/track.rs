@@ -1,23 +1,20 @@
 //! Which place each sample goes to, decided for all together.
 
-use super::{MOST_REACH, Sample, Snap};
+use super::sample::{STATES, STEP, Sample, Snap};
 
-/// Between places along a normal, pixels.
-pub(super) const STEP: f64 = 0.5;
-/// Places along a normal: the longest reach to both sides.
-pub(super) const STATES: usize = 2 * (MOST_REACH / STEP) as usize + 1;
+/// The place on the line itself.
 const MIDDLE: usize = STATES / 2;
 
-/// What a place at the end of the reach is worth less than one on the line, where the best edge is worth 1.
+/// The worth of a place on the line minus that of one at the end of the reach, where a usual edge is worth 1.
 const FAR: f64 = 0.35;
-/// What it costs two neighbours to differ by as much as they are apart (45 degrees).
+/// The cost, for each pixel of their distance, of two neighbours whose offsets differ by that distance (45 degrees).
 const BEND: f64 = 0.6;
-/// How far a sample goes by itself in the end, places.
+/// How far a sample may climb to the top of its slope in the end, places.
 const CLIMB: usize = 3;
-/// The greatest difference of neighbours, as a multiple of their distance.
+/// The greatest difference of two neighbours' offsets, as a multiple of their distance.
 const STEEPEST: f64 = 1.0;
 
-/// Sets each sample's offset. `slopes` and `ways` hold [`STATES`] numbers a sample.
+/// Sets the offset of each sample. `slopes` and `ways` hold [`STATES`] numbers for each sample.
 pub(super) fn track(
     samples: &mut [Sample],
     slopes: &mut [f32],
@@ -37,7 +34,8 @@ pub(super) fn track(
     };
     let count = tracker.samples.len();
     if settings.closed {
-        // A ring has no first sample: what the one farthest from the cut chose is held while the cut moves there.
+        // A ring has no first sample. The first run cuts it at sample 0; the second cuts it at the sample farthest from
+        // there, which keeps the place that the first run chose for it.
         tracker.run(0, None);
         let held = (count / 2, tracker.state_of(count / 2));
         tracker.run(held.0, Some(held.1));
@@ -47,9 +45,9 @@ pub(super) fn track(
     tracker.settle(settings.closed);
 }
 
-/// The middle of the samples' greatest slopes among those that are edges: what counts as a usual edge.
+/// The median, over the samples with an edge, of their greatest slopes: the slope of a usual edge.
 fn usual(slopes: &[f32], count: usize, least: f64) -> f64 {
-    // By bisection: nothing has to be sorted or stored.
+    // By bisection, so that nothing has to be sorted or stored.
     let best = |slopes: &[f32]| slopes.iter().copied().fold(0.0, f32::max);
     let all = slopes.chunks_exact(STATES).take(count).map(best);
     let edges = all.filter(|&slope| f64::from(slope) >= least);
@@ -85,7 +83,7 @@ impl Tracker<'_> {
         f64::from(self.slopes[number * STATES + state])
     }
 
-    /// What a place is worth to a sample.
+    /// The worth of a place for a sample.
     fn worth(&self, number: usize, state: usize) -> f64 {
         let slope = self.slope(number, state);
         let edge = if slope >= self.least {
@@ -101,8 +99,8 @@ impl Tracker<'_> {
         MIDDLE - self.half..=MIDDLE + self.half
     }
 
-    /// Finds the best offsets of a ring that is cut before sample `first`. Where a state is given, that sample has it,
-    /// at the end of the round too.
+    /// Finds the best offsets of a ring that is cut before sample `first`. With `held`, that sample is at this place at
+    /// the beginning and, when the way comes back to it, at the end.
     fn run(&mut self, first: usize, held: Option<usize>) {
         let count = self.samples.len();
         let mut worth = [f64::NEG_INFINITY; STATES];
@@ -115,7 +113,7 @@ impl Tracker<'_> {
             worth = self.forward((first + k) % count, &worth);
         }
         let last = match held {
-            // Back to the first sample: its ways are not needed otherwise.
+            // Back to the first sample, whose ways are not needed for anything else.
             Some(held) => {
                 self.forward(first, &worth);
                 usize::from(self.ways[first * STATES + held])
@@ -159,7 +157,7 @@ impl Tracker<'_> {
         after
     }
 
-    /// Sets offsets from the last sample of a round back to sample `first`.
+    /// Sets the offsets from the last sample of a run back to sample `first`.
     fn backward(&mut self, first: usize, count: usize, last: usize) {
         let mut state = last;
         for k in (0..count).rev() {
@@ -174,8 +172,8 @@ impl Tracker<'_> {
         (state + 0.5) as usize
     }
 
-    /// From places to offsets: to a part of a place where there is an edge, then a little together with the neighbours
-    /// that have one. The ends of an open line stay.
+    /// Turns places into offsets: to a fraction of a place where there is an edge, then averaged with the neighbours that
+    /// have an edge. The ends of an open line stay.
     fn settle(&mut self, closed: bool) {
         let count = self.samples.len();
         for number in 0..count {
@@ -205,8 +203,8 @@ impl Tracker<'_> {
         }
     }
 
-    /// The top of the slope that a place is on, where it is near: keeping together with neighbours leaves samples beside
-    /// it where a line bends.
+    /// The nearest place with the greatest slope, at most [`CLIMB`] places away: staying close to the neighbours leaves
+    /// samples beside the edge where a line bends.
     fn climbed(&self, number: usize, state: usize) -> usize {
         let mut state = state;
         for _ in 0..CLIMB {

@@ -1,11 +1,17 @@
 //! The pixels of one region, and where its outer border begins.
 
-use super::{CORNERS, Cut, NEAR};
-use crate::AidError;
+use super::cut::Cut;
+use crate::error::TracingError;
 use crate::morphology::{Neighbours, grow, shrink};
 use fluoropose::image::border::{Crack, Heading, first_pixel};
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{Mask, MaskMut, Word};
+use fluoropose::math::floor;
+
+/// How far from the cursor a region may begin, pixels.
+pub(super) const NEAR: usize = 3;
+/// Steps by which corners are restored that were lost when bridges were cut.
+const CORNERS: usize = 2;
 
 /// A mask and the crack where the outer border of one of its regions begins.
 pub(super) struct Region<'a> {
@@ -20,12 +26,12 @@ impl<'a> Region<'a> {
         cursor: Point,
         bridge: usize,
         masks: [&'a mut [Word]; 3],
-    ) -> Result<Option<Self>, AidError> {
-        let (width, height) = (cut.film.width(), cut.film.height());
-        // The lengths are right; what remains is a frame that is too large for a mask.
+    ) -> Result<Option<Self>, TracingError> {
+        let (width, height) = (cut.frame.width(), cut.frame.height());
+        // The lengths are right, so the only other fault is a frame that is too large for a mask.
         let [bits, a, b] = masks.map(|words| MaskMut::new(words, width, height));
         let (Ok(mut bits), Ok(a), Ok(b)) = (bits, a, b) else {
-            return Err(AidError::OtherFrame);
+            return Err(TracingError::OtherFrame);
         };
         cut.fill(&mut bits);
         let bits = bits.into_mask();
@@ -34,7 +40,7 @@ impl<'a> Region<'a> {
         {
             return Ok(Some(opened));
         }
-        // Also where the part under the cursor is itself as thin as a bridge.
+        // Also taken where the part under the cursor is itself as thin as a bridge.
         let seed = nearest_set(&bits, cursor, NEAR);
         Ok(seed.map(|seed| Self {
             start: outer_border(seed, |column, row| bits.get(column, row)),
@@ -43,7 +49,7 @@ impl<'a> Region<'a> {
     }
 }
 
-/// The region after what is thinner than a bridge was cut: shrunk, its holes filled, grown again.
+/// The region without what is thinner than a bridge: eroded, its holes filled, dilated again.
 fn opened<'a>(
     bits: &Mask<'_>,
     cursor: Point,
@@ -83,7 +89,7 @@ fn opened<'a>(
     Some(Region { mask, start })
 }
 
-/// Fills the region of a pixel, its holes too.
+/// Fills the region of a pixel and its holes.
 fn fill_region(mask: &Mask<'_>, seed: (usize, usize), out: &mut MaskMut<'_>) {
     out.clear();
     let start = outer_border(seed, |column, row| mask.get(column, row));
@@ -108,14 +114,14 @@ fn nearest_set(mask: &Mask<'_>, cursor: Point, reach: usize) -> Option<(usize, u
     nearest_where(size, cursor, reach, |column, row| mask.get(column, row))
 }
 
-/// The pixel of a frame of which `inside` says so that is nearest to the cursor, at most `reach` columns and rows away.
+/// The pixel nearest to the cursor for which `inside` is true, at most `reach` columns and rows away.
 pub(super) fn nearest_where(
     (width, height): (usize, usize),
     cursor: Point,
     reach: usize,
     inside: impl Fn(usize, usize) -> bool,
 ) -> Option<(usize, usize)> {
-    let pixel = |value: f64| fluoropose::math::floor(value) as i64;
+    let pixel = |value: f64| floor(value) as i64;
     let (column, row) = (pixel(cursor.column), pixel(cursor.row));
     let reach = reach as i64;
     let mut best = None;
@@ -140,8 +146,8 @@ pub(super) fn nearest_where(
 
 /// A crack of the outer border of the region that a pixel belongs to, the region on the right hand.
 ///
-/// To the left of the pixel lies a border. Where that is the border of a hole, the region goes on to the left of the
-/// hole, and so on: each step begins farther to the left.
+/// The first border to the left of the pixel may be that of a hole. The region then continues to the left of the hole,
+/// where the search goes on: each step begins farther to the left.
 pub(super) fn outer_border(
     (column, row): (usize, usize),
     inside: impl Fn(usize, usize) -> bool,

@@ -1,23 +1,26 @@
 use super::*;
-use crate::films::Film;
 use crate::polyline::twice_area;
+use crate::synthetic::SyntheticFrame;
+use fluoropose::image::contour::first_crossing;
 use fluoropose::image::frame::Frame;
+use fluoropose::image::mask::MaskMut;
+use fluoropose::memory::TooLittleMemory;
 use proptest::prelude::*;
 use std::vec::Vec;
 
-/// A smoothed film's cells and its scale.
-fn smoothed(film: &Film) -> (Vec<u16>, crate::smoothed::Scale) {
-    let pixels = film.eight_bit();
-    let frame = Frame::new(&pixels, film.width, film.height, film.width).expect("fits");
+/// The values of a smoothed frame and their scale.
+fn smoothed(drawn: &SyntheticFrame) -> (Vec<u16>, crate::smoothed::Scale) {
+    let pixels = drawn.eight_bit();
+    let frame = Frame::new(&pixels, drawn.width, drawn.height, drawn.width).expect("fits");
     let mut cells = std::vec![0; pixels.len()];
     let scale = Smoothed::new(&frame, &mut cells).expect("fits").scale();
     (cells, scale)
 }
 
-fn outline(film: &Film, at: [f64; 2], threshold: &Threshold) -> Vec<Point> {
-    let (cells, scale) = smoothed(film);
-    let film = Smoothed::from_cells(&cells, film.width, film.height, scale).expect("fits");
-    let (words, points) = threshold_needed(film.width(), film.height());
+fn outline(drawn: &SyntheticFrame, at: [f64; 2], threshold: &Threshold) -> Vec<Point> {
+    let (cells, scale) = smoothed(drawn);
+    let frame = Smoothed::from_cells(&cells, drawn.width, drawn.height, scale).expect("fits");
+    let (words, points) = threshold_needed(frame.width(), frame.height());
     let mut words = std::vec![0; words];
     let mut line = std::vec![Vertex::default(); points];
     let mut marks = std::vec![false; points];
@@ -28,7 +31,13 @@ fn outline(film: &Film, at: [f64; 2], threshold: &Threshold) -> Vec<Point> {
         line: &mut line,
         marks: &mut marks,
     };
-    let found = region_at(&film, Point::new(at[0], at[1]), threshold, memory, &mut out);
+    let found = region_at(
+        &frame,
+        Point::new(at[0], at[1]),
+        threshold,
+        memory,
+        &mut out,
+    );
     assert_eq!(found.expect("valid").is_some(), !out.is_empty());
     out.as_slice().iter().map(|vertex| vertex.at).collect()
 }
@@ -46,30 +55,30 @@ const DARK: Threshold = Threshold {
 
 #[test]
 fn a_disc_in_noise_is_found_to_a_part_of_a_pixel() {
-    let mut film = Film::new(120, 100, 200.0);
-    film.disc([57.3, 48.8], 30.0, 50.0);
-    film.add_noise(6.0, 2);
-    let found = outline(&film, [50.0, 50.0], &DARK);
+    let mut drawn = SyntheticFrame::new(120, 100, 200.0);
+    drawn.disc([57.3, 48.8], 30.0, 50.0);
+    drawn.add_noise(6.0, 2);
+    let found = outline(&drawn, [50.0, 50.0], &DARK);
     let off = |p: &Point| (p.column - 57.3).hypot(p.row - 48.8) - 30.0;
     let rms = (found.iter().map(|p| off(p).powi(2)).sum::<f64>() / found.len() as f64).sqrt();
     assert!(rms < 0.15 && found.len() < 120, "{rms} {}", found.len());
     // Smoothing draws the edge of a disc inwards by sigma^2 / 2 r.
-    let share = area(&found) / (core::f64::consts::PI * 900.0);
-    assert!((share - 1.0).abs() < 0.005, "{share}");
+    let ratio = area(&found) / (core::f64::consts::PI * 900.0);
+    assert!((ratio - 1.0).abs() < 0.005, "{ratio}");
 }
 
 #[test]
-fn an_inverted_film_gives_the_same_outline() {
-    let mut film = Film::new(90, 80, 200.0);
-    film.plate([45.0, 40.0], [25.0, 8.0], 0.4, 50.0);
-    let dark = outline(&film, [45.0, 40.0], &DARK);
-    film.grey.iter_mut().for_each(|grey| *grey = 255.0 - *grey);
+fn an_inverted_frame_gives_the_same_outline() {
+    let mut drawn = SyntheticFrame::new(90, 80, 200.0);
+    drawn.plate([45.0, 40.0], [25.0, 8.0], 0.4, 50.0);
+    let dark = outline(&drawn, [45.0, 40.0], &DARK);
+    drawn.grey.iter_mut().for_each(|grey| *grey = 255.0 - *grey);
     let inverted = Threshold {
         inside: Inside::Bright,
         level: 130.0,
         ..DARK
     };
-    let bright = outline(&film, [45.0, 40.0], &inverted);
+    let bright = outline(&drawn, [45.0, 40.0], &inverted);
     assert_eq!(dark.len(), bright.len());
     for (a, b) in dark.iter().zip(&bright) {
         assert!((a.column - b.column).hypot(a.row - b.row) < 0.02);
@@ -78,33 +87,33 @@ fn an_inverted_film_gives_the_same_outline() {
 
 #[test]
 fn holes_are_filled_and_specks_left_alone() {
-    let mut film = Film::new(120, 100, 200.0);
-    film.plate([60.0, 50.0], [40.0, 20.0], 0.0, 50.0);
-    let whole = area(&outline(&film, [60.0, 50.0], &DARK));
-    film.disc([50.0, 50.0], 9.0, 220.0);
-    film.disc([75.0, 45.0], 5.0, 220.0);
-    film.disc([60.0, 10.0], 3.0, 20.0);
+    let mut drawn = SyntheticFrame::new(120, 100, 200.0);
+    drawn.plate([60.0, 50.0], [40.0, 20.0], 0.0, 50.0);
+    let whole = area(&outline(&drawn, [60.0, 50.0], &DARK));
+    drawn.disc([50.0, 50.0], 9.0, 220.0);
+    drawn.disc([75.0, 45.0], 5.0, 220.0);
+    drawn.disc([60.0, 10.0], 3.0, 20.0);
     // Between the two holes, and to the right of both.
     for at in [[65.0, 48.0], [95.0, 46.0], [30.0, 50.0]] {
-        assert_eq!(area(&outline(&film, at, &DARK)), whole);
+        assert_eq!(area(&outline(&drawn, at, &DARK)), whole);
     }
     assert!((whole - 80.0 * 40.0).abs() < 20.0, "{whole}");
     // In the hole, three pixels from its border, there is a region near; in the middle of a large one there is none.
-    assert!(outline(&film, [50.0, 50.0], &DARK).is_empty());
-    assert_eq!(area(&outline(&film, [42.5, 50.0], &DARK)), whole);
+    assert!(outline(&drawn, [50.0, 50.0], &DARK).is_empty());
+    assert_eq!(area(&outline(&drawn, [42.5, 50.0], &DARK)), whole);
 }
 
 #[test]
 fn what_hangs_on_by_a_bridge_is_cut_off_and_corners_stay() {
-    let mut film = Film::new(160, 100, 200.0);
-    film.plate([50.0, 50.0], [30.0, 20.0], 0.0, 50.0);
-    film.plate([120.0, 50.0], [25.0, 25.0], 0.0, 50.0);
-    let alone = area(&outline(&film, [50.0, 50.0], &DARK));
-    film.plate([90.0, 52.0], [20.0, 1.5], 0.0, 50.0);
-    let joined = area(&outline(&film, [50.0, 50.0], &DARK));
+    let mut drawn = SyntheticFrame::new(160, 100, 200.0);
+    drawn.plate([50.0, 50.0], [30.0, 20.0], 0.0, 50.0);
+    drawn.plate([120.0, 50.0], [25.0, 25.0], 0.0, 50.0);
+    let alone = area(&outline(&drawn, [50.0, 50.0], &DARK));
+    drawn.plate([90.0, 52.0], [20.0, 1.5], 0.0, 50.0);
+    let joined = area(&outline(&drawn, [50.0, 50.0], &DARK));
     assert!(joined > alone + 2400.0, "{joined} {alone}");
     let bridge = Threshold { bridge: 2, ..DARK };
-    let cut = outline(&film, [50.0, 50.0], &bridge);
+    let cut = outline(&drawn, [50.0, 50.0], &bridge);
     // A stump of some pixels may stay.
     assert!((area(&cut) - alone).abs() < 16.0, "{} {alone}", area(&cut));
     for corner in [(20.0, 30.0), (20.0, 70.0), (80.0, 30.0), (80.0, 70.0)] {
@@ -114,18 +123,18 @@ fn what_hangs_on_by_a_bridge_is_cut_off_and_corners_stay() {
     }
     // A part that is itself thinner than a bridge is found as it is.
     let thin = Threshold { bridge: 9, ..DARK };
-    let mut film = Film::new(100, 60, 200.0);
-    film.plate([50.0, 30.0], [30.0, 5.0], 0.3, 50.0);
-    let found = area(&outline(&film, [50.0, 30.0], &thin));
+    let mut drawn = SyntheticFrame::new(100, 60, 200.0);
+    drawn.plate([50.0, 30.0], [30.0, 5.0], 0.3, 50.0);
+    let found = area(&outline(&drawn, [50.0, 30.0], &thin));
     assert!((found - 600.0).abs() < 10.0, "{found}");
 }
 
 #[test]
 fn a_region_that_the_frame_cuts_ends_at_its_border() {
-    let mut film = Film::new(60, 50, 200.0);
-    film.disc([0.0, 25.0], 15.0, 50.0);
+    let mut drawn = SyntheticFrame::new(60, 50, 200.0);
+    drawn.disc([0.0, 25.0], 15.0, 50.0);
     for bridge in [0, 2] {
-        let found = outline(&film, [3.0, 25.0], &Threshold { bridge, ..DARK });
+        let found = outline(&drawn, [3.0, 25.0], &Threshold { bridge, ..DARK });
         let least = found.iter().map(|p| p.column).fold(f64::MAX, f64::min);
         assert_eq!(least, 0.0);
         let half = core::f64::consts::PI * 225.0 / 2.0;
@@ -135,40 +144,43 @@ fn a_region_that_the_frame_cuts_ends_at_its_border() {
 
 #[test]
 fn nothing_and_specks_give_nothing_and_wrong_settings_are_said() {
-    let mut film = Film::new(40, 30, 200.0);
-    film.disc([20.0, 15.0], 1.6, 40.0);
-    assert!(outline(&film, [20.0, 15.0], &DARK).is_empty());
-    assert!(outline(&film, [5.0, 5.0], &DARK).is_empty());
-    assert!(outline(&film, [f64::NAN, 1e300], &DARK).is_empty());
+    let mut drawn = SyntheticFrame::new(40, 30, 200.0);
+    drawn.disc([20.0, 15.0], 1.6, 40.0);
+    assert!(outline(&drawn, [20.0, 15.0], &DARK).is_empty());
+    assert!(outline(&drawn, [5.0, 5.0], &DARK).is_empty());
+    assert!(outline(&drawn, [f64::NAN, 1e300], &DARK).is_empty());
     for level in [-5.0, f64::NAN] {
-        assert!(outline(&film, [20.0, 15.0], &Threshold { level, ..DARK }).is_empty());
+        assert!(outline(&drawn, [20.0, 15.0], &Threshold { level, ..DARK }).is_empty());
     }
-    let (cells, scale) = smoothed(&film);
-    let film = Smoothed::from_cells(&cells, 40, 30, scale).expect("fits");
+    let (cells, scale) = smoothed(&drawn);
+    let frame = Smoothed::from_cells(&cells, 40, 30, scale).expect("fits");
     let memory = ThresholdMemory {
         words: &mut [0; 10],
         line: &mut [],
         marks: &mut [],
     };
     let mut out = List::new(&mut []);
-    let short = region_at(&film, Point::new(3.0, 3.0), &DARK, memory, &mut out);
-    assert!(matches!(short, Err(AidError::Memory { what: "words", .. })));
+    let short = region_at(&frame, Point::new(3.0, 3.0), &DARK, memory, &mut out);
+    assert!(matches!(
+        short,
+        Err(TracingError::Memory(TooLittleMemory { what: "words", .. }))
+    ));
 }
 
 #[test]
 fn the_suggested_level_lies_on_the_edge() {
-    let mut film = Film::new(160, 120, 210.0);
+    let mut drawn = SyntheticFrame::new(160, 120, 210.0);
     // Bone of middle grey behind the implant, and a darker bar at the frame's border.
-    film.disc([80.0, 60.0], 55.0, 150.0);
-    film.disc([85.0, 60.0], 25.0, 40.0);
-    film.plate([80.0, 118.0], [90.0, 6.0], 0.0, 10.0);
-    film.add_noise(4.0, 8);
-    let (cells, scale) = smoothed(&film);
+    drawn.disc([80.0, 60.0], 55.0, 150.0);
+    drawn.disc([85.0, 60.0], 25.0, 40.0);
+    drawn.plate([80.0, 118.0], [90.0, 6.0], 0.0, 10.0);
+    drawn.add_noise(4.0, 8);
+    let (cells, scale) = smoothed(&drawn);
     let smooth = Smoothed::from_cells(&cells, 160, 120, scale).expect("fits");
     let level = suggested_level(&smooth, Point::new(85.0, 60.0), Inside::Dark);
     let level = level.expect("there is one");
     assert!((70.0..125.0).contains(&level), "{level}");
-    let found = outline(&film, [85.0, 60.0], &Threshold { level, ..DARK });
+    let found = outline(&drawn, [85.0, 60.0], &Threshold { level, ..DARK });
     assert!((area(&found) / (core::f64::consts::PI * 625.0) - 1.0).abs() < 0.05);
     assert_eq!(
         suggested_level(&smooth, Point::new(-9.0, 3.0), Inside::Dark),
@@ -210,9 +222,9 @@ fn naive_area(inside: &[bool], width: usize, height: usize, seed: (usize, usize)
     let at = |column: isize, row: isize| inside[row as usize * width + column as usize];
     let seed = (seed.0 as isize, seed.1 as isize);
     let region = flood(seed, &four, &|c, r| frame(c, r) && at(c, r));
-    let round = |c, r| (-1..=width as isize).contains(&c) && (-1..=height as isize).contains(&r);
+    let around = |c, r| (-1..=width as isize).contains(&c) && (-1..=height as isize).contains(&r);
     let outside = flood((-1, -1), &eight, &|c, r| {
-        round(c, r) && !region.contains(&(c, r))
+        around(c, r) && !region.contains(&(c, r))
     });
     (width + 2) * (height + 2) - outside.len()
 }
@@ -224,8 +236,8 @@ proptest! {
     ) {
         let cells: Vec<u16> = pixels.iter().map(|&grey| u16::from(grey) * 256).collect();
         let scale = crate::smoothed::Scale::of(255);
-        let film = Smoothed::from_cells(&cells, 24, 18, scale).expect("fits");
-        let cut = Cut::new(&film, Inside::Dark, f64::from(level));
+        let frame = Smoothed::from_cells(&cells, 24, 18, scale).expect("fits");
+        let cut = Cut::new(&frame, Inside::Dark, f64::from(level));
         let inside: Vec<bool> = pixels.iter().map(|&grey| grey <= level).collect();
         prop_assume!(inside[seed]);
         let mut words = std::vec![0; words_needed(24, 18)];
@@ -242,7 +254,7 @@ proptest! {
         let area = cut.follow(&mask, start, &mut line).expect("fits");
         prop_assert_eq!(area as usize, naive_area(&inside, 24, 18, seed));
         // The line through the crossings is simple.
-        let crossing = fluoropose::image::contour::first_crossing(line.len(), |k| line.as_slice()[k].at);
+        let crossing = first_crossing(line.len(), |k| line.as_slice()[k].at);
         prop_assert!(line.len() < 4 || crossing.is_none(), "{crossing:?}");
     }
 }

@@ -1,8 +1,8 @@
 use super::*;
 use crate::costs::tests::edges_of;
-use crate::films::{Film, Random, circle};
-use crate::polyline::distance;
-use crate::threshold::Inside;
+use crate::polyline::{distance, squared_distance};
+use crate::side::Inside;
+use crate::synthetic::{Random, SyntheticFrame, circle};
 use std::vec::Vec;
 
 struct Memory {
@@ -18,7 +18,7 @@ impl Memory {
         }
     }
 
-    fn lend(&mut self) -> WireMemory<'_> {
+    fn borrow(&mut self) -> WireMemory<'_> {
         WireMemory {
             nodes: &mut self.nodes,
             waiting: &mut self.waiting,
@@ -28,7 +28,7 @@ impl Memory {
 
 fn random_edges(count: usize, seed: u32) -> Vec<Edge> {
     let mut random = Random(seed);
-    let mut byte = || (256.0 * random.share()) as u8;
+    let mut byte = || (256.0 * random.uniform()) as u8;
     let edge = |_| Edge {
         strength: byte(),
         outwards: byte(),
@@ -80,13 +80,13 @@ fn every_pixel_has_the_cost_of_the_definition() {
         let costs = Costs::new(&edges, width, height).expect("fits");
         let mut memory = Memory::new(width * height);
         let seed = Point::new(11.5, 3.5);
-        let mut wire = Wire::start(&costs, seed, hand, &mut memory.lend()).expect("fits");
+        let mut wire = Wire::start(&costs, seed, hand, &mut memory.borrow()).expect("fits");
         // In slices, and with the places put in order between them: neither may change anything.
         while !wire
-            .expand(&costs, &mut memory.lend(), 9, None)
+            .expand(&costs, &mut memory.borrow(), 9, None)
             .expect("fits")
         {
-            wire.sweep(&mut memory.lend());
+            wire.sweep(&mut memory.borrow());
         }
         assert_eq!(wire.settled(), width * height);
         let wanted = naive(&costs, 3 * width + 11, hand);
@@ -95,6 +95,27 @@ fn every_pixel_has_the_cost_of_the_definition() {
         }
         check_paths(&wire, &costs, &memory.nodes, &wanted);
     }
+}
+
+#[test]
+fn longer_memory_gives_the_same_paths() {
+    let (width, height) = (60, 50);
+    // Edges of no strength everywhere: many paths of the same cost.
+    let edges = std::vec![Edge::default(); width * height];
+    let costs = Costs::new(&edges, width, height).expect("fits");
+    let states = [1, 4].map(|times| {
+        let mut memory = Memory::new(times * width * height);
+        let seed = Point::new(30.5, 25.5);
+        let mut wire = Wire::start(&costs, seed, Hand::Either, &mut memory.borrow()).expect("fits");
+        let all = usize::MAX;
+        let expanded = wire.expand(&costs, &mut memory.borrow(), all, None);
+        assert_eq!(expanded, Ok(true));
+        memory.nodes[..width * height]
+            .iter()
+            .map(|node| node.0)
+            .collect::<Vec<u32>>()
+    });
+    assert_eq!(states[0], states[1]);
 }
 
 /// Each path begins at the seed, takes single steps, and costs what is said.
@@ -124,7 +145,7 @@ fn a_straight_way_takes_single_steps_to_its_end() {
         &costs,
         Point::new(0.0, 0.0),
         Hand::Either,
-        &mut Memory::new(1200).lend(),
+        &mut Memory::new(1200).borrow(),
     );
     let wire = wire.expect("fits");
     for (from, to) in [
@@ -146,7 +167,7 @@ fn a_straight_way_takes_single_steps_to_its_end() {
         let [a, b] = [from, to].map(|pixel| wire.centre(pixel as u32));
         let off = |&pixel: &usize| {
             let at = wire.centre(pixel as u32);
-            crate::polyline::squared_distance(at, (a, b)).sqrt()
+            squared_distance(at, (a, b)).sqrt()
         };
         assert!(way.iter().map(off).fold(0.0, f64::max) < 0.75);
     }
@@ -154,9 +175,9 @@ fn a_straight_way_takes_single_steps_to_its_end() {
 
 fn path(costs: &Costs<'_>, from: Point, to: Point, hand: Hand) -> Vec<Point> {
     let mut memory = Memory::new(costs.width() * costs.height());
-    let mut wire = Wire::start(costs, from, hand, &mut memory.lend()).expect("fits");
+    let mut wire = Wire::start(costs, from, hand, &mut memory.borrow()).expect("fits");
     assert!(
-        wire.expand(costs, &mut memory.lend(), usize::MAX, Some(to))
+        wire.expand(costs, &mut memory.borrow(), usize::MAX, Some(to))
             .expect("fits")
     );
     let mut places = std::vec![0; 5000];
@@ -170,10 +191,10 @@ fn path(costs: &Costs<'_>, from: Point, to: Point, hand: Hand) -> Vec<Point> {
 
 #[test]
 fn a_path_goes_round_with_the_implant_on_its_hand() {
-    let mut film = Film::new(120, 110, 190.0);
-    film.disc([60.0, 55.0], 35.0, 80.0);
-    film.add_noise(8.0, 6);
-    let edges = edges_of(&film, Inside::Dark, 64);
+    let mut drawn = SyntheticFrame::new(120, 110, 190.0);
+    drawn.disc([60.0, 55.0], 35.0, 80.0);
+    drawn.add_noise(8.0, 6);
+    let edges = edges_of(&drawn, Inside::Dark, 64);
     let costs = Costs::new(&edges, 120, 110).expect("fits");
     let (left, right) = (Point::new(25.0, 55.0), Point::new(95.0, 55.0));
     for (hand, above, sign) in [(Hand::Right, true, 1.0), (Hand::Left, false, -1.0)] {
@@ -194,12 +215,12 @@ fn a_path_goes_round_with_the_implant_on_its_hand() {
 
 #[test]
 fn on_a_thin_plate_a_path_keeps_to_its_own_edge() {
-    let mut film = Film::new(160, 60, 150.0);
+    let mut drawn = SyntheticFrame::new(160, 60, 150.0);
     // Below it is brighter: the lower edge is much the stronger.
-    film.draw(230.0, |_, row| 30.0 - row);
-    film.plate([80.0, 30.0], [60.0, 3.5], 0.0, 90.0);
-    film.add_noise(4.0, 2);
-    let edges = edges_of(&film, Inside::Dark, 64);
+    drawn.draw(230.0, |_, row| 30.0 - row);
+    drawn.plate([80.0, 30.0], [60.0, 3.5], 0.0, 90.0);
+    drawn.add_noise(4.0, 2);
+    let edges = edges_of(&drawn, Inside::Dark, 64);
     let costs = Costs::new(&edges, 160, 60).expect("fits");
     // To the right along the upper edge: the plate is on the right hand.
     let path = path(
@@ -217,15 +238,15 @@ fn a_target_stops_the_search_and_what_is_not_reached_has_no_path() {
     let costs = Costs::new(&edges, 100, 100).expect("fits");
     let mut memory = Memory::new(10_000);
     let seed = Point::new(50.0, 50.0);
-    let mut wire = Wire::start(&costs, seed, Hand::Either, &mut memory.lend()).expect("fits");
+    let mut wire = Wire::start(&costs, seed, Hand::Either, &mut memory.borrow()).expect("fits");
     let near = Point::new(53.0, 50.0);
     assert!(
         !wire
-            .expand(&costs, &mut memory.lend(), 3, Some(near))
+            .expand(&costs, &mut memory.borrow(), 3, Some(near))
             .expect("fits")
     );
     assert!(
-        wire.expand(&costs, &mut memory.lend(), 9999, Some(near))
+        wire.expand(&costs, &mut memory.borrow(), 9999, Some(near))
             .expect("fits")
     );
     assert!(wire.settled() < 100 && wire.is_reached(&memory.nodes, near));
@@ -236,17 +257,17 @@ fn a_target_stops_the_search_and_what_is_not_reached_has_no_path() {
     wire.path(&memory.nodes, far, &mut path).expect("fits");
     assert!(path.is_empty());
     assert!(
-        wire.expand(&costs, &mut memory.lend(), 9999, None)
+        wire.expand(&costs, &mut memory.borrow(), 9999, None)
             .expect("fits")
     );
     wire.path(&memory.nodes, far, &mut path).expect("fits");
     assert_eq!(path.len(), 50);
     let mut short = [0; 20];
     let long = wire.path(&memory.nodes, far, &mut List::new(&mut short));
-    assert_eq!(long, Err(AidError::TooLong(20)));
+    assert_eq!(long, Err(TracingError::TooLong(20)));
     let other = Costs::new(&edges, 50, 100).expect("fits");
     assert_eq!(
-        wire.expand(&other, &mut memory.lend(), 1, None),
-        Err(AidError::OtherFrame)
+        wire.expand(&other, &mut memory.borrow(), 1, None),
+        Err(TracingError::OtherFrame)
     );
 }

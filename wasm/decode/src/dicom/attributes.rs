@@ -1,72 +1,21 @@
-//! The attributes of an image that are needed, with their checks.
+//! The attributes of an image that decoding needs, with their checks.
 
 use dicom_object::{InMemDicomObject, Tag};
 
+use super::problem::{FORMAT, damaged};
 use super::syntax::{Coding, Syntax};
-use super::{FORMAT, damaged};
+use super::tags::{
+    BITS_ALLOCATED, BITS_STORED, COLUMNS, DETECTOR_SPACING, FRAMES, HIGH_BIT, INTERCEPT,
+    MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR, ROWS, SAMPLES_PER_PIXEL,
+    SCANNED_SPACING, SIGNED, SLOPE, SOURCE_TO_DETECTOR, SOURCE_TO_ISOCENTRE, SOURCE_TO_PATIENT,
+    SPACING_CALIBRATION, WINDOW_CENTRE, WINDOW_FUNCTION, WINDOW_WIDTH,
+};
 use crate::error::Problem;
 use crate::frame::{Geometry, SpacingCalibration, checked_area};
-use crate::jpeg::LosslessColour;
 use crate::limits::MAX_FRAMES;
+use crate::luminance::ComponentColours;
 
-const SAMPLES_PER_PIXEL: u32 = 0x0028_0002;
-const PHOTOMETRIC: u32 = 0x0028_0004;
-const PLANAR: u32 = 0x0028_0006;
-const FRAMES: u32 = 0x0028_0008;
-const ROWS: u32 = 0x0028_0010;
-const COLUMNS: u32 = 0x0028_0011;
-const PIXEL_ASPECT: u32 = 0x0028_0034;
-const BITS_ALLOCATED: u32 = 0x0028_0100;
-const BITS_STORED: u32 = 0x0028_0101;
-const HIGH_BIT: u32 = 0x0028_0102;
-const SIGNED: u32 = 0x0028_0103;
-const WINDOW_CENTRE: u32 = 0x0028_1050;
-const WINDOW_WIDTH: u32 = 0x0028_1051;
-const INTERCEPT: u32 = 0x0028_1052;
-const SLOPE: u32 = 0x0028_1053;
-const WINDOW_FUNCTION: u32 = 0x0028_1056;
-const SOURCE_TO_DETECTOR: u32 = 0x0018_1110;
-const SOURCE_TO_PATIENT: u32 = 0x0018_1111;
-const MAGNIFICATION: u32 = 0x0018_1114;
-const DETECTOR_SPACING: u32 = 0x0018_1164;
-const SCANNED_SPACING: u32 = 0x0018_2010;
-const SOURCE_TO_ISOCENTRE: u32 = 0x0018_9402;
-const PIXEL_SPACING: u32 = 0x0028_0030;
-const SPACING_CALIBRATION: u32 = 0x0028_0A02;
-
-const WANTED: [u32; 24] = [
-    SAMPLES_PER_PIXEL,
-    PHOTOMETRIC,
-    PLANAR,
-    FRAMES,
-    ROWS,
-    COLUMNS,
-    PIXEL_ASPECT,
-    BITS_ALLOCATED,
-    BITS_STORED,
-    HIGH_BIT,
-    SIGNED,
-    WINDOW_CENTRE,
-    WINDOW_WIDTH,
-    INTERCEPT,
-    SLOPE,
-    WINDOW_FUNCTION,
-    SOURCE_TO_DETECTOR,
-    SOURCE_TO_PATIENT,
-    MAGNIFICATION,
-    DETECTOR_SPACING,
-    SCANNED_SPACING,
-    SOURCE_TO_ISOCENTRE,
-    PIXEL_SPACING,
-    SPACING_CALIBRATION,
-];
-
-/// Whether an element is one that [`Attributes::read`] looks at.
-pub(super) fn is_wanted(tag: u32) -> bool {
-    WANTED.contains(&tag)
-}
-
-/// What the numbers of a pixel mean.
+/// The meaning of the numbers of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Photometric {
     /// High is dark.
@@ -79,7 +28,7 @@ pub(super) enum Photometric {
     YbrFull,
     /// As before, with the differences shared by two pixels: Y Y Cb Cr.
     YbrFull422,
-    /// Whatever a JPEG or JPEG 2000 image makes of its own colours.
+    /// What a JPEG or JPEG 2000 image makes of its own colours.
     InsideJpeg,
 }
 
@@ -101,7 +50,7 @@ pub(super) struct Attributes {
     pub samples: u16,
     pub photometric: Photometric,
     /// What three components of a compressed image are where it does not tell itself.
-    pub colour_inside: LosslessColour,
+    pub colour_inside: ComponentColours,
     pub planar: bool,
     pub bits_allocated: u16,
     pub bits_stored: u16,
@@ -201,7 +150,7 @@ impl Attributes {
         })
     }
 
-    /// The attributes of each frame by its functional groups: none where there are none.
+    /// The attributes of each frame by its functional groups; empty where there are no groups.
     pub(super) fn of_frames(
         &self,
         shared: &[u8],
@@ -333,15 +282,15 @@ fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> 
     })
 }
 
-/// A JPEG 2000 image undoes its own transforms (YBR_RCT, YBR_ICT); what is stored as YBR_FULL it does not know of.
-fn colour_inside(values: &Values) -> LosslessColour {
+/// A JPEG 2000 image undoes its own transforms (YBR_RCT, YBR_ICT), but it does not know that YBR_FULL is stored in it.
+fn colour_inside(values: &Values) -> ComponentColours {
     match values
         .text(PHOTOMETRIC)
         .unwrap_or_default()
         .starts_with("YBR_FULL")
     {
-        true => LosslessColour::LuminanceFirst,
-        false => LosslessColour::Rgb,
+        true => ComponentColours::LuminanceFirst,
+        false => ComponentColours::Rgb,
     }
 }
 

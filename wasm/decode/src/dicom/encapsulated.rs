@@ -3,14 +3,18 @@
 use std::ops::Range;
 
 use super::attributes::Attributes;
+use super::problem::damaged;
 use super::syntax::Coding;
-use super::{damaged, pixels, rle};
+use super::{pixels, rle};
 use crate::error::Problem;
 use crate::frame::GreyFrame;
 use crate::{jpeg, jpeg2000};
 
-/// The fragments of each frame: one each; or all for a single frame; or as the basic offset table says; or, for
-/// JPEG and JPEG 2000 without a table, from each fragment that begins an image to the next.
+/// The fragments of each frame. These are, in this order:
+/// - one for each frame, where there are as many fragments as frames;
+/// - all of them for a single frame;
+/// - those that the basic offset table gives;
+/// - for JPEG and JPEG 2000 without a table, those from one that begins an image to the next one that does.
 pub(super) fn frames(
     bytes: &[u8],
     offsets: &[u32],

@@ -1,10 +1,10 @@
 //! Functional groups: where enhanced multi-frame objects keep what other objects have at their top level, once for all
 //! frames and once for each.
 
-use super::damaged;
-use super::structure::{
+use super::element::{
     Element, ITEM, ITEM_END, SEQUENCE_END, UNDEFINED, Walker, is_small_and_wanted,
 };
+use super::problem::damaged;
 use crate::error::Problem;
 use crate::limits::MAX_FRAMES;
 
@@ -48,7 +48,7 @@ pub(super) fn items(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Vec<u
     Ok(out)
 }
 
-/// Calls with each item of a sequence.
+/// Calls `call` with each item of a sequence.
 fn each_item(
     walker: &Walker<'_>,
     sequence: &Element,
@@ -81,7 +81,7 @@ fn each_item(
     Ok(())
 }
 
-/// Calls with each element of an item and where it ends.
+/// Calls `call` with each element of an item and the position where the element ends.
 fn each_element(
     walker: &Walker<'_>,
     item: &Element,

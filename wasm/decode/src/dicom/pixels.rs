@@ -1,7 +1,7 @@
-//! Stored samples to grey pixels.
+//! Grey pixels from stored samples.
 
 use super::attributes::{Attributes, Photometric};
-use super::damaged;
+use super::problem::damaged;
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, Window};
 use crate::luminance::luminance;
@@ -51,7 +51,7 @@ fn monochrome(stored: &[u8], attributes: &Attributes) -> Result<GreyFrame, Probl
     finish(pixels, attributes)
 }
 
-/// Takes the stored bits out of each sample, makes them unsigned and bright where the file means bright.
+/// Takes the stored bits out of each sample and makes them unsigned, and high where the file shows them bright.
 fn stored_to_grey(samples: impl Iterator<Item = u16>, attributes: &Attributes) -> Pixels {
     let shift = attributes.high_bit + 1 - attributes.bits_stored;
     let most = u16::MAX >> (16 - attributes.bits_stored);
@@ -130,9 +130,7 @@ fn window(attributes: &Attributes) -> Option<Window> {
 fn notes(attributes: &Attributes) -> Vec<String> {
     let mut notes = Vec::new();
     if is_inverted(attributes) {
-        notes.push(
-            "Inverted so that bright is high (the file stores it the other way round).".to_owned(),
-        );
+        notes.push("Inverted so that bright is high (the file stores bright as low).".to_owned());
     }
     if attributes.signed {
         notes.push("Signed pixels were moved up by half their range.".to_owned());

@@ -1,16 +1,16 @@
 //! DICOM run-length coding (PS3.5 annex G).
 //!
-//! A frame is up to 15 segments, one a byte plane, high bytes first, each in PackBits. The library's own reader
-//! indexes past short segments and headers (a panic, which ends a WASM module), so the format's thirty lines are
-//! here, with every access checked.
+//! A frame is up to 15 segments in PackBits, one for each byte plane, high bytes first. The library's own reader indexes
+//! past short segments and headers (a panic, which ends a WASM module), so the format is read here, with every access
+//! checked.
 
-use super::damaged;
+use super::problem::damaged;
 use crate::error::Problem;
 
 const HEADER: usize = 64;
 const MAX_SEGMENTS: usize = 15;
 
-/// Two bytes give at most 128.
+/// Two bytes of run lengths stand for at most 128 bytes.
 const MAX_EXPANSION: usize = 64;
 
 /// Decodes one frame into interleaved little endian samples.
@@ -75,7 +75,7 @@ fn unpack<'a>(segment: &[u8], mut target: impl Iterator<Item = &'a mut u8>) -> u
     let (mut written, mut rest) = (0, segment);
     while let [control, tail @ ..] = rest {
         let control = isize::from(control.cast_signed());
-        // 0 and above: so many bytes follow, less one. Below: one byte follows, to be repeated; -128 is nothing.
+        // From 0: this number of bytes plus one follow. Below 0: one byte follows, to be repeated. -128 does nothing.
         let (length, repeats) = match control {
             0.. => (control as usize + 1, 1),
             -127..0 => (1, (1 - control) as usize),

@@ -2,7 +2,7 @@
 
 use dicom_transfer_syntax_registry::{TransferSyntax, entries};
 
-use super::FORMAT;
+use super::problem::FORMAT;
 use crate::error::Problem;
 
 /// How pixels are written.

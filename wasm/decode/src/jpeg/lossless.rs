@@ -1,16 +1,19 @@
 //! Lossless JPEG (process 14, all predictors, 2 to 16 bits), after ITU-T T.81 annex H.
 //!
-//! The library that decodes the other processes forgets to begin anew after a restart mark and shifts predictions by the
-//! point transform twice; X-ray units write this coding, so it is done here. The markers have been walked before.
+//! X-ray units write this coding. The library that decodes the other processes does not reset its prediction after a
+//! restart mark and applies the point transform to predictions twice, so this coding is decoded here. The markers have been
+//! walked before.
 
 use std::ops::Range;
 
-use super::{START_OF_IMAGE, START_OF_SCAN, cut, end_of_scan, frame_header, segment, starts_frame};
+use super::markers::{
+    END_OF_IMAGE, FORMAT, REMEDY, START_OF_IMAGE, START_OF_SCAN, cut, end_of_scan, frame_header,
+    segment, starts_frame,
+};
 use crate::error::Problem;
 
 const TABLES: u8 = 0xC4;
 const RESTART_INTERVAL: u8 = 0xDD;
-const END_OF_IMAGE: u8 = 0xD9;
 
 /// Samples of each component, one plane after the other.
 pub(super) struct Planes {
@@ -89,7 +92,7 @@ impl Decoder {
             .any(|[_, sampling, _]| *sampling != specifications[0][1])
         {
             let what = "lossless colours of different resolutions";
-            return Err(Problem::unsupported(super::FORMAT, what, super::REMEDY));
+            return Err(Problem::unsupported(FORMAT, what, REMEDY));
         }
         if !(2..=16).contains(&header.precision) {
             return Err(cut(&format!("it states {} bits a pixel", header.precision)));

@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 use tobj::{LoadError, LoadOptions};
 
-use super::{Raw, check_triangles, check_vertices};
+use super::raw::{Raw, check_triangles, check_vertices};
 use crate::error::Problem;
 
 const FORMAT: &str = "OBJ";

@@ -5,7 +5,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-use super::{Raw, check_triangles, check_vertices};
+use super::raw::{Raw, check_triangles, check_vertices};
 use crate::error::Problem;
 use crate::limits::MAX_VERTICES;
 

@@ -1,47 +1,22 @@
 //! STL, binary and ASCII.
 //!
-//! Which of the two is told by length, not by the first word: a binary header may begin with `solid`.
-//!
-//! Some exporters fill a binary file up to a block or close it with a few bytes of their own. Such bytes after the last
-//! triangle are left out, and a note says so, as long as they cannot be triangles: zeros and blanks, however many, or
-//! fewer bytes than a triangle takes. Anything else may be triangles that the header does not count, and a model with a
-//! part missing gives a wrong pose: that is refused.
+//! Some exporters pad a binary file to a block, or end it with a few bytes of their own. Bytes after the last triangle are
+//! left out, and a note says so, if they cannot be triangles: any number of zeros and blanks, or fewer bytes than a
+//! triangle has. Anything else may be triangles that the header does not count, and is refused: a model with a missing part
+//! gives a wrong pose.
 
 use std::borrow::Cow;
 use std::io::Cursor;
 
 use stl_io::{Triangle, create_stl_reader};
 
-use super::{Raw, check_triangles};
+use super::raw::{Raw, check_triangles};
 use crate::error::Problem;
+use crate::sniff::stl_form::{
+    HEADER, PER_TRIANGLE, binary_length, is_ascii, is_binary, stated_triangles,
+};
 
 const FORMAT: &str = "STL";
-const HEADER: usize = 80;
-const PREFIX: usize = HEADER + 4;
-const PER_TRIANGLE: u64 = 50;
-
-/// The number of triangles that a binary file states.
-fn stated_triangles(bytes: &[u8]) -> Option<u32> {
-    let field = bytes.get(HEADER..PREFIX)?;
-    Some(u32::from_le_bytes(field.try_into().ok()?))
-}
-
-/// Whether a file of `length` bytes that begins so has exactly the length of a binary one of the stated number of triangles.
-pub(crate) fn is_binary(head: &[u8], length: usize) -> bool {
-    stated_triangles(head).is_some_and(|count| binary_length(count) == length as u64)
-}
-
-/// Whether the content reads like the ASCII form: the word `solid`, then text with `facet` or `endsolid`.
-pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]).to_ascii_lowercase();
-    let text = text.trim_start();
-    text.starts_with("solid") && (text.contains("facet") || text.contains("endsolid"))
-}
-
-fn binary_length(triangles: u32) -> u64 {
-    PREFIX as u64 + PER_TRIANGLE * u64::from(triangles)
-}
-
 /// Reads the triangles.
 pub(super) fn read(bytes: Cow<'_, [u8]>) -> Result<Raw, Problem> {
     match is_ascii(&bytes) && !is_binary(&bytes, bytes.len()) {

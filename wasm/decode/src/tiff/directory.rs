@@ -1,9 +1,9 @@
 //! A walk over the directories of a TIFF file, before the library reads them.
 //!
-//! The library reserves what a field's count says (up to 256 MiB a field) and multiplies stated sizes; here every
-//! field must lie inside the file and every size that it multiplies must be one of a real page.
+//! The library reserves what the count of a field says (up to 256 MiB for each field) and multiplies stated sizes. Here
+//! every field must lie inside the file, and every size that the library multiplies must be possible for a page.
 
-use super::{FORMAT, damaged};
+use super::problem::{FORMAT, damaged};
 use crate::error::Problem;
 use crate::limits::{MAX_FRAMES, MAX_SIDE};
 
@@ -183,6 +183,6 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), Problem> {
             return Ok(());
         }
     }
-    let detail = format!("it has more than {MAX_FRAMES} pages or they go round in a circle");
+    let detail = format!("it has more than {MAX_FRAMES} pages, or they are linked in a circle");
     Err(Problem::damaged(FORMAT, detail))
 }

@@ -1,4 +1,4 @@
-import { Film as FrameImage } from '../../pkg/core/fluoropose_wasm.js';
+import { FrameImage } from '../../pkg/core/fluoropose_wasm.js';
 
 /** Moves a frame's pixels into WASM memory. */
 export function imageOf({ pixels, width, height }: { pixels: Uint8Array | Uint16Array; width: number; height: number }): FrameImage {

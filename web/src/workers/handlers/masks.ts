@@ -1,5 +1,5 @@
 import { strToU8, zipSync, type Zippable } from 'fflate';
-import { labelsOfMask, maskOfOutline, outlineOfMask, type Film as FrameImage } from '../../pkg/core/fluoropose_wasm.js';
+import { labelsOfMask, maskOfOutline, outlineOfMask, type FrameImage } from '../../pkg/core/fluoropose_wasm.js';
 import initDecode, { encodeMask, FrameFile, type DecodedFrame } from '../../pkg/decode/fluoropose_decode.js';
 import decodeAddress from '../../pkg/decode/fluoropose_decode_bg.wasm?url';
 import type { MaskLabel, MaskPage, MasksProtocol } from '../protocol/masks';

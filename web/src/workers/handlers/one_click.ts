@@ -1,4 +1,4 @@
-import { OneClick, type Film as FrameImage, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
+import { OneClick, type FrameImage, type Match as RawMatch, type Matcher, type OneClickAnswer, type Surroundings as RawSurroundings } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';

@@ -1,4 +1,4 @@
-import { choosePose, Matcher, Straightener as Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { choosePose, Matcher, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';

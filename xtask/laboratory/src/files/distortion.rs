@@ -4,8 +4,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
 use fluoropose::image::frame::{Frame, Pixel};
+use fluoropose_distortion::Distortion;
 use fluoropose_distortion::correction::Corrected;
-use fluoropose_distortion::distortion::{Distortion, NUMBERS};
+use fluoropose_distortion::distortion::NUMBERS;
 use fluoropose_distortion::polynomial::TERMS;
 use fluoropose_distortion::resample::{map_row, resample_row};
 use serde::{Deserialize, Serialize};

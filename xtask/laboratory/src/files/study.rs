@@ -42,7 +42,7 @@ pub struct Component {
     pub reference: Option<PathBuf>,
     /// Rotations about x and y of the nominal view, degrees.
     #[serde(default)]
-    pub nominal: [f64; 2],
+    pub nominal: Option<[f64; 2]>,
     /// Distance from the focus, mm, where it is known.
     pub distance_mm: Option<f64>,
     /// Folders of masks by source; a row of the table each.

@@ -4,7 +4,6 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::canonical::CanonicalSpec;
 use fluoropose::library::{BuildError, Builder, ViewScratch};
 use fluoropose::mesh::Model;
 use fluoropose::render::Projected;
@@ -32,7 +31,7 @@ pub fn build_library(
     distance: f64,
 ) -> Result<Built> {
     let start = Instant::now();
-    let canonical = CanonicalSpec::new(options.size, options.area)?;
+    let canonical = options.canonical()?;
     let builder = Builder::new(mesh, camera, canonical, options.grid(), distance)?;
     let bar = progress(builder.views(), "views");
     let memory = || {

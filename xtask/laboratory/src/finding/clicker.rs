@@ -13,7 +13,8 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
 use fluoropose::render::{Projected, scratch_needed};
 use fluoropose_tracing::one_click::{
-    Answer, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Part, Prompt, Scene, Start,
+    Answer, Component, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Prompt,
+    Start,
 };
 
 /// Border pixels that are lent.
@@ -47,7 +48,7 @@ struct Buffers {
     distance: Vec<u16>,
     marks: Vec<u8>,
     links: Vec<u32>,
-    tallies: Vec<u32>,
+    statistics: Vec<u32>,
     words: Vec<Word>,
     canonical: Vec<Word>,
     turned: Vec<Word>,
@@ -81,7 +82,7 @@ impl Buffers {
         }
         self.marks.resize(needs.pixels, 0);
         self.links.resize(needs.links, 0);
-        self.tallies.resize(needs.tallies, 0);
+        self.statistics.resize(needs.statistics, 0);
         self.words.resize(needs.words, 0);
         OneClickMemory {
             grey: &mut self.grey,
@@ -89,7 +90,7 @@ impl Buffers {
             distance: &mut self.distance,
             marks: &mut self.marks,
             links: &mut self.links,
-            tallies: &mut self.tallies,
+            statistics: &mut self.statistics,
             words: &mut self.words,
             workspace: Workspace {
                 canonical: &mut self.canonical,
@@ -140,23 +141,23 @@ impl<'l> Clicker<'l> {
         polarity: Polarity,
     ) -> Result<Clicked, OneClickError> {
         let begin = Instant::now();
-        let scene = Scene {
+        let observation = Observation {
             frame,
             camera: &self.camera,
             polarity,
             excluded: None,
         };
-        let part = Part {
+        let component = Component {
             library: &self.library,
             model: &self.mesh,
             planes: &self.planes,
         };
-        let mut work = OneClick::new(prompt, &self.camera, Some(&part))?;
+        let mut work = OneClick::new(prompt, &self.camera, Some(&component))?;
         let mut memory = self.buffers.lend(&work.needs(&self.camera));
         let mut longest = Duration::ZERO;
         loop {
             let step = Instant::now();
-            let more = work.step(&scene, Some(&part), &mut memory)?;
+            let more = work.step(&observation, Some(&component), &mut memory)?;
             longest = longest.max(step.elapsed());
             if !more {
                 break;

@@ -14,7 +14,7 @@ use fluoropose::render::{Projected, scratch_needed};
 use crate::files::MaskBuffer;
 
 /// Rival poses that are kept of one silhouette.
-pub(super) const RIVALS: usize = 6;
+pub(super) const RIVALS: usize = 12;
 
 /// Beyond this part of the silhouette unmatched, something may hide a part of it.
 const DOUBTFUL_SHARE: f64 = 0.06;

@@ -1,7 +1,7 @@
 //! Which views a library holds.
 
 use fluoropose::camera::calibration::Calibration;
-use fluoropose::canonical::CanonicalSpec;
+use fluoropose::canonical::{CanonicalError, CanonicalSpec};
 use fluoropose::library::ViewGrid;
 
 use crate::options::{Pair, Range};
@@ -12,57 +12,83 @@ const USUAL_DEPTH: f64 = 0.9;
 /// The same where the calibration does not tell the detector's distance, mm.
 const USUAL_DISTANCE_MM: f64 = 1000.0;
 
+/// Between neighbouring views of a library of all directions, degrees, its canonical frame and area, pixels: as fine as
+/// refinement needs its starts.
+const ALL_AROUND: (f64, usize, u32) = (2.5, 64, 938);
+
 /// Which views a library holds.
-#[derive(clap::Args, Clone, Copy, Debug)]
+#[derive(clap::Args, Clone, Copy, Debug, Default)]
 pub struct ViewOptions {
     /// Rotations about x and y of the nominal view, degrees: the ranges below are about it
-    #[arg(
-        long,
-        value_name = "X,Y",
-        default_value = "0,0",
-        allow_hyphen_values = true
-    )]
-    pub nominal: Pair,
-    /// Rotations about x, degrees, as first:last:step
-    #[arg(long, default_value = "-15:15:1", allow_hyphen_values = true)]
-    pub x: Range,
-    /// Rotations about y, degrees, as first:last:step
-    #[arg(long, default_value = "-20:20:1", allow_hyphen_values = true)]
-    pub y: Range,
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub nominal: Option<Pair>,
+    /// Rotations about x, degrees, as first:last:step [default: all directions; -15:15:1 where y or the nominal view is
+    /// given]
+    #[arg(long, allow_hyphen_values = true)]
+    pub x: Option<Range>,
+    /// Rotations about y, degrees, as first:last:step [default: all directions; -20:20:1 where x or the nominal view is
+    /// given]
+    #[arg(long, allow_hyphen_values = true)]
+    pub y: Option<Range>,
     /// Distance from the focus to the object in the views, mm [default: 0.9 of the principal
     /// distance, or 1000 where the calibration does not tell it]
     #[arg(long, value_name = "MM")]
     pub distance: Option<f64>,
-    /// Area of a canonical silhouette, pixels
-    #[arg(long, value_name = "PX", default_value_t = 15_000)]
-    pub area: u32,
-    /// Side of the canonical frame, pixels; a multiple of 32
-    #[arg(long, value_name = "PX", default_value_t = 256)]
-    pub size: usize,
-}
-
-impl Default for ViewOptions {
-    fn default() -> Self {
-        let grid = ViewGrid::default();
-        Self {
-            nominal: Pair::default(),
-            x: Range(grid.x),
-            y: Range(grid.y),
-            distance: None,
-            area: CanonicalSpec::default().area(),
-            size: CanonicalSpec::default().size(),
-        }
-    }
+    /// Area of a canonical silhouette, pixels [default: 938 for all directions, else 15000]
+    #[arg(long, value_name = "PX")]
+    pub area: Option<u32>,
+    /// Side of the canonical frame, pixels; a multiple of 32 [default: 64 for all directions, else 256]
+    #[arg(long, value_name = "PX")]
+    pub size: Option<usize>,
 }
 
 impl ViewOptions {
-    /// The grid about the nominal view.
-    pub fn grid(&self) -> ViewGrid {
-        let Pair([x, y]) = self.nominal;
-        ViewGrid {
-            x: self.x.0.shifted(x),
-            y: self.y.0.shifted(y),
+    /// The window of views of Walker et al. 1996 about a nominal view, degrees about x and y.
+    pub fn window(nominal: [f64; 2]) -> Self {
+        Self {
+            nominal: Some(Pair(nominal)),
+            ..Self::default()
         }
+    }
+
+    /// The window of Walker et al. 1996 where nothing else was asked for.
+    pub fn or_window(self) -> Self {
+        match self.is_all_around() {
+            true => Self {
+                nominal: Some(Pair::default()),
+                ..self
+            },
+            false => self,
+        }
+    }
+
+    fn is_all_around(&self) -> bool {
+        self.nominal.is_none() && self.x.is_none() && self.y.is_none()
+    }
+
+    /// The grid of views: all directions, or a window about the nominal view.
+    pub fn grid(&self) -> ViewGrid {
+        if self.is_all_around() {
+            return ViewGrid::sphere(ALL_AROUND.0);
+        }
+        let Pair([x, y]) = self.nominal.unwrap_or_default();
+        let window = ViewGrid::default();
+        ViewGrid {
+            x: self.x.map_or(window.x, |range| range.0).shifted(x),
+            y: self.y.map_or(window.y, |range| range.0).shifted(y),
+        }
+    }
+
+    /// The canonical frame of the views.
+    ///
+    /// # Errors
+    /// Those of [`CanonicalSpec::new`].
+    pub fn canonical(&self) -> Result<CanonicalSpec, CanonicalError> {
+        let (size, area) = match self.is_all_around() {
+            true => (ALL_AROUND.1, ALL_AROUND.2),
+            false => (CanonicalSpec::USUAL.size(), CanonicalSpec::USUAL.area()),
+        };
+        CanonicalSpec::new(self.size.unwrap_or(size), self.area.unwrap_or(area))
     }
 
     /// The distance asked for, or the usual one for a calibration, mm.

@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::image::frame::Frame;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
-use fluoropose_distortion::automatic::{MARKS, Memory, find_grid};
+use fluoropose_distortion::automatic::{DistortionGridMemory, MARKS, find_distortion_grid};
 use fluoropose_distortion::correction::{Corrected, ORDERS, fit};
 use fluoropose_distortion::discs::{Disc, sums_needed};
 use fluoropose_distortion::lattice::Bead;
@@ -67,7 +67,7 @@ pub fn run(args: Args) -> Result<()> {
         describe_distortion(&corrected);
         write_distortion(path, &corrected, &name)?;
         for bead in &mut beads {
-            *bead = Bead::new(corrected.distortion.straight(bead.at), bead.index);
+            *bead = Bead::new(corrected.distortion.undistorted(bead.at), bead.index);
         }
     }
     match (
@@ -99,20 +99,20 @@ pub fn beads_of(picture: &GreyFrame, bright: bool, radius: Option<f64>) -> Resul
     let mut sums = vec![0; sums_needed(width, height)];
     let (mut discs, mut beads) = (vec![Disc::default(); MARKS], vec![Bead::default(); MARKS]);
     let mut queue = vec![0; MARKS];
-    let mut memory = Memory {
+    let mut memory = DistortionGridMemory {
         sums: &mut sums,
         discs: &mut discs,
         beads: &mut beads,
         queue: &mut queue,
     };
     let found = match &picture.pixels {
-        Pixels::U8(pixels) => find_grid(
+        Pixels::U8(pixels) => find_distortion_grid(
             &Frame::new(pixels, width, height, width)?,
             bright,
             radius,
             &mut memory,
         )?,
-        Pixels::U16(pixels) => find_grid(
+        Pixels::U16(pixels) => find_distortion_grid(
             &Frame::new(pixels, width, height, width)?,
             bright,
             radius,

@@ -121,7 +121,7 @@ pub fn run(args: Args) -> Result<()> {
     let calibration = read_calibration(&study.calibration)?;
     let source = Source::read(&folders, &calibration)?;
     let views = ViewOptions {
-        nominal: Pair(component.nominal),
+        nominal: component.nominal.map(Pair),
         distance: component.distance_mm,
         ..ViewOptions::default()
     };
@@ -253,7 +253,7 @@ impl Trial<'_> {
                 start.score,
                 start.overlap,
                 start.support.strength,
-                start.support.share
+                start.support.fraction
             );
         }
         for answer in &clicked.answers {
@@ -261,7 +261,7 @@ impl Trial<'_> {
                 "  answer: iou {:.3}, score {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
                 iou(&answer.refined.pose)?,
                 answer.score,
-                answer.support.share,
+                answer.support.fraction,
                 answer.refined.residual_px,
                 answer.refined.loss,
                 if answer.mirrored { ", mirrored" } else { "" }

@@ -204,7 +204,8 @@ pub fn run(args: Args) -> Result<()> {
     let model = read_model(&args.model)?;
     let calibration = read_calibration(&args.calibration)?;
     let camera = camera_for(&calibration, args.frame)?;
-    let distance = args.views.distance_for(&calibration);
+    let views = args.views.or_window();
+    let distance = views.distance_for(&calibration);
     let mesh = model.as_model();
     let protocol = Protocol {
         method: args.method,
@@ -217,13 +218,13 @@ pub fn run(args: Args) -> Result<()> {
         start_off: args.start_off,
         biplane: args.biplane,
     };
-    let accuracy = measure_as(mesh, camera, &args.views, &protocol, variant)?;
+    let accuracy = measure_as(mesh, camera, &views, &protocol, variant)?;
     println!(
         "{} poses, seed {}, {} triangles, library of {} views at {distance} mm, method {}",
         args.poses,
         args.seed,
         model.as_model().triangles().len(),
-        args.views.grid().views(),
+        views.grid().views(),
         args.method.word(),
     );
     print(&accuracy);

@@ -32,7 +32,7 @@ pub(super) fn measure(count: usize, camera: Camera) -> Result<Row> {
     let bar = progress(count, "implants");
     let mut files = Vec::new();
     for surface in &surfaces {
-        let options = ViewOptions::default();
+        let options = ViewOptions::window([0.0, 0.0]);
         files.push(build_library(surface.as_model(), camera, &options, DISTANCE_MM)?.bytes);
         bar.inc(1);
     }

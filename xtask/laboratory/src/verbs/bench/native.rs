@@ -44,7 +44,7 @@ pub(super) fn measure(implants: usize, work: &Path) -> Result<Vec<Row>> {
     let surface = owned(implant::femur(&Parameters::default())?)?;
     let mesh = surface.as_model();
     let camera = Camera::from_principal_distance(1024, 1024, 1200.0, 0.373, [0.0, 0.0])?;
-    let options = ViewOptions::default();
+    let options = ViewOptions::window([0.0, 0.0]);
     let built = build_library(mesh, camera, &options, DISTANCE_MM)?;
     let library = Library::open(&built.bytes)?;
     println!(

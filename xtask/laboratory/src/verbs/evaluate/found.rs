@@ -152,7 +152,7 @@ impl<'s> Part<'s> {
         request: &Request<'_>,
     ) -> Result<ViewOptions> {
         let mut views = ViewOptions {
-            nominal: Pair(self.component.nominal),
+            nominal: self.component.nominal.map(Pair),
             distance: self.component.distance_mm,
             ..ViewOptions::default()
         };

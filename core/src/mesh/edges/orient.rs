@@ -1,0 +1,85 @@
+//! Vertices welded and triangles turned alike, so that the sides of neighbours can be paired.
+//!
+//! Neither changes what is drawn. Equal vertices have equal images, and a triangle covers the same pixels whichever way it
+//! runs.
+
+use super::edge::MeshEdge;
+use crate::mesh::surface::Mesh;
+
+/// Writes for each vertex the first one at the same place; `order` is working memory. Both have a number for each vertex.
+/// Gives how many were welded to another.
+pub(super) fn weld(mesh: &Mesh<'_>, order: &mut [u32], same: &mut [u32]) -> usize {
+    let vertices = mesh.vertices();
+    // Adding zero makes -0 and 0 alike.
+    let place = |vertex: u32| vertices[vertex as usize].map(|x| x + 0.0);
+    let key = |vertex: u32| place(vertex).map(f32::to_bits);
+    for (number, slot) in order.iter_mut().enumerate() {
+        *slot = number as u32;
+    }
+    order.sort_unstable_by_key(|&vertex| (key(vertex), vertex));
+    let (mut first, mut welded) = (None, 0);
+    for &vertex in &*order {
+        let of = match first {
+            Some(first) if place(first) == place(vertex) => {
+                welded += 1;
+                first
+            }
+            _ => vertex,
+        };
+        first = Some(of);
+        same[vertex as usize] = of;
+    }
+    welded
+}
+
+/// Trees of triangles that are joined along edges; each number is the parent's, doubled, with a lowest bit that says whether
+/// the triangle runs against it (union-find with parity; Tarjan, J. ACM 22, 1975).
+pub(super) struct Orientation<'m> {
+    parents: &'m mut [u32],
+}
+
+impl<'m> Orientation<'m> {
+    /// Every triangle by itself, as it was given.
+    pub(super) fn new(parents: &'m mut [u32]) -> Self {
+        for (triangle, parent) in parents.iter_mut().enumerate() {
+            *parent = (triangle as u32) << 1;
+        }
+        Self { parents }
+    }
+
+    /// The root of a triangle's tree, and whether the triangle runs against it.
+    pub(super) fn root(&mut self, triangle: u32) -> (u32, bool) {
+        let (mut at, mut against) = (triangle, 0);
+        loop {
+            let link = self.parents[at as usize];
+            let (parent, turn) = (link >> 1, link & 1);
+            if parent == at {
+                return (at, against == 1);
+            }
+            // Halving the path: the grandparent becomes the parent.
+            let above = self.parents[parent as usize];
+            self.parents[at as usize] = above ^ turn;
+            against ^= turn ^ (above & 1);
+            at = above >> 1;
+        }
+    }
+
+    /// Joins two neighbours, of which one has to be turned where they run along their edge in one direction.
+    pub(super) fn join(&mut self, a: u32, b: u32, in_one_direction: bool) {
+        let ((a, turn_a), (b, turn_b)) = (self.root(a), self.root(b));
+        if a != b {
+            let turn = turn_a ^ turn_b ^ in_one_direction;
+            let (low, high) = (a.min(b), a.max(b));
+            self.parents[high as usize] = low << 1 | u32::from(turn);
+        }
+    }
+}
+
+/// Sides that run along one edge, of a list sorted by their vertices: where the run that begins at `start` ends.
+pub(super) fn run_end(halves: &[MeshEdge], start: usize) -> usize {
+    let Some(first) = halves.get(start) else {
+        return start;
+    };
+    let same = |edge: &&MeshEdge| (edge.from, edge.to) == (first.from, first.to);
+    start + halves[start..].iter().take_while(same).count()
+}

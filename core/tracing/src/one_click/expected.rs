@@ -1,0 +1,59 @@
+//! The size that a component has in a frame, from its library and the camera.
+
+use super::observation::Component;
+use fluoropose::camera::Camera;
+use fluoropose::math::sqrt;
+
+/// Nearest and farthest distance of the object from the focus, as multiples of the library's: those of
+/// [`fluoropose::locate::partial`].
+const DISTANCES: [f64; 2] = [0.75, 1.35];
+/// Least and greatest area of a region, as multiples of a silhouette's area: what touches the implant may be part of it.
+const REGION: [f64; 2] = [0.4, 4.0];
+
+/// Sizes in pixels and distances in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Expected {
+    /// Least and greatest area of a region that is tried, square pixels.
+    pub(super) areas: [f64; 2],
+    /// Square root of the area of a usual silhouette, pixels.
+    pub(super) size: f64,
+    /// No two points of a silhouette are farther apart, pixels.
+    pub(super) extent: f64,
+    /// Nearest and farthest distance of the model's centre from the focus along the axis, mm.
+    pub(super) depths: [f64; 2],
+}
+
+impl Expected {
+    pub(super) fn of(component: &Component<'_>, camera: &Camera) -> Self {
+        let info = component.library.info();
+        let [fx, fy] = camera.focal();
+        let unit = fx * fy / (info.focal * info.focal);
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for view in 0..component.library.views() {
+            let area = f64::from(component.library.record(view).area) * unit;
+            (least, most) = (least.min(area), most.max(area));
+        }
+        let [near, far] = DISTANCES;
+        let depths = DISTANCES.map(|multiple| multiple * info.distance);
+        Self {
+            areas: [
+                REGION[0] * least / (far * far),
+                REGION[1] * most / (near * near),
+            ],
+            size: sqrt((least + most) / 2.0),
+            extent: 2.0 * component.model.bounds().radius * fx.max(fy) / depths[0],
+            depths,
+        }
+    }
+
+    /// Without a component: anything from a speck to half of the frame.
+    pub(super) fn anything(camera: &Camera) -> Self {
+        let pixels = (camera.width() * camera.height()) as f64;
+        Self {
+            areas: [pixels / 4096.0, pixels / 2.0],
+            size: sqrt(pixels) / 10.0,
+            extent: sqrt(pixels),
+            depths: DISTANCES,
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! The frame that is searched, and the component that is searched in it.
+
+use fluoropose::camera::Camera;
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::Mask;
+use fluoropose::library::Library;
+use fluoropose::mesh::Model;
+use fluoropose::mesh::symmetry::SymmetryPlane;
+use fluoropose::refine::Polarity;
+
+/// A frame and what is known of it.
+#[derive(Clone, Copy)]
+pub struct Observation<'a> {
+    /// The frame.
+    pub frame: &'a dyn Grey,
+    /// The camera that took it.
+    pub camera: &'a Camera,
+    /// Whether metal is dark or bright in it.
+    pub polarity: Polarity,
+    /// Pixels that belong to something else, such as another component that is outlined already.
+    pub excluded: Option<&'a Mask<'a>>,
+}
+
+impl core::fmt::Debug for Observation<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Observation")
+            .field("size", &self.frame.size())
+            .field("polarity", &self.polarity)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The component that is searched.
+#[derive(Clone, Copy, Debug)]
+pub struct Component<'a> {
+    /// Its library of views.
+    pub library: &'a Library<'a>,
+    /// Its model.
+    pub model: &'a Model<'a>,
+    /// The model's planes of near-symmetry ([`fluoropose::mesh::symmetry::symmetry_planes`]).
+    pub planes: &'a [SymmetryPlane],
+}

@@ -1,0 +1,158 @@
+//! The state of the work from one step to the next.
+
+use heapless::Vec;
+
+use super::candidates::{Answer, LocatedPose, Region, Start};
+use super::error::OneClickError;
+use super::expected::Expected;
+use super::memory::OneClickNeeds;
+use super::observation::{Component, Observation};
+use super::prompt::{Prompt, SEEDS};
+use super::scoring::PoseScorer;
+use super::statistics::CHOSEN;
+use super::window::Window;
+use fluoropose::camera::Camera;
+use fluoropose::image::moments::Moments;
+
+/// The greatest number of located poses of a preprocessing pass that are drawn.
+pub(super) const LOCATED: usize = 8;
+/// The greatest number of first poses that are refined.
+pub const STARTS: usize = 4;
+/// The greatest number of refined poses that are kept.
+pub const ANSWERS: usize = 8;
+
+/// Numbers of passes of the binomial filter: variances of 1 and of 4 square pixels. Noise that hides a border at the first
+/// does not at the second, which rounds off what is thin.
+pub(super) const SMOOTHING: [usize; 2] = [2, 8];
+/// Radii of the discs that cut bridges, as fractions of the expected size.
+pub(super) const RADII: [f64; 4] = [0.0, 0.03, 0.06, 0.1];
+/// The greatest number of regions of a preprocessing pass.
+pub(super) const REGIONS: usize = RADII.len() * CHOSEN;
+
+/// What is done next. A pass is the frame preprocessed for one seed with one smoothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// A pass is brought into memory.
+    Preprocess(usize),
+    /// The regions of a pass are matched with the library, one by one.
+    Match(usize),
+    /// The located poses of a pass are drawn and scored, one by one.
+    Score(usize),
+    /// First poses are refined, one by one.
+    Refine(usize),
+    /// The window is narrowed to the best answer.
+    Narrow,
+    /// Rotations around the best answer are scored, one by one.
+    Around(usize),
+    /// The mirror images of the best answer are refined, one by one.
+    Mirror(usize),
+    /// Nothing is left to do.
+    Done,
+}
+
+/// The work from a prompt to outlines and poses.
+#[derive(Clone, Debug)]
+pub struct OneClick {
+    pub(super) prompt: Prompt,
+    pub(super) expected: Expected,
+    pub(super) window: Window,
+    /// Pixels of the first window, which is the largest.
+    pixels: usize,
+    pub(super) stage: Stage,
+    /// The pass that is in memory.
+    pub(super) current: Option<usize>,
+    pub(super) seeds: Vec<usize, SEEDS>,
+    /// Slope of an edge of metal, grey values a pixel.
+    pub(super) slope: f64,
+    /// Number of rounds that are done: regions in the window, regions near the best answer, rotations of it.
+    pub(super) round: usize,
+    /// The box around the best answer of the first round, which the second round searches.
+    pub(super) narrowed: Option<Prompt>,
+    /// The answer around which poses were scored last.
+    pub(super) rotated_from: Option<Answer>,
+    /// The regions of this pass that are still to be matched; the last one is the next.
+    pub(super) regions: Vec<Region, REGIONS>,
+    /// Moments of the regions of all passes that were matched.
+    pub(super) matched: Vec<Moments, REGIONS>,
+    /// Poses that the library has for the regions of this pass.
+    pub(super) located: Vec<LocatedPose, LOCATED>,
+    /// The region with the sharpest border, and the sharpness.
+    pub(super) sharpest: Option<(f64, Region)>,
+    pub(super) starts: Vec<Start, STARTS>,
+    pub(super) answers: Vec<Answer, ANSWERS>,
+}
+
+impl OneClick {
+    /// Begins the work for a component in frames of `camera`; without a component, for a region alone.
+    ///
+    /// # Errors
+    /// [`OneClickError::Outside`] and [`OneClickError::SmallBox`].
+    pub fn new(
+        prompt: Prompt,
+        camera: &Camera,
+        component: Option<&Component<'_>>,
+    ) -> Result<Self, OneClickError> {
+        let expected = component.map_or_else(
+            || Expected::anything(camera),
+            |component| Expected::of(component, camera),
+        );
+        let window = prompt.window(camera, expected.extent)?;
+        Ok(Self {
+            pixels: window.pixels(),
+            window,
+            prompt,
+            expected,
+            stage: Stage::Preprocess(0),
+            current: None,
+            seeds: Vec::new(),
+            slope: 0.0,
+            round: 0,
+            narrowed: None,
+            rotated_from: None,
+            regions: Vec::new(),
+            matched: Vec::new(),
+            located: Vec::new(),
+            sharpest: None,
+            starts: Vec::new(),
+            answers: Vec::new(),
+        })
+    }
+
+    /// Lengths of the memory that [`OneClick::step`] borrows.
+    #[must_use]
+    pub fn needs(&self, camera: &Camera) -> OneClickNeeds {
+        OneClickNeeds::of(self.pixels, camera)
+    }
+
+    /// First poses, the best first, as far as they are known.
+    #[must_use]
+    pub fn starts(&self) -> &[Start] {
+        &self.starts
+    }
+
+    /// Refined poses, the best first, as far as they are known.
+    #[must_use]
+    pub fn answers(&self) -> &[Answer] {
+        &self.answers
+    }
+
+    /// Number of preprocessing passes: one for each seed and smoothing. The first pass of a box finds its seeds.
+    pub(super) fn passes(&self) -> usize {
+        SMOOTHING.len() * self.seeds.len().max(1)
+    }
+
+    /// What scores poses in the state that is reached.
+    pub(super) fn scorer<'s>(
+        &'s self,
+        observation: &'s Observation<'s>,
+        component: &'s Component<'s>,
+    ) -> PoseScorer<'s> {
+        PoseScorer {
+            observation,
+            component,
+            prompt: &self.prompt,
+            expected: &self.expected,
+            slope: self.slope,
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! What crosses crates, in one program: it is linked once.
+
+mod accuracy;
+mod biplane;
+mod golden;
+mod library;
+mod options;
+mod partial;
+mod sides;
+mod symmetry;

@@ -1,0 +1,105 @@
+//! Markers of a JPEG image, walked before a decoder sees a byte.
+
+use crate::error::Problem;
+
+pub(super) const FORMAT: &str = "JPEG";
+pub(super) const REMEDY: &str = "Export it as an ordinary JPEG, PNG or TIFF";
+
+/// Most scans of one image. Encoders write about ten; a file of thousands would keep the decoder busy for hours.
+pub(super) const MAX_SCANS: usize = 100;
+
+pub(super) const START_OF_IMAGE: u8 = 0xD8;
+pub(super) const END_OF_IMAGE: u8 = 0xD9;
+pub(super) const START_OF_SCAN: u8 = 0xDA;
+
+/// What the frame header of a JPEG image says.
+pub(super) struct Header {
+    /// Which coding: 0 baseline, 1 extended, 2 progressive, 3 lossless, others.
+    pub(super) process: u8,
+    pub(super) precision: u8,
+    pub(super) width: u16,
+    pub(super) height: u16,
+    pub(super) components: u8,
+}
+
+/// Whether `marker` starts a frame: C0 to CF without the tables C4, C8 and CC.
+pub(super) fn starts_frame(marker: u8) -> bool {
+    (0xC0..=0xCF).contains(&marker) && !matches!(marker, 0xC4 | 0xC8 | 0xCC)
+}
+
+/// The position of the next marker's `0xFF` at or after `at`, over entropy-coded bytes: stuffed zeros and restart
+/// markers belong to the scan.
+pub(super) fn end_of_scan(bytes: &[u8], mut at: usize) -> Option<usize> {
+    loop {
+        at += bytes.get(at..)?.iter().position(|&b| b == 0xFF)?;
+        match *bytes.get(at + 1)? {
+            0x00 | 0xD0..=0xD7 => at += 2,
+            0xFF => at += 1,
+            _ => return Some(at),
+        }
+    }
+}
+
+/// The body of the segment whose length field is at `at`.
+pub(super) fn segment(bytes: &[u8], at: usize) -> Option<&[u8]> {
+    let length = u16::from_be_bytes([*bytes.get(at)?, *bytes.get(at + 1)?]);
+    bytes.get(at + 2..at + usize::from(length))
+}
+
+pub(super) fn frame_header(marker: u8, body: &[u8]) -> Option<Header> {
+    let [precision, h1, h0, w1, w0, components, ..] = *body else {
+        return None;
+    };
+    Some(Header {
+        process: marker & 0x0F,
+        precision,
+        width: u16::from_be_bytes([w1, w0]),
+        height: u16::from_be_bytes([h1, h0]),
+        components,
+    })
+}
+
+pub(super) fn cut(what: &str) -> Problem {
+    Problem::damaged(FORMAT, what)
+}
+
+/// Follows the markers from the start to the end-of-image mark.
+pub(super) fn walk(bytes: &[u8]) -> Result<Header, Problem> {
+    if !bytes.starts_with(&[0xFF, START_OF_IMAGE]) {
+        return Err(cut("it does not begin with the JPEG mark"));
+    }
+    let ends = || cut("it ends before the end-of-image mark");
+    let (mut at, mut header, mut scans) = (2, None, 0);
+    loop {
+        if bytes.get(at) != Some(&0xFF) {
+            return Err(bytes.get(at).map_or_else(ends, |_| {
+                cut(&format!(
+                    "there is no marker at byte {at} where one must be"
+                ))
+            }));
+        }
+        match *bytes.get(at + 1).ok_or_else(ends)? {
+            0xFF => at += 1,
+            END_OF_IMAGE => break,
+            marker => {
+                let body = segment(bytes, at + 2).ok_or_else(ends)?;
+                at += 4 + body.len();
+                if starts_frame(marker) {
+                    if header.is_some() {
+                        return Err(cut("it holds a second image inside the first"));
+                    }
+                    header = frame_header(marker, body);
+                } else if marker == START_OF_SCAN {
+                    scans += 1;
+                    at = end_of_scan(bytes, at).ok_or_else(ends)?;
+                }
+                if scans > MAX_SCANS {
+                    return Err(cut(&format!("it has more than {MAX_SCANS} scans")));
+                }
+            }
+        }
+    }
+    header
+        .filter(|_| scans > 0)
+        .ok_or_else(|| cut("it has no image between its marks"))
+}

@@ -1,0 +1,358 @@
+//! Frames held and painted with window and level.
+
+use std::rc::Rc;
+
+use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose_tracing::smoothed::{Scale, Smoothed};
+use js_sys::{Uint8Array, Uint16Array};
+use wasm_bindgen::prelude::*;
+use web_sys::CanvasRenderingContext2d;
+
+use crate::error::sentence;
+use crate::paint::{Rgba, put};
+use crate::preprocessing;
+
+/// One frame's pixels.
+#[wasm_bindgen]
+pub struct FrameImage {
+    /// Of all that look at this film: nobody changes them.
+    pixels: Rc<Pixels>,
+    width: usize,
+    height: usize,
+    /// The picture that was last shown instead of the film itself.
+    derived: Option<(Derived, Vec<u8>)>,
+}
+
+/// A picture made from a frame.
+#[wasm_bindgen]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Derived {
+    /// Strength of edges.
+    Edges,
+    /// Contrast equalised region by region.
+    Equalised,
+}
+
+/// Grey values as they came.
+pub enum Pixels {
+    /// Of 8 bits.
+    Eight(Vec<u8>),
+    /// Of 9 to 16 bits.
+    Sixteen(Vec<u16>),
+}
+
+/// The share of pixels that a suggested window leaves out at either end.
+const CLIPPED: f64 = 0.005;
+
+#[wasm_bindgen]
+impl FrameImage {
+    /// Takes 8-bit pixels, row by row.
+    ///
+    /// # Errors
+    /// The core's sentence when the shape does not fit the pixels.
+    #[wasm_bindgen(js_name = fromEightBit)]
+    pub fn from_eight_bit(pixels: Vec<u8>, width: u32, height: u32) -> Result<FrameImage, JsError> {
+        check(&pixels, width, height)?;
+        Ok(Self {
+            pixels: Rc::new(Pixels::Eight(pixels)),
+            width: width as usize,
+            height: height as usize,
+            derived: None,
+        })
+    }
+
+    /// Takes 16-bit pixels, row by row.
+    ///
+    /// # Errors
+    /// The core's sentence when the shape does not fit the pixels.
+    #[wasm_bindgen(js_name = fromSixteenBit)]
+    pub fn from_sixteen_bit(
+        pixels: Vec<u16>,
+        width: u32,
+        height: u32,
+    ) -> Result<FrameImage, JsError> {
+        check(&pixels, width, height)?;
+        Ok(Self {
+            pixels: Rc::new(Pixels::Sixteen(pixels)),
+            width: width as usize,
+            height: height as usize,
+            derived: None,
+        })
+    }
+
+    /// Least and greatest grey value, then the centre and width of a window that leaves out half a percent at either end.
+    #[wasm_bindgen(js_name = greyRange)]
+    pub fn grey_range(&self) -> Vec<f64> {
+        match self.pixels() {
+            Pixels::Eight(pixels) => grey_range(pixels),
+            Pixels::Sixteen(pixels) => grey_range(pixels),
+        }
+    }
+
+    /// Paints the frame at the canvas's upper left corner, one canvas pixel a pixel. Grey values up to
+    /// `centre - width / 2` are black, from `centre + width / 2` white.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    pub fn paint(
+        &self,
+        context: &CanvasRenderingContext2d,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        self.put(context, &shades(centre, width, self.levels()))
+    }
+
+    /// The same with dark and bright exchanged.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    #[wasm_bindgen(js_name = paintInverted)]
+    pub fn paint_inverted(
+        &self,
+        context: &CanvasRenderingContext2d,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        let mut shades = shades(centre, width, self.levels());
+        for [red, green, blue, _] in &mut shades {
+            [*red, *green, *blue] = [!*red, !*green, !*blue];
+        }
+        self.put(context, &shades)
+    }
+
+    /// Paints a picture made from the frame, whose own grey values run from 0 to 255. It is made once and kept until
+    /// another one is asked for.
+    ///
+    /// # Errors
+    /// What the canvas throws.
+    #[wasm_bindgen(js_name = paintDerived)]
+    pub fn paint_derived(
+        &mut self,
+        context: &CanvasRenderingContext2d,
+        look: Derived,
+        centre: f64,
+        width: f64,
+    ) -> Result<(), JsValue> {
+        let shades = shades(centre, width, 1 << 8);
+        let kept = self.derived.take().filter(|(made, _)| *made == look);
+        let (_, picture) = self.derived.insert(kept.unwrap_or_else(|| {
+            (
+                look,
+                Self::derive(&self.pixels, look, self.width, self.height),
+            )
+        }));
+        develop(picture, &shades, self.width, context)
+    }
+
+    /// A copy of the pixels, row by row, for another thread: `Uint8Array` of an 8-bit frame, `Uint16Array` of a 16-bit one.
+    #[wasm_bindgen(js_name = copyPixels, unchecked_return_type = "Uint8Array | Uint16Array")]
+    pub fn copy_pixels(&self) -> JsValue {
+        match self.pixels() {
+            Pixels::Eight(pixels) => Uint8Array::from(&pixels[..]).into(),
+            Pixels::Sixteen(pixels) => Uint16Array::from(&pixels[..]).into(),
+        }
+    }
+
+    /// The grey value of the pixel at a column and row; nothing outside the frame.
+    #[wasm_bindgen(js_name = greyAt)]
+    pub fn grey_at(&self, column: u32, row: u32) -> Option<u32> {
+        let (column, row) = (column as usize, row as usize);
+        if column >= self.width || row >= self.height {
+            return None;
+        }
+        let index = row * self.width + column;
+        match self.pixels() {
+            Pixels::Eight(pixels) => pixels.get(index).map(|&grey| grey.into()),
+            Pixels::Sixteen(pixels) => pixels.get(index).map(|&grey| grey.into()),
+        }
+    }
+
+    fn levels(&self) -> usize {
+        match self.pixels() {
+            Pixels::Eight(_) => 1 << 8,
+            Pixels::Sixteen(_) => 1 << 16,
+        }
+    }
+}
+
+impl FrameImage {
+    /// Row by row.
+    pub fn pixels(&self) -> &Pixels {
+        &self.pixels
+    }
+
+    /// The same pixels, not copied: the page may let go of its film while work on it goes on.
+    pub fn shared(&self) -> Self {
+        Self {
+            pixels: Rc::clone(&self.pixels),
+            width: self.width,
+            height: self.height,
+            derived: None,
+        }
+    }
+
+    fn put(&self, context: &CanvasRenderingContext2d, shades: &[Rgba]) -> Result<(), JsValue> {
+        let count = self.width * self.height;
+        match self.pixels() {
+            Pixels::Eight(pixels) => develop(&pixels[..count], shades, self.width, context),
+            Pixels::Sixteen(pixels) => develop(&pixels[..count], shades, self.width, context),
+        }
+    }
+
+    /// Smooths the film into as many cells as it has pixels.
+    ///
+    /// # Errors
+    /// The core's sentence where there are fewer.
+    pub fn smooth(&self, cells: &mut [u16]) -> Result<Scale, JsError> {
+        let (width, height) = (self.width, self.height);
+        let smoothed = match self.pixels() {
+            Pixels::Eight(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+            Pixels::Sixteen(pixels) => {
+                let frame = Frame::new(pixels, width, height, width).map_err(sentence)?;
+                Smoothed::new(&frame, cells).map(|smoothed| smoothed.scale())
+            }
+        };
+        smoothed.map_err(sentence)
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> (usize, usize) {
+        (self.width, self.height)
+    }
+
+    /// Calls `with` with the frame, to be read between its pixels' centres.
+    ///
+    /// # Errors
+    /// That of `with`.
+    pub fn look<T>(
+        &self,
+        with: impl FnOnce(&dyn Grey) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        let (width, height) = (self.width, self.height);
+        match self.pixels() {
+            Pixels::Eight(pixels) => {
+                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
+            }
+            Pixels::Sixteen(pixels) => {
+                with(&Frame::new(pixels, width, height, width).map_err(sentence)?)
+            }
+        }
+    }
+
+    fn derive(pixels: &Pixels, look: Derived, width: usize, height: usize) -> Vec<u8> {
+        match (pixels, look) {
+            (Pixels::Eight(pixels), Derived::Edges) => {
+                preprocessing::edges(&pixels[..width * height], width, height)
+            }
+            (Pixels::Eight(pixels), Derived::Equalised) => {
+                preprocessing::equalised(&pixels[..width * height], width, height)
+            }
+            (Pixels::Sixteen(pixels), Derived::Edges) => {
+                preprocessing::edges(&pixels[..width * height], width, height)
+            }
+            (Pixels::Sixteen(pixels), Derived::Equalised) => {
+                preprocessing::equalised(&pixels[..width * height], width, height)
+            }
+        }
+    }
+}
+
+fn check<P: Pixel>(pixels: &[P], width: u32, height: u32) -> Result<(), JsError> {
+    let (width, height) = (width as usize, height as usize);
+    Frame::new(pixels, width, height, width)
+        .map(|_| ())
+        .map_err(sentence)
+}
+
+/// The colour of every grey value.
+fn shades(centre: f64, width: f64, levels: usize) -> Vec<Rgba> {
+    let width = width.max(1.0);
+    let black = centre - width / 2.0;
+    (0..levels)
+        .map(|grey| {
+            let shade = ((grey as f64 - black) / width * 255.0)
+                .round()
+                .clamp(0.0, 255.0) as u8;
+            [shade, shade, shade, 255]
+        })
+        .collect()
+}
+
+/// Rows that are developed at a time: the memory for them is used again and again and stays in the processor's caches.
+const STRIP: usize = 64;
+
+fn develop<P: Pixel>(
+    pixels: &[P],
+    shades: &[Rgba],
+    width: usize,
+    context: &CanvasRenderingContext2d,
+) -> Result<(), JsValue> {
+    let mut strip = Vec::new();
+    for (number, pixels) in pixels.chunks((STRIP * width).max(1)).enumerate() {
+        // There is a shade for every value of the type.
+        let shade = |&grey: &P| shades.get(grey.into() as usize).copied();
+        strip.clear();
+        strip.extend(pixels.iter().map(|grey| shade(grey).unwrap_or_default()));
+        put(context, &strip, width, 0, number * STRIP)?;
+    }
+    Ok(())
+}
+
+fn grey_range<P: Pixel>(pixels: &[P]) -> Vec<f64> {
+    let mut counts = vec![0usize; 1 << 16];
+    for &grey in pixels {
+        if let Some(count) = counts.get_mut(grey.into() as usize) {
+            *count += 1;
+        }
+    }
+    let all = pixels.len() as f64;
+    let low = level_below(&counts, 0.0);
+    let high = level_below(&counts, all - 1.0);
+    let dark = level_below(&counts, all * CLIPPED);
+    let bright = level_below(&counts, all * (1.0 - CLIPPED));
+    vec![low, high, (dark + bright) / 2.0, (bright - dark).max(1.0)]
+}
+
+/// The least grey value that more than `rank` pixels do not exceed.
+fn level_below(counts: &[usize], rank: f64) -> f64 {
+    let mut sum = 0;
+    let level = counts.iter().position(|count| {
+        sum += count;
+        sum as f64 > rank
+    });
+    level.unwrap_or(counts.len() - 1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_maps_its_ends_to_black_and_white() {
+        let shades = shades(100.0, 50.0, 256);
+        assert_eq!(shades[75], [0, 0, 0, 255]);
+        assert_eq!(shades[74], [0, 0, 0, 255]);
+        assert_eq!(shades[125], [255; 4]);
+        assert_eq!(shades[100][0], 128);
+    }
+
+    #[test]
+    fn who_shares_a_film_reads_its_pixels_where_they_are() {
+        let film = FrameImage::from_eight_bit(vec![1, 2, 3, 4], 2, 2)
+            .ok()
+            .unwrap();
+        assert!(std::ptr::eq(film.pixels(), film.shared().pixels()));
+    }
+
+    #[test]
+    fn the_suggested_window_ignores_a_few_extreme_pixels() {
+        let mut pixels: Vec<u16> = (0..10_000).map(|i| 1000 + (i % 101) as u16).collect();
+        pixels[0] = 0;
+        pixels[1] = 65_535;
+        assert_eq!(grey_range(&pixels), vec![0.0, 65_535.0, 1050.0, 100.0]);
+    }
+}

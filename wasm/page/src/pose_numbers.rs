@@ -1,0 +1,41 @@
+//! Poses as six numbers, the form in which they cross into JavaScript.
+
+use fluoropose::pose::EulerPose;
+use wasm_bindgen::JsError;
+
+/// x, y, z (mm), then z, x and y rotation (degrees).
+pub type PoseNumbers = [f64; 6];
+
+/// The six numbers of a pose.
+pub fn to_numbers(pose: &EulerPose) -> PoseNumbers {
+    [
+        pose.x_mm,
+        pose.y_mm,
+        pose.z_mm,
+        pose.z_rot_deg,
+        pose.x_rot_deg,
+        pose.y_rot_deg,
+    ]
+}
+
+/// The pose of six numbers.
+///
+/// # Errors
+/// A sentence where there are not six.
+pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
+    match *numbers {
+        [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]
+            if numbers.iter().all(|n| n.is_finite()) =>
+        {
+            Ok(EulerPose {
+                x_mm,
+                y_mm,
+                z_mm,
+                z_rot_deg,
+                x_rot_deg,
+                y_rot_deg,
+            })
+        }
+        _ => Err(JsError::new("A pose is six finite numbers")),
+    }
+}

@@ -1,0 +1,81 @@
+//! Suites beside each other: compilers fill what browsers and downloads leave of the processor.
+
+use std::thread;
+
+use super::report::Report;
+use super::{browser, firmware, native};
+use crate::output::Lane;
+use crate::setup::{node, programs};
+use crate::workspace;
+
+/// Which suites run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Chosen {
+    /// Formatting, lints and the Rust tests on this machine.
+    pub native: bool,
+    /// The application under QEMU.
+    pub firmware: bool,
+    /// The page.
+    pub browser: bool,
+}
+
+impl Chosen {
+    /// Every suite.
+    pub(crate) const ALL: Self = Self {
+        native: true,
+        firmware: true,
+        browser: true,
+    };
+}
+
+/// A suite and the lane that it runs in.
+type Suite = (Lane, fn(&mut Report));
+
+/// Runs the suites, each in a lane of its own; the report has them in their order.
+pub(crate) fn run(chosen: Chosen) -> Report {
+    let lane = |name, gives_way| Lane { name, gives_way };
+    let suites: [(bool, Suite); 3] = [
+        (chosen.native, (lane("native", true), native::run)),
+        (chosen.firmware, (lane("firmware", true), firmware::run)),
+        // Its tests have clocks.
+        (chosen.browser, (lane("browser", false), browser::run)),
+    ];
+    let suites = suites.into_iter().filter(|(chosen, _)| *chosen);
+    let suites: Vec<Suite> = suites.map(|(_, suite)| suite).collect();
+    let mut report = Report::new();
+    if let [(_, run)] = suites.as_slice() {
+        run(&mut report);
+        return report;
+    }
+    thread::scope(|scope| {
+        scope.spawn(|| lane("fetch", true).work(|| fetch(chosen)));
+        let run = |(lane, run): Suite| {
+            lane.work(|| {
+                let mut report = Report::new();
+                run(&mut report);
+                report
+            })
+        };
+        let lanes = suites.iter().map(|&suite| scope.spawn(move || run(suite)));
+        for lane in lanes.collect::<Vec<_>>() {
+            match lane.join() {
+                Ok(steps) => report.add(steps),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+    });
+    report
+}
+
+/// Fetches what later steps need from elsewhere, while the first ones compile. What could not be had is told by the step
+/// that wants it.
+fn fetch(chosen: Chosen) {
+    if chosen.firmware {
+        let _ = programs::qemu_arm();
+    }
+    if chosen.browser {
+        let _ = programs::chromium();
+        let _ = programs::firefox();
+        let _ = node::install(&workspace::root().join("tests/browser"));
+    }
+}
