@@ -16,7 +16,7 @@ pub struct LinkMemory<'e, 'm> {
     pub numbers: &'m mut [u32],
     /// [`LinkNeeds::groups`] boxes at most are kept.
     pub boxes: &'e mut [EdgeBox],
-    /// As many groups.
+    /// [`LinkNeeds::groups`] groups.
     pub groups: &'e mut [EdgeGroup],
     /// Edges of one triangle alone: none of a closed surface, [`LinkNeeds::halves`] at most.
     pub rims: &'e mut [RimEdge],
