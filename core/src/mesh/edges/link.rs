@@ -52,7 +52,7 @@ pub struct SurfaceFaults {
     /// Triangles with two corners at one place, which cover nothing.
     pub degenerate: usize,
     /// Triangles that run against their neighbours.
-    pub turned: usize,
+    pub flipped: usize,
     /// Sides of triangles without a neighbour: rims of holes, cracks and sheets.
     pub rims: usize,
 }
@@ -150,7 +150,7 @@ fn orient(halves: &mut [MeshEdge], parents: &mut [u32], faults: &mut SurfaceFaul
         half.order ^= u32::from(orientation.root(half.back).1);
     }
     let turned = (0..triangles as u32).filter(|&triangle| orientation.root(triangle).1);
-    faults.turned = turned.count();
+    faults.flipped = turned.count();
 }
 
 /// Joins sides that run along one edge in opposite directions and moves the pairs to the front; writes the others to `rims`.
@@ -259,7 +259,7 @@ mod tests {
         let mut turned = CLOSED;
         turned[2].swap(0, 1);
         let (edges, rims, faults) = linked(&CORNERS, &turned);
-        assert_eq!((edges.len(), rims.len(), faults.turned), (6, 0, 1));
+        assert_eq!((edges.len(), rims.len(), faults.flipped), (6, 0, 1));
         assert!(faults.is_closed());
     }
 
