@@ -1,5 +1,6 @@
 //! A component's surface: triangles, the edges between them, and its planes of symmetry.
 
+pub mod anatomy;
 pub mod edges;
 pub mod mirror;
 mod model;

@@ -8,6 +8,7 @@ use fluoropose::finder::choice::{
 };
 
 use crate::finding::{Answer, FrameFound, misfit};
+use fluoropose::pose::Pose;
 
 /// The pose of a frame.
 #[derive(Clone, Copy, Debug)]
@@ -50,17 +51,18 @@ impl fmt::Display for Decision {
 }
 
 /// Chooses a pose in every frame of a sequence, all of them together ([`choose_film`]);
-/// `counterparts` are the other component's poses, a frame each, where they are known. `None` for
-/// frames without answers.
+/// `counterparts` are the other component's poses, a frame each, where they are known. `axes` rotates the field's axes into
+/// the model's ([`fluoropose::mesh::anatomy::field_axes`]); counterparts have the field's. `None` for frames without answers.
 ///
 /// # Errors
 /// Those of [`choose_film`], which there are none of.
 pub fn decide(
     film: &[FrameFound],
     counterparts: &[Option<Counterpart>],
+    axes: &Pose,
 ) -> Result<Vec<Option<Decision>>> {
     let candidate = |answer: &Answer| RivalPose {
-        pose: answer.pose,
+        pose: answer.pose.compose(axes),
         residual_px: misfit(answer),
     };
     let candidates: Vec<Vec<RivalPose>> = film

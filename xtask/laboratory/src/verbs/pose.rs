@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
 use fluoropose::math::Vector3;
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 
 use crate::choice::{Decision, Reasons, decide, report};
 
@@ -103,7 +103,7 @@ pub fn run(args: Args) -> Result<()> {
         .with_edges(args.edges);
     let sequence = source.disturbed(&args.disturbance)?;
     let found = find_poses(&mut finder, &sequence);
-    let decisions = decide(&found, &counterparts)?;
+    let decisions = decide(&found, &counterparts, &Pose::IDENTITY)?;
     let middle = mesh.bounds().centre;
     for (frame, decision) in found.iter().zip(&decisions) {
         describe(frame, decision.as_ref(), &middle);

@@ -6,6 +6,8 @@ use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use rayon::prelude::*;
 
@@ -76,27 +78,36 @@ pub(super) fn find_parts<'s>(
     let mut femurs: Vec<(String, Vec<Option<Pose>>)> = Vec::new();
     for part in parts.iter_mut().filter(|part| !is(Role::Tibia)(part)) {
         for found in &mut part.found {
-            found.decisions = decide(&found.frames, &[])?;
+            found.decisions = decide(&found.frames, &[], &Pose::IDENTITY)?;
         }
     }
     for part in parts.iter().filter(|part| is(Role::Femur)(part)) {
-        let poses = part
-            .found
-            .iter()
-            .map(|found| (found.source.clone(), found.poses()));
+        let Some(axes) = part.axes() else {
+            continue;
+        };
+        let poses = part.found.iter().map(|found| {
+            let poses = found.poses().into_iter();
+            let poses = poses.map(|pose| pose.map(|pose| pose.compose(&axes)));
+            (found.source.clone(), poses.collect())
+        });
         femurs.extend(poses);
     }
     for part in parts.iter_mut().filter(|part| is(Role::Tibia)(part)) {
+        // Without axes of its own a tibia has no tilt.
+        let (axes, known) = match part.axes() {
+            Some(axes) => (axes, &femurs[..]),
+            None => (Pose::IDENTITY, &[][..]),
+        };
         for found in &mut part.found {
-            found.decide_with(&femurs)?;
+            found.decide_with(known, &axes)?;
         }
     }
     Ok(parts)
 }
 
 impl Found {
-    /// Chooses tibial poses with the femoral ones of a source known.
-    fn decide_with(&mut self, femurs: &[(String, Vec<Option<Pose>>)]) -> Result<()> {
+    /// Chooses tibial poses with the femoral ones of a source known, those in the field's axes.
+    fn decide_with(&mut self, femurs: &[(String, Vec<Option<Pose>>)], axes: &Pose) -> Result<()> {
         let fitting = || {
             femurs
                 .iter()
@@ -109,7 +120,7 @@ impl Found {
             poses.iter().map(known).collect()
         });
         self.femur = femur.map(|(source, _)| source.clone());
-        self.decisions = decide(&self.frames, &counterparts)?;
+        self.decisions = decide(&self.frames, &counterparts, axes)?;
         Ok(())
     }
 }
@@ -141,6 +152,17 @@ impl<'s> Part<'s> {
             part.found.push(found);
         }
         Ok(part)
+    }
+
+    /// The rotation from the field's axes to the model's, as its shape tells it.
+    fn axes(&self) -> Option<Pose> {
+        let component = match self.component.role()? {
+            Role::Femur => KneeComponent::Femur,
+            Role::Tibia => KneeComponent::Tibia,
+        };
+        let model = self.model.as_model();
+        let planes = symmetry_planes(model.mesh());
+        field_axes(model.mesh(), &planes, component)
     }
 
     /// The views of the library. Perspective depends on the distance: where nobody told it, the

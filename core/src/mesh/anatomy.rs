@@ -1,0 +1,213 @@
+//! Which ways a component lies, found from its shape: mediolateral and superoinferior, without their signs.
+//!
+//! CAD files have axes of any kind. A femoral component and a tray are nearly symmetric about the plane whose normal is
+//! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. Which way along an axis is
+//! lateral or upwards is not told here: what uses these axes must not depend on it.
+
+use crate::math::eigen::eigen_symmetric;
+use crate::math::{Matrix3, Vector3, cross, dot, norm, scale, subtract};
+use crate::mesh::surface::Mesh;
+use crate::mesh::symmetry::SymmetryPlane;
+use crate::pose::Pose;
+
+/// Most CAD axes are the anatomical ones in some order. What is found within this angle of one of the file's axes is taken
+/// to be that axis, so that numbers agree with those of programs that take the file's axes as they are. Degrees.
+pub const OWN_AXIS_DEG: f64 = 10.0;
+
+/// Cosine of [`OWN_AXIS_DEG`].
+const OWN_AXIS: f64 = 0.984_807_753;
+
+/// Planes whose deviations differ by less than this factor are equally good, and the wider way across is mediolateral.
+const AS_SYMMETRIC: f64 = 3.0;
+
+/// The normal of the plane about which a component is most nearly symmetric, model coordinates; of planes about which it is
+/// as symmetric that across which it is wider, as knees are. `planes` come from
+/// [`crate::mesh::symmetry::symmetry_planes`]. `None` where there are none.
+#[must_use]
+pub fn mediolateral_axis(mesh: &Mesh<'_>, planes: &[SymmetryPlane]) -> Option<Vector3> {
+    let best = planes.first()?.deviation_mm;
+    // A plane of a mesh that is symmetric by making deviates by rounding alone.
+    let limit = AS_SYMMETRIC * best.max(1e-3 * mesh.bounds().radius);
+    let alike = planes.iter().filter(|plane| plane.deviation_mm <= limit);
+    let widest = alike.max_by(|a, b| width(mesh, &a.normal).total_cmp(&width(mesh, &b.normal)));
+    Some(own_axis(widest?.normal))
+}
+
+/// The normal of a tray's plate, perpendicular to `mediolateral`, model coordinates: the direction that most of its surface
+/// faces, forwards or backwards, by area. `None` of a mesh without area.
+#[must_use]
+pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Vector3> {
+    let mut tensor: Matrix3 = [[0.0; 3]; 3];
+    let corner = |vertex: u32| mesh.vertices()[vertex as usize].map(f64::from);
+    for triangle in mesh.triangles() {
+        let [a, b, c] = triangle.map(corner);
+        let doubled = cross(&subtract(&b, &a), &subtract(&c, &a));
+        // The part that is not mediolateral.
+        let across = scale(mediolateral, dot(&doubled, mediolateral));
+        let normal = subtract(&doubled, &across);
+        let area = norm(&doubled);
+        if area > 0.0 {
+            for (row, &x) in tensor.iter_mut().zip(&normal) {
+                for (sum, &y) in row.iter_mut().zip(&normal) {
+                    *sum += x * y / area;
+                }
+            }
+        }
+    }
+    let ([largest, ..], [normal, ..]) = eigen_symmetric(&tensor);
+    (largest > 0.0).then(|| own_axis(normal))
+}
+
+/// A component of a knee.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KneeComponent {
+    /// The femoral component.
+    Femur,
+    /// The tray.
+    Tibia,
+}
+
+/// The rotation from the field's axes (x anteroposterior, y superoinferior, z mediolateral) to the model's own, as far as the
+/// shape tells them and without their signs; of a femoral component z alone, x and y being any that are perpendicular to it.
+/// `pose.compose(&axes)` is then the pose of a model with the field's axes: what [`crate::finder::choice`] compares. The
+/// identity for models that have these axes themselves; `None` where the shape has no plane of symmetry.
+#[must_use]
+pub fn field_axes(
+    mesh: &Mesh<'_>,
+    planes: &[SymmetryPlane],
+    component: KneeComponent,
+) -> Option<Pose> {
+    let z = mediolateral_axis(mesh, planes)?;
+    let y = match component {
+        KneeComponent::Tibia => superoinferior_axis(mesh, &z)?,
+        KneeComponent::Femur => perpendicular(&z),
+    };
+    let x = cross(&y, &z);
+    Some(Pose {
+        rotation: core::array::from_fn(|row| [x[row], y[row], z[row]]),
+        translation: [0.0; 3],
+    })
+}
+
+/// The file's y axis, or where that is too near to `axis` its x axis, made perpendicular to it.
+fn perpendicular(axis: &Vector3) -> Vector3 {
+    let own = if axis[1].abs() < 0.7 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    let across = subtract(&own, &scale(axis, dot(&own, axis)));
+    scale(&across, 1.0 / norm(&across))
+}
+
+/// How far a mesh reaches along an axis, mm.
+fn width(mesh: &Mesh<'_>, axis: &Vector3) -> f64 {
+    let along = mesh.vertices().iter().map(|v| dot(&v.map(f64::from), axis));
+    let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    high - low
+}
+
+/// The file's own axis where one is within [`OWN_AXIS_DEG`], else the axis as it is; its largest component is positive.
+fn own_axis(axis: Vector3) -> Vector3 {
+    let mut own = axis;
+    for (k, x) in axis.iter().enumerate() {
+        if x.abs() > OWN_AXIS {
+            own = [0.0; 3];
+            own[k] = 1.0;
+        }
+    }
+    own
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::symmetry::symmetry_planes;
+    use crate::pose::{EulerPose, Pose};
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Corners of a box from one corner to the opposite one, appended.
+    fn add_box(low: [f64; 3], high: [f64; 3], parts: &mut (Vec<Vector3>, Vec<[u32; 3]>)) {
+        let first = parts.0.len() as u32;
+        for corner in 0..8 {
+            parts.0.push(core::array::from_fn(|k| {
+                if corner >> k & 1 == 0 {
+                    low[k]
+                } else {
+                    high[k]
+                }
+            }));
+        }
+        let faces = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        for [a, b, c, d] in faces {
+            for triangle in [[a, b, c], [a, c, d]] {
+                parts.1.push(triangle.map(|corner| first + corner));
+            }
+        }
+    }
+
+    /// A plate 50 x 4 x 76 mm (x anterior, y up, z lateral) with a notch behind and a keel.
+    fn tray() -> (Vec<Vector3>, Vec<[u32; 3]>) {
+        let mut parts = (Vec::new(), Vec::new());
+        add_box([-20.0, 0.0, -38.0], [25.0, 4.0, 38.0], &mut parts);
+        add_box([-25.0, 0.0, 12.0], [-20.0, 4.0, 38.0], &mut parts);
+        add_box([-25.0, 0.0, -38.0], [-20.0, 4.0, -12.0], &mut parts);
+        add_box([-8.0, -40.0, -5.0], [6.0, 0.0, 5.0], &mut parts);
+        parts
+    }
+
+    proptest! {
+        #[test]
+        fn the_axes_of_a_tray_move_with_it(
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            place in proptest::array::uniform3(-80.0..80.0f64),
+        ) {
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let [x_mm, y_mm, z_mm] = place;
+            let pose = Pose::from(EulerPose { x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg });
+            let (vertices, triangles) = tray();
+            let vertices: Vec<[f32; 3]> =
+                vertices.iter().map(|v| pose.transform(v).map(|x| x as f32)).collect();
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let wide = mediolateral_axis(&mesh, &symmetry_planes(&mesh)).expect("a plane");
+            let up = superoinferior_axis(&mesh, &wide).expect("a plate");
+            let column = |k: usize| pose.rotation.map(|row| row[k]);
+            let cosine = |a: &Vector3, b: &Vector3| dot(a, b).abs();
+            // Axes near the file's own are taken to be those.
+            prop_assert!(cosine(&wide, &column(2)) > OWN_AXIS - 1e-6);
+            prop_assert!(cosine(&up, &column(1)) > OWN_AXIS - 1e-6);
+        }
+    }
+
+    #[test]
+    fn in_the_files_own_axes_they_are_exact() {
+        let (vertices, triangles) = tray();
+        for turn in 0..3 {
+            let vertices: Vec<[f32; 3]> = vertices
+                .iter()
+                .map(|v| core::array::from_fn(|k| v[(k + turn) % 3] as f32))
+                .collect();
+            let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+            let wide = mediolateral_axis(&mesh, &symmetry_planes(&mesh)).expect("a plane");
+            let up = superoinferior_axis(&mesh, &wide).expect("a plate");
+            let unit =
+                |at: usize| core::array::from_fn(|k| f64::from(u8::from((k + turn) % 3 == at)));
+            assert_eq!((wide, up), (unit(2), unit(1)), "{turn}");
+            let planes = symmetry_planes(&mesh);
+            let axes = field_axes(&mesh, &planes, KneeComponent::Tibia).expect("axes");
+            assert!(axes.is_rigid(1e-12) && (turn > 0 || axes == Pose::IDENTITY));
+            let femur = field_axes(&mesh, &planes, KneeComponent::Femur).expect("axes");
+            assert!(femur.is_rigid(1e-12) && (turn > 0 || femur == Pose::IDENTITY));
+        }
+    }
+}
