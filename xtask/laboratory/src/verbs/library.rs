@@ -16,8 +16,9 @@ use crate::options::Pair;
 /// Options of `library`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "A library holds the silhouettes of one component in canonical form over out-of-plane rotations \
-(1 degree apart: 31 x 41 = 1271 views). The page opens it; so does firmware, in place.\n\n\
+    after_help = "A library holds the silhouettes of one component in canonical form: from all sides, 2.5 degrees apart, or over \
+the out-of-plane rotations that --nominal, --x and --y name (1 degree apart: 31 x 41 = 1271 views). The page opens it; \
+so does firmware, in place.\n\n\
 Example:\n  cargo xtask library --model femur.stl --calibration calibration.txt --out femur.library --sheet views.png"
 )]
 pub struct Args {
