@@ -21,8 +21,10 @@ x_tran, y_tran, z_tran, z_rot, x_rot, y_rot
 12.0, -52.0, -952.0, 0.0, 0.0, 0.0
 ";
 
-fn poses(text: &str) -> Result<Vec<Pose>, jts::JtsError> {
-    jts::read(text)?.map(|row| row.map(Pose::from)).collect()
+fn poses(text: &str) -> Result<Vec<Option<Pose>>, jts::JtsError> {
+    jts::read(text)?
+        .map(|row| row.map(|pose| pose.map(Pose::from)))
+        .collect()
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,7 +46,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut flexions = Vec::new();
     println!("frame  flexion  abduction  internal     AP     SI     ML   tilt");
     for (frame, (femur, tibia)) in poses(&femur)?.iter().zip(poses(&tibia)?).enumerate() {
-        let relative = relative_pose(femur, &tibia);
+        let (Some(femur), Some(tibia)) = (femur, tibia) else {
+            println!("{frame:5}  no pose");
+            continue;
+        };
+        let relative = relative_pose(femur, tibia);
         let joint = joint_angles(&relative, side);
         println!(
             "{frame:5} {:8.2} {:10.2} {:9.2} {:6.1} {:6.1} {:6.1} {:6.2}",
@@ -54,11 +60,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             joint.anterior_mm,
             joint.superior_mm,
             joint.lateral_mm,
-            coronal_tilt_deg(femur, &tibia),
+            coronal_tilt_deg(femur, tibia),
         );
         // The two poses and the relative one say the same.
         let again = EulerPose::from(femur.compose(&relative));
-        assert!((again.z_rot_deg - EulerPose::from(tibia).z_rot_deg).abs() < 1e-9);
+        assert!((again.z_rot_deg - EulerPose::from(*tibia).z_rot_deg).abs() < 1e-9);
         flexions.push(joint.flexion_deg);
     }
     if arguments.is_empty() {

@@ -12,8 +12,10 @@ use crate::image::mask::{Mask, Word};
 
 /// Side of a block, pixels. Canonical frames are whole blocks.
 pub(crate) const BLOCK: usize = 16;
-/// Blocks across the widest canonical frame.
-const WIDEST: usize = 1024 / BLOCK;
+/// Side of the widest canonical frame, pixels.
+pub(super) const WIDEST_FRAME: usize = 1024;
+/// Blocks across it.
+const WIDEST: usize = WIDEST_FRAME / BLOCK;
 /// Most blocks of a canonical frame.
 pub(super) const MOST_BLOCKS: usize = WIDEST * WIDEST;
 /// Sketches are padded with empty blocks to a multiple of this many, so that kernels need no tail.

@@ -3,7 +3,7 @@
 use core::hint::black_box;
 use core::ops::Range;
 
-use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_words, tail_mask};
+use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_place, row_words, tail_mask};
 use crate::image::contour::Outline;
 use crate::image::scan::{Edge, FixedPoint};
 use crate::memory::first;
@@ -69,6 +69,15 @@ impl<'a> MaskMut<'a> {
         self.words.fill(0);
     }
 
+    /// Takes over the pixels of a mask of the same shape.
+    pub(crate) fn copy_from(&mut self, mask: &Mask<'_>) {
+        for row in 0..self.height {
+            for (to, from) in self.row_mut(row).iter_mut().zip(mask.row(row)) {
+                *to = *from;
+            }
+        }
+    }
+
     /// Sets or clears one pixel; outside the mask nothing happens.
     pub fn set(&mut self, column: usize, row: usize, value: bool) {
         if column >= self.width {
@@ -95,10 +104,8 @@ impl<'a> MaskMut<'a> {
 
     /// A row's words. The bits beyond the last column must stay zero: every count relies on that.
     pub(crate) fn row_mut(&mut self, row: usize) -> &mut [Word] {
-        let length = row_words(self.width);
-        self.words
-            .get_mut(row * length..(row + 1) * length)
-            .unwrap_or_default()
+        let place = row_place(self.width, self.height, row);
+        self.words.get_mut(place).unwrap_or_default()
     }
 
     /// Sets the columns `from..to` of a row, cut to the mask.
@@ -175,9 +182,21 @@ impl<'a> MaskMut<'a> {
 
     /// Replaces each pixel by the parity of those set up to it in its row.
     pub fn fill_parity(&mut self) {
-        let tail = tail_mask(self.width);
         for row in 0..self.height {
-            prefix_parity(self.row_mut(row), tail);
+            self.fill_parity_within(row, 0..row_words(self.width));
+        }
+    }
+
+    /// The same within some words of one row.
+    pub(crate) fn fill_parity_within(&mut self, row: usize, words: Range<usize>) {
+        let last = words.end == row_words(self.width);
+        let tail = if last {
+            tail_mask(self.width)
+        } else {
+            Word::MAX
+        };
+        if let Some(words) = self.row_mut(row).get_mut(words) {
+            prefix_parity(words, tail);
         }
     }
 }
