@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut flexions = Vec::new();
     println!("frame  flexion  abduction  internal     AP     SI     ML   tilt");
-    for (frame, (femur, tibia)) in poses(&femur)?.iter().zip(poses(&tibia)?).enumerate() {
+    for (frame, (femur, tibia)) in poses(&femur)?.iter().zip(&poses(&tibia)?).enumerate() {
         let (Some(femur), Some(tibia)) = (femur, tibia) else {
             println!("{frame:5}  no pose");
             continue;

@@ -15,6 +15,8 @@ use crate::files::MaskBuffer;
 
 /// Rival poses that are kept of one silhouette.
 pub(super) const RIVALS: usize = 12;
+/// The same of a library that covers a window of views: fewer come near the best.
+const IN_A_WINDOW: usize = 6;
 
 /// Beyond this part of the silhouette unmatched, something may hide a part of it.
 const DOUBTFUL_SHARE: f64 = 0.06;
@@ -93,7 +95,10 @@ impl<'l> Locator<'l> {
             bytes: &mut self.bytes,
             kernels: fluoropose_kernels::fastest(),
         };
-        let found = locate::<RIVALS>(silhouette.mask(), camera, &self.library, work)?;
+        let mut found = locate::<RIVALS>(silhouette.mask(), camera, &self.library, work)?;
+        if !self.library.info().grid.is_around() {
+            found.poses.truncate(IN_A_WINDOW);
+        }
         let mut drawn = MaskBuffer::new(camera.width(), camera.height())?;
         let rivals = drawn.draw(|drawn| {
             let scratch = &mut self.projected;
@@ -106,6 +111,10 @@ impl<'l> Locator<'l> {
         let memory = self.partial.borrow(&self.library, camera, &self.mesh);
         let found =
             locate_partial::<RIVALS>(silhouette, camera, &self.library, &self.mesh, memory)?;
-        Ok(found.to_vec())
+        let kept = match self.library.info().grid.is_around() {
+            true => RIVALS,
+            false => IN_A_WINDOW,
+        };
+        Ok(found.iter().take(kept).copied().collect())
     }
 }

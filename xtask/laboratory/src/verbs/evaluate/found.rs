@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::library::ViewGrid;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -15,7 +16,9 @@ use super::reference::{Reference, in_front};
 use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
-use crate::finding::{Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses};
+use crate::finding::{
+    Answer, Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses,
+};
 use crate::measure::accuracy::median_absolute;
 use crate::options::Pair;
 use crate::sequence::{Folders, Sequence, Source};
@@ -178,6 +181,12 @@ impl<'s> Part<'s> {
             distance: self.component.distance_mm,
             ..ViewOptions::default()
         };
+        if views.nominal.is_none() && self.is_within_the_window(calibration, sequence, request)? {
+            views = ViewOptions {
+                distance: views.distance,
+                ..ViewOptions::window([0.0; 2])
+            };
+        }
         if views.distance.is_none() {
             let guess = views.distance_for(calibration);
             let built = self.library(sequence, &views, guess)?;
@@ -189,6 +198,30 @@ impl<'s> Part<'s> {
             views.distance = Some(if depths.is_empty() { guess } else { median });
         }
         Ok(views)
+    }
+
+    /// Whether most frames are seen from within the window of Walker et al. 1996 about the file's own axes, by the best of
+    /// all views: its library is finer.
+    fn is_within_the_window(
+        &self,
+        calibration: &Calibration,
+        sequence: &Sequence<'_>,
+        request: &Request<'_>,
+    ) -> Result<bool> {
+        let everywhere = ViewOptions::default();
+        let distance = self.component.distance_mm;
+        let distance = distance.unwrap_or_else(|| everywhere.distance_for(calibration));
+        let built = self.library(sequence, &everywhere, distance)?;
+        let mut finder = self.finder(&built, sequence, Method::Library, request)?;
+        let found = find_poses(&mut finder, sequence);
+        let (grid, window) = (everywhere.grid(), ViewGrid::default());
+        let is_within = |answer: &&Answer| {
+            let [x, y] = grid.rotations(answer.located.located.view);
+            x.abs() <= -window.x.first && y.abs() <= -window.y.first
+        };
+        let best = found.iter().filter_map(|frame| frame.answers.first());
+        let within = best.clone().filter(is_within).count();
+        Ok(5 * within >= 4 * best.count().max(1))
     }
 
     fn library(
