@@ -21,8 +21,10 @@ x_tran, y_tran, z_tran, z_rot, x_rot, y_rot
 12.0, -52.0, -952.0, 0.0, 0.0, 0.0
 ";
 
-fn poses(text: &str) -> Result<Vec<Pose>, jts::JtsError> {
-    jts::read(text)?.map(|row| row.map(Pose::from)).collect()
+fn poses(text: &str) -> Result<Vec<Option<Pose>>, jts::JtsError> {
+    jts::read(text)?
+        .map(|row| row.map(|pose| pose.map(Pose::from)))
+        .collect()
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -44,6 +46,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut flexions = Vec::new();
     println!("frame  flexion  abduction  internal     AP     SI     ML   tilt");
     for (frame, (femur, tibia)) in poses(&femur)?.iter().zip(poses(&tibia)?).enumerate() {
+        let (Some(femur), Some(tibia)) = (femur, tibia) else {
+            println!("{frame:5}  no pose");
+            continue;
+        };
         let relative = relative_pose(femur, &tibia);
         let joint = joint_angles(&relative, side);
         println!(

@@ -20,8 +20,9 @@ fn both_sides(component: &Component) -> Vec<Sides> {
     let planes = symmetry_planes(model.as_model().mesh());
     let plane = planes.first().expect("a plane of symmetry");
     let path = component.reference.as_deref().expect("reference poses");
-    let poses = read_poses(path).expect("poses").into_iter().map(Pose::from);
+    let poses = read_poses(path).expect("poses").into_iter();
     poses
+        .map(|pose| pose.expect("a pose in each frame"))
         .map(|pose| [pose, mirror_pose(&pose, plane)])
         .collect()
 }

@@ -22,7 +22,7 @@ pub enum Kind {
     Obj,
     /// A PLY model.
     Ply,
-    /// Poses (`JT_EULER_312`).
+    /// Poses (`JT_EULER_312`, `JTA_EULER_KINEMATICS`, `JTA_EULER_POSE`).
     Jts,
     /// A calibration (`JT_INTCALIB`).
     Calibration,
@@ -101,8 +101,11 @@ pub const SNIFFED: usize = 64 << 10;
 /// Any of these stands near the beginning of a COCO file, in whatever order it lists its parts.
 const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""];
 
+/// First lines of files of poses.
+const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POSE"];
+
 /// First bytes that belong to one kind alone.
-const SIGNATURES: [(&[u8], Kind); 13] = [
+const SIGNATURES: [(&[u8], Kind); 12] = [
     (b"\x89PNG\r\n\x1a\n", Kind::Png),
     (b"\xFF\xD8\xFF", Kind::Jpeg),
     (&crate::jpeg2000::CODESTREAM, Kind::Jpeg2000),
@@ -114,7 +117,6 @@ const SIGNATURES: [(&[u8], Kind); 13] = [
     (b"FLUOROPL", Kind::Library),
     (b"ply\n", Kind::Ply),
     (b"ply\r", Kind::Ply),
-    (b"JT_EULER_312", Kind::Jts),
     (b"JT_INTCALIB", Kind::Calibration),
 ];
 
@@ -171,7 +173,7 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim_start_matches('\u{FEFF}').trim_start();
     let first = text.lines().next().unwrap_or_default().trim();
-    if text.starts_with("JT_EULER_312") {
+    if POSES.iter().any(|form| text.starts_with(form)) {
         Some(Kind::Jts)
     } else if text.starts_with("JT_INTCALIB") || text.starts_with("JTA_INTCALIB") {
         Some(Kind::Calibration)

@@ -6,7 +6,8 @@ use wasm_bindgen::prelude::*;
 use crate::error::sentence;
 use crate::pose_numbers::{from_numbers, to_numbers};
 
-/// The poses of a `.jts` text, six numbers a row: x, y, z (mm), z, x and y rotation (degrees).
+/// The poses of a `.jts`, `.jtak` or `.jtap` text, six numbers a row: x, y, z (mm), z, x and y rotation (degrees); six
+/// times NaN for a frame without a pose.
 ///
 /// # Errors
 /// The core's sentence about the heading or the row at fault.
@@ -14,7 +15,8 @@ use crate::pose_numbers::{from_numbers, to_numbers};
 pub fn read_jts(text: &str) -> Result<Vec<f64>, JsError> {
     let mut numbers = Vec::new();
     for row in jts::read(text).map_err(sentence)? {
-        numbers.extend(to_numbers(&row.map_err(sentence)?));
+        let pose = row.map_err(sentence)?;
+        numbers.extend(pose.as_ref().map_or([f64::NAN; 6], to_numbers));
     }
     Ok(numbers)
 }

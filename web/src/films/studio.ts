@@ -241,12 +241,12 @@ export class Studio {
     return rulerScale(places, length, toDetector, toRuler);
   }
 
-  /** Null for the rows of zeros that stand for "no pose". */
+  /** Null for a frame without a pose, which is six times NaN. */
   readPoses(text: string): (PoseNumbers | null)[] {
     const numbers = readJts(text);
     return Array.from({ length: numbers.length / 6 }, (_, row) => {
       const values = numbers.subarray(6 * row, 6 * row + 6);
-      return values.every((value) => value === 0) ? null : poseFrom(values);
+      return values.some(Number.isNaN) ? null : poseFrom(values);
     });
   }
 

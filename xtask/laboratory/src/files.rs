@@ -15,7 +15,7 @@ pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use frames::{Frames, grey};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{owned, read_model};
-pub use poses::{known_pose, read_poses, write_poses};
+pub use poses::{read_poses, write_poses};
 pub use role::Role;
 pub use study::{Component, Study};
 pub use text::{files_in, name_of, read, read_text, write_json, write_text};

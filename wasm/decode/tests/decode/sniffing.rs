@@ -28,6 +28,8 @@ fn content_decides_whatever_the_name() {
         (ply_ascii().into_bytes(), Kind::Ply),
         (ply_little(), Kind::Ply),
         (b"JT_EULER_312\nx, y, z\n1 2 3 4 5 6\n".to_vec(), Kind::Jts),
+        (b"JTA_EULER_KINEMATICS\nX_TRAN\n".to_vec(), Kind::Jts),
+        (b"JTA_EULER_POSE\nX_TRAN\n".to_vec(), Kind::Jts),
         (
             b"\xEF\xBB\xBF JT_INTCALIB\r\n1198\r\n".to_vec(),
             Kind::Calibration,

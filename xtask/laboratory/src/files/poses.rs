@@ -8,23 +8,18 @@ use fluoropose::pose::{EulerPose, Pose};
 
 use super::text::{read_text, write_text};
 
-/// Reads the poses of a `.jts` file, a row a frame; [`known_pose`] tells which are none.
+/// Reads the poses of a `.jts`, `.jtak` or `.jtap` file, a row a frame; `None` for a frame without one.
 ///
 /// # Errors
 /// Names the file and the line.
-pub fn read_poses(path: &Path) -> Result<Vec<EulerPose>> {
+pub fn read_poses(path: &Path) -> Result<Vec<Option<Pose>>> {
     let text = read_text(path)?;
     let poses: Result<Vec<_>, _> = jts::read(&text).and_then(Iterator::collect);
     let poses = poses.with_context(|| format!("in {}", path.display()))?;
     if poses.is_empty() {
         bail!("{} holds no poses", path.display());
     }
-    Ok(poses)
-}
-
-/// The pose of a row of a `.jts` file: six zeros stand for none.
-pub fn known_pose(row: &EulerPose) -> Option<Pose> {
-    (*row != EulerPose::default()).then(|| Pose::from(*row))
+    Ok(poses.into_iter().map(|row| row.map(Pose::from)).collect())
 }
 
 /// Writes poses as `.jts`; the default, six zeros, for a frame without one.

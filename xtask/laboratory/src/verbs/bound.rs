@@ -45,7 +45,7 @@ pub struct Args {
         required_unless_present = "poses"
     )]
     pose: Option<SixNumbers>,
-    /// Poses of a .jts file instead, and their root mean square
+    /// Poses of a .jts file instead, frames without one left out, and their root mean square
     #[arg(long, value_name = "FILE", conflicts_with = "pose")]
     poses: Option<PathBuf>,
     /// Standard deviation of a hand's jitter, pixels
@@ -118,8 +118,8 @@ pub fn run(args: Args) -> Result<()> {
     let model = read_model(&args.model)?;
     let camera = camera_for(&read_calibration(&args.calibration)?, args.frame)?;
     let poses = match (&args.poses, args.pose) {
-        (Some(path), _) => read_poses(path)?,
-        (None, Some(SixNumbers(pose))) => vec![pose],
+        (Some(path), _) => read_poses(path)?.into_iter().flatten().collect(),
+        (None, Some(SixNumbers(pose))) => vec![Pose::from(pose)],
         (None, None) => bail!("neither --pose nor --poses was given"),
     };
     let unknown = args.unknown.as_deref().map(read_mask).transpose()?;
@@ -131,11 +131,11 @@ pub fn run(args: Args) -> Result<()> {
     let mut outlines = Outlines::new(model.as_model(), camera);
     let limits: Result<Vec<PoseLimits>> = poses
         .iter()
-        .map(|&pose| {
+        .map(|pose| {
             let unknown = unknown.as_ref().map(|unknown| unknown.mask());
             outlines
-                .pose_limits(&Pose::from(pose), &noise, unknown.as_ref())
-                .with_context(|| format!("at {pose:?}"))
+                .pose_limits(pose, &noise, unknown.as_ref())
+                .with_context(|| format!("at {:?}", EulerPose::from(*pose)))
         })
         .collect();
     let limits = limits?;

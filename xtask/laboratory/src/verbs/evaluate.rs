@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 use crate::choice::report::{report, write_report};
 use crate::choice::{Reasons, report};
-use crate::files::{Study, known_pose, read_calibration, read_poses, write_json, write_poses};
+use crate::files::{Study, read_calibration, read_poses, write_json, write_poses};
 use crate::finding::{EdgeOptions, Method};
 use crate::noise::{DisturbanceOptions, Noise};
 use anyhow::{Result, bail};
@@ -150,8 +150,7 @@ impl Part<'_> {
             return Ok(Vec::new());
         };
         let peers = self.component.peer.iter().map(|(source, path)| {
-            let poses: Vec<_> = read_poses(path)?.iter().map(known_pose).collect();
-            reference.row([&self.component.name, source, "peer"], &poses)
+            reference.row([&self.component.name, source, "peer"], &read_poses(path)?)
         });
         peers.collect()
     }

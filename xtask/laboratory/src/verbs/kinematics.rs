@@ -15,14 +15,15 @@ use fluoropose_phantom::implant::Side;
 #[derive(clap::Args)]
 #[command(
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
-numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees).\n\n\
+numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees). A frame in which either \
+has no pose has empty numbers.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
 )]
 pub struct Args {
-    /// Femoral poses (.jts)
+    /// Femoral poses (.jts, .jtak)
     #[arg(long)]
     femur: PathBuf,
-    /// Tibial poses (.jts), as many
+    /// Tibial poses (.jts, .jtak), as many
     #[arg(long)]
     tibia: PathBuf,
     /// Left or right knee
@@ -57,28 +58,87 @@ pub fn run(args: Args) -> Result<()> {
          anterior_posterior_mm,superior_inferior_mm,mediolateral_mm,flexion_deg,abduction_deg,internal_rotation_deg\n",
     );
     for (frame, (femur, tibia)) in femur.into_iter().zip(tibia).enumerate() {
-        let relative = relative_pose(&Pose::from(femur), &Pose::from(tibia));
-        let pose = EulerPose::from(relative);
-        let joint = joint_angles(&relative, side);
-        let numbers = [
-            pose.x_mm,
-            pose.y_mm,
-            pose.z_mm,
-            pose.z_rot_deg,
-            pose.x_rot_deg,
-            pose.y_rot_deg,
-            joint.anterior_mm,
-            joint.superior_mm,
-            joint.lateral_mm,
-            joint.flexion_deg,
-            joint.abduction_deg,
-            joint.internal_deg,
-        ];
         write!(table, "{}", frame + 1)?;
-        for number in numbers {
-            write!(table, ",{number:.4}")?;
+        match femur.zip(tibia) {
+            Some((femur, tibia)) => {
+                for number in joint_numbers(&relative_pose(&femur, &tibia), side) {
+                    write!(table, ",{number:.4}")?;
+                }
+            }
+            None => table.push_str(&",".repeat(NUMBERS)),
         }
         table.push('\n');
     }
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
+}
+
+/// Numbers of a row after that of the frame.
+const NUMBERS: usize = 12;
+
+fn joint_numbers(relative: &Pose, side: kinematics::Side) -> [f64; NUMBERS] {
+    let pose = EulerPose::from(*relative);
+    let joint = joint_angles(relative, side);
+    [
+        pose.x_mm,
+        pose.y_mm,
+        pose.z_mm,
+        pose.z_rot_deg,
+        pose.x_rot_deg,
+        pose.y_rot_deg,
+        joint.anterior_mm,
+        joint.superior_mm,
+        joint.lateral_mm,
+        joint.flexion_deg,
+        joint.abduction_deg,
+        joint.internal_deg,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_without_a_pose_has_empty_numbers_and_the_others_keep_theirs() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-joint-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let [femur, tibia, out] =
+            ["femur.jts", "tibia.jtak", "out.csv"].map(|name| folder.join(name));
+        let pose = "1,2,-900,0,0,0\n";
+        let lines = ["JT_EULER_312\nNaN,NaN,NaN,NaN,NaN,NaN\n", pose, pose, pose];
+        std::fs::write(&femur, lines.concat()).unwrap();
+        let lines = [
+            "JTA_EULER_KINEMATICS\n",
+            pose,
+            "NOT_OPTIMIZED,\n",
+            "1,5,-900,9,0,0\n",
+            "0,0,0,0,0,0\n",
+        ];
+        std::fs::write(&tibia, lines.concat()).unwrap();
+        let side = Side::Right;
+        run(Args {
+            femur,
+            tibia,
+            side,
+            out: out.clone(),
+        })
+        .unwrap();
+        let table = std::fs::read_to_string(out).unwrap();
+        std::fs::remove_dir_all(folder).unwrap();
+        let rows: Vec<Vec<&str>> = table
+            .lines()
+            .skip(1)
+            .map(|row| row.split(',').collect())
+            .collect();
+        assert_eq!(rows.len(), 4);
+        for (frame, row) in rows.iter().enumerate() {
+            assert_eq!(
+                (row.len(), row[0]),
+                (1 + NUMBERS, (frame + 1).to_string().as_str())
+            );
+            let filled = row[1..].iter().filter(|number| !number.is_empty()).count();
+            assert_eq!(filled, if frame == 2 { NUMBERS } else { 0 });
+        }
+        assert_eq!((rows[2][2], rows[2][4]), ("3.0000", "9.0000"));
+    }
 }

@@ -15,8 +15,7 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use serde::Serialize;
 
 use crate::files::{
-    Component, MaskBuffer, Study, grey, known_pose, read_calibration, read_model, read_poses,
-    write_json,
+    Component, MaskBuffer, Study, grey, read_calibration, read_model, read_poses, write_json,
 };
 
 use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
@@ -149,7 +148,7 @@ fn references(component: &Component) -> Result<Vec<Option<Pose>>> {
     let Some(path) = &component.reference else {
         return Ok(Vec::new());
     };
-    Ok(read_poses(path)?.iter().map(known_pose).collect())
+    read_poses(path)
 }
 
 struct Trial<'t> {

@@ -5,15 +5,13 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
 use fluoropose::math::Vector3;
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 
 use crate::choice::{Decision, Reasons, decide, report};
 
 use crate::choice::report::{Numbers, check_path, report, write_report};
 
-use crate::files::{
-    Role, known_pose, name_of, read, read_calibration, read_model, read_poses, write_poses,
-};
+use crate::files::{Role, name_of, read, read_calibration, read_model, read_poses, write_poses};
 
 use crate::finding::{Answer, EdgeOptions, Finder, FrameFound, Method, find_poses, misfit};
 
@@ -141,8 +139,8 @@ fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> 
             rows.len()
         );
     }
-    let known = |row| known_pose(row).map(|pose| role.against(pose));
-    Ok(rows.iter().map(known).collect())
+    let against = |row: Option<Pose>| row.map(|pose| role.against(pose));
+    Ok(rows.into_iter().map(against).collect())
 }
 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.

@@ -5,7 +5,7 @@ use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 
 use super::table::Row;
-use crate::files::{Component, known_pose, read_model, read_poses};
+use crate::files::{Component, read_model, read_poses};
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute, rms};
 
 /// Reference poses of a component.
@@ -23,7 +23,7 @@ impl Reference {
         };
         let model = read_model(&component.model)?;
         Ok(Some(Self {
-            poses: read_poses(path)?.iter().map(known_pose).collect(),
+            poses: read_poses(path)?,
             planes: symmetry_planes(model.as_model().mesh()).to_vec(),
         }))
     }
