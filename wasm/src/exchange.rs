@@ -103,17 +103,16 @@ pub fn outline_of_mask(
     tolerance: f64,
 ) -> Result<MaskOutline, JsError> {
     let (width, height) = film.size();
-    let mut memory: [Vec<Word>; 4] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
-    let [given, rest, current, largest] = &mut memory;
+    let mut memory: [Vec<Word>; 3] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
+    let [given, rest, largest] = &mut memory;
     let mut mask = MaskMut::new(given, width, height).map_err(sentence)?;
     match film.pixels() {
         Pixels::Eight(pixels) => select(pixels, value, &mut mask),
         Pixels::Sixteen(pixels) => select(pixels, value, &mut mask),
     }
     let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
-    let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
     let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
-    let specks = largest_region(&mask.as_mask(), &mut rest, &mut current, &mut largest);
+    let specks = largest_region(&mask.as_mask(), &mut rest, &mut largest).map_err(sentence)?;
     traced(&largest.as_mask(), specks, tolerance)
 }
 

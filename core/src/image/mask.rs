@@ -185,25 +185,17 @@ impl<'a> Mask<'a> {
 
     /// The runs of set pixels of one row, as half-open ranges of columns, left to right.
     pub fn runs(&self, row: usize) -> impl Iterator<Item = core::ops::Range<usize>> + use<'a> {
-        let words = self.row(row);
-        // The present word and those of its set pixels that have not been passed yet.
-        let (mut at, mut left) = (0, words.first().copied().unwrap_or(0));
-        core::iter::from_fn(move || {
-            while left == 0 {
-                at += 1;
-                left = *words.get(at)?;
-            }
-            let start = at * WORD_BITS + left.trailing_zeros() as usize;
-            // As if the run began with the word.
-            left |= left - 1;
-            while left == Word::MAX {
-                at += 1;
-                left = words.get(at).copied().unwrap_or(0);
-            }
-            let ones = left.trailing_ones();
-            left = left >> ones << ones;
-            Some(start..at * WORD_BITS + ones as usize)
-        })
+        runs_of(self.row(row), 0)
+    }
+
+    /// The same of some words of the row: runs are cut where those begin and end.
+    pub(crate) fn runs_within(
+        &self,
+        row: usize,
+        words: core::ops::Range<usize>,
+    ) -> impl Iterator<Item = core::ops::Range<usize>> + use<'a> {
+        let first = words.start;
+        runs_of(self.row(row).get(words).unwrap_or_default(), first)
     }
 
     /// The smallest rectangle that holds every set pixel, as ranges of columns and rows; empty
@@ -234,8 +226,31 @@ impl<'a> Mask<'a> {
     }
 }
 
+/// The runs of set pixels in words of a row, of which the first is number `first`.
+#[inline(always)]
+fn runs_of(words: &[Word], first: usize) -> impl Iterator<Item = core::ops::Range<usize>> {
+    // The present word and those of its set pixels that have not been passed yet.
+    let (mut at, mut left) = (0, words.first().copied().unwrap_or(0));
+    core::iter::from_fn(move || {
+        while left == 0 {
+            at += 1;
+            left = *words.get(at)?;
+        }
+        let start = (first + at) * WORD_BITS + left.trailing_zeros() as usize;
+        // As if the run began with the word.
+        left |= left - 1;
+        while left == Word::MAX {
+            at += 1;
+            left = words.get(at).copied().unwrap_or(0);
+        }
+        let ones = left.trailing_ones();
+        left = left >> ones << ones;
+        Some(start..(first + at) * WORD_BITS + ones as usize)
+    })
+}
+
 /// Index of the first bit at or after `from` that equals `wanted`; the number of bits if none.
-fn next_bit(words: &[Word], from: usize, wanted: bool) -> usize {
+pub(crate) fn next_bit(words: &[Word], from: usize, wanted: bool) -> usize {
     let flip = if wanted { 0 } else { Word::MAX };
     let mut skip = from % WORD_BITS;
     for (index, word) in words.iter().enumerate().skip(from / WORD_BITS) {

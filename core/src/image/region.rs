@@ -1,153 +1,195 @@
 //! Regions of a mask: the silhouette among the specks that a network or a threshold leaves.
+//!
+//! A region is what its borders enclose, its outer one and those of its holes. They are followed, and the words of
+//! its own rectangle alone are looked at: a frame of a hundred thousand specks takes about as long as one of one region.
 
-use crate::image::border::first_pixel;
-use crate::image::mask::{Mask, MaskMut, Word};
+use core::ops::Range;
+
+use crate::image::border::{Crack, Heading};
+use crate::image::mask::{Mask, MaskError, MaskMut, WORD_BITS, next_bit};
 
 /// Copies the largest region of `mask` (4-connected, holes as they are) to `out` and returns
-/// the number of pixels left behind. `rest` and `current` are working memory of the same shape.
+/// the number of pixels left behind. `rest` is working memory of the same shape. An empty mask gives an empty `out`.
 ///
-/// Never fails: an empty mask gives an empty `out`, and working memory of another shape cuts
-/// what is copied to what both hold.
+/// # Errors
+/// [`MaskError::Sizes`] where the three differ in shape.
 pub fn largest_region(
     mask: &Mask<'_>,
     rest: &mut MaskMut<'_>,
-    current: &mut MaskMut<'_>,
     out: &mut MaskMut<'_>,
-) -> u64 {
-    copy(mask, rest);
+) -> Result<u64, MaskError> {
+    largest_counted(mask, rest, out, &mut |_| {})
+}
+
+/// [`largest_region`], which tells `look` how many words and sides of pixels it looks at.
+fn largest_counted(
+    mask: &Mask<'_>,
+    rest: &mut MaskMut<'_>,
+    out: &mut MaskMut<'_>,
+    look: &mut impl FnMut(usize),
+) -> Result<u64, MaskError> {
+    let shape = (mask.width(), mask.height());
+    if [&*rest, &*out].map(|memory| (memory.width(), memory.height())) != [shape; 2] {
+        return Err(MaskError::Sizes);
+    }
+    rest.copy_from(mask);
     out.clear();
-    let mut best = 0;
-    while let Some((column, row)) = first_pixel(&rest.as_mask()) {
-        current.clear();
-        current.set(column, row, true);
-        flood(&rest.as_mask(), current);
-        let area = current.as_mask().area();
-        if area > best {
-            best = area;
-            copy(&current.as_mask(), out);
+    let (mut best, mut most) = (None, 0);
+    let mut from = (0, 0);
+    while let Some(seed) = next_pixel(&rest.as_mask(), from, look) {
+        let frame = enclose(&rest.as_mask(), seed, out, look);
+        let area = frame.take(out, rest, look);
+        if area > most {
+            (best, most) = (Some(seed), area);
         }
-        for row in row..rest.height() {
-            let region = current.as_mask();
-            for (left, taken) in rest.row_mut(row).iter_mut().zip(region.row(row)) {
-                *left &= !taken;
+        from = seed;
+    }
+    if let Some(seed) = best {
+        enclose(mask, seed, out, look);
+    }
+    Ok(mask.area() - most)
+}
+
+/// The first set pixel in reading order, column and row, at or after `from`.
+fn next_pixel(
+    mask: &Mask<'_>,
+    (column, row): (usize, usize),
+    look: &mut impl FnMut(usize),
+) -> Option<(usize, usize)> {
+    let mut start = column;
+    (row..mask.height()).find_map(|row| {
+        let column = next_bit(mask.row(row), start, true);
+        look((column - start) / WORD_BITS + 1);
+        start = 0;
+        (column < mask.width()).then_some((column, row))
+    })
+}
+
+/// The words and rows that hold a region and the sides of its pixels.
+struct Rectangle {
+    words: Range<usize>,
+    rows: Range<usize>,
+}
+
+impl Rectangle {
+    fn at((column, row): (usize, usize)) -> Self {
+        let word = column / WORD_BITS;
+        Self {
+            words: word..word + 1,
+            rows: row..row + 1,
+        }
+    }
+
+    /// Grows to hold a pixel.
+    fn include(&mut self, column: usize, row: usize) {
+        let word = column / WORD_BITS;
+        self.words = self.words.start.min(word)..self.words.end.max(word + 1);
+        self.rows = self.rows.start.min(row)..self.rows.end.max(row + 1);
+    }
+
+    /// Takes what `region` holds from `rest`, clears it, and returns its pixels.
+    fn take(
+        &self,
+        region: &mut MaskMut<'_>,
+        rest: &mut MaskMut<'_>,
+        look: &mut impl FnMut(usize),
+    ) -> u64 {
+        let mut area = 0;
+        for row in self.rows.clone() {
+            let taken = region.row_mut(row).get_mut(self.words.clone());
+            let left = rest.row_mut(row).get_mut(self.words.clone());
+            let (taken, left) = (taken.unwrap_or_default(), left.unwrap_or_default());
+            look(taken.len());
+            for (taken, left) in taken.iter_mut().zip(left) {
+                area += u64::from(taken.count_ones());
+                *left &= !*taken;
+                *taken = 0;
             }
         }
-        // The seed goes even if `current` was too small to hold it: the loop must end.
-        rest.set(column, row, false);
+        area
     }
-    mask.area() - best
 }
 
-fn copy(from: &Mask<'_>, to: &mut MaskMut<'_>) {
-    to.clear();
-    for row in 0..to.height() {
-        for (to, from) in to.row_mut(row).iter_mut().zip(from.row(row)) {
-            *to = *from;
+/// Draws the region of `mask` whose first pixel in reading order is `seed` into `out`, which is clear.
+fn enclose(
+    mask: &Mask<'_>,
+    seed: (usize, usize),
+    out: &mut MaskMut<'_>,
+    look: &mut impl FnMut(usize),
+) -> Rectangle {
+    let mut rectangle = Rectangle::at(seed);
+    let (column, row) = (seed.0 as i64, seed.1 as i64);
+    let heading = Heading::Right;
+    let outer = Crack {
+        column,
+        row,
+        heading,
+    };
+    toggle_border(mask, outer, out, look, |column, row| {
+        rectangle.include(column, row);
+    });
+    for row in rectangle.rows.clone() {
+        let words = rectangle.words.clone();
+        look(words.len());
+        for run in mask.runs_within(row, words) {
+            toggle_hole(mask, &run, row, out, look);
         }
     }
+    for row in rectangle.rows.clone() {
+        look(rectangle.words.len());
+        out.fill_parity_within(row, rectangle.words.clone());
+    }
+    rectangle
 }
 
-/// Grows `seeds` within `mask`, row by row downwards and upwards, until nothing changes.
-fn flood(mask: &Mask<'_>, seeds: &mut MaskMut<'_>) {
-    let height = mask.height().min(seeds.height());
+/// Toggles the border of the hole to the right of a run of the region, where there is one that no run before it had.
+///
+/// A run is the region's where the side at its left is: that one is on the outer border, or on that of a hole that was
+/// come across further up or further left.
+fn toggle_hole(
+    mask: &Mask<'_>,
+    run: &Range<usize>,
+    row: usize,
+    out: &mut MaskMut<'_>,
+    look: &mut impl FnMut(usize),
+) {
+    let toggled = |column| out.as_mask().get(column, row);
+    if run.end < mask.width() && toggled(run.start) && !toggled(run.end) {
+        let side = Crack {
+            column: run.end as i64,
+            row: row as i64,
+            heading: Heading::Down,
+        };
+        toggle_border(mask, side, out, look, |_, _| {});
+    }
+}
+
+/// Follows a border with the region on the right hand. Toggles the pixel to the right of each upright side: then the
+/// parity along a row tells what is inside. `beside` is given that pixel, also where it is the frame's last and the
+/// side is the frame's own.
+fn toggle_border(
+    mask: &Mask<'_>,
+    start: Crack,
+    out: &mut MaskMut<'_>,
+    look: &mut impl FnMut(usize),
+    mut beside: impl FnMut(usize, usize),
+) {
+    let last = mask.width().saturating_sub(1);
+    let mut at = start;
     loop {
-        let mut grown = false;
-        for row in 0..height {
-            grown |= grow_row(mask, seeds, row, row.checked_sub(1));
+        look(1);
+        if matches!(at.heading, Heading::Up | Heading::Down)
+            && let Some((column, row)) = at.pixel_ahead(at.heading == Heading::Down)
+        {
+            out.toggle(column, row);
+            beside(column.min(last), row);
         }
-        for row in (0..height).rev() {
-            grown |= grow_row(mask, seeds, row, Some(row + 1));
-        }
-        if !grown {
+        at = at.step().turn(mask);
+        if at == start {
             return;
         }
     }
 }
 
-/// Fills the runs of one row that hold a seed or touch one in the row `from`.
-fn grow_row(mask: &Mask<'_>, seeds: &mut MaskMut<'_>, row: usize, from: Option<usize>) -> bool {
-    let mut grown = false;
-    for run in mask.runs(row) {
-        let seen = seeds.as_mask();
-        let own = count(seen.row(row), &run);
-        let touched = from.map_or(0, |from| count(seen.row(from), &run));
-        if own < run.len() && own + touched > 0 {
-            seeds.fill_span(row, run.start as i64, run.end as i64);
-            grown = true;
-        }
-    }
-    grown
-}
-
-/// Number of bits set among the columns of a run.
-fn count(row: &[Word], run: &core::ops::Range<usize>) -> usize {
-    use crate::image::mask::WORD_BITS;
-    let words = row.iter().enumerate().skip(run.start / WORD_BITS);
-    words
-        .take_while(|(index, _)| index * WORD_BITS < run.end)
-        .map(|(index, word)| {
-            let first = run.start.saturating_sub(index * WORD_BITS);
-            let beyond = (index + 1) * WORD_BITS;
-            let last = beyond.saturating_sub(run.end.min(beyond));
-            (word >> first << first << last).count_ones() as usize
-        })
-        .sum()
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::image::mask::words_needed;
-
-    const W: usize = 70;
-    const H: usize = 12;
-
-    fn mask_of(rows: &[&str], words: &mut [u32]) {
-        let mut mask = MaskMut::new(words, W, H).expect("fits");
-        for (r, row) in rows.iter().enumerate() {
-            for (c, pixel) in row.bytes().enumerate() {
-                mask.set(c, r, pixel == b'#');
-            }
-        }
-    }
-
-    #[test]
-    fn the_largest_region_stays_and_specks_go() {
-        let mut words = [0; words_needed(W, H)];
-        // A spiral (needs several sweeps), a speck touching by a corner, a bar across words.
-        mask_of(
-            &[
-                "#######.............................####",
-                "#.....#",
-                "#.###.#",
-                "#.#.#.#",
-                "#.#...#",
-                "#.#####",
-                "#......#",
-                "#######.",
-            ],
-            &mut words,
-        );
-        let mask = Mask::new(&words, W, H).expect("valid");
-        let (mut a, mut b, mut c) = ([0; 36], [0; 36], [0; 36]);
-        let mut rest = MaskMut::new(&mut a, W, H).expect("fits");
-        let mut current = MaskMut::new(&mut b, W, H).expect("fits");
-        let mut out = MaskMut::new(&mut c, W, H).expect("fits");
-        let dropped = largest_region(&mask, &mut rest, &mut current, &mut out);
-        assert_eq!(dropped, 4 + 1);
-        assert_eq!(out.as_mask().area(), mask.area() - dropped);
-        assert!(out.as_mask().get(4, 3) && !out.as_mask().get(7, 6));
-    }
-
-    #[test]
-    fn nothing_gives_nothing() {
-        let words = [0; words_needed(W, H)];
-        let mask = Mask::new(&words, W, H).expect("valid");
-        let (mut a, mut b, mut c) = ([0; 36], [0; 36], [0; 36]);
-        let mut rest = MaskMut::new(&mut a, W, H).expect("fits");
-        let mut current = MaskMut::new(&mut b, W, H).expect("fits");
-        let mut out = MaskMut::new(&mut c, W, H).expect("fits");
-        assert_eq!(largest_region(&mask, &mut rest, &mut current, &mut out), 0);
-        assert_eq!(out.as_mask().area(), 0);
-    }
-}
+mod tests;

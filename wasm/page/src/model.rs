@@ -25,8 +25,8 @@ const BORDER_CORNERS: usize = 16_384;
 pub struct Model {
     owned: OwnedModel,
     projected: Vec<Projected>,
-    /// Four masks of the frame's size: one is the silhouette, the others find its largest region.
-    masks: [Vec<Word>; 4],
+    /// Three masks of the frame's size: one is the silhouette, the others find its largest region.
+    masks: [Vec<Word>; 3],
     border: Box<Contour<BORDER_CORNERS>>,
     /// The border's columns and rows by turns, for the page to read where they lie.
     corners: Vec<f64>,
@@ -144,7 +144,7 @@ impl Model {
 impl Model {
     /// Whether there is a border.
     fn find_border(&mut self, width: usize, height: usize) -> Result<bool, JsError> {
-        let [drawn, rest, current, largest] = &mut self.masks;
+        let [drawn, rest, largest] = &mut self.masks;
         let Ok(drawn) = Mask::new(drawn, width, height) else {
             return Ok(false);
         };
@@ -158,8 +158,7 @@ impl Model {
         }
         let mut largest = MaskMut::new(largest, width, height).map_err(sentence)?;
         let mut rest = MaskMut::new(rest, width, height).map_err(sentence)?;
-        let mut current = MaskMut::new(current, width, height).map_err(sentence)?;
-        largest_region(&drawn, &mut rest, &mut current, &mut largest);
+        largest_region(&drawn, &mut rest, &mut largest).map_err(sentence)?;
         follow_border(&largest.as_mask(), self.border.as_mut()).map_err(sentence)?;
         Ok(true)
     }

@@ -410,14 +410,13 @@ const BORDER_CORNERS: usize = 16_384;
 /// The outline of a mask's largest region with few points: columns and rows by turns.
 fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
     let (width, height) = (mask.width(), mask.height());
-    let mut memory: [Vec<Word>; 3] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
-    let [a, b, c] = &mut memory;
-    let [mut rest, mut current, mut largest] = [
+    let mut memory: [Vec<Word>; 2] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
+    let [a, b] = &mut memory;
+    let [mut rest, mut largest] = [
         MaskMut::new(a, width, height).map_err(sentence)?,
         MaskMut::new(b, width, height).map_err(sentence)?,
-        MaskMut::new(c, width, height).map_err(sentence)?,
     ];
-    largest_region(mask, &mut rest, &mut current, &mut largest);
+    largest_region(mask, &mut rest, &mut largest).map_err(sentence)?;
     let mut border = Box::<Contour<BORDER_CORNERS>>::default();
     follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
     let points = simplified(&border, TOLERANCE)?;

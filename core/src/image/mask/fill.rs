@@ -69,6 +69,15 @@ impl<'a> MaskMut<'a> {
         self.words.fill(0);
     }
 
+    /// Takes over the pixels of a mask of the same shape.
+    pub(crate) fn copy_from(&mut self, mask: &Mask<'_>) {
+        for row in 0..self.height {
+            for (to, from) in self.row_mut(row).iter_mut().zip(mask.row(row)) {
+                *to = *from;
+            }
+        }
+    }
+
     /// Sets or clears one pixel; outside the mask nothing happens.
     pub fn set(&mut self, column: usize, row: usize, value: bool) {
         if column >= self.width {
@@ -175,9 +184,21 @@ impl<'a> MaskMut<'a> {
 
     /// Replaces each pixel by the parity of those set up to it in its row.
     pub fn fill_parity(&mut self) {
-        let tail = tail_mask(self.width);
         for row in 0..self.height {
-            prefix_parity(self.row_mut(row), tail);
+            self.fill_parity_within(row, 0..row_words(self.width));
+        }
+    }
+
+    /// The same within some words of one row.
+    pub(crate) fn fill_parity_within(&mut self, row: usize, words: Range<usize>) {
+        let last = words.end == row_words(self.width);
+        let tail = if last {
+            tail_mask(self.width)
+        } else {
+            Word::MAX
+        };
+        if let Some(words) = self.row_mut(row).get_mut(words) {
+            prefix_parity(words, tail);
         }
     }
 }

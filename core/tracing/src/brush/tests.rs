@@ -87,11 +87,11 @@ fn differing(points: &[Point], stroke: &[Point], radius: f64, what: Brush) -> us
 
 /// The largest region with its holes filled: what a flood from outside does not reach.
 fn whole_region(mask: &Mask<'_>) -> Vec<bool> {
-    let mut words = [(); 3].map(|()| std::vec![0; words_needed(SIDE, SIDE)]);
-    let [a, b, c] = &mut words;
-    let mut masks = [a, b, c].map(|words| MaskMut::new(words, SIDE, SIDE).expect("fits"));
-    let [rest, current, out] = &mut masks;
-    fluoropose::image::region::largest_region(mask, rest, current, out);
+    let mut words = [(); 2].map(|()| std::vec![0; words_needed(SIDE, SIDE)]);
+    let [a, b] = &mut words;
+    let mut masks = [a, b].map(|words| MaskMut::new(words, SIDE, SIDE).expect("fits"));
+    let [rest, out] = &mut masks;
+    fluoropose::image::region::largest_region(mask, rest, out).expect("one shape");
     let region = out.as_mask();
     let mut outside = std::vec![false; SIDE * SIDE];
     let mut waiting = std::vec![(0usize, 0usize)];

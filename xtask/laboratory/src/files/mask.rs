@@ -75,12 +75,9 @@ impl MaskBuffer {
     /// For a shape that no mask has.
     pub fn drop_specks(&mut self) -> Result<u64> {
         let blank = || Self::new(self.width, self.height);
-        let (mut rest, mut current, mut largest) = (blank()?, blank()?, blank()?);
-        let dropped = rest.draw(|rest| {
-            current.draw(|current| {
-                largest.draw(|out| largest_region(&self.mask(), rest, current, out))
-            })
-        });
+        let (mut rest, mut largest) = (blank()?, blank()?);
+        let dropped =
+            rest.draw(|rest| largest.draw(|out| largest_region(&self.mask(), rest, out)))?;
         if dropped > SPECK_SHARE * (self.mask().area() - dropped) / 100 {
             return Ok(0);
         }
