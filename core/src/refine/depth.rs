@@ -266,7 +266,9 @@ mod tests {
         // What the memory held before does not matter.
         let mut places = vec![7; SIDE * SIDE];
         let mut border = vec![BorderPixel::default(); 4096];
-        let border = outliner.border(&mut scratch, &mut places, &mut border);
+        let border = outliner
+            .border(&mut scratch, &mut places, &mut border)
+            .expect("room");
         let known = border.iter().filter(|pixel| pixel.is_on_surface());
         let known: Vec<_> = known.map(|p| ([p.column, p.row], p.depth())).collect();
         assert_eq!(known.len(), border.len());

@@ -16,8 +16,9 @@ pub struct RefineMemory<'a> {
     pub drawn: &'a mut [Word],
     /// One number for each pixel of the frame.
     pub places: &'a mut [u16],
-    /// Samples of the outline, one for each border pixel of the drawing. Border pixels beyond its length are left out;
-    /// some 4000 serve an implant in a frame of 1024 x 1024 pixels. No more than 65 535 are used.
+    /// Samples of the outline, one for each border pixel of the drawing; some 4000 serve an implant in a frame of
+    /// 1024 x 1024 pixels. An outline that is longer at any pose on the way is refused: a part of it would not say where
+    /// the model is. No more than 65 535 are used.
     pub border: &'a mut [BorderPixel],
 }
 
@@ -26,7 +27,6 @@ pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result
     let needed = [
         ("words", words_needed(width, height), memory.drawn.len()),
         ("places", width * height, memory.places.len()),
-        ("border pixels (at least)", 64, memory.border.len()),
     ];
     for (what, needed, given) in needed {
         check_length(what, needed, given)?;

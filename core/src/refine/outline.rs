@@ -8,6 +8,7 @@ use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, WORD_BITS, Word};
 use crate::math::sqrt;
+use crate::memory::{TooLittleMemory, first};
 use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::Projected;
@@ -45,30 +46,34 @@ pub(super) struct DrawnModel<'a> {
 }
 
 impl DrawnModel<'_> {
-    /// Fills `border` with the first border pixels, up to its length, and returns them. `scratch` is as drawing left it;
-    /// `places` has one number for each pixel of the frame, of any value.
+    /// Writes the border pixels to `border` and returns them. `scratch` is as drawing left it; `places` has one number
+    /// for each pixel of the frame, of any value.
+    ///
+    /// # Errors
+    /// [`TooLittleMemory`] where there are more of them than `border` holds or `places` can number.
     pub(super) fn border<'b>(
         &self,
         scratch: &mut [Projected],
         places: &mut [u16],
         border: &'b mut [BorderPixel],
-    ) -> &'b mut [BorderPixel] {
+    ) -> Result<&'b mut [BorderPixel], TooLittleMemory> {
+        let room = border.len().min(usize::from(u16::MAX));
+        let border = border.get_mut(..room).unwrap_or_default();
         let count = self.find(places, border);
-        let border = border.get_mut(..count).unwrap_or_default();
+        let border = first("border pixels", count, border)?;
         self.measure_depth(scratch, places, border);
-        border
+        Ok(border)
     }
 
-    /// Lists border pixels and writes their number to their places.
+    /// Lists border pixels, writes their number to their places, and counts those too for which there is no room.
     fn find(&self, places: &mut [u16], border: &mut [BorderPixel]) -> usize {
         let width = self.drawn.width();
-        let room = border.len().min(usize::from(u16::MAX));
         let mut count = 0;
         // The frame's own border is no border of the model: what is cut off is not known.
         let rows = self.drawn.rows();
         for row in rows.start.max(1)..rows.end.min(self.drawn.height().saturating_sub(1)) {
             for column in border_columns(self.drawn, row) {
-                if column == 0 || column + 1 >= width || count == room {
+                if column == 0 || column + 1 >= width {
                     continue;
                 }
                 // All along an edge, whatever its direction.
@@ -78,8 +83,10 @@ impl DrawnModel<'_> {
                 let Some(pixel) = sample_at(self.drawn, column, row) else {
                     continue;
                 };
-                border[count] = pixel;
-                places[row * width + column] = count as u16;
+                if let Some(listed) = border.get_mut(count) {
+                    *listed = pixel;
+                    places[row * width + column] = count as u16;
+                }
                 count += 1;
             }
         }

@@ -150,6 +150,8 @@ impl<'a> Problem<'a> {
                     damping = (damping * 0.2).max(1e-9);
                     trace(&seen.equations.iterate(pass, state));
                 }
+                // No step leads round it, and to stop short of it would pass for an answer.
+                Err(error @ RefineError::Memory(_)) => return Err(error),
                 _ => {
                     damping *= 8.0;
                     seen.samples = None;
@@ -297,7 +299,8 @@ impl<'a> Problem<'a> {
             every: self.effort.every(),
         };
         let places = memory.places.get_mut(..width * height);
-        let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
+        let border =
+            outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
         let centre = pose.transform(&self.middle);
         let count = border.len();
         for sample in border.iter_mut().filter(|sample| sample.is_on_surface()) {

@@ -55,7 +55,7 @@ pub fn outline_samples(
         every: 1,
     };
     let places = memory.places.get_mut(..width * height);
-    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border);
+    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
     let centre = pose.transform(&model.bounds().centre);
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
         let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {

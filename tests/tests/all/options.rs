@@ -4,7 +4,8 @@ use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{
-    BorderPixel, CameraView, Effort, Locks, RefineMemory, RefineOptions, Refined, refine,
+    BorderPixel, CameraView, Effort, Locks, RefineError, RefineMemory, RefineOptions, Refined,
+    refine,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{camera, femur, mesh};
@@ -38,6 +39,15 @@ fn refined(start: EulerPose, locks: Locks) -> Refined {
 }
 
 fn refined_with(start: EulerPose, options: RefineOptions) -> Refined {
+    refined_in(16_384, start, options).expect("it is near")
+}
+
+/// Refined with room for so many border pixels.
+fn refined_in(
+    border: usize,
+    start: EulerPose,
+    options: RefineOptions,
+) -> Result<Refined, RefineError> {
     let (camera, triangles) = (camera(), femur());
     let mesh: Model<'_> = mesh(&triangles);
     let (width, height) = (camera.width(), camera.height());
@@ -57,10 +67,41 @@ fn refined_with(start: EulerPose, options: RefineOptions) -> Refined {
         projected: &mut projected,
         drawn: &mut vec![0; words_needed(width, height)],
         places: &mut vec![0; width * height],
-        border: &mut vec![BorderPixel::default(); 16_384],
+        border: &mut vec![BorderPixel::default(); border],
     };
     let view = CameraView::only(&camera, &mask);
-    refine(&mesh, &[view], &Pose::from(start), options, &mut memory).expect("it is near")
+    refine(&mesh, &[view], &Pose::from(start), options, &mut memory)
+}
+
+/// Less than the outline would begin with the top of the picture, whose best pose is another.
+#[test]
+fn a_border_without_room_for_the_outline_is_refused_with_the_length_that_is_needed() {
+    let refined = |border, effort| {
+        let options = RefineOptions {
+            effort,
+            ..RefineOptions::default()
+        };
+        refined_in(border, START, options)
+    };
+    for effort in [Effort::Full, Effort::Interactive] {
+        let mut room = 0;
+        let enough = loop {
+            match refined(room, effort) {
+                Ok(found) => break found,
+                Err(RefineError::Memory(short)) => {
+                    assert_eq!((short.what, short.given), ("border pixels", room));
+                    assert!(short.needed > room, "{short}");
+                    room = short.needed;
+                }
+                Err(other) => panic!("{other}"),
+            }
+        };
+        println!("{effort:?}: {room} border pixels");
+        let short = refined(room - 1, effort).expect_err("one is missing");
+        assert!(matches!(short, RefineError::Memory(short) if short.needed == room));
+        let plenty = refined(16_384, effort).expect("it is near");
+        assert_eq!(enough.pose, plenty.pose);
+    }
 }
 
 #[test]
@@ -120,8 +161,10 @@ fn with_everything_locked_nothing_moves() {
     let found = EulerPose::from(refined(START, locks).pose);
     for (got, wanted) in [
         (found.x_mm, START.x_mm),
+        (found.y_mm, START.y_mm),
         (found.z_mm, START.z_mm),
         (found.z_rot_deg, START.z_rot_deg),
+        (found.x_rot_deg, START.x_rot_deg),
         (found.y_rot_deg, START.y_rot_deg),
     ] {
         assert!((got - wanted).abs() < 1e-9, "{found:?}");
