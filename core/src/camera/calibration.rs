@@ -221,7 +221,7 @@ fn parse_principal<'a>(
 fn parse_matrix<'a>(
     mut lines: impl Iterator<Item = (usize, &'a str)>,
 ) -> Result<Calibration, CalibrationError> {
-    let size: [f64; 2] = next_numbers(&mut lines, "image size")?;
+    let size = next_size(&mut lines)?;
     heading(&mut lines, "camera matrix")?;
     let k = next_matrix(&mut lines, "camera matrix")?;
     if k[0][1] != 0.0 || k[1][0] != 0.0 || k[2] != [0.0, 0.0, 1.0] {
@@ -237,13 +237,27 @@ fn parse_matrix<'a>(
         laboratory.translation = next_translation(&mut lines)?;
     }
     let calibration = Calibration::CameraMatrix {
-        size: (size[0] as usize, size[1] as usize),
+        size,
         focal: [k[0][0], k[1][1]],
         centre: [k[0][2], k[1][2]],
         laboratory,
     };
-    calibration.camera(size[0] as usize, size[1] as usize)?;
+    calibration.camera(size.0, size.1)?;
     Ok(calibration)
+}
+
+/// Width and height, which are whole numbers.
+fn next_size<'a>(
+    lines: &mut impl Iterator<Item = (usize, &'a str)>,
+) -> Result<(usize, usize), CalibrationError> {
+    let name = "image size";
+    let (line, text) = lines.next().ok_or(CalibrationError::Missing(name))?;
+    let size: [f64; 2] = numbers((line, text), name)?;
+    let [width, height] = size.map(|side| side as usize);
+    if [width, height].map(|side| side as f64) != size {
+        return Err(CalibrationError::Number { line, name });
+    }
+    Ok((width, height))
 }
 
 fn heading<'a>(
@@ -362,10 +376,24 @@ mod tests {
             let error = parse(text).expect_err(text);
             assert!(error.contains(words), "{text:?}: {error}");
         }
+        for size in [
+            "1024.9,768",
+            "1024,767.5",
+            "nan,768",
+            "-1024,768",
+            "1024,inf",
+            "1e30,768",
+        ] {
+            let error = parse(&MATRIX.replace("1024,768", size)).expect_err(size);
+            assert!(
+                error.contains("line 2 of the calibration, the image size"),
+                "{error}"
+            );
+        }
+        assert!(parse(&MATRIX.replace("1024,768", "1024.0,768")).is_ok());
         assert!(parse(&MATRIX.replace("0,3180", "2,3180")).is_err());
         assert!(parse(&MATRIX.replace("3200", "nan")).is_err());
         assert!(parse(&MATRIX.replace("0,-1,0", "0,1,0")).is_err());
-        assert!(parse(&MATRIX.replace("1024,768", "1e30,768")).is_err());
     }
 
     #[test]

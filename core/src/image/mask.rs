@@ -63,6 +63,15 @@ pub const fn words_needed(width: usize, height: usize) -> usize {
     row_words(width) * height
 }
 
+/// Where the words of a row are; nowhere for a row below the mask, whose place no number may hold.
+fn row_place(width: usize, height: usize, row: usize) -> core::ops::Range<usize> {
+    if row >= height {
+        return 0..0;
+    }
+    let length = row_words(width);
+    row * length..(row + 1) * length
+}
+
 /// A borrowed silhouette. Bits beyond a row's last pixel are zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mask<'a> {
@@ -124,10 +133,8 @@ impl<'a> Mask<'a> {
     /// The words of one row; empty below the mask.
     #[must_use]
     pub fn row(&self, row: usize) -> &'a [Word] {
-        let length = row_words(self.width);
-        self.words
-            .get(row * length..(row + 1) * length)
-            .unwrap_or_default()
+        let place = row_place(self.width, self.height, row);
+        self.words.get(place).unwrap_or_default()
     }
 
     /// One row as a slice of bits, for reading; loops that must be fast run on words.
@@ -152,7 +159,7 @@ impl<'a> Mask<'a> {
     pub(crate) fn square(&self, column: usize, row: usize) -> u32 {
         let stride = row_words(self.width);
         let (at, shift) = (column / WORD_BITS, column % WORD_BITS);
-        if at >= stride {
+        if at >= stride || row >= self.height {
             return 0;
         }
         let word = |place: usize| self.words.get(place).copied().unwrap_or(0);
@@ -336,6 +343,30 @@ mod tests {
         assert!(columns.clone().any(|column| set(column, rows.start)));
         assert!(columns.clone().any(|column| set(column, rows.end - 1)));
         assert_eq!(mask.area(), sum.area);
+    }
+
+    #[test]
+    fn there_is_nothing_below_the_mask_however_far() {
+        let mut words = [0; words_needed(W, H)];
+        for row in [
+            H,
+            H + 1,
+            usize::MAX / 4,
+            usize::MAX / 3 + 1,
+            usize::MAX - 1,
+            usize::MAX,
+        ] {
+            let mut mask = MaskMut::new(&mut words, W, H).expect("fits");
+            mask.set(3, row, true);
+            mask.toggle(3, row);
+            mask.fill_span(row, 0, 9);
+            mask.replace_row(row, |_, _| Word::MAX);
+            let mask = mask.into_mask();
+            assert_eq!(mask.area(), 0);
+            assert!(mask.row(row).is_empty() && mask.row_bits(row).is_empty());
+            assert!(!mask.get(3, row) && mask.runs(row).next().is_none());
+            assert_eq!(mask.square(3, row), 0);
+        }
     }
 
     #[test]

@@ -219,8 +219,8 @@ impl<'a> Library<'a> {
             let (x, y) = self.info.grid.place(view);
             let agrees = record.x_deg == self.info.grid.x.at(x as f64)
                 && record.y_deg == self.info.grid.y.at(y as f64);
-            let possible = record.scale > 0.0
-                && record.scale.is_finite()
+            let possible = SCALES.contains(&record.scale)
+                && (0.0..=1.0).contains(&record.elongation)
                 && record.angle.abs() <= 2.0
                 && record.offset.iter().all(|value| value.abs() < 1e6)
                 && record.area > 0;
@@ -234,6 +234,10 @@ impl<'a> Library<'a> {
         Ok(())
     }
 }
+
+/// Scales that a view can have: from a silhouette that fills the largest frame down to one of a pixel, and more room than
+/// either takes.
+const SCALES: core::ops::RangeInclusive<f64> = 1e-4..=1e4;
 
 /// Little-endian words of canonical bits.
 fn words(bytes: &[u8]) -> impl Iterator<Item = Word> + '_ {

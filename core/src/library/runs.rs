@@ -7,6 +7,8 @@
 
 use crate::image::mask::{Mask, MaskMut};
 
+/// Side of the widest canonical frame, pixels.
+pub(super) const WIDEST_FRAME: usize = 1024;
 /// Bytes before a band's runs.
 const BAND_BYTES: usize = 6;
 /// Most pixels that one byte can count.
@@ -73,10 +75,18 @@ fn put(out: &mut [u8], at: usize, bytes: &[u8]) {
     }
 }
 
+/// Most pieces of a row of `size` pixels: each run a pixel and a gap, or as long as one piece can be.
+const fn row_most(size: usize) -> usize {
+    size / 2 + 2 * size.div_ceil(LONGEST)
+}
+
+/// Most pieces of a row of any view. Bands with more are none: their length need not be a number that 32 bits hold.
+const LONGEST_ROW: usize = row_most(WIDEST_FRAME);
+
 /// Bytes of the runs of a view of `size` x `size` pixels at most: each row a band of its own, each of its pieces a pixel
 /// and a gap, or as long as one can be.
 pub(super) const fn runs_most(size: usize) -> usize {
-    size * (BAND_BYTES + 2 * (size / 2 + 2 * size.div_ceil(LONGEST)))
+    size * (BAND_BYTES + 2 * row_most(size))
 }
 
 /// Writes the runs of a mask and returns how many bytes they take; where `out` has fewer, its contents are of no use.
@@ -152,10 +162,10 @@ impl<'a> Iterator for Bands<'a> {
         let (&[a, b, c, d, e, f], rest) = self.rest.split_first_chunk::<BAND_BYTES>()?;
         let [first_row, rows, per_row] =
             [[a, b], [c, d], [e, f]].map(|two| usize::from(u16::from_le_bytes(two)));
-        let (band, rest) = rest.split_at_checked(2 * rows * per_row)?;
-        if per_row == 0 {
+        if !(1..=LONGEST_ROW).contains(&per_row) {
             return None;
         }
+        let (band, rest) = rest.split_at_checked(2 * rows * per_row)?;
         self.rest = rest;
         Some(Band {
             first_row,
@@ -176,8 +186,8 @@ pub(crate) fn spans(pieces: &[[u8; 2]]) -> impl Iterator<Item = (usize, usize)> 
     })
 }
 
-/// Whether bytes are the runs of a view of `size` x `size` pixels: rows that rise, runs that end
-/// within them, and nothing behind.
+/// Whether bytes are the runs of a view of `size` x `size` pixels: rows that rise, no more runs than a row has room for,
+/// which end within it, and nothing behind.
 pub(super) fn are_runs(bytes: &[u8], size: usize) -> bool {
     let mut bands = bands(bytes);
     let mut next_row = 0;
@@ -185,7 +195,8 @@ pub(super) fn are_runs(bytes: &[u8], size: usize) -> bool {
         let rows = band.pieces.len() / band.per_row;
         let inside = band.first_row >= next_row && band.first_row + rows <= size;
         let ends = |(_, pieces)| spans(pieces).all(|(_, end)| end <= size);
-        if rows == 0 || !inside || !band.rows().all(ends) {
+        let few = band.per_row <= row_most(size);
+        if rows == 0 || !few || !inside || !band.rows().all(ends) {
             return false;
         }
         next_row = band.first_row + rows;
@@ -215,13 +226,34 @@ pub(super) fn overlap(a: &[u8], b: &[u8]) -> u32 {
     sum
 }
 
-/// Pixels in runs of both rows. Rows have few runs: all pairs are quicker than merging, which
+/// Pairs of runs of two rows that are quicker compared than merged.
+const FEW_PAIRS: usize = 64;
+
+/// Pixels in runs of both rows. Rows of silhouettes have few runs: all pairs are quicker than merging, which
 /// takes an unpredictable branch for each run.
 fn common(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
+    if a.len() * b.len() > FEW_PAIRS {
+        return merged(a, b);
+    }
     let pairs = spans(a).flat_map(|ours| spans(b).map(move |theirs| (ours, theirs)));
     let common = pairs
         .map(|((start, end), (first, last))| end.min(last).saturating_sub(start.max(first)) as u32);
     common.sum()
+}
+
+/// The same of rows with many runs.
+fn merged(a: &[[u8; 2]], b: &[[u8; 2]]) -> u32 {
+    let (mut ours, mut theirs) = (spans(a).peekable(), spans(b).peekable());
+    let mut sum = 0;
+    while let (Some(&(start, end)), Some(&(first, last))) = (ours.peek(), theirs.peek()) {
+        sum += end.min(last).saturating_sub(start.max(first)) as u32;
+        if end < last {
+            ours.next();
+        } else {
+            theirs.next();
+        }
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -272,6 +304,15 @@ mod tests {
             prop_assert_eq!(overlap(&packed(&a, 96), &packed(&b, 96)), naive);
         }
 
+        #[test]
+        fn pixels_of_both_are_counted_in_noise(
+            a in proptest::collection::vec(any::<Word>(), 64 * 2),
+            b in proptest::collection::vec(any::<Word>(), 64 * 2),
+        ) {
+            let naive: u32 = a.iter().zip(&b).map(|(a, b)| (a & b).count_ones()).sum();
+            prop_assert_eq!(overlap(&packed(&a, 64), &packed(&b, 64)), naive);
+        }
+
         /// Whatever the bytes, they are read without a panic, and what passes stays in its frame.
         #[test]
         fn any_bytes_are_refused_or_drawn(
@@ -289,5 +330,24 @@ mod tests {
                 prop_assert_eq!(set as usize, pixels);
             }
         }
+    }
+
+    /// A band of empty runs that end in their row, as many as a header can name, makes each comparison slow; and with as
+    /// many rows its length is no number of 32 bits.
+    #[test]
+    fn bands_of_more_runs_than_a_row_has_room_for_are_refused() {
+        for (per_row, possible) in [(1, true), (row_most(64), true), (row_most(64) + 1, false)] {
+            let mut bytes = std::vec![0, 0, 1, 0];
+            bytes.extend((per_row as u16).to_le_bytes());
+            bytes.resize(BAND_BYTES + 2 * per_row, 0);
+            assert_eq!(are_runs(&bytes, 64), possible, "{per_row}");
+        }
+        let longest = 2 * usize::from(u16::MAX) * LONGEST_ROW;
+        assert!(u32::try_from(longest).is_ok());
+        let per_row = LONGEST_ROW + 1;
+        let mut bytes = std::vec![0, 0, 1, 0];
+        bytes.extend((per_row as u16).to_le_bytes());
+        bytes.resize(BAND_BYTES + 2 * per_row, 0);
+        assert!(bands(&bytes).next().is_none());
     }
 }

@@ -6,14 +6,14 @@
 //! of 8 (0.99) take three times the bytes for one view less; blocks of 32 (0.88 to 0.92) need two
 //! bytes each.
 
-use super::runs::{Band, bands, spans};
+use super::runs::{Band, WIDEST_FRAME, bands, spans};
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Mask, Word};
 
 /// Side of a block, pixels. Canonical frames are whole blocks.
 pub(crate) const BLOCK: usize = 16;
 /// Blocks across the widest canonical frame.
-const WIDEST: usize = 1024 / BLOCK;
+const WIDEST: usize = WIDEST_FRAME / BLOCK;
 /// Most blocks of a canonical frame.
 pub(super) const MOST_BLOCKS: usize = WIDEST * WIDEST;
 /// Sketches are padded with empty blocks to a multiple of this many, so that kernels need no tail.

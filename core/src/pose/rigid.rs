@@ -74,7 +74,8 @@ pub fn geodesic_deg(a: &Matrix3, b: &Matrix3) -> f64 {
 
 /// The rotation that turns the optical axis (0, 0, -1) to the direction of `point` (camera
 /// coordinates) about an axis perpendicular to both: where a camera would have to turn to look
-/// at the point. The identity for a point on the axis or at the focus.
+/// at the point. The identity for a point on the axis or at the focus; half a turn about x for one behind it, from
+/// which all axes lead there.
 #[must_use]
 pub fn view_rotation(point: &Vector3) -> Matrix3 {
     let length = crate::math::norm(point);
@@ -85,10 +86,31 @@ pub fn view_rotation(point: &Vector3) -> Matrix3 {
     let b = scale(point, 1.0 / length);
     let (vx, vy) = (b[1], -b[0]);
     let cosine = -b[2];
+    if cosine < 0.0 {
+        return turned_back(vx, vy, cosine);
+    }
     let k = 1.0 / (1.0 + cosine);
     [
         [1.0 - vy * vy * k, vx * vy * k, vy],
         [vx * vy * k, 1.0 - vx * vx * k, -vx],
+        [-vy, vx, cosine],
+    ]
+}
+
+/// The same for a point behind, where `1 + a.b` is lost in rounding: by the axis itself.
+fn turned_back(vx: f64, vy: f64, cosine: f64) -> Matrix3 {
+    // Over the larger one first: squares of the smallest numbers are 0.
+    let larger = vx.abs().max(vy.abs());
+    let [x, y] = if larger > 0.0 {
+        let (x, y) = (vx / larger, vy / larger);
+        [x, y].map(|component| component / sqrt(x * x + y * y))
+    } else {
+        [1.0, 0.0]
+    };
+    let k = 1.0 - cosine;
+    [
+        [1.0 - y * y * k, x * y * k, vy],
+        [x * y * k, 1.0 - x * x * k, -vx],
         [-vy, vx, cosine],
     ]
 }
@@ -300,7 +322,7 @@ mod tests {
 
         #[test]
         fn the_view_rotation_looks_at_its_point_without_rolling(
-            x in -500.0..500.0f64, y in -500.0..500.0f64, z in -2000.0..-100.0f64
+            x in -500.0..500.0f64, y in -500.0..500.0f64, z in -2000.0..2000.0f64
         ) {
             let rotation = view_rotation(&[x, y, z]);
             let ray = apply(&rotation, &[0.0, 0.0, -1.0]);
@@ -322,6 +344,24 @@ mod tests {
             let one = pose.compose(&pose.inverse());
             prop_assert!(close(&one.rotation, &IDENTITY));
             prop_assert!(one.translation.iter().all(|v| v.abs() < 1e-9));
+        }
+    }
+
+    #[test]
+    fn what_is_behind_is_looked_at_too() {
+        let aside = [0.0, 1.0, 1e-3, 1e-8, 1e-9, 1e-160, 5e-324];
+        for (x, y) in aside.iter().flat_map(|&x| aside.map(|y| (x, -y))) {
+            let rotation = view_rotation(&[x, y, 1.0]);
+            let pose = Pose {
+                rotation,
+                translation: [0.0; 3],
+            };
+            assert!(pose.is_rigid(1e-12), "{x} {y}: {rotation:?}");
+            let ray = apply(&rotation, &[0.0, 0.0, -1.0]);
+            let length = crate::math::norm(&[x, y, 1.0]);
+            for (got, wanted) in ray.iter().zip([x, y, 1.0]) {
+                assert!((got - wanted / length).abs() < 1e-12, "{x} {y}: {ray:?}");
+            }
         }
     }
 

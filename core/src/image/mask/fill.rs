@@ -3,7 +3,7 @@
 use core::hint::black_box;
 use core::ops::Range;
 
-use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_words, tail_mask};
+use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_place, row_words, tail_mask};
 use crate::image::contour::Outline;
 use crate::image::scan::{Edge, FixedPoint};
 use crate::memory::first;
@@ -104,10 +104,8 @@ impl<'a> MaskMut<'a> {
 
     /// A row's words. The bits beyond the last column must stay zero: every count relies on that.
     pub(crate) fn row_mut(&mut self, row: usize) -> &mut [Word] {
-        let length = row_words(self.width);
-        self.words
-            .get_mut(row * length..(row + 1) * length)
-            .unwrap_or_default()
+        let place = row_place(self.width, self.height, row);
+        self.words.get_mut(place).unwrap_or_default()
     }
 
     /// Sets the columns `from..to` of a row, cut to the mask.
