@@ -6,6 +6,7 @@ use fluoropose::library::{
 };
 use fluoropose::render::Projected;
 use fluoropose_tests::{camera, femur, home, mesh, regenerating};
+use sha2::{Digest as _, Sha256};
 
 fn axis(count: usize) -> ViewAxis {
     ViewAxis {
@@ -57,6 +58,43 @@ fn small_library() -> Vec<u8> {
     compact
 }
 
+/// SHA-256 of the file of each version.
+const OLD_FILES: [&str; 2] = [
+    "1ec7a4c5629063e324009ae28f723628e716012a672a587e346b56018cb4d5f1",
+    "8d0c7e8e4ea97b46a302e7613a4b66d59cb34c675c6db2b6010982e0fcaf5ef5",
+];
+/// That of what opening gives, which is the same in both: [`contents`].
+const OLD_CONTENTS: &str = "1851cf434fa7d3b3f4ec20f978abfb9320795044b8c5de31232ab99c3bd03d21";
+
+fn sha256(bytes: &[u8]) -> String {
+    let digest = Sha256::digest(bytes);
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Every number and every pixel of all views, as bytes.
+fn contents(library: &Library<'_>) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut pixels = vec![0; 128];
+    for view in 0..library.views() {
+        let record = library.record(view);
+        let [right, up] = record.offset;
+        let numbers = [
+            record.x_deg,
+            record.y_deg,
+            record.scale,
+            record.angle,
+            right,
+            up,
+        ];
+        bytes.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+        bytes.extend(record.area.to_le_bytes());
+        bytes.extend(record.elongation.to_le_bytes());
+        library.draw(view, &mut pixels);
+        bytes.extend(pixels.iter().flat_map(|word| word.to_le_bytes()));
+    }
+    bytes
+}
+
 /// The files of all versions of the layout that ever were are read for ever, and say the same.
 #[test]
 fn old_files_are_read() {
@@ -75,6 +113,10 @@ fn old_files_are_read() {
         .collect();
     let [plain, compact] = [0, 1].map(|version| Library::open(&opened[version]).expect("valid"));
     assert_eq!([opened[0][8], opened[1][8]], [0, 1]);
+    assert_eq!([0, 1].map(|version| sha256(&opened[version])), OLD_FILES);
+    for library in [&plain, &compact] {
+        assert_eq!(sha256(&contents(library)), OLD_CONTENTS);
+    }
     assert_eq!(plain.info(), compact.info());
     let mut bits = [vec![0; 128], vec![0; 128]];
     for view in 0..6 {
@@ -188,7 +230,16 @@ fn impossible_numbers_under_right_checksums_are_refused() {
         assert!(patched(DISTANCE_AT, value).is_err(), "distance {value}");
     }
     let scale_at = HEADER_BYTES + 16;
-    for value in [f64::NAN, f64::NEG_INFINITY, 0.0] {
+    assert_eq!(patched(scale_at, 0.5), Ok(()));
+    for value in [
+        f64::NAN,
+        f64::NEG_INFINITY,
+        0.0,
+        5e-324,
+        1e-9,
+        1e9,
+        f64::MAX,
+    ] {
         assert!(patched(scale_at, value).is_err(), "scale {value}");
     }
     assert!(patched(HEADER_BYTES, 3.0).is_err(), "rotation off the grid");
