@@ -4,7 +4,6 @@ pub mod border;
 pub mod contour;
 pub mod frame;
 pub mod mask;
-pub mod median;
 pub mod moments;
 pub mod profile;
 pub mod region;

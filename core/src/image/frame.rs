@@ -66,9 +66,6 @@ pub enum FrameError {
         /// Rows of the frame.
         frame_height: usize,
     },
-    /// The pixel aspect ratio is not a usable number.
-    #[error("the pixel aspect ratio is {0}; it must be between 0.1 and 10")]
-    Aspect(f64),
 }
 
 /// A rectangle of whole pixels.
@@ -182,49 +179,6 @@ impl<'a, P: Pixel> Frame<'a, P> {
         let pixels = self.pixels.get(start..).unwrap_or_default();
         Self::new(pixels, region.width, region.height, self.stride)
     }
-
-    /// Rows of this frame once its pixels are square, for a pixel that is `aspect` times as
-    /// high as it is wide.
-    ///
-    /// # Errors
-    /// [`FrameError::Aspect`] for a ratio outside 0.1 to 10 or not finite.
-    pub fn square_height(&self, aspect: f64) -> Result<usize, FrameError> {
-        if !(0.1..=10.0).contains(&aspect) {
-            return Err(FrameError::Aspect(aspect));
-        }
-        Ok((crate::math::round(self.height as f64 * aspect) as usize).max(1))
-    }
-
-    /// Stretches the frame along its rows' direction so that pixels are square (Walker et al.
-    /// 1996 stretch their frames so that the horizontal and vertical scale agree), by linear
-    /// interpolation between the two nearest rows. `out` holds `width * square_height` pixels,
-    /// without gaps between rows.
-    ///
-    /// # Errors
-    /// [`FrameError::Aspect`] or [`FrameError::BufferTooShort`].
-    pub fn make_square(&self, aspect: f64, out: &mut [P]) -> Result<(), FrameError> {
-        let height = self.square_height(aspect)?;
-        let needed = self.width * height;
-        if out.len() < needed {
-            return Err(FrameError::BufferTooShort {
-                needed,
-                given: out.len(),
-            });
-        }
-        // Row centres keep their relative place: (r + 0.5) / new = (s + 0.5) / old.
-        let step = self.height as f64 / height as f64;
-        for (index, target) in out.chunks_exact_mut(self.width).take(height).enumerate() {
-            let source = (index as f64 + 0.5) * step - 0.5;
-            let above = crate::math::floor(source);
-            let weight = (256.0 * (source - above)) as u32;
-            let rows = [above as isize, above as isize + 1];
-            for (column, pixel) in target.iter_mut().enumerate() {
-                let [a, b]: [u32; 2] = rows.map(|row| self.nearest(column as isize, row).into());
-                *pixel = P::from_u32((a * (256 - weight) + b * weight + 128) / 256);
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Something with grey values between its pixels' centres: a [`Frame`] of any pixel type.
@@ -303,20 +257,5 @@ mod tests {
         assert!(Frame::<u16>::new(&[0; 10], 4, 3, 3).is_err());
         assert!(Frame::<u16>::new(&[0; 11], 4, 3, 4).is_err());
         assert!(Frame::<u16>::new(&[0; 11], 4, 3, usize::MAX).is_err());
-    }
-
-    #[test]
-    fn stretching_keeps_a_ramp_a_ramp() {
-        // Grey value 100 * (row + 0.5): twice as many rows sample the same ramp between.
-        let pixels: [u16; 12] = core::array::from_fn(|k| 100 * (k as u16 / 2) + 50);
-        let frame = Frame::new(&pixels, 2, 6, 2).expect("fits");
-        assert_eq!(frame.square_height(2.0), Ok(12));
-        let mut out = [0u16; 24];
-        frame.make_square(2.0, &mut out).expect("fits");
-        for row in 1..11 {
-            assert_eq!(out[2 * row], 50 * row as u16 + 25);
-        }
-        assert!(frame.make_square(f64::NAN, &mut out).is_err());
-        assert!(frame.make_square(3.0, &mut out).is_err());
     }
 }

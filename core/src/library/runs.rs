@@ -5,9 +5,10 @@
 //! bytes a run: the pixels between it and the run before (or the border), and its own pixels. A
 //! gap of more than 255 pixels is written with runs of length 0 between its parts; a longer run with gaps of length 0.
 
-use super::sketch::WIDEST_FRAME;
 use crate::image::mask::{Mask, MaskMut};
 
+/// Side of the widest canonical frame, pixels.
+pub(super) const WIDEST_FRAME: usize = 1024;
 /// Bytes before a band's runs.
 const BAND_BYTES: usize = 6;
 /// Most pixels that one byte can count.

@@ -6,15 +6,13 @@
 //! of 8 (0.99) take three times the bytes for one view less; blocks of 32 (0.88 to 0.92) need two
 //! bytes each.
 
-use super::runs::{Band, bands, spans};
+use super::runs::{Band, WIDEST_FRAME, bands, spans};
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Mask, Word};
 
 /// Side of a block, pixels. Canonical frames are whole blocks.
 pub(crate) const BLOCK: usize = 16;
-/// Side of the widest canonical frame, pixels.
-pub(super) const WIDEST_FRAME: usize = 1024;
-/// Blocks across it.
+/// Blocks across the widest canonical frame.
 const WIDEST: usize = WIDEST_FRAME / BLOCK;
 /// Most blocks of a canonical frame.
 pub(super) const MOST_BLOCKS: usize = WIDEST * WIDEST;

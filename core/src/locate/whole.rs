@@ -79,7 +79,7 @@ pub fn workspace_needed(library: &Library<'_>) -> WorkspaceNeeds {
 /// Bytes of a [`Workspace`] for libraries of a canonical frame.
 #[must_use]
 pub const fn workspace_bytes_needed(spec: &CanonicalSpec) -> usize {
-    query_bytes_needed(spec, false) + search_bytes_needed(spec)
+    query_bytes_needed(spec) + search_bytes_needed(spec)
 }
 
 /// A pose that explains the silhouette, and the view that led to it.
@@ -119,7 +119,7 @@ pub fn locate<const K: usize>(
     let (form, [straight, rotated]) =
         both_directions(mask, camera, &info.canonical, work.canonical, work.rotated)?;
     let (prepared, sketches) = split_bytes(work.bytes, &info.canonical)?;
-    let query = Query::new(&info.canonical, straight, rotated, None, prepared)?;
+    let query = Query::new(&info.canonical, straight, rotated, prepared)?;
     let memory = ViewSearchMemory {
         bounds: work.scores,
         sketches,
@@ -155,7 +155,7 @@ pub fn score_views<'w>(
     let (form, [straight, rotated]) =
         both_directions(mask, camera, spec, work.canonical, work.rotated)?;
     let (prepared, _) = split_bytes(work.bytes, spec)?;
-    let query = Query::new(spec, straight, rotated, None, prepared)?;
+    let query = Query::new(spec, straight, rotated, prepared)?;
     let scores = Scores::fill(library, work.scores, |view, reversed| {
         query.unmatched(library, view, reversed, &work.kernels)
     })?;
@@ -185,5 +185,5 @@ fn split_bytes<'a>(
     spec: &CanonicalSpec,
 ) -> Result<(&'a mut [u8], &'a mut [u8]), MatchError> {
     let bytes = first("bytes", workspace_bytes_needed(spec), bytes)?;
-    Ok(bytes.split_at_mut(query_bytes_needed(spec, false)))
+    Ok(bytes.split_at_mut(query_bytes_needed(spec)))
 }

@@ -11,7 +11,7 @@ use crate::canonical::CanonicalSpec;
 use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
-use crate::search::query::{Query, longest_sketch};
+use crate::search::query::{Query, bound, longest_sketch};
 use crate::search::scores::{MatchError, ViewMatch, neighbours, scores_needed};
 use crate::shortlist::keep;
 
@@ -42,7 +42,7 @@ pub struct ViewSearchMemory<'m> {
 /// Bytes of [`ViewSearchMemory::sketches`].
 #[must_use]
 pub const fn search_bytes_needed(spec: &CanonicalSpec) -> usize {
-    2 * longest_sketch(spec)
+    longest_sketch(spec)
 }
 
 /// The search for a silhouette in a library. For each view it holds the exact number of unmatched pixels where that has
@@ -93,16 +93,13 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return;
         };
         let stride = sketches.stride();
-        let (low, high) = memory.split_at_mut(memory.len() / 2);
-        let (low, high) = (&mut low[..stride], &mut high[..stride]);
+        let ours = &mut memory[..stride];
         let views = self.library.views();
         for (reversed, bounds) in [false, true].into_iter().zip(self.bounds.chunks_mut(views)) {
-            let out = [&mut *low, &mut *high];
             let base = self
                 .query
-                .sketch_for(&sketches, reversed, &self.kernels, out);
-            self.query
-                .bound([low, high], sketches.all, base, &self.kernels, bounds);
+                .sketch_for(&sketches, reversed, &self.kernels, ours);
+            bound(ours, sketches.all, base, &self.kernels, bounds);
         }
     }
 

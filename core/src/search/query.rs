@@ -9,13 +9,6 @@ use crate::memory::{TooLittleMemory, check_length, first};
 use crate::search::kernels::Kernels;
 use crate::search::scores::MatchError;
 
-/// Blocks of a silhouette, set pixels of each: at least, and at most where some are unknown.
-#[derive(Clone, Copy, Debug)]
-struct Blocks<'m> {
-    low: &'m [u8],
-    high: &'m [u8],
-}
-
 /// A canonical silhouette, and the same rotated by 180 degrees, made ready for searching.
 ///
 /// A view of runs is compared by looking up how many pixels of the silhouette are set before
@@ -23,33 +16,27 @@ struct Blocks<'m> {
 #[derive(Clone, Copy, Debug)]
 pub struct Query<'m> {
     spec: CanonicalSpec,
-    /// Known pixels set.
+    /// Pixels set.
     area: u32,
     straight: &'m [Word],
     rotated: &'m [Word],
-    unknown: Option<&'m [Word]>,
-    /// Known pixels set before each pixel of the frame, row by row, modulo 256: no run has more
+    /// Pixels set before each pixel of the frame, row by row, modulo 256: no run has more
     /// than 255 pixels. One number more than there are pixels.
     before: &'m [u8],
-    /// The same of all known pixels, where some are unknown.
-    known_before: Option<&'m [u8]>,
-    /// Blocks of the silhouette as it is and rotated by 180 degrees.
-    blocks: [Blocks<'m>; 2],
+    /// Set pixels of each block of the silhouette as it is and rotated by 180 degrees.
+    blocks: [&'m [u8]; 2],
 }
 
-/// Bytes of working memory of [`Query::new`]. `unknown`: whether pixels may be unknown.
+/// Bytes of working memory of [`Query::new`].
 #[must_use]
-pub const fn query_bytes_needed(spec: &CanonicalSpec, unknown: bool) -> usize {
-    let before = spec.size() * spec.size() + 1;
-    let tables = if unknown { 2 } else { 1 };
-    tables * before + 4 * blocks(spec)
+pub const fn query_bytes_needed(spec: &CanonicalSpec) -> usize {
+    spec.size() * spec.size() + 1 + 2 * blocks(spec)
 }
 
 impl<'m> Query<'m> {
     /// Makes `straight` ready, a canonical silhouette from [`crate::canonical::canonicalise`] with
     /// the libraries' own `spec`. `rotated` is the same rotated by 180 degrees
-    /// ([`crate::canonical::reverse`]). Pixels set in `unknown` do not count, whatever the
-    /// silhouette has there. `bytes` is working memory, [`query_bytes_needed`] of it.
+    /// ([`crate::canonical::reverse`]). `bytes` is working memory, [`query_bytes_needed`] of it.
     ///
     /// # Errors
     /// [`MatchError::Memory`] for a wrong length.
@@ -57,43 +44,21 @@ impl<'m> Query<'m> {
         spec: &CanonicalSpec,
         straight: &'m [Word],
         rotated: &'m [Word],
-        unknown: Option<&'m [Word]>,
         bytes: &'m mut [u8],
     ) -> Result<Self, MatchError> {
         let words = spec.words_needed();
         let (straight, rotated) = (first_of(words, straight)?, first_of(words, rotated)?);
-        let unknown = unknown
-            .map(|unknown| first_of(words, unknown))
-            .transpose()?;
-        let needed = query_bytes_needed(spec, unknown.is_some());
+        let needed = query_bytes_needed(spec);
         let bytes = first("bytes of working memory", needed, bytes)?;
-        let (tables, sketches) = bytes.split_at_mut(needed - 4 * blocks(spec));
-        let (before, known_before) = tables.split_at_mut(spec.size() * spec.size() + 1);
-        let seen = |at: usize| {
-            !unknown
-                .and_then(|words| words.get(at))
-                .copied()
-                .unwrap_or(0)
-        };
-        let known = straight
-            .iter()
-            .enumerate()
-            .map(|(at, word)| word & seen(at));
-        let area = known.clone().map(Word::count_ones).sum();
-        count_before(known, before);
-        if unknown.is_some() {
-            count_before((0..words).map(seen), known_before);
-        }
-        let known_before: &[u8] = known_before;
+        let (before, sketches) = bytes.split_at_mut(needed - 2 * blocks(spec));
+        count_before(straight.iter().copied(), before);
         Ok(Self {
             spec: *spec,
-            area,
+            area: straight.iter().map(|word| word.count_ones()).sum(),
             straight,
             rotated,
-            unknown,
             before,
-            known_before: unknown.map(|_| known_before),
-            blocks: sketch(spec, straight, unknown, sketches),
+            blocks: sketch(spec, straight, sketches),
         })
     }
 
@@ -113,7 +78,7 @@ impl<'m> Query<'m> {
         }
     }
 
-    /// Known pixels that are set in the silhouette or in a view and not in both; exactly.
+    /// Pixels that are set in the silhouette or in a view and not in both; exactly.
     ///
     /// The library's canonical frame must be the query's own; this is not checked, and another one gives a wrong count.
     #[must_use]
@@ -125,26 +90,20 @@ impl<'m> Query<'m> {
         kernels: &Kernels,
     ) -> u32 {
         if library.sketches().is_none() {
-            return self.unmatched_bits(library.bits(view), reversed, kernels);
+            return (kernels.unmatched)(self.canonical(reversed), library.bits(view));
         }
         let runs = library.runs(view);
-        let (pixels, common) = match (self.known_before, reversed) {
-            (None, false) => self.covered::<false>(self.before, runs),
-            (None, true) => self.covered::<true>(self.before, runs),
-            (Some(known), false) => {
-                let (_, common) = self.covered::<false>(self.before, runs);
-                (self.covered::<false>(known, runs).1, common)
-            }
-            (Some(known), true) => {
-                let (_, common) = self.covered::<true>(self.before, runs);
-                (self.covered::<true>(known, runs).1, common)
-            }
+        let (pixels, common) = if reversed {
+            self.covered::<true>(runs)
+        } else {
+            self.covered::<false>(runs)
         };
         self.area + pixels - 2 * common
     }
 
-    /// Pixels of the runs, and how many of them are counted in the table `before`.
-    fn covered<const REVERSED: bool>(&self, before: &[u8], runs: &[u8]) -> (u32, u32) {
+    /// Pixels of the runs, and how many of them are the silhouette's.
+    fn covered<const REVERSED: bool>(&self, runs: &[u8]) -> (u32, u32) {
+        let before = self.before;
         let mut sum = Covered::default();
         for band in bands(runs) {
             let start = band.first_row * self.spec.size();
@@ -163,39 +122,14 @@ impl<'m> Query<'m> {
         (sum.pixels, sum.common)
     }
 
-    fn unmatched_bits(&self, bits: &[u8], reversed: bool, kernels: &Kernels) -> u32 {
-        let ours = self.canonical(reversed);
-        let Some(unknown) = self.unknown else {
-            return (kernels.unmatched)(ours, bits);
-        };
-        let last = unknown.len().wrapping_sub(1);
-        let theirs = bits
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .copied()
-            .map(Word::from_le_bytes);
-        let differ = ours.iter().zip(theirs).enumerate().map(|(at, (a, b))| {
-            let place = if reversed { last.wrapping_sub(at) } else { at };
-            let unknown = unknown.get(place).copied().unwrap_or(0);
-            let unknown = if reversed {
-                unknown.reverse_bits()
-            } else {
-                unknown
-            };
-            ((a ^ b) & !unknown).count_ones()
-        });
-        differ.sum()
-    }
-
     /// The blocks that a library's sketches have; returns what the others differ by in every view. `out` gets the
-    /// least and the most set pixels of each block, both of the length of a sketch.
+    /// set pixels of each block and has the length of a sketch.
     pub(super) fn sketch_for(
         &self,
         sketches: &Sketches<'_>,
         reversed: bool,
         kernels: &Kernels,
-        out: [&mut [u8]; 2],
+        out: &mut [u8],
     ) -> u32 {
         self.gather(sketches.places(), sketches.common, reversed, kernels, out)
     }
@@ -203,56 +137,21 @@ impl<'m> Query<'m> {
     /// The same of any choice of blocks; `common` has what the others are in every view, and 0 at `places`.
     pub(super) fn gather(
         &self,
-        places: impl Iterator<Item = usize> + Clone,
+        places: impl Iterator<Item = usize>,
         common: &[u8],
         reversed: bool,
         kernels: &Kernels,
-        [low, high]: [&mut [u8]; 2],
+        out: &mut [u8],
     ) -> u32 {
-        let blocks = &self.blocks[usize::from(reversed)];
-        let mut base = (kernels.gap)([blocks.low, blocks.high], [common, common]);
-        low.fill(0);
-        for (low, place) in low.iter_mut().zip(places.clone()) {
-            *low = blocks.low.get(place).copied().unwrap_or(0);
+        let blocks = self.blocks[usize::from(reversed)];
+        let mut base = (kernels.gap)([blocks; 2], [common; 2]);
+        out.fill(0);
+        for (out, place) in out.iter_mut().zip(places) {
+            *out = blocks.get(place).copied().unwrap_or(0);
             // There the common block is 0, and the gap was the silhouette's own count.
-            base -= u32::from(*low);
-        }
-        if self.is_whole() {
-            // It is what is counted at least.
-            high.copy_from_slice(low);
-            return base;
-        }
-        high.fill(0);
-        for (high, place) in high.iter_mut().zip(places) {
-            *high = blocks.high.get(place).copied().unwrap_or(0);
+            base -= u32::from(*out);
         }
         base
-    }
-
-    /// Bounds of views whose sketches follow one another: `base` and how far they are from what
-    /// [`Self::sketch_for`] gathered.
-    pub(super) fn bound(
-        &self,
-        [low, high]: [&[u8]; 2],
-        sketches: &[u8],
-        base: u32,
-        kernels: &Kernels,
-        bounds: &mut [u32],
-    ) {
-        if low.is_empty() {
-            bounds.fill(base);
-        } else if self.is_whole() {
-            (kernels.distances)(low, sketches, base, bounds);
-        } else {
-            for (bound, sketch) in bounds.iter_mut().zip(sketches.chunks_exact(low.len())) {
-                *bound = base + (kernels.gap)([low, high], [sketch, sketch]);
-            }
-        }
-    }
-
-    /// Whether every pixel is known.
-    pub(super) fn is_whole(&self) -> bool {
-        self.unknown.is_none()
     }
 }
 
@@ -350,68 +249,31 @@ fn counts_up_to(byte: u8, count: u8) -> [u8; 8] {
 }
 
 /// Set pixels of the blocks of a silhouette, as it is and rotated by 180 degrees.
-fn sketch<'m>(
-    spec: &CanonicalSpec,
-    words: &[Word],
-    unknown: Option<&[Word]>,
-    out: &'m mut [u8],
-) -> [Blocks<'m>; 2] {
-    let (straight, rotated) = out.split_at_mut(2 * blocks(spec));
-    let (low, high) = straight.split_at_mut(blocks(spec));
+fn sketch<'m>(spec: &CanonicalSpec, words: &[Word], out: &'m mut [u8]) -> [&'m [u8]; 2] {
+    let (straight, rotated) = out.split_at_mut(blocks(spec));
     let row_words = spec.size() / WORD_BITS;
     // Words of a row of blocks, and bytes: a word is two blocks wide.
     let (step, width) = (BLOCK * row_words, 2 * row_words);
-    let rows = words.chunks_exact(step).zip(low.chunks_exact_mut(width));
-    for (row, ((words, low), high)) in rows.zip(high.chunks_exact_mut(width)).enumerate() {
-        let unknown = unknown.and_then(|unknown| unknown.get(row * step..(row + 1) * step));
-        for (column, (low, high)) in low
-            .as_chunks_mut::<2>()
-            .0
-            .iter_mut()
-            .zip(high.as_chunks_mut::<2>().0)
-            .enumerate()
-        {
-            let [known, open] = counts_of_two(words, unknown, column, row_words);
-            *low = known.map(at_most_255);
-            *high = [known[0] + open[0], known[1] + open[1]].map(at_most_255);
+    let rows = words
+        .chunks_exact(step)
+        .zip(straight.chunks_exact_mut(width));
+    for (words, counts) in rows {
+        for (column, two) in counts.as_chunks_mut::<2>().0.iter_mut().enumerate() {
+            *two = counts_of_two(words, column, row_words).map(at_most_255);
         }
     }
-    for (to, from) in rotated.chunks_exact_mut(blocks(spec)).zip([&*low, &*high]) {
-        for (to, from) in to.iter_mut().zip(from.iter().rev()) {
-            *to = *from;
-        }
+    for (to, from) in rotated.iter_mut().zip(straight.iter().rev()) {
+        *to = *from;
     }
-    let (turned_low, turned_high) = rotated.split_at(blocks(spec));
-    [
-        Blocks { low, high },
-        Blocks {
-            low: turned_low,
-            high: turned_high,
-        },
-    ]
+    [straight, rotated]
 }
 
-/// Known pixels set, and unknown pixels, of two blocks beside each other: of the words of a row of blocks, one column.
+/// Set pixels of two blocks beside each other: of the words of a row of blocks, one column.
 #[inline(always)]
-fn counts_of_two(
-    words: &[Word],
-    unknown: Option<&[Word]>,
-    column: usize,
-    row_words: usize,
-) -> [[u16; 2]; 2] {
-    let (mut known, mut open) = (0, 0);
-    let ours = words.iter().skip(column).step_by(row_words);
-    match unknown {
-        None => known = ours.map(|&word| ones_of_halves(word)).sum(),
-        Some(unknown) => {
-            let unknown = unknown.iter().skip(column).step_by(row_words);
-            for (word, unknown) in ours.zip(unknown) {
-                known += ones_of_halves(word & !unknown);
-                open += ones_of_halves(*unknown);
-            }
-        }
-    }
-    [known, open].map(|halves: Word| [halves as u16, (halves >> 16) as u16])
+fn counts_of_two(words: &[Word], column: usize, row_words: usize) -> [u16; 2] {
+    let column = words.iter().skip(column).step_by(row_words);
+    let halves: Word = column.map(|&word| ones_of_halves(word)).sum();
+    [halves as u16, (halves >> 16) as u16]
 }
 
 /// Bits set in the lower and in the upper half of a word, in its lower and upper half.
@@ -420,6 +282,22 @@ fn ones_of_halves(word: Word) -> Word {
     let fours = (twos & 0x3333_3333) + (twos >> 2 & 0x3333_3333);
     let eights = (fours + (fours >> 4)) & 0x0f0f_0f0f;
     (eights + (eights >> 8)) & 0x00ff_00ff
+}
+
+/// Bounds of views whose sketches follow one another: `base` and how far they are from what
+/// [`Query::sketch_for`] gathered.
+pub(super) fn bound(
+    gathered: &[u8],
+    sketches: &[u8],
+    base: u32,
+    kernels: &Kernels,
+    bounds: &mut [u32],
+) {
+    if gathered.is_empty() {
+        bounds.fill(base);
+    } else {
+        (kernels.distances)(gathered, sketches, base, bounds);
+    }
 }
 
 /// Bytes of a gathered sketch at most.

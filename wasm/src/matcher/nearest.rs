@@ -53,9 +53,9 @@ impl Matcher {
     pub fn nearest_view(&mut self, canonical: &Canonical) -> Result<NearestView, JsError> {
         let library = self.library.borrow_dependent();
         let spec = &library.info().canonical;
-        let (prepared, sketches) = self.bytes.split_at_mut(query_bytes_needed(spec, false));
+        let (prepared, sketches) = self.bytes.split_at_mut(query_bytes_needed(spec));
         let (straight, turned) = (&canonical.straight, &canonical.turned);
-        let query = Query::new(spec, straight, turned, None, prepared).map_err(sentence)?;
+        let query = Query::new(spec, straight, turned, prepared).map_err(sentence)?;
         let memory = ViewSearchMemory {
             bounds: &mut self.scores,
             sketches,

@@ -120,12 +120,15 @@ fn memory_of_another_shape_is_refused() {
     assert_eq!(refused, Err(MaskError::Sizes));
 }
 
+/// Whether the pixel at a column and row is set.
+type Pattern = fn(usize, usize) -> bool;
+
 /// A dozen looks a pixel, the frame of nested rings being the worst of these: a look at the frame for each region would take
 /// thousands.
 #[test]
 fn many_regions_take_no_more_than_a_few_looks_a_pixel() {
     let side = 1024;
-    let patterns: [(&str, fn(usize, usize) -> bool); 5] = [
+    let patterns: [(&str, Pattern); 5] = [
         ("half of all", |column, row| noise(column, row) < 1 << 15),
         ("a tenth", |column, row| noise(column, row) < 6554),
         ("a chessboard", |column, row| (column + row) % 2 == 0),

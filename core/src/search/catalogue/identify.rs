@@ -8,7 +8,7 @@ use crate::canonical::CanonicalSpec;
 use crate::library::Library;
 use crate::memory::first;
 use crate::search::kernels::Kernels;
-use crate::search::query::{Query, longest_sketch};
+use crate::search::query::{Query, bound, longest_sketch};
 use crate::search::scores::{MatchError, ViewMatch};
 use crate::shortlist::keep;
 
@@ -24,7 +24,7 @@ pub struct Identified {
 /// Bytes of working memory of [`Catalogue::identify`].
 #[must_use]
 pub const fn identify_bytes_needed(spec: &CanonicalSpec) -> usize {
-    6 * longest_sketch(spec)
+    3 * longest_sketch(spec)
 }
 
 impl<'c> Catalogue<'c> {
@@ -68,18 +68,13 @@ impl<'c> Catalogue<'c> {
         kernels: &Kernels,
         bytes: &mut [u8],
     ) -> Vec<Identified, K> {
-        let (ours, leaf) = bytes.split_at_mut(4 * longest_sketch(&self.spec()));
+        let (ours, leaf) = bytes.split_at_mut(2 * longest_sketch(&self.spec()));
         let tree = &self.tree;
         let (straight, rotated) = ours.split_at_mut(ours.len() / 2);
         let sides = [(false, straight), (true, rotated)].map(|(reversed, bytes)| {
-            let (low, high) = bytes.split_at_mut(bytes.len() / 2);
-            let (low, high) = (&mut low[..tree.stride()], &mut high[..tree.stride()]);
-            let out = [&mut *low, &mut *high];
-            let base = query.gather(tree.places(), tree.common, reversed, kernels, out);
-            DirectionBlocks {
-                base,
-                blocks: [low, high],
-            }
+            let blocks = &mut bytes[..tree.stride()];
+            let base = query.gather(tree.places(), tree.common, reversed, kernels, blocks);
+            DirectionBlocks { base, blocks }
         });
         let mut best_first = BestFirst {
             catalogue: self,
@@ -107,8 +102,8 @@ struct OpenNode {
 struct DirectionBlocks<'h> {
     /// Difference of the common blocks.
     base: u32,
-    /// Least and most set pixels.
-    blocks: [&'h [u8]; 2],
+    /// Set pixels.
+    blocks: &'h [u8],
 }
 
 /// Most nodes that wait for their turn; where there would be more, one is searched depth first at once.
@@ -164,7 +159,8 @@ impl<const K: usize> BestFirst<'_, K> {
     fn open(&self, node: Node, reversed: bool) -> OpenNode {
         let side = &self.sides[usize::from(reversed)];
         OpenNode {
-            bound: side.base + (self.kernels.gap)(side.blocks, self.catalogue.tree.bounds(&node)),
+            bound: side.base
+                + (self.kernels.gap)([side.blocks; 2], self.catalogue.tree.bounds(&node)),
             node,
             reversed,
         }
@@ -196,18 +192,15 @@ impl<const K: usize> BestFirst<'_, K> {
             return;
         };
         let stride = sketches.stride();
-        let (low, high) = self.leaf.split_at_mut(self.leaf.len() / 2);
-        let (low, high) = (&mut low[..stride], &mut high[..stride]);
-        let out = [&mut *low, &mut *high];
+        let ours = &mut self.leaf[..stride];
         let base = self
             .query
-            .sketch_for(&sketches, reversed, self.kernels, out);
+            .sketch_for(&sketches, reversed, self.kernels, ours);
         for row in leaf.rows(&library.info().grid) {
             let mut bounds = [0; PATCH];
             let bounds = &mut bounds[..row.len()];
             let views = sketches.of_row(&row);
-            self.query
-                .bound([low, high], views, base, self.kernels, bounds);
+            bound(ours, views, base, self.kernels, bounds);
             for (view, &bound) in row.zip(&*bounds) {
                 if bound > self.found.limit() {
                     continue;

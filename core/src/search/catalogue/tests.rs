@@ -97,8 +97,8 @@ proptest! {
         let catalogue = Catalogue::new(&libraries, memory.borrow()).expect("they go together");
         let mut rotated = silhouette.clone();
         reverse(&silhouette, &mut rotated);
-        let mut prepared = std::vec![0; query_bytes_needed(&spec(), false)];
-        let query = Query::new(&spec(), &silhouette, &rotated, None, &mut prepared).expect("lengths");
+        let mut prepared = std::vec![0; query_bytes_needed(&spec())];
+        let query = Query::new(&spec(), &silhouette, &rotated, &mut prepared).expect("lengths");
         let mut bytes = std::vec![0; identify_bytes_needed(&spec())];
         let wanted = best_of_each(&libraries, &silhouette);
         let kernels = Kernels::PORTABLE;

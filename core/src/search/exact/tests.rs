@@ -1,7 +1,6 @@
 //! The search against comparing every view.
 
 use super::*;
-use crate::canonical::reverse;
 use crate::image::mask::Word;
 use crate::library::fake::{compact_library, plain_library, spots};
 use crate::memory::TooLittleMemory;
@@ -81,9 +80,8 @@ fn farthest_rival(library: &Library<'_>, best: &ViewMatch) -> u32 {
 fn check_search(bytes: &[u8], silhouette: &[Word]) {
     let library = Library::open(bytes).expect("valid");
     let (mut oracle, rotated) = Oracle::new(&library, silhouette);
-    let mut prepared = std::vec![0; query_bytes_needed(&spec(), false)];
-    let query =
-        Query::new(&spec(), silhouette, &rotated, None, &mut prepared).expect("right lengths");
+    let mut prepared = std::vec![0; query_bytes_needed(&spec())];
+    let query = Query::new(&spec(), silhouette, &rotated, &mut prepared).expect("right lengths");
     let surfaces = oracle.surfaces(&library);
     let mut bounds = [0; scores_needed(VIEWS)];
     let mut sketches = std::vec![0; search_bytes_needed(&spec())];
@@ -146,41 +144,6 @@ proptest! {
         let plain = plain_library(&views, COLUMNS, spec());
         check_search(&compact_library(&plain), &views[3]);
     }
-
-    #[test]
-    fn unknown_pixels_do_not_count((views, silhouette) in cases(), unknown in spots(SIZE)) {
-        let plain = plain_library(&views, COLUMNS, spec());
-        let compact = compact_library(&plain);
-        let mut rotated = silhouette.clone();
-        reverse(&silhouette, &mut rotated);
-        let mut unknown_rotated = unknown.clone();
-        reverse(&unknown, &mut unknown_rotated);
-        let mut prepared = std::vec![0; query_bytes_needed(&spec(), true)];
-        let query = Query::new(&spec(), &silhouette, &rotated, Some(&unknown), &mut prepared)
-            .expect("right lengths");
-        for bytes in [&plain, &compact] {
-            let library = Library::open(bytes).expect("valid");
-            let mut bounds = [0; scores_needed(VIEWS)];
-            let mut sketches = std::vec![0; search_bytes_needed(&spec())];
-            let memory = ViewSearchMemory { bounds: &mut bounds, sketches: &mut sketches };
-            let kernels = Kernels::PORTABLE;
-            let mut search = ViewSearch::new(&library, &query, &kernels, memory).expect("right lengths");
-            let mut all = std::vec::Vec::new();
-            for (reversed, ours, unknown) in [(false, &silhouette, &unknown), (true, &rotated, &unknown_rotated)] {
-                for (view, theirs) in views.iter().enumerate() {
-                    let pixels = ours.iter().zip(theirs).zip(unknown);
-                    let unmatched = pixels.map(|((a, b), open)| ((a ^ b) & !open).count_ones()).sum();
-                    prop_assert!(search.at_least(view, reversed) <= unmatched);
-                    all.push(ViewMatch { view, reversed, unmatched });
-                }
-            }
-            all.sort_by_key(|candidate| candidate.unmatched);
-            prop_assert_eq!(&search.best::<5>(Directions::Both)[..], &all[..5]);
-            for candidate in all {
-                prop_assert_eq!(search.score(candidate.view, candidate.reversed), candidate.unmatched);
-            }
-        }
-    }
 }
 
 #[test]
@@ -188,11 +151,11 @@ fn memory_of_a_wrong_length_is_refused() {
     let silhouette = std::vec![1; SIZE * SIZE / 32];
     let plain = plain_library(&std::vec![silhouette.clone(); VIEWS], COLUMNS, spec());
     let library = Library::open(&plain).expect("valid");
-    let mut prepared = std::vec![0; query_bytes_needed(&spec(), false)];
-    let short = Query::new(&spec(), &silhouette, &silhouette, None, &mut prepared[1..]);
+    let mut prepared = std::vec![0; query_bytes_needed(&spec())];
+    let short = Query::new(&spec(), &silhouette, &silhouette, &mut prepared[1..]);
     assert!(matches!(short, Err(MatchError::Memory { .. })));
     let query =
-        Query::new(&spec(), &silhouette, &silhouette, None, &mut prepared).expect("right lengths");
+        Query::new(&spec(), &silhouette, &silhouette, &mut prepared).expect("right lengths");
     let mut sketches = std::vec![0; search_bytes_needed(&spec())];
     let memory = ViewSearchMemory {
         bounds: &mut [0; VIEWS],

@@ -101,7 +101,7 @@ impl Memory {
         Self {
             canonical: vec![0; spec.words_needed()],
             turned: vec![0; spec.words_needed()],
-            query: vec![0; query_bytes_needed(spec, false)],
+            query: vec![0; query_bytes_needed(spec)],
             bytes: vec![0; identify_bytes_needed(spec)],
         }
     }
@@ -117,7 +117,7 @@ impl Memory {
         let camera = calibration.camera(mask.width(), mask.height())?;
         canonicalise(&mask, &spec, camera.aspect(), &mut self.canonical)?;
         reverse(&self.canonical, &mut self.turned);
-        let query = Query::new(&spec, &self.canonical, &self.turned, None, &mut self.query)?;
+        let query = Query::new(&spec, &self.canonical, &self.turned, &mut self.query)?;
         let kernels = fluoropose_kernels::fastest();
         let found = catalogue.identify::<TOLD>(&query, &kernels, &mut self.bytes)?;
         Ok(found.to_vec())

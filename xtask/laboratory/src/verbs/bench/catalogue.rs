@@ -125,7 +125,7 @@ impl Hunt {
         Self {
             spec,
             turned: vec![0; spec.words_needed()],
-            query: vec![0; query_bytes_needed(&spec, false)],
+            query: vec![0; query_bytes_needed(&spec)],
             bytes: vec![0; identify_bytes_needed(&spec)],
         }
     }
@@ -154,8 +154,7 @@ impl Hunt {
         for _ in 0..rounds {
             let (ms, found) = timed(|| -> Result<_> {
                 reverse(silhouette, &mut self.turned);
-                let query =
-                    Query::new(&self.spec, silhouette, &self.turned, None, &mut self.query)?;
+                let query = Query::new(&self.spec, silhouette, &self.turned, &mut self.query)?;
                 Ok(catalogue.identify::<1>(&query, &kernels, &mut self.bytes)?)
             });
             let best = *found?.first().context("the catalogue has no view")?;

@@ -312,7 +312,7 @@ impl SearchBuffers {
         Self {
             spec,
             turned: vec![0; spec.words_needed()],
-            query: vec![0; query_bytes_needed(&spec, false)],
+            query: vec![0; query_bytes_needed(&spec)],
             bounds: vec![0; scores_needed(library.views())],
             sketches: vec![0; search_bytes_needed(&spec)],
         }
@@ -321,7 +321,7 @@ impl SearchBuffers {
     /// The best view and its unmatched pixels; making the silhouette ready is part of the work.
     fn best(&mut self, library: &Library<'_>, straight: &[Word]) -> Result<[u32; 2]> {
         reverse(straight, &mut self.turned);
-        let query = Query::new(&self.spec, straight, &self.turned, None, &mut self.query)?;
+        let query = Query::new(&self.spec, straight, &self.turned, &mut self.query)?;
         let memory = ViewSearchMemory {
             bounds: &mut self.bounds,
             sketches: &mut self.sketches,
