@@ -1,5 +1,28 @@
-//! From several poses that fit alike to one: rivals are refined side by side, and one of them is chosen.
+//! From what a camera saw to one pose, with its reason and its verdict.
+//!
+//! [`find()`] is the way from a silhouette or a grey frame to the poses that explain it; [`Found::decide`] chooses among
+//! them and says how far the choice is to be trusted. Whoever wants a step alone finds it beside them: first poses,
+//! refinement of several rivals, starts round a pose that is roughly known, choice over a whole film.
 
+#[cfg(feature = "alloc")]
+mod buffers;
+mod candidate;
 pub mod choice;
+mod component;
+mod error;
+mod find;
+mod first;
+mod memory;
 pub mod nearby;
 pub mod rivals;
+mod verdict;
+
+#[cfg(feature = "alloc")]
+pub use buffers::FinderBuffers;
+pub use candidate::{CANDIDATES, Candidate};
+pub use component::Component;
+pub use error::FindError;
+pub use find::{Found, Goal, find};
+pub use first::{FIRST_POSES, FirstPoses, first_poses};
+pub use memory::FinderMemory;
+pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge};

@@ -14,36 +14,28 @@ use crate::workspace::{self, Stamp};
 /// One of the page's WASM modules.
 struct Module {
     package: &'static str,
-    features: &'static [&'static str],
     /// The folder of `web/src/pkg` for its JavaScript.
     folder: &'static str,
-    /// Built a second time for engines that have 128-bit vectors.
-    with_simd: bool,
 }
 
-/// They are built one by one: built together, cargo would unite the features of what they depend on.
-const MODULES: [Module; 3] = [
-    // What the page's own thread needs, and has to load first.
-    Module {
-        package: "fluoropose-page",
-        features: &[],
-        folder: "page",
-        with_simd: false,
-    },
-    // All of the core, for workers.
-    Module {
-        package: "fluoropose-wasm",
-        features: &[],
-        folder: "core",
-        with_simd: true,
-    },
-    Module {
-        package: "fluoropose-decode",
-        features: &[],
-        folder: "decode",
-        with_simd: false,
-    },
-];
+/// What the page's own thread needs, and has to load first.
+const PAGE: Module = Module {
+    package: "fluoropose-page",
+    folder: "page",
+};
+/// All of the core, for workers.
+const CORE: Module = Module {
+    package: "fluoropose-wasm",
+    folder: "core",
+};
+const DECODE: Module = Module {
+    package: "fluoropose-decode",
+    folder: "decode",
+};
+const MODULES: [&Module; 3] = [&PAGE, &CORE, &DECODE];
+
+/// Built a second time for engines that have 128-bit vectors.
+const WITH_SIMD: &Module = &CORE;
 
 /// How WASM modules are compiled.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -51,8 +43,18 @@ pub(crate) enum Build {
     /// As they are shipped: as small as can be, with and without 128-bit vectors.
     Shipped,
     /// In a third of the time, for a page on this machine: with vectors alone, and not united into one piece of code
-    /// (link-time optimisation). Results are the same.
+    /// (link-time optimisation). Results are the same. It has the profile of this program, with which it shares macros
+    /// and build scripts.
     Quick,
+}
+
+impl Build {
+    fn profile(self) -> &'static str {
+        match self {
+            Self::Shipped => "wasm",
+            Self::Quick => "release",
+        }
+    }
 }
 
 /// Compiled with 128-bit vectors.
@@ -92,68 +94,77 @@ pub(crate) fn build(how: Build) -> Result<PathBuf> {
 /// Builds the WASM modules and writes their JavaScript and TypeScript into `web/src/pkg`.
 fn build_wasm(web: &Path, how: Build) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
-    for module in &MODULES {
-        let folder = web.join("src/pkg").join(module.folder);
-        let name = module.package.replace('-', "_");
-        match how {
-            Build::Quick => {
-                generate_bindings(&build_module(&toolchain, module, how, true)?, &folder)?;
-                if module.with_simd {
-                    let [plain, wide] =
-                        ["", "_simd"].map(|kind| folder.join(format!("{name}{kind}_bg.wasm")));
-                    std::fs::copy(plain, wide)?;
-                }
-            }
-            Build::Shipped => {
-                generate_bindings(&build_module(&toolchain, module, how, false)?, &folder)?;
-                if module.with_simd {
-                    add_simd(&toolchain, module, &folder)?;
-                }
-            }
-        }
+    let quick = how == Build::Quick;
+    let files = build_modules(&toolchain, &MODULES, how, quick)?;
+    for (module, file) in MODULES.iter().zip(files) {
+        generate_bindings(&file, &module.bindings(web))?;
     }
-    Ok(())
+    if quick {
+        // There is no plain one.
+        let [plain, wide] =
+            ["", "_simd"].map(|kind| WITH_SIMD.bindings(web).join(WITH_SIMD.bound(kind)));
+        std::fs::copy(plain, wide)?;
+        return Ok(());
+    }
+    add_simd(&toolchain, web)
+}
+
+impl Module {
+    fn bindings(&self, web: &Path) -> PathBuf {
+        web.join("src/pkg").join(self.folder)
+    }
+
+    /// What its library is called.
+    fn name(&self) -> String {
+        self.package.replace('-', "_")
+    }
+
+    /// The file of the module beside its JavaScript.
+    fn bound(&self, kind: &str) -> String {
+        format!("{}{kind}_bg.wasm", self.name())
+    }
 }
 
 /// Puts the module for engines with 128-bit vectors beside the plain one. It has no JavaScript of its own: both are
 /// entered in the same way, which is checked.
-fn add_simd(toolchain: &Toolchain, module: &Module, folder: &Path) -> Result<()> {
-    let file = build_module(toolchain, module, Build::Shipped, true)?;
+fn add_simd(toolchain: &Toolchain, web: &Path) -> Result<()> {
+    let files = build_modules(toolchain, &[WITH_SIMD], Build::Shipped, true)?;
+    let (folder, name) = (WITH_SIMD.bindings(web), WITH_SIMD.name());
     let bindings = workspace::target_dir().join("simd-bindings");
-    generate_bindings(&file, &bindings)?;
-    let name = module.package.replace('-', "_");
+    for file in &files {
+        generate_bindings(file, &bindings)?;
+    }
     let glue = |folder: &Path| std::fs::read(folder.join(format!("{name}.js")));
     ensure!(
-        glue(&bindings)? == glue(folder)?,
+        glue(&bindings)? == glue(&folder)?,
         "the JavaScript of {name} with SIMD differs from that without"
     );
-    let wide = folder.join(format!("{name}_simd_bg.wasm"));
-    std::fs::copy(bindings.join(format!("{name}_bg.wasm")), wide)?;
+    let wide = folder.join(WITH_SIMD.bound("_simd"));
+    std::fs::copy(bindings.join(WITH_SIMD.bound("")), wide)?;
     Ok(())
 }
 
-fn build_module(toolchain: &Toolchain, module: &Module, how: Build, wide: bool) -> Result<PathBuf> {
-    let Module {
-        package,
-        features,
-        folder,
-        ..
-    } = module;
-    let profile = match how {
-        Build::Shipped => "wasm",
-        Build::Quick => "wasm-quick",
-    };
-    let kind = if wide { ", with SIMD" } else { "" };
+/// Builds modules side by side: what one alone needs is compiled while another is put together.
+fn build_modules(
+    toolchain: &Toolchain,
+    modules: &[&Module],
+    how: Build,
+    wide: bool,
+) -> Result<Vec<PathBuf>> {
     let target_dir = workspace::target_dir();
     let mut cargo = toolchain.cargo("build", &target_dir);
-    cargo
-        .args(["--profile", profile, "--lib", "--package", package])
-        .args(*features)
-        .args(WIDE.iter().filter(|_| wide));
-    let what = format!("building {package} for the page ({folder}{kind})");
+    cargo.args(["--profile", how.profile(), "--lib"]);
+    cargo.args(WIDE.iter().filter(|_| wide));
+    for module in modules {
+        cargo.args(["--package", module.package]);
+    }
+    let folders: Vec<&str> = modules.iter().map(|module| module.folder).collect();
+    let kind = if wide { ", with SIMD" } else { "" };
+    let what = format!("building the page's modules ({}{kind})", folders.join(", "));
     timed(&what, || command::run(&mut cargo))?;
-    let file = format!("{}.wasm", package.replace('-', "_"));
-    Ok(toolchain.output_dir(profile, &target_dir).join(file))
+    let built = toolchain.output_dir(how.profile(), &target_dir);
+    let file = |module: &&Module| built.join(format!("{}.wasm", module.name()));
+    Ok(modules.iter().map(file).collect())
 }
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {

@@ -54,6 +54,8 @@ pub struct RefinedRival {
     pub start: usize,
     /// Whether it was refined from the mirror image of what that start became.
     pub mirrored: bool,
+    /// The pose that it was refined from.
+    pub from: Pose,
     /// What refinement made of it.
     pub refined: Refined,
 }
@@ -122,6 +124,7 @@ impl RivalRefinement<'_, '_> {
         let answer = RefinedRival {
             start,
             mirrored,
+            from: *pose,
             refined,
         };
         keep(&mut self.answers, answer, |other| other.refined.loss);

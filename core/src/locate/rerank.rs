@@ -44,10 +44,11 @@ pub fn unmatched_at_pose(
 }
 
 /// Draws the model at each pose and puts the poses in order, fewest differing pixels first. Of
-/// more than `K` poses only the first `K` are drawn.
+/// more than `K` poses only the first `K` are drawn. A pose at which the model reaches the focus explains nothing and is
+/// left out.
 ///
 /// # Errors
-/// Those of [`unmatched_at_pose`].
+/// Those of [`unmatched_at_pose`]; that of a pose only where the model can be drawn at none.
 pub fn rerank<const K: usize>(
     poses: &[Located],
     model: &Model<'_>,
@@ -57,13 +58,19 @@ pub fn rerank<const K: usize>(
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
     let mut reranked: Vec<Reranked, K> = Vec::new();
-    for located in poses.iter().take(K) {
-        let unmatched =
-            unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn)?;
-        let located = *located;
-        keep(&mut reranked, Reranked { located, unmatched }, |other| {
-            other.unmatched
-        });
+    let mut undrawable = None;
+    for &located in poses.iter().take(K) {
+        match unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn) {
+            Ok(unmatched) => {
+                let own = Reranked { located, unmatched };
+                keep(&mut reranked, own, |other| other.unmatched);
+            }
+            Err(error @ RenderError::BehindCamera(_)) => undrawable = Some(error),
+            Err(error) => return Err(error),
+        }
     }
-    Ok(reranked)
+    match undrawable.filter(|_| reranked.is_empty()) {
+        Some(error) => Err(error),
+        None => Ok(reranked),
+    }
 }

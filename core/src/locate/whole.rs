@@ -91,6 +91,8 @@ pub struct Located {
     pub view: usize,
     /// The interpolated view.
     pub fine: FineView,
+    /// Whether pieces of the outline led to it ([`crate::locate::partial`]): then `fine` has no score of whole silhouettes.
+    pub by_pieces: bool,
 }
 
 /// What [`locate`] found.
@@ -134,6 +136,7 @@ pub fn locate<const K: usize>(
                 pose: pose_from_view(camera, info, &form, &fine),
                 view: candidate.view,
                 fine,
+                by_pieces: false,
             }
         })
         .collect();

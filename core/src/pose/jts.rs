@@ -123,11 +123,20 @@ pub fn write_heading(out: &mut impl fmt::Write) -> fmt::Result {
     )
 }
 
-/// Writes one row.
+/// Writes one row; six times NaN for a frame without a pose.
 ///
 /// # Errors
 /// Only those of `out`.
-pub fn write_row(out: &mut impl fmt::Write, pose: &EulerPose) -> fmt::Result {
+pub fn write_row(out: &mut impl fmt::Write, pose: Option<&EulerPose>) -> fmt::Result {
+    let none = EulerPose {
+        x_mm: f64::NAN,
+        y_mm: f64::NAN,
+        z_mm: f64::NAN,
+        z_rot_deg: f64::NAN,
+        x_rot_deg: f64::NAN,
+        y_rot_deg: f64::NAN,
+    };
+    let pose = pose.unwrap_or(&none);
     writeln!(
         out,
         "{:>22},{:>23},{:>23},{:>24},{:>23},{:>23}",
@@ -234,10 +243,12 @@ mod tests {
             let pose = EulerPose { x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg };
             let mut text = std::string::String::new();
             write_heading(&mut text).expect("memory");
-            write_row(&mut text, &pose).expect("memory");
-            let back = read(&text).expect("heading").next().expect("a row");
+            write_row(&mut text, Some(&pose)).expect("memory");
+            write_row(&mut text, None).expect("memory");
+            let mut rows = read(&text).expect("heading");
             let zeros = pose == EulerPose::default();
-            prop_assert_eq!(back, Ok((!zeros).then_some(pose)));
+            prop_assert_eq!(rows.next().expect("a row"), Ok((!zeros).then_some(pose)));
+            prop_assert_eq!(rows.next().expect("a row"), Ok(None));
         }
     }
 }

@@ -25,6 +25,21 @@ pub struct Refined {
     pub converged: bool,
 }
 
+impl Refined {
+    /// A pose before refinement.
+    pub(super) fn at(pose: Pose) -> Self {
+        Self {
+            pose,
+            offset_px: 0.0,
+            residual_px: 0.0,
+            robust_sigma_px: 0.0,
+            loss: 0.0,
+            renders: 0,
+            converged: false,
+        }
+    }
+}
+
 /// A pose on the way, from which a caller can see how refinement converges.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iterate {

@@ -43,15 +43,7 @@ pub fn refine_traced(
     let mut problem = Problem::new(model, views, memory)?;
     problem.hold(options.locks, start);
     problem.effort = options.effort;
-    let mut state = Refined {
-        pose: *start,
-        offset_px: 0.0,
-        residual_px: 0.0,
-        robust_sigma_px: 0.0,
-        loss: 0.0,
-        renders: 0,
-        converged: false,
-    };
+    let mut state = Refined::at(*start);
     let mut pass = Pass::default();
     let mut seen = problem.run(&pass, &mut state, None, memory, trace)?;
     for index in 1..STAGES {

@@ -11,6 +11,7 @@
 use super::border::BorderPixel;
 use super::equations::Equations;
 use super::error::RefineError;
+use super::fit::{Fit, FitSums};
 use super::loss::Loss;
 use super::memory::RefineMemory;
 use super::problem::Problem;
@@ -18,6 +19,7 @@ use super::result::Refined;
 use super::stages::{Pass, STAGES, Stage};
 use super::view::CameraView;
 use crate::mesh::Model;
+use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
 /// Width of a bin of distance, pixels, and number of bins.
@@ -36,13 +38,84 @@ const LEAST_CURVATURE: f64 = 0.2;
 /// Independent stretches beyond the six parameters that are supposed at least.
 const LEAST_FREEDOM: f64 = 4.0;
 
-/// Covariance of a refined pose, so wide that the ellipsoid of 95 % of a normal distribution in
-/// six dimensions (squared radius 12.59) holds the truth in 95 % of cases: the few independent
-/// stretches of an outline determine their own variance poorly, which the width allows for.
+/// What the outline says of a pose: how sure it is, and how well it fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Assessment {
+    /// Covariance of the pose, so wide that the ellipsoid of 95 % of a normal distribution in
+    /// six dimensions (squared radius 12.59) holds the truth in 95 % of cases: the few independent
+    /// stretches of an outline determine their own variance poorly, which the width allows for.
+    ///
+    /// It knows of random errors that vary along the outline. What shifts the whole outline alike (a
+    /// trace that is everywhere too wide, a wrong calibration) leaves no residual and is not in it.
+    /// `None` where the outline does not determine the pose.
+    pub covariance: Option<PoseCovariance>,
+    /// How well the model's outline is met by what was seen.
+    pub fit: Fit,
+}
+
+/// How sure a refined pose is and how well it fits, from one more drawing in each view.
 ///
-/// It knows of random errors that vary along the outline. What shifts the whole outline alike (a
-/// trace that is everywhere too wide, a wrong calibration) leaves no residual and is not in it.
-/// `None` where the outline does not determine the pose.
+/// # Errors
+/// [`RefineError`] as of [`super::refine`].
+pub fn assess(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    refined: &Refined,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Assessment, RefineError> {
+    let mut sums = Sums::default();
+    let fit = observe(model, views, refined, memory, |border, loss| {
+        sums.add(border, loss, 6.0 / views.len() as f64);
+    })?;
+    Ok(Assessment {
+        covariance: sums.covariance(),
+        fit,
+    })
+}
+
+/// How well a pose fits, from one drawing in each view. The pose need not be a refined one.
+///
+/// # Errors
+/// [`RefineError`] as of [`super::refine`].
+pub fn fit_at(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    pose: &Pose,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Fit, RefineError> {
+    let unrefined = Refined::at(*pose);
+    observe(model, views, &unrefined, memory, |_, _| ())
+}
+
+/// Looks at the outline at a pose as the last stage of refinement does; `each` gets the samples of every view.
+fn observe(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    refined: &Refined,
+    memory: &mut RefineMemory<'_>,
+    mut each: impl FnMut(&[BorderPixel], Loss),
+) -> Result<Fit, RefineError> {
+    let problem = Problem::new(model, views, memory)?;
+    let pass = Pass {
+        index: STAGES - 1,
+        sigma_px: refined.robust_sigma_px,
+        free: false,
+    };
+    let mut sums = FitSums::default();
+    for view in views {
+        let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
+        let (pose, offset) = (&refined.pose, refined.offset_px);
+        let mut equations = Equations::new();
+        let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
+        let border = memory.border.get(..count).unwrap_or_default();
+        each(border, stage.loss);
+        sums.add_samples(border, stage.range);
+        sums.add_areas(&view.target, memory.drawn)?;
+    }
+    Ok(sums.fit())
+}
+
+/// Covariance of a refined pose; see [`Assessment::covariance`].
 ///
 /// # Errors
 /// [`RefineError`] as of [`super::refine`].
@@ -52,22 +125,7 @@ pub fn uncertainty(
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Option<PoseCovariance>, RefineError> {
-    let problem = Problem::new(model, views, memory)?;
-    let pass = Pass {
-        index: STAGES - 1,
-        sigma_px: refined.robust_sigma_px,
-        free: false,
-    };
-    let mut sums = Sums::default();
-    for view in views {
-        let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
-        let (pose, offset) = (&refined.pose, refined.offset_px);
-        let mut equations = Equations::new();
-        let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
-        let border = memory.border.get(..count).unwrap_or_default();
-        sums.add(border, stage.loss, 6.0 / views.len() as f64);
-    }
-    Ok(sums.covariance())
+    Ok(assess(model, views, refined, memory)?.covariance)
 }
 
 /// Sums over the samples of all views.

@@ -21,7 +21,7 @@ pub fn read_jts(text: &str) -> Result<Vec<f64>, JsError> {
     Ok(numbers)
 }
 
-/// A `.jts` text of rows of six numbers.
+/// A `.jts` text of rows of six numbers; six times NaN for a frame without a pose.
 ///
 /// # Errors
 /// When a row is short or a number is not finite.
@@ -30,7 +30,9 @@ pub fn write_jts(numbers: &[f64]) -> Result<String, JsError> {
     let mut text = String::new();
     jts::write_heading(&mut text).map_err(sentence)?;
     for row in numbers.chunks(6) {
-        jts::write_row(&mut text, &from_numbers(row)?).map_err(sentence)?;
+        let empty = row.len() == 6 && row.iter().all(|number| number.is_nan());
+        let pose = (!empty).then(|| from_numbers(row)).transpose()?;
+        jts::write_row(&mut text, pose.as_ref()).map_err(sentence)?;
     }
     Ok(text)
 }

@@ -5,14 +5,12 @@ mod build;
 mod clicker;
 mod film;
 mod finder;
-mod locator;
 mod refiner;
 mod views;
 
 pub use build::{Built, build_library};
 pub use clicker::{Clicked, Clicker};
-pub use film::{FrameFound, find_poses, misfit};
-pub use finder::{Answer, EdgeOptions, Finder, Method};
-pub use locator::Locator;
+pub use film::{FrameFound, find_poses};
+pub use finder::{EdgeOptions, Finder, Method};
 pub use refiner::Refiner;
 pub use views::ViewOptions;

@@ -178,7 +178,7 @@ fn poses(positions: &[Position], of: fn(&Position) -> EulerPose) -> Result<Strin
     let mut text = String::new();
     jts::write_heading(&mut text)?;
     for position in positions {
-        jts::write_row(&mut text, &of(position))?;
+        jts::write_row(&mut text, Some(&of(position)))?;
     }
     Ok(text)
 }

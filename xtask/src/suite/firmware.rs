@@ -101,9 +101,17 @@ fn ensure_alike(host: &str, board: &str) -> Result<usize> {
     Ok(here)
 }
 
+/// The image for the board is united into one piece of code; here that is only waited for.
+const HOST: [&str; 4] = [
+    "--config",
+    "profile.release.lto='off'",
+    "--config",
+    "profile.release.codegen-units=16",
+];
+
 fn on_host(features: &[&str]) -> Result<String> {
     let mut cargo = own_cargo();
-    at_firmware(cargo.args(["run", "--quiet", "--release"])).args(features);
+    at_firmware(cargo.args(["run", "--quiet", "--release"]).args(HOST)).args(features);
     cargo.arg("--target-dir").arg(folder());
     command::output(&mut cargo)
 }

@@ -45,11 +45,12 @@ pub(crate) fn run(report: &mut Report) {
         quiet(own_cargo().args(lint))
     });
     report.step("native: tests", || {
-        tests(
-            own_cargo()
-                .args(["test", "--workspace", "--no-fail-fast"])
-                .args(CHECKED),
-        )
+        let everything = ["test", "--workspace", "--exclude", "xtask", "--no-fail-fast"];
+        tests(own_cargo().args(everything).args(CHECKED))
+    });
+    // By itself it shares with the program that runs here all that this was built from.
+    report.step("native: tests of this program", || {
+        tests(own_cargo().args(["test", "--package", "xtask", "--release"]))
     });
 }
 

@@ -64,6 +64,7 @@ impl Hypothesis {
             pose: pose_from_view(camera, info, &form, &fine),
             view: self.view,
             fine,
+            by_pieces: true,
         }
     }
 }

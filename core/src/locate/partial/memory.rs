@@ -74,6 +74,19 @@ pub fn partial_needed(library: &Library<'_>, camera: &Camera, model: &Model<'_>)
 }
 
 impl PartialMemory<'_> {
+    /// The same memory, borrowed for a shorter time.
+    pub fn reborrow(&mut self) -> PartialMemory<'_> {
+        PartialMemory {
+            words: self.words,
+            sides: self.sides,
+            points: self.points,
+            cells: self.cells,
+            numbers: self.numbers,
+            hypotheses: self.hypotheses,
+            projected: self.projected,
+        }
+    }
+
     /// # Errors
     /// [`TooLittleMemory`] names the first slice that is too short.
     pub(super) fn check(&self, needs: &PartialNeeds) -> Result<(), TooLittleMemory> {

@@ -6,25 +6,36 @@ use anyhow::Result;
 use fluoropose::finder::choice::{
     Choice, Counterpart, FilmFrame, FilmStep, OpenRival, Reason, RivalPose, choose_film,
 };
-
-use crate::finding::{Answer, FrameFound, misfit};
+use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
 use fluoropose::pose::Pose;
+
+use crate::finding::FrameFound;
 
 /// The pose of a frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Decision {
     /// The pose that was chosen.
-    pub answer: Answer,
+    pub chosen: Candidate,
     /// The best of the others: one that nothing ruled out, where there is any.
-    pub rival: Option<Answer>,
+    pub rival: Option<Candidate>,
     /// What decided.
     pub choice: Choice,
+    /// How far it is to be trusted.
+    pub verdict: Verdict,
+}
+
+impl Decision {
+    /// The pose, unless it was refused.
+    pub fn pose(&self) -> Option<Pose> {
+        let refused = matches!(self.verdict, Verdict::NoFit(_));
+        (!refused).then_some(self.chosen.pose)
+    }
 }
 
 /// A sentence without its full stop.
 impl fmt::Display for Decision {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.answer.refined.is_some() {
+        if self.chosen.refined.is_some() {
             return self.choice.fmt(f);
         }
         // What the library leaves is counted in pixels that differ, and is no distance.
@@ -52,7 +63,7 @@ impl fmt::Display for Decision {
 
 /// Chooses a pose in every frame of a sequence, all of them together ([`choose_film`]);
 /// `counterparts` are the other component's poses, a frame each, where they are known. `axes` rotates the field's axes into
-/// the model's ([`fluoropose::mesh::anatomy::field_axes`]); counterparts have the field's. `None` for frames without answers.
+/// the model's ([`fluoropose::mesh::anatomy::field_axes`]); counterparts have the field's. `None` for frames without candidates.
 ///
 /// # Errors
 /// Those of [`choose_film`], which there are none of.
@@ -61,13 +72,16 @@ pub fn decide(
     counterparts: &[Option<Counterpart>],
     axes: &Pose,
 ) -> Result<Vec<Option<Decision>>> {
-    let candidate = |answer: &Answer| RivalPose {
-        pose: answer.pose.compose(axes),
-        residual_px: misfit(answer),
+    let in_field_axes = |rival: RivalPose| RivalPose {
+        pose: rival.pose.compose(axes),
+        ..rival
     };
     let candidates: Vec<Vec<RivalPose>> = film
         .iter()
-        .map(|frame| frame.answers.iter().map(candidate).collect())
+        .map(|frame| {
+            let rivals = contenders(&frame.candidates).into_iter();
+            rivals.map(in_field_axes).collect()
+        })
         .collect();
     let frames: Vec<FilmFrame<'_>> = candidates
         .iter()
@@ -82,19 +96,20 @@ pub fn decide(
     choose_film(&frames, &mut steps, &mut choices)?;
     let decided = choices.into_iter().zip(film);
     Ok(decided
-        .map(|(choice, frame)| Decision::of(choice?, &frame.answers))
+        .map(|(choice, frame)| Decision::of(choice?, &frame.candidates))
         .collect())
 }
 
 impl Decision {
-    fn of(choice: Choice, answers: &[Answer]) -> Option<Self> {
-        let others = answers.iter().enumerate();
+    fn of(choice: Choice, candidates: &[Candidate]) -> Option<Self> {
+        let others = candidates.iter().enumerate();
         let others = others.filter(|&(index, _)| index != choice.index);
-        let best = others.min_by(|(_, a), (_, b)| misfit(a).total_cmp(&misfit(b)));
-        let open = choice.open.and_then(|open| answers.get(open.index));
+        let best = others.min_by(|(_, a), (_, b)| a.misfit().total_cmp(&b.misfit()));
+        let open = choice.open.and_then(|open| candidates.get(open.index));
         Some(Self {
-            answer: *answers.get(choice.index)?,
-            rival: open.or(best.map(|(_, answer)| answer)).copied(),
+            chosen: *candidates.get(choice.index)?,
+            rival: open.or(best.map(|(_, candidate)| candidate)).copied(),
+            verdict: judge(candidates, &choice, &Limits::USUAL)?,
             choice,
         })
     }

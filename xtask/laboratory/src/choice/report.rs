@@ -3,19 +3,20 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
+use fluoropose::finder::Candidate;
 use fluoropose::math::Vector3;
 use fluoropose::pose::{EulerPose, Pose};
 use serde::Serialize;
 
 use super::decide::Decision;
 use crate::files::{name_of, write_json, write_text};
-use crate::finding::{Answer, FrameFound, misfit};
+use crate::finding::FrameFound;
 
 /// What the tables hold, for the help of the verbs that write them.
 pub const HELP: &str = "\
 The uncertainty table has a row a frame: the pose (mm, degrees), one standard deviation (1 SD) of each of its numbers, of random errors \
 along the outline (what shifts the whole outline alike, as a trace that is everywhere too wide, is not in it; the library alone gives none), \
-the residual (root of twice the robust loss, pixels), the offset of the edges where --edge-offset found one, what decided for \
+the residual (root of twice the robust loss, pixels), the offset of the edges where --edge-offset found one, the verdict (good, doubtful or none) and why, what decided for \
 this pose, and the best of the other poses (one that nothing ruled out, where there is any) with its residual. A frame without a pose has a row that says so.";
 
 /// The six numbers of a pose, or a standard deviation of each.
@@ -48,9 +49,9 @@ impl Numbers {
         ]
     }
 
-    /// Standard deviations of an answer's numbers; `middle` is that of the model's box.
-    pub fn deviations(answer: &Answer, middle: &Vector3) -> Option<Self> {
-        let deviations = answer.covariance?.deviations(&answer.pose, middle);
+    /// Standard deviations of a candidate's numbers; `middle` is that of the model's box.
+    pub fn deviations(candidate: &Candidate, middle: &Vector3) -> Option<Self> {
+        let deviations = candidate.covariance?.deviations(&candidate.pose, middle);
         Some(Self {
             x_mm: deviations.x_mm,
             y_mm: deviations.y_mm,
@@ -91,6 +92,10 @@ pub struct FrameReport {
     pub residual_px: Option<f64>,
     /// How far the target's edges lie beyond the model's outline, pixels.
     pub offset_px: Option<f64>,
+    /// `good`, `doubtful` or `none`.
+    pub verdict: &'static str,
+    /// Why, in a sentence; where there is no pose, why not.
+    pub because: String,
     /// What decided for this pose.
     pub decided_by: String,
     /// The best of the other poses.
@@ -101,17 +106,21 @@ pub struct FrameReport {
 
 impl FrameReport {
     fn new(frame: usize, found: &FrameFound, decision: Option<&Decision>, at: &Vector3) -> Self {
-        let residual = |answer: &Answer| answer.refined.map(|_| misfit(answer));
-        let answer = decision.map(|decision| &decision.answer);
-        let rival = decision.and_then(|decision| decision.rival);
+        let residual =
+            |candidate: &Candidate| candidate.refined.map(|_| candidate.misfit());
+        let posed = decision.filter(|decision| decision.pose().is_some());
+        let chosen = posed.map(|decision| &decision.chosen);
+        let rival = posed.and_then(|decision| decision.rival);
         Self {
             frame,
             file: name_of(&found.file),
-            pose: answer.map(|answer| answer.pose.into()),
-            sd: answer.and_then(|answer| Numbers::deviations(answer, at)),
-            residual_px: answer.and_then(residual),
-            offset_px: answer.and_then(|answer| Some(answer.refined?.offset_px)),
-            decided_by: decision.map_or("no pose found".to_owned(), Decision::to_string),
+            pose: chosen.map(|chosen| chosen.pose.into()),
+            sd: chosen.and_then(|chosen| Numbers::deviations(chosen, at)),
+            residual_px: chosen.and_then(residual),
+            offset_px: chosen.and_then(|chosen| Some(chosen.refined?.offset_px)),
+            verdict: decision.map_or("none", |decision| decision.verdict.word()),
+            because: why(found, decision),
+            decided_by: posed.map_or(String::new(), Decision::to_string),
             rival: rival.map(|rival| rival.pose.into()),
             rival_residual_px: rival.and_then(|rival| residual(&rival)),
         }
@@ -130,11 +139,22 @@ impl FrameReport {
         cells.extend([
             number(self.residual_px),
             number(self.offset_px),
+            self.verdict.to_owned(),
+            quoted(&self.because),
             quoted(&self.decided_by),
         ]);
         cells.extend(six(self.rival));
         cells.push(number(self.rival_residual_px));
         cells
+    }
+}
+
+/// Why a frame has its verdict, in a sentence.
+pub fn why(found: &FrameFound, decision: Option<&Decision>) -> String {
+    match (decision, &found.failure) {
+        (Some(decision), _) => decision.verdict.to_string(),
+        (None, Some(failure)) => failure.clone(),
+        (None, None) => "no pose found".to_owned(),
     }
 }
 
@@ -144,7 +164,7 @@ fn quoted(text: &str) -> String {
 }
 
 const HEADING: &str = "frame,file,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
-sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,residual_px,offset_px,decided_by,\
+sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,residual_px,offset_px,verdict,because,decided_by,\
 rival_x_mm,rival_y_mm,rival_z_mm,rival_z_rot_deg,rival_x_rot_deg,rival_y_rot_deg,rival_residual_px";
 
 /// The table of a sequence; `middle` is that of the model's box.
@@ -205,7 +225,9 @@ mod tests {
             sd: None,
             residual_px: None,
             offset_px: None,
-            decided_by: "no pose found".to_owned(),
+            verdict: "none",
+            because: "no pose found".to_owned(),
+            decided_by: String::new(),
             rival: None,
             rival_residual_px: None,
         }

@@ -26,11 +26,11 @@ pub fn read_poses(path: &Path) -> Result<Vec<Option<Pose>>> {
 ///
 /// # Errors
 /// Names the file.
-pub fn write_poses(path: &Path, poses: &[EulerPose]) -> Result<()> {
+pub fn write_poses(path: &Path, poses: &[Option<EulerPose>]) -> Result<()> {
     let mut text = String::new();
     jts::write_heading(&mut text)?;
     for pose in poses {
-        jts::write_row(&mut text, pose)?;
+        jts::write_row(&mut text, pose.as_ref())?;
     }
     write_text(path, &text)
 }

@@ -1,8 +1,11 @@
 //! Poses of every frame of a sequence.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::finder::{Answer, Finder};
+use fluoropose::finder::Candidate;
+use rayon::prelude::*;
+
+use super::finder::Finder;
 use crate::progress::progress;
 use crate::sequence::Sequence;
 
@@ -12,35 +15,33 @@ pub struct FrameFound {
     /// File of the mask.
     pub file: PathBuf,
     /// The poses that explain it, best first; none where none was found.
-    pub answers: Vec<Answer>,
+    pub candidates: Vec<Candidate>,
+    /// Why none was found.
+    pub failure: Option<String>,
 }
 
-/// Finds the poses of every frame of a sequence. A frame without one is named on standard error
-/// and has no answers.
-pub fn find_poses(finder: &mut Finder<'_>, sequence: &Sequence<'_>) -> Vec<FrameFound> {
-    let bar = progress(sequence.masks().len(), "masks");
-    let files = sequence.masks().map(|(path, _)| path).enumerate();
-    let found = files.map(|(frame, path): (usize, &Path)| {
-        let answers = sequence.look(frame, |seen| finder.all(seen));
+/// Finds the poses of every frame of a sequence, on all cores. A frame without one has no candidates and says why.
+pub fn find_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<FrameFound> {
+    let files: Vec<PathBuf> = sequence.masks().map(|(path, _)| path.to_owned()).collect();
+    let bar = progress(files.len(), "masks");
+    let find = |finder: &mut Finder<'_>, (frame, file): (usize, PathBuf)| {
+        let found = sequence.look(frame, |seen| finder.all(seen));
         bar.inc(1);
-        FrameFound {
-            file: path.to_owned(),
-            answers: answers.unwrap_or_else(|error| {
-                bar.suspend(|| eprintln!("no pose for {}: {error:#}", path.display()));
-                Vec::new()
-            }),
+        match found {
+            Ok(found) => FrameFound {
+                file,
+                candidates: found.candidates.to_vec(),
+                failure: None,
+            },
+            Err(error) => FrameFound {
+                file,
+                candidates: Vec::new(),
+                failure: Some(format!("{error:#}")),
+            },
         }
-    });
-    let found = found.collect();
+    };
+    let frames = files.into_par_iter().enumerate();
+    let found = frames.map_init(|| finder.clone(), find).collect();
     bar.finish_and_clear();
     found
-}
-
-/// How badly a pose fits, by which the poses of a frame are compared: pixels that differ when the
-/// model is drawn, or, after refinement, the root of twice the robust loss in pixels. That is the
-/// root mean square of what remains between the outlines where it is small, and counts outline
-/// that has no counterpart.
-pub fn misfit(answer: &Answer) -> f64 {
-    let refined = answer.refined.map(|refined| (2.0 * refined.loss).sqrt());
-    refined.unwrap_or(answer.located.unmatched as f64)
 }

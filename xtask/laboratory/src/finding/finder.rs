@@ -2,17 +2,20 @@
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::finder::rivals::{RefinedRival, worth_refining};
+use fluoropose::finder::nearby::{WIDE_DEG, nearby};
+use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
+use fluoropose::finder::{Component, FindError, FinderBuffers, Found, Goal, find};
 use fluoropose::image::silhouette::Silhouette;
-use fluoropose::locate::rerank::Reranked;
+use fluoropose::library::Library;
 use fluoropose::mesh::Model;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, Refined};
+use fluoropose::refine::{
+    CameraView, ImageTarget, Polarity, RefineOptions, Refined, uncertainty,
+};
 use serde::Serialize;
 
-use super::locator::Locator;
-use super::refiner::Refiner;
 use crate::sequence::Seen;
 
 /// How poses are found.
@@ -61,9 +64,6 @@ impl EdgeOptions {
     }
 }
 
-/// Poses of an outline that are brought onto the grey frame: the best of them.
-const ON_IMAGE: usize = 3;
-
 /// A frame as a target of refinement; what is unknown of the silhouette is unknown there.
 ///
 /// # Errors
@@ -79,100 +79,79 @@ fn image<'a>(seen: &Seen<'a>, edges: EdgeOptions) -> Result<ImageTarget<'a>> {
     })
 }
 
-/// A pose that explains a frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Answer {
-    /// `camera_from_model`, as good as the method makes it.
-    pub pose: Pose,
-    /// What the library said.
-    pub located: Reranked,
-    /// What refinement made of it, where it was asked for.
-    pub refined: Option<Refined>,
-    /// How sure the refined pose is.
-    pub covariance: Option<PoseCovariance>,
-}
-
-/// A library, its model and a camera, ready for frames.
+/// A library, its model and a camera, ready for frames. A copy has working memory of its own.
+#[derive(Clone)]
 pub struct Finder<'l> {
-    locator: Locator<'l>,
-    refiner: Refiner<'l>,
+    library: Library<'l>,
+    model: Model<'l>,
+    planes: Vec<SymmetryPlane>,
     camera: Camera,
     method: Method,
     edges: EdgeOptions,
+    buffers: FinderBuffers,
 }
 
 impl<'l> Finder<'l> {
-    /// Opens the bytes of a library of `mesh` for frames of `camera`.
+    /// Opens the bytes of a library of `model` for frames of `camera`.
     ///
     /// # Errors
-    /// Those of [`Locator::open`].
-    pub fn open(bytes: &'l [u8], mesh: Model<'l>, camera: Camera, method: Method) -> Result<Self> {
+    /// Those of [`Library::open`], and when the library was made from another model.
+    pub fn open(bytes: &'l [u8], model: Model<'l>, camera: Camera, method: Method) -> Result<Self> {
+        let library = Library::open(bytes)?;
+        if library.info().model != model.digest() {
+            return Err(FindError::OtherModel.into());
+        }
         Ok(Self {
-            locator: Locator::open(bytes, mesh)?,
-            refiner: Refiner::new(mesh, RefineOptions::default()),
+            library,
+            planes: symmetry_planes(model.mesh()).to_vec(),
+            model,
             camera,
             method,
             edges: EdgeOptions::default(),
+            buffers: FinderBuffers::default(),
         })
     }
 
     /// The same, with edges looked for otherwise.
     pub fn with_edges(mut self, edges: EdgeOptions) -> Self {
         self.edges = edges;
-        self.refiner.set_options(RefineOptions {
-            edge_offset: edges.edge_offset,
-            ..RefineOptions::default()
-        });
         self
     }
 
-    /// All poses that explain a frame, best first: by the loss after refinement, or by the
-    /// pixels that differ when the model is drawn.
-    ///
-    /// # Errors
-    /// Those of [`Locator::locate`], of refinement where no rival can be refined, and where the
-    /// method needs a frame and there is none.
-    pub fn all(&mut self, seen: &Seen<'_>) -> Result<Vec<Answer>> {
-        let rivals = self.locator.locate(&seen.silhouette, &self.camera)?;
-        if self.method == Method::Library {
-            return Ok(rivals.iter().map(Answer::unrefined).collect());
+    fn options(&self) -> RefineOptions {
+        RefineOptions {
+            edge_offset: self.edges.edge_offset,
+            ..RefineOptions::default()
         }
-        let camera = self.camera;
-        let worth = worth_refining(&rivals);
-        let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let view = CameraView::only(&camera, seen.silhouette);
-        let refined = self.refiner.refine(&[view], &starts)?;
-        if self.method == Method::Refined {
-            return self.answers(&view, &refined, |found| worth[found.start]);
-        }
-        // Their mirror images are among them.
-        let poses = refined
-            .iter()
-            .take(ON_IMAGE)
-            .map(|found| found.refined.pose);
-        let poses: Vec<Pose> = poses.collect();
-        let on_image = self.refine_on_image(seen, &poses)?;
-        let view = CameraView::only(&camera, image(seen, self.edges)?);
-        self.answers(&view, &on_image, |found| worth[refined[found.start].start])
     }
 
-    /// Refined poses with what led to them and how sure they are.
-    fn answers(
-        &mut self,
-        view: &CameraView<'_>,
-        refined: &[RefinedRival],
-        located: impl Fn(&RefinedRival) -> Reranked,
-    ) -> Result<Vec<Answer>> {
-        let answer = |found: &RefinedRival| {
-            let covariance = self.refiner.uncertainty(&[*view], &found.refined)?;
-            Ok(Answer {
-                pose: found.refined.pose,
-                located: located(found),
-                refined: Some(found.refined),
-                covariance,
-            })
+    /// All poses that explain a frame, best first; see [`find`].
+    ///
+    /// # Errors
+    /// Those of [`find`], and where the method needs a frame and there is none.
+    pub fn all(&mut self, seen: &Seen<'_>) -> Result<Found> {
+        let goal = match self.method {
+            Method::Library => Goal::Library,
+            Method::Refined => Goal::Outline,
+            Method::Image => Goal::Image(image(seen, self.edges)?),
         };
-        refined.iter().map(answer).collect()
+        let options = self.options();
+        let component = Component {
+            library: &self.library,
+            model: &self.model,
+            planes: &self.planes,
+        };
+        let kernels = fluoropose_kernels::fastest();
+        let mut memory = self.buffers.borrow(&component, &self.camera, kernels);
+        let silhouette = &seen.silhouette;
+        Ok(find(
+            &component,
+            &self.camera,
+            silhouette,
+            goal,
+            options,
+            &mut memory,
+        )?)
     }
 
     /// Refines poses against what several cameras saw, without the library; best first.
@@ -184,18 +163,22 @@ impl<'l> Finder<'l> {
         views: &[CameraView<'_>],
         starts: &[Pose],
     ) -> Result<Vec<(Refined, Option<PoseCovariance>)>> {
-        let found = self.refiner.refine(views, starts)?;
-        let sure = |found: &RefinedRival| {
-            let covariance = self.refiner.uncertainty(views, &found.refined)?;
+        let options = self.options();
+        let model = &self.model;
+        let mut memory = self.buffers.refine().borrow_for(model, views);
+        let found = refine_rivals(model, views, starts, &self.planes, options, &mut memory)?;
+        let mut sure = |found: &RefinedRival| {
+            let covariance = uncertainty(model, views, &found.refined, &mut memory)?;
             Ok((found.refined, covariance))
         };
-        found.iter().map(sure).collect()
+        found.iter().map(&mut sure).collect()
     }
 
-    /// Starts round a pose that is only roughly known; see [`fluoropose::finder::nearby::nearby`].
+    /// Starts round a pose that is only roughly known; see [`nearby`].
     pub fn nearby(&mut self, silhouette: &Silhouette<'_>, start: &Pose) -> Vec<Pose> {
-        let camera = self.camera;
-        self.refiner.nearby(&camera, silhouette, start)
+        let (model, camera) = (&self.model, &self.camera);
+        let mut memory = self.buffers.refine().borrow(model, camera);
+        nearby(model, camera, silhouette, start, WIDE_DEG, &mut memory).to_vec()
     }
 
     /// Brings poses onto the edges of the frame; best first.
@@ -208,26 +191,9 @@ impl<'l> Finder<'l> {
         starts: &[Pose],
     ) -> Result<Vec<RefinedRival>> {
         let view = CameraView::only(&self.camera, image(seen, self.edges)?);
-        Ok(self.refiner.refine_as_given(&[view], starts)?)
-    }
-
-    /// The best pose of a frame.
-    ///
-    /// # Errors
-    /// Those of [`Self::all`].
-    pub fn best(&mut self, seen: &Seen<'_>) -> Result<Answer> {
-        let answers = self.all(seen)?;
-        answers.first().copied().context("the library has no views")
-    }
-}
-
-impl Answer {
-    fn unrefined(located: &Reranked) -> Self {
-        Self {
-            pose: located.located.pose,
-            located: *located,
-            refined: None,
-            covariance: None,
-        }
+        let options = self.options();
+        let model = &self.model;
+        let mut memory = self.buffers.refine().borrow(model, &self.camera);
+        Ok(refine_rivals(model, &[view], starts, &[], options, &mut memory)?.to_vec())
     }
 }

@@ -96,7 +96,7 @@ pub fn run(args: Args) -> Result<()> {
         let found = pair(&mut finder, &silhouette, &views)
             .with_context(|| format!("no pose for {}", path.display()))?;
         bar.suspend(|| describe(path, &found, &mesh.bounds().centre));
-        poses.push(EulerPose::from(found.0.pose));
+        poses.push(Some(EulerPose::from(found.0.pose)));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -109,8 +109,8 @@ fn pair(
     silhouette: &Silhouette<'_>,
     views: &[CameraView<'_>],
 ) -> Result<(Refined, Option<PoseCovariance>)> {
-    let answers = finder.all(&(*silhouette).into())?;
-    let starts: Vec<Pose> = answers.iter().map(|answer| answer.pose).collect();
+    let found = finder.all(&(*silhouette).into())?;
+    let starts: Vec<Pose> = found.candidates.iter().map(|one| one.pose).collect();
     let found = finder.refine_views(views, &starts)?;
     found
         .into_iter()

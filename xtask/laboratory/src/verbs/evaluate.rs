@@ -17,14 +17,14 @@ use crate::noise::{DisturbanceOptions, Noise};
 use anyhow::{Result, bail};
 use found::{Found, Part, find_parts};
 pub use request::Request;
-pub use table::{Row, StartDifference, Table};
+pub use table::{Row, StartDifference, Table, Verdicts};
 
 /// Options of `evaluate`.
 #[derive(clap::Args)]
 #[command(
     after_help = format!("For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
 the reference poses, and the other methods' pose files named there in the same table. wrong counts frames whose pose is nearer to the \
-reference's mirror image than to the reference. No frame is left out: those without a pose are counted and named on standard error. A component without a reference has its poses written and no row.\n\n\
+reference's mirror image than to the reference. The mean error stands below as bias. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
 Of several poses of a frame one is chosen by its residual, where it decides; of a tibia by the coronal tilt against the femur of the same \
 source; then by continuity over the frames. How many frames were chosen by what stands below each row. Components are femur and tibia by their names or \
 by the key role = \"femur\" or \"tibia\".\n\n\
@@ -134,6 +134,7 @@ impl Part<'_> {
         let poses = found.poses();
         let names = [&self.component.name, &found.source, request.method.word()];
         let mut row = reference.row(names, &poses)?;
+        row.verdicts = Some(Verdicts::of(&found.decisions));
         row.reasons = Some(Reasons::of(&found.decisions));
         row.femur.clone_from(&found.femur);
         let starts = found.from_reference.as_deref();

@@ -3,17 +3,18 @@
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
+use fluoropose::finder::Candidate;
 use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
 use fluoropose::math::Vector3;
 use fluoropose::pose::{EulerPose, Pose};
 
 use crate::choice::{Decision, Reasons, decide, report};
 
-use crate::choice::report::{Numbers, check_path, report, write_report};
+use crate::choice::report::{Numbers, check_path, report, why, write_report};
 
 use crate::files::{Role, name_of, read, read_calibration, read_model, read_poses, write_poses};
 
-use crate::finding::{Answer, EdgeOptions, Finder, FrameFound, Method, find_poses, misfit};
+use crate::finding::{EdgeOptions, Finder, FrameFound, Method, find_poses};
 
 use crate::noise::DisturbanceOptions;
 
@@ -24,8 +25,8 @@ use crate::sequence::{Folders, Source};
 #[command(
     after_help = format!("Masks are images (PNG, TIFF, ...) in which every pixel that is not 0 belongs to the implant; their names' order is \
 the order of the frames. Where two poses fit nearly alike both are printed, and why one was chosen: by its residual, where it decides; by the \
-coronal tilt against the other component, where --counterpart tells its poses; by continuity over the frames. A frame without a pose is \
-named on standard error and has a row of six zeros. --method image brings the pose from each mask onto the edges of its grey frame in --frames.\n\n\
+coronal tilt against the other component, where --counterpart tells its poses; by continuity over the frames. A verdict says how far a \
+pose is to be trusted: good, doubtful or none, with the reason. A frame without a pose has a row of six times NaN. --method image brings the pose from each mask onto the edges of its grey frame in --frames.\n\n\
 With --unknown, what a mask says of the pixels set in its companion is not believed: they are hidden, cut off or were not traced.\n\n\
 To see what a worse trace would give, --jitter S follows each outline of a mask, smooths its pixel steps, moves it along its normals by \
 Gaussian noise of the standard deviation S and the correlation length --correlation, and fills it again; --occlude F hides the part F of \
@@ -96,18 +97,21 @@ pub fn run(args: Args) -> Result<()> {
     };
     let source = Source::read(&folders, &calibration)?;
     let counterparts = counterparts(&args, source.masks.len())?;
-    let mut finder = Finder::open(&bytes, mesh, source.camera, args.method)
+    let finder = Finder::open(&bytes, mesh, source.camera, args.method)
         .with_context(|| args.library.display().to_string())?
         .with_edges(args.edges);
     let sequence = source.disturbed(&args.disturbance)?;
-    let found = find_poses(&mut finder, &sequence);
+    let found = find_poses(&finder, &sequence);
     let decisions = decide(&found, &counterparts, &Pose::IDENTITY)?;
     let middle = mesh.bounds().centre;
     for (frame, decision) in found.iter().zip(&decisions) {
         describe(frame, decision.as_ref(), &middle);
     }
-    let missing = decisions.iter().filter(|decision| decision.is_none());
-    let missing = missing.count();
+    let poses: Vec<Option<Pose>> = decisions
+        .iter()
+        .map(|decision| decision.and_then(|decision| decision.pose()))
+        .collect();
+    let missing = poses.iter().filter(|pose| pose.is_none()).count();
     println!("chosen by: {}", Reasons::of(&decisions));
     if missing == decisions.len() {
         bail!("no mask has a pose; nothing was written");
@@ -118,12 +122,8 @@ pub fn run(args: Args) -> Result<()> {
     if let Some(path) = &args.report {
         write_report(path, &report(&found, &decisions, &middle))?;
     }
-    let row = |decision: &Option<Decision>| {
-        let pose = decision.map(|decision| EulerPose::from(decision.answer.pose));
-        pose.unwrap_or_default()
-    };
-    let rows: Vec<EulerPose> = decisions.iter().map(row).collect();
-    write_poses(&args.out, &rows)
+    let rows = poses.into_iter().map(|pose| pose.map(EulerPose::from));
+    write_poses(&args.out, &rows.collect::<Vec<_>>())
 }
 
 /// The other component's poses, a frame each; none where no file of them was given.
@@ -146,37 +146,40 @@ fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.
 fn describe(frame: &FrameFound, decision: Option<&Decision>, middle: &Vector3) {
     println!("{}", name_of(&frame.file));
-    let Some(decision) = decision else {
-        println!("  no pose");
+    let posed = decision.filter(|decision| decision.pose().is_some());
+    let Some(decision) = posed else {
+        println!("  no pose: {}", why(frame, decision));
         return;
     };
-    line(&decision.answer, middle, "");
-    let least = frame.answers.iter().map(misfit).fold(f64::MAX, f64::min);
-    let rivals = frame.answers.iter().filter(|answer| {
-        answer.pose != decision.answer.pose && misfit(answer) <= least * DECISIVE_RATIO
+    line(&decision.chosen, middle, "");
+    let misfits = frame.candidates.iter().map(Candidate::misfit);
+    let least = misfits.fold(f64::MAX, f64::min);
+    let rivals = frame.candidates.iter().filter(|candidate| {
+        candidate.pose != decision.chosen.pose && candidate.misfit() <= least * DECISIVE_RATIO
     });
     for rival in rivals {
         line(rival, middle, "  (rival)");
     }
     println!("  chosen by: {decision}");
+    println!("  {}: {}", decision.verdict.word(), decision.verdict);
 }
 
-fn line(answer: &Answer, middle: &Vector3, note: &str) {
-    let values = Numbers::from(answer.pose).all();
-    let deviations = Numbers::deviations(answer, middle).map(|sd| sd.all());
+fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
+    let values = Numbers::from(candidate.pose).all();
+    let deviations = Numbers::deviations(candidate, middle).map(|sd| sd.all());
     let number = |k: usize| match deviations {
         Some(sd) => format!("{:8.2} ±{:.2}", values[k], sd[k]),
         None => format!("{:8.2}", values[k]),
     };
-    let fit = match answer.refined {
-        Some(_) => format!("{:.3} px residual", misfit(answer)),
-        None => format!("{} px unmatched", answer.located.unmatched),
+    let fit = match candidate.refined {
+        Some(_) => format!("{:.3} px residual", candidate.misfit()),
+        None => format!("{} px unmatched", candidate.located.unmatched),
     };
-    let offset = answer.refined.filter(|refined| refined.offset_px != 0.0);
+    let offset = candidate.refined.filter(|refined| refined.offset_px != 0.0);
     let offset = offset.map_or(String::new(), |refined| {
         format!(", edges {:.2} px outside", refined.offset_px)
     });
-    let border = if answer.located.located.fine.at_border {
+    let border = if candidate.located.located.fine.at_border {
         "  (at the border of the library)"
     } else {
         ""

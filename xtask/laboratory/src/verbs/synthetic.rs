@@ -357,6 +357,7 @@ impl Search<'_> {
             }
             None => {
                 let all = seen.see(|silhouette| self.finder.all(&silhouette.into()))?;
+                let all = all.candidates;
                 let best = all.first().context("the library has no views")?;
                 if self.variant.biplane.is_none() {
                     return Ok((best.pose, best.covariance));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose::finder::Candidate;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::library::ViewGrid;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
@@ -17,7 +18,7 @@ use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::{
-    Answer, Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses,
+    Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses,
 };
 use crate::measure::accuracy::median_absolute;
 use crate::options::Pair;
@@ -51,14 +52,14 @@ pub(super) struct Found {
 impl Found {
     /// The poses that were chosen.
     pub(super) fn poses(&self) -> Vec<Option<Pose>> {
-        let pose = |decision: &Option<Decision>| decision.map(|decision| decision.answer.pose);
+        let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
         self.decisions.iter().map(pose).collect()
     }
 
     /// The same as rows of a pose file.
-    pub(super) fn rows(&self) -> Vec<EulerPose> {
-        let row = |pose: Option<Pose>| pose.map(EulerPose::from).unwrap_or_default();
-        self.poses().into_iter().map(row).collect()
+    pub(super) fn rows(&self) -> Vec<Option<EulerPose>> {
+        let rows = self.poses().into_iter();
+        rows.map(|pose| pose.map(EulerPose::from)).collect()
     }
 }
 
@@ -190,10 +191,10 @@ impl<'s> Part<'s> {
         if views.distance.is_none() {
             let guess = views.distance_for(calibration);
             let built = self.library(sequence, &views, guess)?;
-            let mut finder = self.finder(&built, sequence, Method::Library, request)?;
-            let found = find_poses(&mut finder, sequence);
-            let best = found.iter().filter_map(|frame| frame.answers.first());
-            let depths: Vec<f64> = best.map(|answer| answer.pose.translation[2]).collect();
+            let finder = self.finder(&built, sequence, Method::Library, request)?;
+            let found = find_poses(&finder, sequence);
+            let best = found.iter().filter_map(|frame| frame.candidates.first());
+            let depths: Vec<f64> = best.map(|best| best.pose.translation[2]).collect();
             let median = median_absolute(&depths);
             views.distance = Some(if depths.is_empty() { guess } else { median });
         }
@@ -212,14 +213,14 @@ impl<'s> Part<'s> {
         let distance = self.component.distance_mm;
         let distance = distance.unwrap_or_else(|| everywhere.distance_for(calibration));
         let built = self.library(sequence, &everywhere, distance)?;
-        let mut finder = self.finder(&built, sequence, Method::Library, request)?;
-        let found = find_poses(&mut finder, sequence);
+        let finder = self.finder(&built, sequence, Method::Library, request)?;
+        let found = find_poses(&finder, sequence);
         let (grid, window) = (everywhere.grid(), ViewGrid::default());
-        let is_within = |answer: &&Answer| {
-            let [x, y] = grid.rotations(answer.located.located.view);
+        let is_within = |best: &&Candidate| {
+            let [x, y] = grid.rotations(best.located.located.view);
             x.abs() <= -window.x.first && y.abs() <= -window.y.first
         };
-        let best = found.iter().filter_map(|frame| frame.answers.first());
+        let best = found.iter().filter_map(|frame| frame.candidates.first());
         let within = best.clone().filter(is_within).count();
         Ok(5 * within >= 4 * best.count().max(1))
     }
@@ -269,7 +270,7 @@ impl<'s> Part<'s> {
         Ok(Found {
             source: source.to_owned(),
             camera: sequence.camera(),
-            frames: find_poses(&mut finder, sequence),
+            frames: find_poses(&finder, sequence),
             decisions: Vec::new(),
             femur: None,
             from_reference: reference

@@ -1,6 +1,6 @@
 //! The table for a person.
 
-use super::table::{Row, Table};
+use super::table::{Row, Table, Verdicts};
 use crate::measure::accuracy::Errors;
 use crate::measure::bound::{Comparison, Limit};
 
@@ -43,6 +43,7 @@ fn print_row(row: &Row) {
         row.wrong_side
     );
     println!("{:LEFT$} {}", "", numbers(&row.median));
+    println!("{:>LEFT$} {}", "bias", numbers(&row.bias));
     if row.not_found > 0 {
         let (missing, frames) = (row.not_found, row.frames);
         println!(
@@ -59,6 +60,14 @@ fn print_row(row: &Row) {
     }
     if let Some(limits) = &row.limits {
         print_limits(limits);
+    }
+    if let Some(verdicts) = &row.verdicts {
+        let Verdicts {
+            good,
+            doubtful,
+            none,
+        } = verdicts;
+        println!("{:>LEFT$} good {good}, doubtful {doubtful}, none {none}", "verdict");
     }
     if let Some(reasons) = &row.reasons {
         let known = row.femur.as_ref().map_or(String::new(), |source| {

@@ -6,7 +6,7 @@ use fluoropose::pose::Pose;
 
 use super::table::Row;
 use crate::files::{Component, read_model, read_poses};
-use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute, rms};
+use crate::measure::accuracy::{Errors, is_wrong_side, mean, median_absolute, rms};
 
 /// Reference poses of a component.
 pub(super) struct Reference {
@@ -55,11 +55,13 @@ impl Reference {
             not_found: none(found),
             no_reference: none(&self.poses),
             rms: Errors::summarise(&errors, rms),
+            bias: Errors::summarise(&errors, mean),
             median: Errors::summarise(&errors, median_absolute),
             wrong_side: pairs
                 .iter()
                 .filter(|(found, known)| is_wrong_side(found, known, &self.planes))
                 .count(),
+            verdicts: None,
             reasons: None,
             femur: None,
             from_reference: None,

@@ -3,7 +3,7 @@
 use fluoropose::pose::Pose;
 use serde::Serialize;
 
-use crate::choice::Reasons;
+use crate::choice::{Decision, Reasons};
 use crate::measure::accuracy::{Errors, rms};
 use crate::measure::bound::Comparison;
 
@@ -33,10 +33,15 @@ pub struct Row {
     pub no_reference: usize,
     /// Root mean square errors.
     pub rms: Errors,
+    /// Mean errors, with their signs; of the geodesic angle, which has none, its mean.
+    pub bias: Errors,
     /// Median absolute errors.
     pub median: Errors,
     /// Frames nearer to the reference's mirror image than to the reference.
     pub wrong_side: usize,
+    /// Of poses found here: how far they are to be trusted.
+    #[serde(flatten)]
+    pub verdicts: Option<Verdicts>,
     /// Of poses found here: by what they were chosen.
     pub reasons: Option<Reasons>,
     /// Source of the femoral poses that were known when these were chosen.
@@ -46,6 +51,32 @@ pub struct Row {
     /// Of poses found here: the limits at the reference poses, and the root mean square errors
     /// against them.
     pub limits: Option<Comparison>,
+}
+
+/// How many frames have which verdict.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct Verdicts {
+    /// Poses to be relied on.
+    pub good: usize,
+    /// Poses that may be wrong.
+    pub doubtful: usize,
+    /// Frames without a pose.
+    pub none: usize,
+}
+
+impl Verdicts {
+    pub(super) fn of(decisions: &[Option<Decision>]) -> Self {
+        let mut counts = Self::default();
+        for decision in decisions {
+            let word = decision.map_or("none", |decision| decision.verdict.word());
+            *match word {
+                "good" => &mut counts.good,
+                "doubtful" => &mut counts.doubtful,
+                _ => &mut counts.none,
+            } += 1;
+        }
+        counts
+    }
 }
 
 /// How far poses that were found differ from what refinement finds from the reference poses.

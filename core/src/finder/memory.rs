@@ -1,0 +1,16 @@
+//! Working memory of the finder.
+
+use crate::locate::Workspace;
+use crate::locate::partial::PartialMemory;
+use crate::refine::RefineMemory;
+
+/// Working memory of [`super::find()`]. With the feature `alloc`, `FinderBuffers` owns it.
+#[derive(Debug)]
+pub struct FinderMemory<'m> {
+    /// To compare the silhouette with the library.
+    pub workspace: Workspace<'m>,
+    /// To find poses of pieces of the outline.
+    pub partial: PartialMemory<'m>,
+    /// To draw and to refine.
+    pub refine: RefineMemory<'m>,
+}

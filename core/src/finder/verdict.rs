@@ -1,0 +1,239 @@
+//! How far a chosen pose is to be trusted: good, doubtful, or no fit at all.
+//!
+//! A verdict looks at what residuals alone do not tell: how much of the model's outline has a counterpart, whether the two
+//! outlines enclose the same pixels, whether the outline determines the pose, and whether another pose fits as well.
+//! The limits are pixels where a hand or a network sets them, and parts of the silhouette's size where its shape does: the
+//! outline of another implant of 300 pixels fits worse, in pixels, than that of one of 50.
+
+use core::fmt;
+
+use heapless::Vec;
+
+use super::candidate::{CANDIDATES, Candidate};
+use super::choice::{Choice, ChoiceContext, OpenRival, RivalPose, choose};
+use super::find::Found;
+use crate::pose::geodesic_deg;
+use crate::refine::{Fit, MET_WITHIN_PX};
+
+/// What a pose must meet to be called good, and what it must not fall short of to be a pose at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Largest root mean square distance of a good fit, pixels; what has no counterpart counts ([`Fit::misfit_px`]).
+    pub good_px: f64,
+    /// The same as a part of the silhouette's size ([`Fit::size_px`]).
+    pub good_part: f64,
+    /// Least part of a good fit's known outline that is met.
+    pub good_met: f64,
+    /// Largest mean distance between both outlines of a good fit, pixels ([`Fit::apart_px`]).
+    pub good_apart_px: f64,
+    /// Least part of the outline that is known of a good fit.
+    pub good_known: f64,
+    /// Least part of the known outline that is met at any pose.
+    pub least_met: f64,
+}
+
+impl Limits {
+    /// The usual ones, of `cargo xtask synthetic --refusal`: outlines of the right model with a hand's jitter of 1 px and up
+    /// to a fifth hidden, against outlines of other implants, ellipses, hulls, blobs and outlines cut off.
+    pub const USUAL: Self = Self {
+        good_px: 2.0,
+        good_part: 0.02,
+        good_met: 0.97,
+        good_apart_px: 1.5,
+        good_known: 0.5,
+        least_met: 0.55,
+    };
+}
+
+/// Why a pose is doubtful.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doubt {
+    /// A part of the model's outline has no counterpart: hidden, cut off, or of another implant.
+    Unmet {
+        /// That part of the known outline.
+        part: f64,
+    },
+    /// The outlines lie farther apart than those of a good fit.
+    Apart {
+        /// How far, pixels.
+        px: f64,
+        /// How far they may, pixels.
+        limit_px: f64,
+    },
+    /// Too little of the outline is known.
+    Unknown {
+        /// The part that is known.
+        known: f64,
+    },
+    /// The outline does not determine the pose.
+    Undetermined,
+    /// Another pose fits as well, and nothing tells which is right.
+    Open {
+        /// Turn from the chosen pose to that one, degrees.
+        turn_deg: f64,
+        /// Its misfit, pixels.
+        other_px: f64,
+    },
+}
+
+/// Why no pose explains a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Refusal {
+    /// The outline is not the model's from any side.
+    NoFit {
+        /// Root mean square distance of the outlines at the best pose, pixels.
+        misfit_px: f64,
+        /// Part of the outline that is met there.
+        met: f64,
+    },
+}
+
+/// How far a chosen pose is to be trusted. Displayed, it is a sentence without its full stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// The model's outline lies on what was seen, all round, and no other pose does.
+    Good,
+    /// A pose that may be wrong, and why.
+    Doubtful(Doubt),
+    /// No pose.
+    NoFit(Refusal),
+}
+
+impl Verdict {
+    /// The word for it in tables: `good`, `doubtful` or `none`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Doubtful(_) => "doubtful",
+            Self::NoFit(_) => "none",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Good => f.write_str("the model's outline lies on what was seen"),
+            Self::Doubtful(doubt) => doubt.fmt(f),
+            Self::NoFit(refusal) => refusal.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Unmet { part } => {
+                let percent = 100.0 * part;
+                write!(
+                    f,
+                    "{percent:.0} % of the model's outline has no counterpart within {MET_WITHIN_PX} px: is a part hidden or cut off, or is it another implant?"
+                )
+            }
+            Self::Apart { px, limit_px } => write!(
+                f,
+                "the outlines lie {px:.1} px apart, those of a good fit at most {limit_px:.1} px: trace again, or is it another size or implant?"
+            ),
+            Self::Unknown { known } => {
+                let percent = 100.0 * known;
+                write!(f, "only {percent:.0} % of the model's outline is known")
+            }
+            Self::Undetermined => f.write_str("the outline does not determine the pose"),
+            Self::Open { turn_deg, other_px } => write!(
+                f,
+                "another pose, {turn_deg:.0} degrees away, fits as well ({other_px:.2} px), and nothing tells which is right"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::NoFit { misfit_px, met } = *self;
+        let percent = 100.0 * met;
+        write!(
+            f,
+            "the outline does not fit this model from any side: {misfit_px:.1} px, and {percent:.0} % of the model's outline is met; is it the other component's, another implant's, or mirrored?"
+        )
+    }
+}
+
+/// The pose that was chosen for a frame, why, and how far it is to be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decision {
+    /// What was chosen among the candidates, and why; `index` counts in [`Found::candidates`].
+    pub choice: Choice,
+    /// How far that is to be trusted. Where it is [`Verdict::NoFit`], the chosen candidate is the best of those refused.
+    pub verdict: Verdict,
+}
+
+impl Found {
+    /// Chooses among the candidates by what else is known of the frame, and judges the choice. `None` where there is no
+    /// candidate.
+    #[must_use]
+    pub fn decide(&self, context: &ChoiceContext<'_>) -> Option<Decision> {
+        let choice = choose(&contenders(&self.candidates), context)?;
+        let verdict = judge(&self.candidates, &choice, &Limits::USUAL)?;
+        Some(Decision { choice, verdict })
+    }
+}
+
+/// Candidates as they are compared: one that does not fit at all comes last while another does, and is ruled out by it.
+#[must_use]
+pub fn contenders(candidates: &[Candidate]) -> Vec<RivalPose, CANDIDATES> {
+    let fits = |candidate: &Candidate| refusal(&candidate.fit, &Limits::USUAL).is_none();
+    let any = candidates.iter().any(fits);
+    let rival = |candidate: &Candidate| match any && !fits(candidate) {
+        true => RivalPose {
+            residual_px: f64::INFINITY,
+            ..candidate.rival()
+        },
+        false => candidate.rival(),
+    };
+    candidates.iter().take(CANDIDATES).map(rival).collect()
+}
+
+/// How far a choice among candidates is to be trusted. `None` where it is none of theirs.
+#[must_use]
+pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Option<Verdict> {
+    let chosen = candidates.get(choice.index)?;
+    let fit = &chosen.fit;
+    if let Some(refusal) = refusal(fit, limits) {
+        return Some(Verdict::NoFit(refusal));
+    }
+    let open = choice.open.and_then(|OpenRival { index, .. }| {
+        let other = candidates.get(index)?;
+        Some(Doubt::Open {
+            turn_deg: geodesic_deg(&chosen.pose.rotation, &other.pose.rotation),
+            other_px: other.misfit(),
+        })
+    });
+    let doubt = doubt_of_fit(fit, limits).or(open).or_else(|| {
+        let undetermined = chosen.refined.is_some() && chosen.covariance.is_none();
+        undetermined.then_some(Doubt::Undetermined)
+    });
+    Some(doubt.map_or(Verdict::Good, Verdict::Doubtful))
+}
+
+fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {
+    (fit.met < limits.least_met).then_some(Refusal::NoFit {
+        misfit_px: fit.misfit_px,
+        met: fit.met,
+    })
+}
+
+fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
+    let limit_px = limits.good_px.min(limits.good_part * fit.size_px);
+    if fit.known < limits.good_known {
+        return Some(Doubt::Unknown { known: fit.known });
+    }
+    if fit.met < limits.good_met {
+        return Some(Doubt::Unmet {
+            part: 1.0 - fit.met,
+        });
+    }
+    let apart = |px: f64, limit_px: f64| (px > limit_px).then_some(Doubt::Apart { px, limit_px });
+    let between = fit.apart_px.and_then(|px| apart(px, limits.good_apart_px));
+    apart(fit.misfit_px, limit_px).or(between)
+}
