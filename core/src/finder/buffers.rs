@@ -45,7 +45,9 @@ impl FinderBuffers {
                 bytes: &mut self.bytes,
                 kernels,
             },
-            partial: self.partial.borrow(component.library, camera, component.model),
+            partial: self
+                .partial
+                .borrow(component.library, camera, component.model),
             refine: self.refine.borrow(component.model, camera),
         }
     }

@@ -5,14 +5,16 @@ use heapless::Vec;
 use super::candidate::{CANDIDATES, Candidate};
 use super::component::Component;
 use super::error::FindError;
-use super::first::{FirstPoses, first_poses};
+use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, refine_rivals, worth_refining};
+use super::rivals::{RefinedRival, SAME_DEG, STARTS, refine_rivals, worth_refining};
+use super::verdict::Limits;
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
-use crate::pose::Pose;
+use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{CameraView, ImageTarget, RefineOptions, assess, fit_at};
+use crate::shortlist::keep;
 
 /// Refined poses of an outline that are brought onto the grey frame: the best of them.
 const ON_IMAGE: usize = 3;
@@ -59,13 +61,14 @@ pub fn find(
     let mut way = Way {
         component,
         camera,
+        silhouette,
         options,
         memory,
     };
     let candidates = match goal {
-        Goal::Library => way.as_the_library_has_them(&first, silhouette)?,
-        Goal::Outline => way.on_outline(&first, silhouette)?,
-        Goal::Image(image) => way.on_image(&first, silhouette, image)?,
+        Goal::Library => way.as_the_library_has_them(&first)?,
+        Goal::Outline => way.on_outline(&first)?,
+        Goal::Image(image) => way.on_image(&first, image)?,
     };
     Ok(Found {
         candidates,
@@ -78,6 +81,7 @@ pub fn find(
 struct Way<'w, 'm> {
     component: &'w Component<'w>,
     camera: &'w Camera,
+    silhouette: &'w Silhouette<'w>,
     options: RefineOptions,
     memory: &'w mut FinderMemory<'m>,
 }
@@ -85,17 +89,31 @@ struct Way<'w, 'm> {
 type Candidates = Vec<Candidate, CANDIDATES>;
 
 impl Way<'_, '_> {
-    fn as_the_library_has_them(
-        &mut self,
-        first: &FirstPoses,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Candidates, FindError> {
-        let view = CameraView::only(self.camera, *silhouette);
-        let model = self.component.model;
+    fn as_the_library_has_them(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
         let mut candidates = Vec::new();
-        for located in first.poses.iter().take(CANDIDATES) {
+        self.add_unrefined(&first.poses, &mut candidates)?;
+        if !first.partial && !first.explain(self.silhouette) {
+            // A second opinion: where there is none, the first stands.
+            let pieces = self.pieces();
+            self.add_unrefined(&pieces, &mut candidates)?;
+        }
+        Ok(candidates)
+    }
+
+    fn add_unrefined(
+        &mut self,
+        poses: &[Reranked],
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        let view = CameraView::only(self.camera, *self.silhouette);
+        for located in poses.iter().take(CANDIDATES) {
             let pose = located.located.pose;
-            let fit = fit_at(model, &[view], &pose, &mut self.memory.refine)?;
+            let fit = fit_at(
+                self.component.model,
+                &[view],
+                &pose,
+                &mut self.memory.refine,
+            )?;
             let candidate = Candidate {
                 pose,
                 start: pose,
@@ -104,83 +122,81 @@ impl Way<'_, '_> {
                 covariance: None,
                 fit,
             };
-            // There is room for as many as are taken.
-            let _ = candidates.push(candidate);
+            keep(candidates, candidate, Candidate::misfit);
         }
-        Ok(candidates)
+        Ok(())
     }
 
-    fn on_outline(
-        &mut self,
-        first: &FirstPoses,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Candidates, FindError> {
-        let worth = worth_refining(&first.poses);
-        let view = CameraView::only(self.camera, *silhouette);
-        let refined = self.refine_worth(worth, &view)?;
-        self.candidates(&view, &refined, |found| worth.get(found.start).copied())
+    /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
+    /// that pieces of the outline lead to are refined too.
+    fn on_outline(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
+        let mut candidates = Vec::new();
+        self.add_refined(worth_refining(&first.poses), &mut candidates)?;
+        let met = candidates.first().map_or(0.0, |best| best.fit.met);
+        if !first.partial && met < Limits::USUAL.good_met {
+            let pieces = self.pieces();
+            // A second opinion that leads nowhere is none.
+            let _ = self.add_refined(worth_refining(&pieces), &mut candidates);
+        }
+        Ok(candidates)
     }
 
     fn on_image(
         &mut self,
         first: &FirstPoses,
-        silhouette: &Silhouette<'_>,
         image: ImageTarget<'_>,
     ) -> Result<Candidates, FindError> {
-        let worth = worth_refining(&first.poses);
-        let outline = CameraView::only(self.camera, *silhouette);
-        let refined = self.refine_worth(worth, &outline)?;
-        let starts: Vec<Pose, ON_IMAGE> = refined
+        let outline = self.on_outline(first)?;
+        let starts: Vec<Pose, ON_IMAGE> = outline
             .iter()
             .take(ON_IMAGE)
-            .map(|found| found.refined.pose)
+            .map(|found| found.pose)
             .collect();
         let view = CameraView::only(self.camera, image);
         let (model, options) = (self.component.model, self.options);
+        let memory = &mut self.memory.refine;
         // Their mirror images are among them.
-        let on_image = refine_rivals(
-            model,
-            &[view],
-            &starts,
-            &[],
-            options,
-            &mut self.memory.refine,
-        )?;
-        self.candidates(&view, &on_image, |found| {
-            worth.get(refined.get(found.start)?.start).copied()
-        })
+        let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
+        let mut candidates = Vec::new();
+        let located = |found: &RefinedRival| Some(outline.get(found.start)?.located);
+        self.add(&view, &refined, located, &mut candidates)?;
+        Ok(candidates)
     }
 
-    fn refine_worth(
+    fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
+        of_pieces(self.component, self.camera, self.silhouette, self.memory).unwrap_or_default()
+    }
+
+    fn add_refined(
         &mut self,
         worth: &[Reranked],
-        view: &CameraView<'_>,
-    ) -> Result<Vec<RefinedRival, { super::rivals::ANSWERS }>, FindError> {
-        let starts: Vec<Pose, { super::rivals::STARTS }> =
-            worth.iter().map(|rival| rival.located.pose).collect();
-        let (model, planes) = (self.component.model, self.component.planes);
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        let starts = worth.iter().map(|rival| rival.located.pose);
+        let starts: Vec<Pose, STARTS> = starts.collect();
+        let view = CameraView::only(self.camera, *self.silhouette);
+        let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;
-        Ok(refine_rivals(
-            model,
-            &[*view],
-            &starts,
-            planes,
-            self.options,
-            memory,
-        )?)
+        let refined = refine_rivals(model, &[view], &starts, planes, self.options, memory)?;
+        let located = |found: &RefinedRival| worth.get(found.start).copied();
+        self.add(&view, &refined, located, candidates)
     }
 
-    /// Refined poses with what led to them, how sure they are and how well they fit.
-    fn candidates(
+    /// Adds refined poses with what led to them, how sure they are and how well they fit, each pose once.
+    fn add(
         &mut self,
         view: &CameraView<'_>,
         refined: &[RefinedRival],
         located: impl Fn(&RefinedRival) -> Option<Reranked>,
-    ) -> Result<Candidates, FindError> {
-        let mut candidates = Vec::new();
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
         for found in refined.iter().take(CANDIDATES) {
+            let same = |other: &Candidate| {
+                let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
+                turn < SAME_DEG
+            };
             // Each was refined from one of them.
-            let Some(located) = located(found) else {
+            let Some(located) = located(found).filter(|_| !candidates.iter().any(same)) else {
                 continue;
             };
             let (model, memory) = (self.component.model, &mut self.memory.refine);
@@ -193,9 +209,8 @@ impl Way<'_, '_> {
                 covariance: assessment.covariance,
                 fit: assessment.fit,
             };
-            // There is room for as many as are taken.
-            let _ = candidates.push(candidate);
+            keep(candidates, candidate, Candidate::misfit);
         }
-        Ok(candidates)
+        Ok(())
     }
 }

@@ -11,7 +11,6 @@ use crate::image::silhouette::Silhouette;
 use crate::locate::locate;
 use crate::locate::partial::{known_fraction, locate_partial};
 use crate::locate::rerank::{Reranked, rerank};
-use crate::shortlist::keep;
 
 /// First poses that are kept of one silhouette.
 pub const FIRST_POSES: usize = 12;
@@ -34,8 +33,7 @@ pub struct FirstPoses {
 }
 
 /// The poses that explain a silhouette, as the library has them: local minima of the score surface, put in order by
-/// drawing the model at each. Where a part of the silhouette is unknown or cut off, and where the poses found leave much
-/// of it unmatched, as when something hides a part of it and nobody said so, pieces of its outline lead to further poses.
+/// drawing the model at each. Where a part of the silhouette is unknown or cut off, pieces of its outline lead to them.
 ///
 /// # Errors
 /// [`FindError`] where the silhouette has no canonical form, nothing of its outline is known, the model cannot be drawn at
@@ -53,21 +51,19 @@ pub fn first_poses(
             partial: true,
         });
     }
-    let mut whole = of_whole(component, camera, silhouette, memory)?;
-    let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
-    let explained = |best: &Reranked| best.unmatched as f64 <= limit;
-    if whole.poses.first().is_some_and(explained) {
-        return Ok(whole);
-    }
-    // A second opinion: where there is none, the first stands.
-    if let Ok(pieces) = of_pieces(component, camera, silhouette, memory) {
-        for pose in pieces {
-            keep(&mut whole.poses, pose, |other| other.unmatched);
-        }
-    }
+    let whole = of_whole(component, camera, silhouette, memory)?;
     match whole.poses.is_empty() {
         true => Err(FindError::NoView),
         false => Ok(whole),
+    }
+}
+
+impl FirstPoses {
+    /// Whether the best of them leaves so little unmatched that nothing seems to be hidden.
+    pub(super) fn explain(&self, silhouette: &Silhouette<'_>) -> bool {
+        let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
+        let best = self.poses.first();
+        best.is_some_and(|best| best.unmatched as f64 <= limit)
     }
 }
 
@@ -86,20 +82,14 @@ fn of_whole(
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
     let scratch = &mut *memory.refine.projected;
     Ok(FirstPoses {
-        poses: rerank(
-            &found.poses,
-            model,
-            camera,
-            silhouette,
-            scratch,
-            &mut drawn,
-        )?,
+        poses: rerank(&found.poses, model, camera, silhouette, scratch, &mut drawn)?,
         clipped: found.form.clipped,
         partial: false,
     })
 }
 
-fn of_pieces(
+/// Poses that pieces of the outline lead to, for a silhouette of which something may hide a part that nobody marked.
+pub(super) fn of_pieces(
     component: &Component<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,

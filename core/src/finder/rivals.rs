@@ -45,7 +45,7 @@ const BACK_DEG: f64 = 0.1;
 const ALIKE: f64 = 1.25;
 
 /// Of poses nearer to each other than this, degrees, the best is kept.
-const SAME_DEG: f64 = 0.5;
+pub(super) const SAME_DEG: f64 = 0.5;
 
 /// A refined pose and what it was refined from.
 #[derive(Clone, Copy, Debug, PartialEq)]

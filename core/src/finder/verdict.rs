@@ -38,10 +38,10 @@ impl Limits {
     pub const USUAL: Self = Self {
         good_px: 2.0,
         good_part: 0.02,
-        good_met: 0.97,
+        good_met: 0.9,
         good_apart_px: 1.5,
         good_known: 0.5,
-        least_met: 0.55,
+        least_met: 0.45,
     };
 }
 

@@ -10,7 +10,7 @@ mod views;
 
 pub use build::{Built, build_library};
 pub use clicker::{Clicked, Clicker};
-pub use film::{FrameFound, find_poses};
+pub use film::{FrameFound, find_poses, first_poses};
 pub use finder::{EdgeOptions, Finder, Method};
 pub use refiner::Refiner;
 pub use views::ViewOptions;

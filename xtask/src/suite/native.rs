@@ -45,7 +45,13 @@ pub(crate) fn run(report: &mut Report) {
         quiet(own_cargo().args(lint))
     });
     report.step("native: tests", || {
-        let everything = ["test", "--workspace", "--exclude", "xtask", "--no-fail-fast"];
+        let everything = [
+            "test",
+            "--workspace",
+            "--exclude",
+            "xtask",
+            "--no-fail-fast",
+        ];
         tests(own_cargo().args(everything).args(CHECKED))
     });
     // By itself it shares with the program that runs here all that this was built from.

@@ -106,8 +106,7 @@ pub struct FrameReport {
 
 impl FrameReport {
     fn new(frame: usize, found: &FrameFound, decision: Option<&Decision>, at: &Vector3) -> Self {
-        let residual =
-            |candidate: &Candidate| candidate.refined.map(|_| candidate.misfit());
+        let residual = |candidate: &Candidate| candidate.refined.map(|_| candidate.misfit());
         let posed = decision.filter(|decision| decision.pose().is_some());
         let chosen = posed.map(|decision| &decision.chosen);
         let rival = posed.and_then(|decision| decision.rival);

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use fluoropose::finder::Candidate;
+use fluoropose::locate::Located;
 use rayon::prelude::*;
 
 use super::finder::Finder;
@@ -18,6 +19,17 @@ pub struct FrameFound {
     pub candidates: Vec<Candidate>,
     /// Why none was found.
     pub failure: Option<String>,
+}
+
+/// The best first pose of every frame that has one, of whole outlines alone: quick, for a look at a sequence.
+pub fn first_poses(finder: &Finder<'_>, sequence: &Sequence<'_>) -> Vec<Located> {
+    let first = |finder: &mut Finder<'_>, frame| {
+        let first = sequence.look(frame, |seen| finder.first(seen)).ok()?;
+        Some(first.poses.first()?.located)
+    };
+    let frames = (0..sequence.masks().len()).into_par_iter();
+    let first = frames.map_init(|| finder.clone(), first);
+    first.collect::<Vec<_>>().into_iter().flatten().collect()
 }
 
 /// Finds the poses of every frame of a sequence, on all cores. A frame without one has no candidates and says why.

@@ -4,16 +4,16 @@ use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::finder::nearby::{WIDE_DEG, nearby};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
-use fluoropose::finder::{Component, FindError, FinderBuffers, Found, Goal, find};
+use fluoropose::finder::{
+    Component, FindError, FinderBuffers, FirstPoses, Found, Goal, find, first_poses,
+};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::refine::{
-    CameraView, ImageTarget, Polarity, RefineOptions, Refined, uncertainty,
-};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, Refined, uncertainty};
 use serde::Serialize;
 
 use crate::sequence::Seen;
@@ -150,6 +150,26 @@ impl<'l> Finder<'l> {
             silhouette,
             goal,
             options,
+            &mut memory,
+        )?)
+    }
+
+    /// First poses of a frame; see [`first_poses`].
+    ///
+    /// # Errors
+    /// Those of [`first_poses`].
+    pub fn first(&mut self, seen: &Seen<'_>) -> Result<FirstPoses> {
+        let component = Component {
+            library: &self.library,
+            model: &self.model,
+            planes: &self.planes,
+        };
+        let kernels = fluoropose_kernels::fastest();
+        let mut memory = self.buffers.borrow(&component, &self.camera, kernels);
+        Ok(first_poses(
+            &component,
+            &self.camera,
+            &seen.silhouette,
             &mut memory,
         )?)
     }

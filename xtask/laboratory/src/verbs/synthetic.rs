@@ -1,7 +1,11 @@
 //! Verb `synthetic`: the accuracy protocol of Walker et al. 1996 on random known poses.
 
-use std::path::PathBuf;
+mod anywhere;
+mod random;
+mod refusal;
+mod strangers;
 
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, bail};
@@ -32,6 +36,9 @@ use crate::noise::{DisturbanceOptions, Disturbed, Noise, Scene};
 use crate::options::Pair;
 
 use crate::progress::progress;
+
+pub use anywhere::{Anywhere, Places, measure_anywhere};
+pub use refusal::{Kind, Refusal, measure_refusal};
 
 /// Options of `synthetic`.
 #[derive(clap::Args)]
@@ -75,6 +82,19 @@ pub struct Args {
     /// A second camera sees the implant too, from this many degrees aside; method refined
     #[arg(long, value_name = "DEG")]
     biplane: Option<f64>,
+    /// Poses of any rotation, found by a library of all directions, method refined: how often the part is found at its
+    /// place in the camera's frame
+    #[arg(long, conflicts_with_all = ["biplane", "start_off", "refusal"])]
+    any_view: bool,
+    /// With --any-view: the model's axes are turned at random too
+    #[arg(long, requires = "any_view")]
+    any_axes: bool,
+    /// What is called good, doubtful and no fit: outlines of the model by a hand, and outlines that are none of its views
+    #[arg(long, conflicts_with_all = ["biplane", "start_off"])]
+    refusal: bool,
+    /// With --refusal: a model whose outlines are not the model's, the other component's or another implant's
+    #[arg(long, value_name = "FILE", requires = "refusal")]
+    other: Vec<PathBuf>,
     #[command(flatten)]
     views: ViewOptions,
     #[command(flatten)]
@@ -207,6 +227,12 @@ pub fn run(args: Args) -> Result<()> {
     let views = args.views.or_window();
     let distance = views.distance_for(&calibration);
     let mesh = model.as_model();
+    if args.any_view {
+        return run_anywhere(&args, &mesh, camera, distance);
+    }
+    if args.refusal {
+        return run_refusal(&args, &mesh, camera, distance);
+    }
     let protocol = Protocol {
         method: args.method,
         distance,
@@ -229,6 +255,40 @@ pub fn run(args: Args) -> Result<()> {
     );
     print(&accuracy);
     write_json(args.json.as_deref(), &accuracy)
+}
+
+fn run_anywhere(args: &Args, model: &Model<'_>, camera: Camera, distance: f64) -> Result<()> {
+    let what = Anywhere {
+        any_axes: args.any_axes,
+        distance,
+        poses: args.poses,
+        seed: args.seed,
+    };
+    let places = measure_anywhere(model, camera, &what)?;
+    println!(
+        "{} poses: {} right, {} open with the right pose among the candidates ({:.1} % together), {} else doubted, {} wrong and called good",
+        places.poses,
+        places.right,
+        places.among_candidates,
+        100.0 * places.part(),
+        places.doubted,
+        places.wrong
+    );
+    write_json(args.json.as_deref(), &places)
+}
+
+fn run_refusal(args: &Args, model: &Model<'_>, camera: Camera, distance: f64) -> Result<()> {
+    let others = args.other.iter().map(|path| read_model(path));
+    let others = others.collect::<Result<Vec<_>>>()?;
+    let what = Refusal {
+        others: &others,
+        distance,
+        poses: args.poses,
+        seed: args.seed,
+    };
+    let kinds = measure_refusal(model, camera, &what)?;
+    refusal::print(&kinds);
+    write_json(args.json.as_deref(), &kinds)
 }
 
 fn print(accuracy: &Accuracy) {

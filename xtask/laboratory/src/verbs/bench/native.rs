@@ -289,7 +289,10 @@ impl<'b> Bench<'b> {
             let drawn = draw(&self.mesh, &self.camera, pose)?;
             let mask = drawn.mask();
             let (ms, found) = timed(|| finder.all(&Seen::from(Silhouette::from(&mask))));
-            ensure!(!found?.candidates.is_empty(), "silhouette {case} has no pose");
+            ensure!(
+                !found?.candidates.is_empty(),
+                "silhouette {case} has no pose"
+            );
             times.push(ms);
         }
         let work = "mask of 1024 x 1024 to refined poses, mirror candidates and regions of 95 % among them";

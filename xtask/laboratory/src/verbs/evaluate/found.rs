@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
-use fluoropose::finder::Candidate;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::library::ViewGrid;
+use fluoropose::locate::Located;
 use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -17,11 +17,8 @@ use super::reference::{Reference, in_front};
 use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
-use crate::finding::{
-    Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses,
-};
+use crate::finding::{Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses, first_poses};
 use crate::measure::accuracy::median_absolute;
-use crate::options::Pair;
 use crate::sequence::{Folders, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 
@@ -169,60 +166,44 @@ impl<'s> Part<'s> {
         field_axes(model.mesh(), &planes, component)
     }
 
-    /// The views of the library. Perspective depends on the distance: where nobody told it, the
-    /// masks do, once.
+    /// The views of the library: those that the study asks for, else those that the masks show. Perspective depends on the
+    /// distance: where nobody told it, the masks do.
     fn views(
         &self,
         calibration: &Calibration,
         sequence: &Sequence<'_>,
         request: &Request<'_>,
     ) -> Result<ViewOptions> {
-        let mut views = ViewOptions {
-            nominal: self.component.nominal.map(Pair),
+        let nominal = self
+            .component
+            .nominal
+            .map(|[x, y]| ViewOptions::window([x, y]));
+        let asked = ViewOptions {
             distance: self.component.distance_mm,
-            ..ViewOptions::default()
+            ..nominal.unwrap_or_default()
         };
-        if views.nominal.is_none() && self.is_within_the_window(calibration, sequence, request)? {
-            views = ViewOptions {
-                distance: views.distance,
-                ..ViewOptions::window([0.0; 2])
-            };
+        if nominal.is_some() && asked.distance.is_some() {
+            return Ok(asked);
         }
-        if views.distance.is_none() {
-            let guess = views.distance_for(calibration);
-            let built = self.library(sequence, &views, guess)?;
-            let finder = self.finder(&built, sequence, Method::Library, request)?;
-            let found = find_poses(&finder, sequence);
-            let best = found.iter().filter_map(|frame| frame.candidates.first());
-            let depths: Vec<f64> = best.map(|best| best.pose.translation[2]).collect();
-            let median = median_absolute(&depths);
-            views.distance = Some(if depths.is_empty() { guess } else { median });
-        }
-        Ok(views)
-    }
-
-    /// Whether most frames are seen from within the window of Walker et al. 1996 about the file's own axes, by the best of
-    /// all views: its library is finer.
-    fn is_within_the_window(
-        &self,
-        calibration: &Calibration,
-        sequence: &Sequence<'_>,
-        request: &Request<'_>,
-    ) -> Result<bool> {
-        let everywhere = ViewOptions::default();
-        let distance = self.component.distance_mm;
-        let distance = distance.unwrap_or_else(|| everywhere.distance_for(calibration));
-        let built = self.library(sequence, &everywhere, distance)?;
+        let guess = asked.distance_for(calibration);
+        let built = self.library(sequence, &asked, guess)?;
         let finder = self.finder(&built, sequence, Method::Library, request)?;
-        let found = find_poses(&finder, sequence);
-        let (grid, window) = (everywhere.grid(), ViewGrid::default());
-        let is_within = |best: &&Candidate| {
-            let [x, y] = grid.rotations(best.located.located.view);
-            x.abs() <= -window.x.first && y.abs() <= -window.y.first
+        let first = first_poses(&finder, sequence);
+        let depths: Vec<f64> = first.iter().map(|one| one.pose.translation[2]).collect();
+        let seen = if depths.is_empty() {
+            guess
+        } else {
+            median_absolute(&depths)
         };
-        let best = found.iter().filter_map(|frame| frame.candidates.first());
-        let within = best.clone().filter(is_within).count();
-        Ok(5 * within >= 4 * best.count().max(1))
+        let window = nominal.is_none() && is_within_the_window(&first);
+        Ok(ViewOptions {
+            distance: Some(asked.distance.unwrap_or(seen)),
+            ..if window {
+                ViewOptions::window([0.0; 2])
+            } else {
+                asked
+            }
+        })
     }
 
     fn library(
@@ -281,6 +262,17 @@ impl<'s> Part<'s> {
                 .collect(),
         })
     }
+}
+
+/// Whether most frames are seen from within the window of Walker et al. 1996 about the file's own axes, by the best of
+/// all views: its library is finer.
+fn is_within_the_window(first: &[Located]) -> bool {
+    let (grid, window) = (ViewOptions::default().grid(), ViewGrid::default());
+    let is_within = |best: &&Located| {
+        let [x, y] = grid.rotations(best.view);
+        x.abs() <= -window.x.first && y.abs() <= -window.y.first
+    };
+    5 * first.iter().filter(is_within).count() >= 4 * first.len().max(1)
 }
 
 /// Where refinement on the grey frame comes to from the reference poses; of several answers, as a

@@ -67,7 +67,10 @@ fn print_row(row: &Row) {
             doubtful,
             none,
         } = verdicts;
-        println!("{:>LEFT$} good {good}, doubtful {doubtful}, none {none}", "verdict");
+        println!(
+            "{:>LEFT$} good {good}, doubtful {doubtful}, none {none}",
+            "verdict"
+        );
     }
     if let Some(reasons) = &row.reasons {
         let known = row.femur.as_ref().map_or(String::new(), |source| {
