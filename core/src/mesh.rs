@@ -1,6 +1,8 @@
 //! A component's surface: triangles, the edges between them, and its planes of symmetry.
 
 pub mod anatomy;
+#[cfg(feature = "alloc")]
+mod coarse;
 pub mod edges;
 pub mod mirror;
 mod model;
@@ -9,6 +11,8 @@ mod owned;
 mod surface;
 pub mod symmetry;
 
+#[cfg(feature = "alloc")]
+pub use coarse::coarser;
 pub use model::Model;
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;

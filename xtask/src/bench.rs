@@ -25,6 +25,12 @@ pub(crate) struct Args {
     /// Implants of the catalogue among which one is to be identified; building it takes about a second for each
     #[arg(long, value_name = "N", default_value_t = 500)]
     implants: usize,
+    /// Folder of real studies (left8, film70), whose masks and models are measured too
+    #[arg(long, value_name = "DIR")]
+    studies: Option<PathBuf>,
+    /// With --studies: those rows alone
+    #[arg(long, requires = "studies")]
+    studies_only: bool,
     /// Write the figures to this file too: {"rows": [{"work", "ours_ms", "peer", "peer_ms", "ratio", "same_answer"}]}, with --browser
     /// {"rows": [{"work", "value", "unit"}]}
     #[arg(long, value_name = "FILE")]
@@ -54,6 +60,12 @@ impl Args {
         let work = workspace::target_dir().join("bench");
         let mut words: Vec<OsString> = vec!["--implants".into(), self.implants.to_string().into()];
         words.extend(["--work".into(), work.into()]);
+        if let Some(studies) = &self.studies {
+            words.extend(["--studies".into(), studies.into()]);
+        }
+        if self.studies_only {
+            words.push("--studies-only".into());
+        }
         if let Some(file) = &self.json {
             words.extend(["--json".into(), file.into()]);
         }

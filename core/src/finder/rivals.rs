@@ -44,6 +44,12 @@ const CLOSE_DEG: f64 = 1.0;
 const BACK_DEG: f64 = 0.1;
 const ALIKE: f64 = 1.25;
 
+/// After a quick look a pose may still be the best where its loss is at most this many times the least, or this many times
+/// so many square pixels; and two lead to the same where they are nearer than this, degrees.
+const LOOKED_WORSE: f64 = 4.0;
+const LOOKED_PX2: f64 = 0.125;
+const LOOKED_SAME_DEG: f64 = 1.0;
+
 /// Of poses nearer to each other than this, degrees, the best is kept.
 pub(super) const SAME_DEG: f64 = 0.5;
 
@@ -93,15 +99,7 @@ pub fn refine_rivals(
         memory,
         answers: Vec::new(),
     };
-    let mut failure = None;
-    for (start, pose) in starts.iter().take(STARTS).enumerate() {
-        if let Err(error) = search.refine(pose, start, false) {
-            failure = Some(error);
-        }
-    }
-    if let (true, Some(error)) = (search.answers.is_empty(), failure) {
-        return Err(error);
-    }
+    search.refine_starts(starts)?;
     search.mirror();
     search.look_closer();
     Ok(distinct(&search.answers))
@@ -129,6 +127,64 @@ impl RivalRefinement<'_, '_> {
         };
         keep(&mut self.answers, answer, |other| other.refined.loss);
         Ok(())
+    }
+
+    /// Refines the starts. Of several, a quick look tells where each leads, and only the poses that may be the best are
+    /// refined to the end, each once.
+    fn refine_starts(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
+        let starts = &starts[..starts.len().min(STARTS)];
+        let looked = match (starts, self.is_outline()) {
+            ([_, _, ..], true) => self.look_at(starts),
+            _ => starts.iter().copied().enumerate().collect(),
+        };
+        let mut failure = None;
+        for &(start, pose) in &looked {
+            if let Err(error) = self.refine(&pose, start, false) {
+                failure = Some(error);
+            }
+        }
+        match failure.filter(|_| self.answers.is_empty()) {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether all that was seen are silhouettes: edges of a frame are too many for a quick look.
+    fn is_outline(&self) -> bool {
+        let outline = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
+        self.views.iter().all(outline)
+    }
+
+    /// Where the starts lead, each pose once, and only those that may be the best; a start that a quick look leads nowhere
+    /// is kept as it is.
+    fn look_at(&mut self, starts: &[Pose]) -> Vec<(usize, Pose), STARTS> {
+        let options = RefineOptions {
+            effort: Effort::Probe,
+            edge_offset: false,
+            ..self.options
+        };
+        let mut seen: Vec<(usize, Pose, f64), STARTS> = Vec::new();
+        for (start, pose) in starts.iter().enumerate() {
+            let probed = refine(self.model, self.views, pose, options, self.memory);
+            let (pose, loss) = probed.map_or((*pose, 0.0), |probed| (probed.pose, probed.loss));
+            keep(&mut seen, (start, pose, loss), |&(_, _, loss)| loss);
+        }
+        let least = seen
+            .iter()
+            .map(|&(_, _, loss)| loss)
+            .filter(|&loss| loss > 0.0);
+        let limit = LOOKED_WORSE * least.fold(f64::INFINITY, f64::min).max(LOOKED_PX2);
+        let mut kept: Vec<(usize, Pose), STARTS> = Vec::new();
+        for (start, pose, loss) in seen {
+            let same = |(_, other): &(usize, Pose)| {
+                geodesic_deg(&other.rotation, &pose.rotation) < LOOKED_SAME_DEG
+            };
+            if loss <= limit && !kept.iter().any(same) {
+                // No longer than what it is made from.
+                let _ = kept.push((start, pose));
+            }
+        }
+        kept
     }
 
     /// Refines the mirror images of all poses so far, where they cover what was seen.

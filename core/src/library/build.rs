@@ -81,6 +81,23 @@ impl<'m> Builder<'m> {
         })
     }
 
+    /// Millimetres of the model that a pixel of a view covers: a coarser level of a model that is no coarser than this
+    /// (`mesh::coarser`) has the same views but for a pixel of their outlines.
+    #[must_use]
+    pub fn detail_mm(&self) -> f64 {
+        self.info.distance / self.info.focal
+    }
+
+    /// The same library drawn from a coarser level of the model. It stays the library of the model itself.
+    #[must_use]
+    pub fn drawn_from<'c>(&self, coarser: Model<'c>) -> Builder<'c> {
+        Builder {
+            model: coarser,
+            info: self.info,
+            view_camera: self.view_camera,
+        }
+    }
+
     /// What the library will record of itself: grid, distance, camera, model.
     #[must_use]
     pub fn info(&self) -> &LibraryInfo {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::library::{BuildError, Builder, ViewScratch};
-use fluoropose::mesh::Model;
+use fluoropose::mesh::{Model, coarser};
 use fluoropose::render::Projected;
 use rayon::prelude::*;
 
@@ -33,6 +33,11 @@ pub fn build_library(
     let start = Instant::now();
     let canonical = options.canonical()?;
     let builder = Builder::new(mesh, camera, canonical, options.grid(), distance)?;
+    let coarse = coarser(&mesh, builder.detail_mm());
+    let builder = match &coarse {
+        Some(coarse) => builder.drawn_from(coarse.as_model()),
+        None => builder,
+    };
     let bar = progress(builder.views(), "views");
     let memory = || {
         (

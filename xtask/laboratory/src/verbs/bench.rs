@@ -4,6 +4,7 @@ mod catalogue;
 mod native;
 mod peers;
 mod row;
+mod studies;
 
 use std::path::PathBuf;
 
@@ -21,6 +22,12 @@ pub struct Args {
     /// Implants of the catalogue among which one is to be identified; building it takes about a second for each
     #[arg(long, value_name = "N", default_value_t = 500)]
     implants: usize,
+    /// Folder of real studies (left8, film70), whose masks and models are measured too
+    #[arg(long, value_name = "DIR")]
+    studies: Option<PathBuf>,
+    /// With --studies: those rows alone
+    #[arg(long, requires = "studies")]
+    studies_only: bool,
     /// Write the figures to this file too: {"rows": [{"work", "ours_ms", "peer", "peer_ms", "ratio", "same_answer"}]}
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -35,7 +42,13 @@ pub struct Args {
 /// For what cannot be drawn, searched or written. A peer that cannot be had is left out and said.
 pub fn run(args: Args) -> Result<()> {
     ensure!(args.implants > 0, "a catalogue has at least one implant");
-    let rows = native::measure(args.implants, &args.work)?;
+    let mut rows = Vec::new();
+    if !args.studies_only {
+        rows.extend(native::measure(args.implants, &args.work)?);
+    }
+    if let Some(studies) = &args.studies {
+        rows.extend(studies::measure(studies)?);
+    }
     print_rows(&rows);
     write_json(args.json.as_deref(), &serde_json::json!({ "rows": rows }))
 }

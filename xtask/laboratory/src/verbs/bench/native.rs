@@ -301,7 +301,7 @@ impl<'b> Bench<'b> {
 }
 
 /// Working memory of a search.
-struct SearchBuffers {
+pub(super) struct SearchBuffers {
     spec: CanonicalSpec,
     turned: Vec<Word>,
     query: Vec<u8>,
@@ -310,7 +310,7 @@ struct SearchBuffers {
 }
 
 impl SearchBuffers {
-    fn new(library: &Library<'_>) -> Self {
+    pub(super) fn new(library: &Library<'_>) -> Self {
         let spec = library.info().canonical;
         Self {
             spec,
@@ -322,7 +322,7 @@ impl SearchBuffers {
     }
 
     /// The best view and its unmatched pixels; making the silhouette ready is part of the work.
-    fn best(&mut self, library: &Library<'_>, straight: &[Word]) -> Result<[u32; 2]> {
+    pub(super) fn best(&mut self, library: &Library<'_>, straight: &[Word]) -> Result<[u32; 2]> {
         reverse(straight, &mut self.turned);
         let query = Query::new(&self.spec, straight, &self.turned, &mut self.query)?;
         let memory = ViewSearchMemory {

@@ -17,10 +17,15 @@ use super::reference::{Reference, in_front};
 use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
-use crate::finding::{Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses, first_poses};
+use crate::finding::{
+    Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses, first_poses,
+};
 use crate::measure::accuracy::median_absolute;
 use crate::sequence::{Folders, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
+
+/// Perspective changes views little where the distance changes by this part.
+const ALIKE: f64 = 0.1;
 
 /// A component and what was found in each of its sources.
 pub(super) struct Part<'s> {
@@ -148,8 +153,8 @@ impl<'s> Part<'s> {
             };
             let source = Source::read(&folders, calibration)?;
             let sequence = source.disturbed(&request.disturbance)?;
-            let views = part.views(calibration, &sequence, request)?;
-            let found = part.find_source(name, &sequence, &views, request)?;
+            let built = part.prepare(calibration, &sequence, request)?;
+            let found = part.find_source(name, &sequence, &built, request)?;
             part.found.push(found);
         }
         Ok(part)
@@ -166,44 +171,40 @@ impl<'s> Part<'s> {
         field_axes(model.mesh(), &planes, component)
     }
 
-    /// The views of the library: those that the study asks for, else those that the masks show. Perspective depends on the
+    /// The library: with the views that the study asks for, else with those that the masks show. Perspective depends on the
     /// distance: where nobody told it, the masks do.
-    fn views(
+    fn prepare(
         &self,
         calibration: &Calibration,
         sequence: &Sequence<'_>,
         request: &Request<'_>,
-    ) -> Result<ViewOptions> {
-        let nominal = self
-            .component
-            .nominal
-            .map(|[x, y]| ViewOptions::window([x, y]));
+    ) -> Result<Built> {
+        let nominal = self.component.nominal;
         let asked = ViewOptions {
             distance: self.component.distance_mm,
-            ..nominal.unwrap_or_default()
+            ..nominal
+                .map(|[x, y]| ViewOptions::window([x, y]))
+                .unwrap_or_default()
         };
-        if nominal.is_some() && asked.distance.is_some() {
-            return Ok(asked);
-        }
         let guess = asked.distance_for(calibration);
         let built = self.library(sequence, &asked, guess)?;
+        if nominal.is_some() && asked.distance.is_some() {
+            return Ok(built);
+        }
         let finder = self.finder(&built, sequence, Method::Library, request)?;
         let first = first_poses(&finder, sequence);
         let depths: Vec<f64> = first.iter().map(|one| one.pose.translation[2]).collect();
-        let seen = if depths.is_empty() {
-            guess
-        } else {
-            median_absolute(&depths)
+        let seen = match depths.is_empty() || asked.distance.is_some() {
+            true => guess,
+            false => median_absolute(&depths),
         };
-        let window = nominal.is_none() && is_within_the_window(&first);
-        Ok(ViewOptions {
-            distance: Some(asked.distance.unwrap_or(seen)),
-            ..if window {
-                ViewOptions::window([0.0; 2])
-            } else {
-                asked
-            }
-        })
+        if nominal.is_none() && is_within_the_window(&first) {
+            return self.library(sequence, &ViewOptions::window([0.0; 2]), seen);
+        }
+        match (seen / guess - 1.0).abs() <= ALIKE {
+            true => Ok(built),
+            false => self.library(sequence, &asked, seen),
+        }
     }
 
     fn library(
@@ -231,7 +232,7 @@ impl<'s> Part<'s> {
         &self,
         source: &str,
         sequence: &Sequence<'_>,
-        views: &ViewOptions,
+        built: &Built,
         request: &Request<'_>,
     ) -> Result<Found> {
         let count = sequence.masks().len();
@@ -243,9 +244,7 @@ impl<'s> Part<'s> {
                 reference.poses.len()
             );
         }
-        let distance = views.distance.context("the distance was found before")?;
-        let built = self.library(sequence, views, distance)?;
-        let mut finder = self.finder(&built, sequence, request.method, request)?;
+        let mut finder = self.finder(built, sequence, request.method, request)?;
         let reference = self.reference.as_ref();
         let reference = reference.filter(|_| request.method == Method::Image);
         Ok(Found {
