@@ -1,6 +1,7 @@
 //! Which of several refined poses is chosen, and why, in words.
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
+use fluoropose::finder::{Found, Verdict};
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
 
@@ -55,12 +56,11 @@ impl Surroundings {
 }
 
 impl Surroundings {
-    fn choose(&self, candidates: &[RivalPose]) -> Option<Choice> {
-        let context = ChoiceContext {
+    fn context(&self) -> ChoiceContext<'_> {
+        ChoiceContext {
             counterpart: self.counterpart,
             neighbours: &self.neighbours,
-        };
-        choose(candidates, &context)
+        }
     }
 
     /// Why a pose was chosen, in a sentence or two.
@@ -130,6 +130,7 @@ fn tenths(degrees: f64) -> String {
 pub struct Chosen {
     choice: Choice,
     sentence: String,
+    verdict: Option<Verdict>,
 }
 
 #[wasm_bindgen]
@@ -155,9 +156,29 @@ impl Chosen {
 
 impl Chosen {
     pub(crate) fn among(candidates: &[RivalPose], around: &Surroundings) -> Option<Self> {
-        let choice = around.choose(candidates)?;
+        let choice = choose(candidates, &around.context())?;
         let sentence = around.explain(&choice);
-        Some(Self { choice, sentence })
+        Some(Self {
+            choice,
+            sentence,
+            verdict: None,
+        })
+    }
+
+    /// The choice among what was found for a frame, with its verdict.
+    pub(crate) fn of(found: &Found, around: &Surroundings) -> Option<Self> {
+        let decision = found.decide(&around.context())?;
+        Some(Self {
+            choice: decision.choice,
+            sentence: around.explain(&decision.choice),
+            verdict: Some(decision.verdict),
+        })
+    }
+
+    /// How far the choice is to be trusted, where that is known: the word for it, and why.
+    pub(crate) fn verdict(&self) -> Option<(&'static str, String)> {
+        let verdict = self.verdict?;
+        Some((verdict.word(), verdict.to_string()))
     }
 
     /// The best of the poses that nothing ruled out.

@@ -75,6 +75,21 @@ impl Match {
         self.chosen.as_ref().is_some_and(Chosen::decided)
     }
 
+    /// How far the first candidate is to be trusted: `good`, `doubtful`, or `none` where no pose of the model explains the
+    /// outline. Nothing for poses of the library.
+    #[wasm_bindgen(getter)]
+    pub fn verdict(&self) -> Option<String> {
+        let (word, _) = self.chosen.as_ref()?.verdict()?;
+        Some(word.to_owned())
+    }
+
+    /// Why it has that verdict, in a sentence without its full stop.
+    #[wasm_bindgen(getter)]
+    pub fn because(&self) -> Option<String> {
+        let (_, because) = self.chosen.as_ref()?.verdict()?;
+        Some(because)
+    }
+
     /// x, y, z (mm), z, x and y rotation (degrees).
     pub fn pose(&self, index: usize) -> Option<Vec<f64>> {
         let candidate = self.candidates.get(index)?;

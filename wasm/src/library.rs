@@ -3,7 +3,7 @@
 use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::mask::Word;
 use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
-use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::{OwnedModel, coarser};
 use fluoropose::render::Projected;
 use js_sys::Uint8Array;
 use wasm_bindgen::prelude::*;
@@ -20,17 +20,12 @@ self_cell::self_cell!(
     }
 );
 
-/// Where a distance is not given, the object is taken to stand this share of the principal distance from the focus, as
-/// knees do before a detector close behind them.
-const USUAL_DISTANCE: f64 = 0.9;
-
 /// Which views a library holds.
 #[wasm_bindgen]
 pub struct LibraryViews {
-    x: ViewAxis,
-    y: ViewAxis,
+    grid: ViewGrid,
+    canonical: CanonicalSpec,
     distance: Option<f64>,
-    area: u32,
 }
 
 #[wasm_bindgen]
@@ -51,12 +46,24 @@ impl LibraryViews {
         let &[nominal_x, nominal_y] = nominal else {
             return Err(JsError::new("A nominal view is two rotations"));
         };
+        let size = CanonicalSpec::default().size();
         Ok(Self {
-            x: axis("x", x)?.shifted(nominal_x),
-            y: axis("y", y)?.shifted(nominal_y),
+            grid: ViewGrid {
+                x: axis("x", x)?.shifted(nominal_x),
+                y: axis("y", y)?.shifted(nominal_y),
+            },
+            canonical: CanonicalSpec::new(size, area).map_err(sentence)?,
             distance,
-            area,
         })
+    }
+
+    /// All directions, so that no nominal view is needed; the distance from the focus in mm, where it is known.
+    pub fn everywhere(distance: Option<f64>) -> LibraryViews {
+        Self {
+            grid: ViewGrid::everywhere(),
+            canonical: CanonicalSpec::COARSE,
+            distance,
+        }
     }
 }
 
@@ -103,21 +110,18 @@ impl LibraryBuilder {
         views: &LibraryViews,
     ) -> Result<LibraryBuilder, JsError> {
         let (calibration, camera) = calibration_of(calibration, width, height)?;
-        let canonical =
-            CanonicalSpec::new(CanonicalSpec::default().size(), views.area).map_err(sentence)?;
-        let grid = ViewGrid {
-            x: views.x,
-            y: views.y,
-        };
-        let usual = calibration
-            .principal_distance()
-            .map(|distance| distance * USUAL_DISTANCE);
-        let distance = views.distance.or(usual).ok_or_else(|| {
-            JsError::new("A camera matrix does not tell how far the object is: give the library's distance in mm")
-        })?;
+        let LibraryViews {
+            grid, canonical, ..
+        } = *views;
+        let distance = views
+            .distance
+            .unwrap_or_else(|| calibration.expected_distance());
         let owned = OwnedModel::new(vertices, triangles).map_err(sentence)?;
-        let plan = Plan::try_new(owned, |owned| {
-            Builder::new(owned.as_model(), camera, canonical, grid, distance).map_err(sentence)
+        let plan = |model| Builder::new(model, camera, canonical, grid, distance);
+        let fine = plan(owned.as_model()).map_err(sentence)?;
+        let (info, coarse) = (*fine.info(), coarser(&owned.as_model(), fine.detail_mm()));
+        let plan = Plan::try_new(coarse.unwrap_or(owned), |drawn| {
+            Builder::standing_for(info, drawn.as_model()).map_err(sentence)
         })?;
         let builder = plan.borrow_dependent();
         Ok(Self {

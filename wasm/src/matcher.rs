@@ -12,12 +12,11 @@ pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;
-use fluoropose::finder::choice::RivalPose as Contender;
+use fluoropose::finder::FinderBuffers;
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
-use fluoropose::locate::partial::known_fraction;
-use fluoropose::locate::{Located, Workspace, locate, workspace_needed};
+use fluoropose::locate::{Located, locate};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
@@ -26,7 +25,7 @@ use crate::choice::{Chosen, Surroundings};
 use crate::found::{Candidate, Match, deviation_numbers};
 use crate::working_model::{Ranked, WorkingModel};
 use fluoropose_page::error::sentence;
-use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
+use fluoropose_page::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
 use fluoropose_page::traced::Traced;
 
 self_cell::self_cell!(
@@ -38,7 +37,7 @@ self_cell::self_cell!(
     }
 );
 
-/// Local minima of the score surface that are looked at.
+/// Local minima of the score surface that are looked at without a model.
 const MINIMA: usize = 4;
 
 /// Poses that are offered at most: the best, the rival that nothing ruled out, and the one that was ruled out last.
@@ -47,18 +46,13 @@ const OFFERED: usize = 3;
 /// A rival with more than this many times the unmatched pixels, or the residual, of the best is none.
 const RIVAL_WITHIN: f64 = 2.0;
 
-/// Beyond this part of the silhouette unmatched, something may hide a part of it that nobody marked.
-const DOUBTFUL_SHARE: f64 = 0.06;
-
 /// An open library with the working memory to match against it.
 #[wasm_bindgen]
 pub struct Matcher {
     library: OpenLibrary,
     model: Option<WorkingModel>,
-    canonical: Vec<Word>,
-    turned: Vec<Word>,
-    scores: Vec<u32>,
-    bytes: Vec<u8>,
+    /// While there is no model, which has memory of its own.
+    buffers: FinderBuffers,
 }
 
 #[wasm_bindgen]
@@ -70,14 +64,10 @@ impl Matcher {
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: Vec<u8>) -> Result<Matcher, JsError> {
         let library = OpenLibrary::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))?;
-        let needs = workspace_needed(library.borrow_dependent());
         Ok(Self {
             library,
             model: None,
-            canonical: vec![0; needs.words],
-            turned: vec![0; needs.words],
-            scores: vec![0; needs.scores],
-            bytes: vec![0; needs.bytes],
+            buffers: FinderBuffers::default(),
         })
     }
 
@@ -123,7 +113,7 @@ impl Matcher {
     #[wasm_bindgen(js_name = matchOutline)]
     pub fn match_outline(&mut self, traced: &Traced) -> Result<Match, JsError> {
         traced.look(|silhouette| {
-            let located = self.locate(traced, silhouette, false)?;
+            let located = self.locate(traced, silhouette)?;
             let score = |ranked: &Ranked| ranked.drawn.map_or(f64::MAX, |count| count as f64);
             let near = within(&located.ranked, score);
             let candidates = near.iter().take(OFFERED).map(|one| self.candidate(one));
@@ -149,21 +139,22 @@ impl Matcher {
         around: &Surroundings,
     ) -> Result<Match, JsError> {
         traced.look(|silhouette| {
-            let located = self.locate(traced, silhouette, true)?;
+            let library = self.library.borrow_dependent();
             let Some(model) = &mut self.model else {
                 return self.match_outline(traced);
             };
-            let refined = model.refine(&located.ranked, &traced.camera(), silhouette)?;
-            let contenders: Vec<Contender> = refined.iter().map(contender).collect();
-            let chosen = Chosen::among(&contenders, around);
-            let mut candidates = Vec::new();
-            for ranked in offered(&refined, chosen.as_ref()) {
-                candidates.push(self.refined_candidate(&ranked, traced, silhouette)?);
+            let camera = traced.camera();
+            let found = model.find(library, &camera, silhouette)?;
+            let chosen = Chosen::of(&found, around);
+            let mut ranked = Vec::new();
+            for candidate in &found.candidates {
+                ranked.push(model.ranked(candidate, &camera, silhouette)?);
             }
+            let offered = offered(&ranked, chosen.as_ref());
             Ok(Match {
-                candidates,
-                clipped: located.clipped,
-                partial: located.partial,
+                candidates: offered.iter().map(|one| self.candidate(one)).collect(),
+                clipped: found.clipped,
+                partial: found.partial,
                 chosen,
             })
         })
@@ -209,61 +200,39 @@ struct LocatedPoses {
 }
 
 impl Matcher {
+    /// Memory to compare silhouettes with the library.
+    fn buffers(&mut self) -> (&Library<'_>, &mut FinderBuffers) {
+        let buffers = match &mut self.model {
+            Some(model) => &mut model.buffers,
+            None => &mut self.buffers,
+        };
+        (self.library.borrow_dependent(), buffers)
+    }
+
     /// Looks the library through: the poses that come near the best, by the pixels that differ where the model is there to
-    /// be drawn. `thorough` also tries pieces of an outline that no view explains.
+    /// be drawn.
     fn locate(
         &mut self,
         traced: &Traced,
         silhouette: &Silhouette<'_>,
-        thorough: bool,
     ) -> Result<LocatedPoses, JsError> {
-        let camera = traced.camera();
-        let library = self.library.borrow_dependent();
-        let Some(model) = &mut self.model else {
-            if traced.is_marked() {
-                return Err(JsError::new(
-                    "A part of the outline is marked unknown; a pose from the rest needs the model, not only its library: open it too",
-                ));
-            }
-            return self.locate_whole(traced, silhouette);
-        };
-        if known_fraction(silhouette).is_partial() {
+        if let Some(model) = &mut self.model {
+            let library = self.library.borrow_dependent();
+            let first = model.first_poses(library, &traced.camera(), silhouette)?;
             return Ok(LocatedPoses {
-                ranked: model.locate_pieces(library, &camera, silhouette)?,
-                clipped: false,
-                partial: true,
+                ranked: first.poses.iter().map(Ranked::from).collect(),
+                clipped: first.clipped,
+                partial: first.partial,
             });
         }
-        let mut located = self.locate_whole(traced, silhouette)?;
-        let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
-        let doubtful = |best: &Ranked| best.drawn.is_none_or(|count| count as f64 > limit);
-        if thorough && located.ranked.first().is_none_or(doubtful) {
-            let library = self.library.borrow_dependent();
-            let model = self.model.as_mut();
-            let pieces = model.map(|model| model.locate_pieces(library, &camera, silhouette));
-            // They are a second opinion: where there is none, the first stands.
-            located
-                .ranked
-                .extend(pieces.and_then(Result::ok).unwrap_or_default());
-            located
-                .ranked
-                .sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
+        if traced.is_marked() {
+            return Err(JsError::new(
+                "A part of the outline is marked unknown; a pose from the rest needs the model, not only its library: open it too",
+            ));
         }
-        Ok(located)
-    }
-
-    fn locate_whole(
-        &mut self,
-        traced: &Traced,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<LocatedPoses, JsError> {
         let (near, clipped) = self.near_views::<MINIMA>(traced, silhouette)?;
-        let ranked = match &mut self.model {
-            Some(model) => model.rank(near, &traced.camera(), silhouette)?,
-            None => near.into_iter().map(Ranked::undrawn).collect(),
-        };
         Ok(LocatedPoses {
-            ranked,
+            ranked: near.into_iter().map(Ranked::undrawn).collect(),
             clipped,
             partial: false,
         })
@@ -277,14 +246,8 @@ impl Matcher {
         silhouette: &Silhouette<'_>,
     ) -> Result<(Vec<Located>, bool), JsError> {
         let camera = traced.camera();
-        let library = self.library.borrow_dependent();
-        let work = Workspace {
-            canonical: &mut self.canonical,
-            rotated: &mut self.turned,
-            scores: &mut self.scores,
-            bytes: &mut self.bytes,
-            kernels: Kernels::PORTABLE,
-        };
+        let (library, buffers) = self.buffers();
+        let work = buffers.workspace(library, Kernels::PORTABLE);
         let found = locate::<K>(silhouette.mask(), &camera, library, work).map_err(sentence)?;
         let near = within(&found.poses, |located| f64::from(located.fine.unmatched));
         Ok((near, found.form.clipped))
@@ -292,17 +255,18 @@ impl Matcher {
 
     fn candidate(&self, ranked: &Ranked) -> Candidate {
         let located = ranked.located;
-        let (input, library) = if ranked.by_pieces {
+        let by_pieces = located.by_pieces;
+        let (input, library) = if by_pieces {
             (Vec::new(), Vec::new())
         } else {
             self.pictures(ranked)
         };
         Candidate {
             pose: to_numbers(&EulerPose::from(ranked.pose)),
-            unmatched: (!ranked.by_pieces).then_some(located.fine.unmatched),
+            unmatched: (!by_pieces).then_some(located.fine.unmatched),
             drawn: ranked.drawn,
             residual_px: ranked.fit.map(|fit| fit.refined.residual_px),
-            deviations: None,
+            deviations: self.deviations(ranked),
             start: ranked
                 .fit
                 .map(|fit| to_numbers(&EulerPose::from(fit.start))),
@@ -315,41 +279,26 @@ impl Matcher {
 
     /// Bits of the outline's canonical silhouette, turned as the view, and of the view's.
     fn pictures(&self, ranked: &Ranked) -> (Vec<Word>, Vec<Word>) {
-        // The next outline is drawn over the matcher's own.
-        let mut input = self.canonical.clone();
-        if ranked.located.fine.reversed {
-            reverse(&self.canonical, &mut input);
-        }
+        let buffers = match &self.model {
+            Some(model) => &model.buffers,
+            None => &self.buffers,
+        };
         let library = self.library.borrow_dependent();
-        let mut view = vec![0; self.canonical.len()];
+        let words = library.info().canonical.words_needed();
+        // The next outline is drawn over the matcher's own.
+        let straight = buffers.canonical().get(..words).unwrap_or_default();
+        let mut input = straight.to_vec();
+        if ranked.located.fine.reversed {
+            reverse(straight, &mut input);
+        }
+        let mut view = vec![0; words];
         library.draw(ranked.located.view, &mut view);
         (input, view)
     }
 
-    /// The same with how sure the pose is.
-    fn refined_candidate(
-        &mut self,
-        ranked: &Ranked,
-        traced: &Traced,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Candidate, JsError> {
-        let deviations = match (&mut self.model, &ranked.fit) {
-            (Some(model), Some(fit)) => {
-                model.deviations(&fit.refined, &traced.camera(), silhouette)?
-            }
-            _ => None,
-        };
-        Ok(Candidate {
-            deviations: deviations.as_ref().map(deviation_numbers),
-            ..self.candidate(ranked)
-        })
-    }
-}
-
-fn contender(ranked: &Ranked) -> Contender {
-    Contender {
-        pose: ranked.pose,
-        residual_px: ranked.fit.map_or(f64::NAN, |fit| fit.refined.residual_px),
+    fn deviations(&self, ranked: &Ranked) -> Option<PoseNumbers> {
+        let deviations = self.model.as_ref()?.deviations_of(ranked)?;
+        Some(deviation_numbers(&deviations))
     }
 }
 

@@ -1,30 +1,28 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
-use fluoropose::finder::rivals::{RefinedRival, refine_rivals, worth_refining};
+use fluoropose::finder::{
+    Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, find, first_poses,
+};
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
-use fluoropose::locate::partial::{PartialBuffers, locate_partial};
 use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
-use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
-use fluoropose::pose::covariance::Deviations;
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
-    CameraView, Iterate, Polarity, RefineBuffers, RefineMemory, RefineOptions, Refined,
-    outline_samples, refine, refine_traced, uncertainty,
+    CameraView, Iterate, Polarity, RefineOptions, Refined, outline_samples, refine, refine_traced,
+    uncertainty,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::JsError;
 
 use fluoropose_page::error::sentence;
-
-/// Poses that are looked for from a part of an outline.
-const RIVALS: usize = 6;
 
 /// So far from the outline a pixel is surely inside or outside of an implant that was set by hand, px.
 const ASIDE: f64 = 5.0;
@@ -34,8 +32,6 @@ const ASIDE: f64 = 5.0;
 pub(crate) struct Ranked {
     /// What the library said.
     pub(crate) located: Located,
-    /// Whether pieces of the outline led to it, so that there is no score of whole silhouettes.
-    pub(crate) by_pieces: bool,
     /// The pose, as good as it is known.
     pub(crate) pose: Pose,
     /// Known frame pixels that differ from the outline when the model is drawn there; nothing where it was not, or cannot
@@ -43,6 +39,8 @@ pub(crate) struct Ranked {
     pub(crate) drawn: Option<u64>,
     /// What refinement made of it.
     pub(crate) fit: Option<Fit>,
+    /// How sure it is.
+    pub(crate) covariance: Option<PoseCovariance>,
 }
 
 /// A refined pose.
@@ -58,16 +56,17 @@ impl Ranked {
     pub(crate) fn undrawn(located: Located) -> Self {
         Self {
             located,
-            by_pieces: false,
             pose: located.pose,
             drawn: None,
             fit: None,
+            covariance: None,
         }
     }
+}
 
-    fn by_pieces(Reranked { located, unmatched }: Reranked) -> Self {
+impl From<&Reranked> for Ranked {
+    fn from(&Reranked { located, unmatched }: &Reranked) -> Self {
         Self {
-            by_pieces: true,
             drawn: Some(unmatched),
             ..Self::undrawn(located)
         }
@@ -77,8 +76,7 @@ impl Ranked {
 /// A model with the working memory to draw and refine it. The memory grows with the first frame and stays.
 pub(crate) struct WorkingModel {
     owned: OwnedModel,
-    buffers: RefineBuffers,
-    partial: PartialBuffers,
+    pub(crate) buffers: FinderBuffers,
     /// The model as drawn, where nothing is refined.
     drawn: Vec<Word>,
     projected: Vec<Projected>,
@@ -96,8 +94,7 @@ impl WorkingModel {
         let projected = scratch_needed(&owned.as_model());
         Ok(Self {
             owned,
-            buffers: RefineBuffers::default(),
-            partial: PartialBuffers::default(),
+            buffers: FinderBuffers::default(),
             drawn: Vec::new(),
             projected: vec![Projected::default(); projected],
             planes: None,
@@ -109,116 +106,94 @@ impl WorkingModel {
         self.owned.as_model()
     }
 
-    /// Poses from pieces of the outline, best first.
-    ///
-    /// # Errors
-    /// The core's sentence about the outline.
-    pub(crate) fn locate_pieces(
+    /// Calls `with` with the component that a library and this model make, and memory to find it.
+    pub(crate) fn with_component<T>(
         &mut self,
         library: &Library<'_>,
         camera: &Camera,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Vec<Ranked>, JsError> {
-        let model = self.owned.as_model();
-        let memory = self.partial.borrow(library, camera, &model);
-        let found = locate_partial::<RIVALS>(silhouette, camera, library, &model, memory);
-        let found = found.map_err(sentence)?;
-        Ok(found.into_iter().map(Ranked::by_pieces).collect())
-    }
-
-    /// Puts rivals in order by drawing the model at each. A pose that cannot be drawn comes last, without a figure.
-    ///
-    /// # Errors
-    /// The core's sentence about the model.
-    pub(crate) fn rank(
-        &mut self,
-        rivals: Vec<Located>,
-        camera: &Camera,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Vec<Ranked>, JsError> {
-        let mut ranked = Vec::with_capacity(rivals.len());
-        for located in rivals {
-            let drawn = self.draw(&located.pose, camera, silhouette)?;
-            ranked.push(Ranked {
-                drawn,
-                ..Ranked::undrawn(located)
-            });
-        }
-        ranked.sort_by_key(|ranked| ranked.drawn.unwrap_or(u64::MAX));
-        Ok(ranked)
-    }
-
-    /// Refines ranked rivals: the poses by rising loss, each once.
-    ///
-    /// # Errors
-    /// The core's sentence about the model, or why none can be refined.
-    pub(crate) fn refine(
-        &mut self,
-        ranked: &[Ranked],
-        camera: &Camera,
-        silhouette: &Silhouette<'_>,
-    ) -> Result<Vec<Ranked>, JsError> {
-        let drawn = ranked.iter().filter(|rival| rival.drawn.is_some());
-        let drawn: Vec<Ranked> = drawn.copied().collect();
-        let verified: Vec<Reranked> = drawn.iter().map(Reranked::from).collect();
-        let worth = worth_refining(&verified);
-        let starts: Vec<Pose> = worth.iter().map(|rival| rival.located.pose).collect();
-        let model = self.owned.as_model();
-        let planes = self
-            .planes
-            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec())
-            .clone();
-        let view = CameraView::only(camera, *silhouette);
-        let mut memory = self.buffers.borrow(&model, camera);
-        let options = RefineOptions::default();
-        let answers = refine_rivals(&model, &[view], &starts, &planes, options, &mut memory)
-            .map_err(sentence)?;
-        let mut refined = Vec::with_capacity(answers.len());
-        for answer in &answers {
-            let pose = answer.refined.pose;
-            refined.push(Ranked {
-                pose,
-                drawn: self.draw(&pose, camera, silhouette)?,
-                fit: Some(Fit {
-                    refined: answer.refined,
-                    start: start_of(answer, &answers, &starts, &planes),
-                }),
-                ..drawn[answer.start]
-            });
-        }
-        Ok(refined)
-    }
-
-    /// Calls `with` with the model, its planes of near-symmetry and memory to refine it.
-    ///
-    /// # Errors
-    /// The core's sentence about the model, and that of `with`.
-    pub(crate) fn lend<T>(
-        &mut self,
-        camera: &Camera,
-        with: impl FnOnce(&Model<'_>, &[SymmetryPlane], RefineMemory<'_>) -> Result<T, JsError>,
-    ) -> Result<T, JsError> {
+        with: impl FnOnce(&Component<'_>, FinderMemory<'_>) -> T,
+    ) -> T {
         let model = self.owned.as_model();
         let planes = self
             .planes
             .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
-        with(&model, planes, self.buffers.borrow(&model, camera))
+        let component = Component {
+            library,
+            model: &model,
+            planes,
+        };
+        let memory = self.buffers.borrow(&component, camera, Kernels::PORTABLE);
+        with(&component, memory)
     }
 
-    /// Standard deviations of a refined pose's numbers; nothing where the outline does not determine it.
+    /// First poses of a silhouette, best first, and what else is known of them.
+    ///
+    /// # Errors
+    /// The core's sentence about the silhouette.
+    pub(crate) fn first_poses(
+        &mut self,
+        library: &Library<'_>,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<FirstPoses, JsError> {
+        self.with_component(library, camera, |component, mut memory| {
+            first_poses(component, camera, silhouette, &mut memory).map_err(sentence)
+        })
+    }
+
+    /// Poses of a silhouette, refined.
+    ///
+    /// # Errors
+    /// The core's sentence about the silhouette, or why none can be refined.
+    pub(crate) fn find(
+        &mut self,
+        library: &Library<'_>,
+        camera: &Camera,
+        silhouette: &Silhouette<'_>,
+    ) -> Result<Found, JsError> {
+        let options = RefineOptions::default();
+        self.with_component(library, camera, |component, mut memory| {
+            find(
+                component,
+                camera,
+                silhouette,
+                Goal::Outline,
+                options,
+                &mut memory,
+            )
+            .map_err(sentence)
+        })
+    }
+
+    /// A candidate as the page reads it.
     ///
     /// # Errors
     /// The core's sentence about the model.
-    pub(crate) fn deviations(
+    pub(crate) fn ranked(
         &mut self,
-        refined: &Refined,
+        candidate: &Candidate,
         camera: &Camera,
         silhouette: &Silhouette<'_>,
-    ) -> Result<Option<Deviations>, JsError> {
-        self.deviations_in(refined, CameraView::only(camera, *silhouette))
+    ) -> Result<Ranked, JsError> {
+        Ok(Ranked {
+            located: candidate.located.located,
+            pose: candidate.pose,
+            drawn: self.draw(&candidate.pose, camera, silhouette)?,
+            fit: candidate.refined.map(|refined| Fit {
+                refined,
+                start: candidate.start,
+            }),
+            covariance: candidate.covariance,
+        })
     }
 
-    /// The same for what any camera saw.
+    /// Standard deviations of a pose's numbers.
+    pub(crate) fn deviations_of(&self, ranked: &Ranked) -> Option<Deviations> {
+        let middle = self.owned.as_model().bounds().centre;
+        Some(ranked.covariance?.deviations(&ranked.pose, &middle))
+    }
+
+    /// Standard deviations of a refined pose's numbers, by what a camera saw; nothing where that does not determine it.
     ///
     /// # Errors
     /// The core's sentence about the model.
@@ -228,7 +203,7 @@ impl WorkingModel {
         view: CameraView<'_>,
     ) -> Result<Option<Deviations>, JsError> {
         let model = self.owned.as_model();
-        let mut memory = self.buffers.borrow(&model, view.camera);
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
         let covariance = uncertainty(&model, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = model.bounds().centre;
         Ok(covariance.map(|covariance| covariance.deviations(&refined.pose, &middle)))
@@ -245,7 +220,7 @@ impl WorkingModel {
         options: RefineOptions,
     ) -> Result<Refined, JsError> {
         let model = self.owned.as_model();
-        let mut memory = self.buffers.borrow(&model, view.camera);
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
         refine(&model, &[view], start, options, &mut memory).map_err(sentence)
     }
 
@@ -260,7 +235,7 @@ impl WorkingModel {
         frame: &dyn Grey,
     ) -> Result<Polarity, JsError> {
         let model = self.owned.as_model();
-        let mut memory = self.buffers.borrow(&model, camera);
+        let mut memory = self.buffers.refine().borrow(&model, camera);
         let mut darker_inside = 0.0;
         outline_samples(&model, camera, pose, &mut memory, |sample| {
             let [right, down] = sample.normal;
@@ -302,7 +277,7 @@ impl WorkingModel {
     ) -> Result<Vec<Iterate>, JsError> {
         let model = self.owned.as_model();
         let view = CameraView::only(camera, *silhouette);
-        let mut memory = self.buffers.borrow(&model, camera);
+        let mut memory = self.buffers.refine().borrow(&model, camera);
         let mut steps = Vec::new();
         let mut note = |step: &Iterate| steps.push(*step);
         let options = RefineOptions::default();
@@ -332,37 +307,4 @@ impl WorkingModel {
         )
         .ok())
     }
-}
-
-impl From<&Ranked> for Reranked {
-    fn from(ranked: &Ranked) -> Self {
-        Self {
-            located: ranked.located,
-            unmatched: ranked.drawn.unwrap_or(u64::MAX),
-        }
-    }
-}
-
-/// The pose that an answer was refined from. Of a mirrored one it is not told: it is the mirror image of another answer,
-/// and of all those the nearest.
-fn start_of(
-    answer: &RefinedRival,
-    answers: &[RefinedRival],
-    starts: &[Pose],
-    planes: &[SymmetryPlane],
-) -> Pose {
-    let own = starts[answer.start];
-    if !answer.mirrored {
-        return own;
-    }
-    let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &answer.refined.pose.rotation);
-    let others = answers.iter().filter(|other| !other.mirrored);
-    others
-        .flat_map(|other| {
-            planes
-                .iter()
-                .map(|plane| mirror_pose(&other.refined.pose, plane))
-        })
-        .min_by(|a, b| turn(a).total_cmp(&turn(b)))
-        .unwrap_or(own)
 }

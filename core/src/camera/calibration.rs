@@ -133,6 +133,16 @@ impl Calibration {
         }
     }
 
+    /// Where a knee is expected when nothing says so, mm from the focus: 0.9 of the principal distance, as knees stand
+    /// before a detector close behind them; 1000 where the file does not state that. It sets the perspective of a library's
+    /// views, which changes slowly, and never a pose.
+    #[must_use]
+    pub fn expected_distance(&self) -> f64 {
+        const PART: f64 = 0.9;
+        self.principal_distance()
+            .map_or(1000.0, |distance| PART * distance)
+    }
+
     /// Distance from focus to detector in mm, where the file states it.
     #[must_use]
     pub fn principal_distance(&self) -> Option<f64> {

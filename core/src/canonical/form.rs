@@ -46,6 +46,12 @@ impl CanonicalSpec {
         area: 15_000,
     };
 
+    /// 938 pixels in a frame of 64 x 64, the same part of it: enough to tell directions some degrees apart.
+    pub const COARSE: Self = Self {
+        size: 64,
+        area: 938,
+    };
+
     /// A canonical frame of `size` x `size` pixels in which every silhouette has `area` pixels.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ use super::component::Component;
 use super::memory::FinderMemory;
 use crate::camera::Camera;
 use crate::image::mask::Word;
+use crate::library::Library;
 use crate::locate::partial::PartialBuffers;
 use crate::locate::{Workspace, workspace_needed};
 use crate::memory::grow;
@@ -32,11 +33,7 @@ impl FinderBuffers {
         camera: &Camera,
         kernels: Kernels,
     ) -> FinderMemory<'_> {
-        let needs = workspace_needed(component.library);
-        grow(&mut self.canonical, needs.words);
-        grow(&mut self.rotated, needs.words);
-        grow(&mut self.scores, needs.scores);
-        grow(&mut self.bytes, needs.bytes);
+        self.make_room(component.library);
         FinderMemory {
             workspace: Workspace {
                 canonical: &mut self.canonical,
@@ -50,6 +47,32 @@ impl FinderBuffers {
                 .borrow(component.library, camera, component.model),
             refine: self.refine.borrow(component.model, camera),
         }
+    }
+
+    /// Memory to compare silhouettes with a library, without its model.
+    pub fn workspace(&mut self, library: &Library<'_>, kernels: Kernels) -> Workspace<'_> {
+        self.make_room(library);
+        Workspace {
+            canonical: &mut self.canonical,
+            rotated: &mut self.rotated,
+            scores: &mut self.scores,
+            bytes: &mut self.bytes,
+            kernels,
+        }
+    }
+
+    /// The canonical form of the last silhouette that was compared.
+    #[must_use]
+    pub fn canonical(&self) -> &[Word] {
+        &self.canonical
+    }
+
+    fn make_room(&mut self, library: &Library<'_>) {
+        let needs = workspace_needed(library);
+        grow(&mut self.canonical, needs.words);
+        grow(&mut self.rotated, needs.words);
+        grow(&mut self.scores, needs.scores);
+        grow(&mut self.bytes, needs.bytes);
     }
 
     /// Memory of refinement alone, for several views of a model.

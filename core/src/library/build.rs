@@ -63,7 +63,6 @@ impl<'m> Builder<'m> {
         let side = VIEW_SIDE_EIGHTHS * canonical.size() / 8;
         let room = side as f64 / 2.0 - 2.0;
         let focal = room * sqrt(distance * distance - radius * radius) / radius;
-        let middle = side as f64 / 2.0;
         let info = LibraryInfo {
             canonical,
             grid,
@@ -73,12 +72,7 @@ impl<'m> Builder<'m> {
             camera,
             model: model.digest(),
         };
-        check_info(&info).map_err(BuildError::Parameter)?;
-        Ok(Self {
-            model,
-            info,
-            view_camera: Camera::new(side, side, [focal; 2], [middle; 2])?,
-        })
+        Self::standing_for(info, model)
     }
 
     /// Millimetres of the model that a pixel of a view covers: a coarser level of a model that is no coarser than this
@@ -88,14 +82,19 @@ impl<'m> Builder<'m> {
         self.info.distance / self.info.focal
     }
 
-    /// The same library drawn from a coarser level of the model. It stays the library of the model itself.
-    #[must_use]
-    pub fn drawn_from<'c>(&self, coarser: Model<'c>) -> Builder<'c> {
-        Builder {
-            model: coarser,
-            info: self.info,
-            view_camera: self.view_camera,
-        }
+    /// A plan for the library that `info` describes, drawn from `model`: the model itself or a coarser level of it.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn standing_for(info: LibraryInfo, model: Model<'m>) -> Result<Self, BuildError> {
+        check_info(&info).map_err(BuildError::Parameter)?;
+        let side = VIEW_SIDE_EIGHTHS * info.canonical.size() / 8;
+        let middle = side as f64 / 2.0;
+        Ok(Self {
+            model,
+            info,
+            view_camera: Camera::new(side, side, [info.focal; 2], [middle; 2])?,
+        })
     }
 
     /// What the library will record of itself: grid, distance, camera, model.

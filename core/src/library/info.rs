@@ -80,6 +80,13 @@ impl ViewGrid {
         }
     }
 
+    /// Views from all sides as fine as refinement needs its starts: 2.5 degrees apart, for canonical frames of
+    /// [`CanonicalSpec::COARSE`].
+    #[must_use]
+    pub fn everywhere() -> Self {
+        Self::sphere(2.5)
+    }
+
     /// Whether rotations about y go all around, so that the last are neighbours of the first.
     #[must_use]
     pub fn is_around(&self) -> bool {

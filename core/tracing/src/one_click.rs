@@ -44,7 +44,7 @@ pub use candidates::{Answer, Start};
 pub use error::OneClickError;
 pub use job::Progress;
 pub use memory::{OneClickMemory, OneClickNeeds};
-pub use observation::{Component, Observation};
+pub use observation::Observation;
 pub use prompt::Prompt;
 pub use state::{ANSWERS, OneClick, STARTS};
 pub use support::Support;

@@ -6,7 +6,7 @@ use fluoropose::library::ViewAxis;
 use fluoropose::locate::estimate::pose_from_view;
 use fluoropose::locate::interpolate::FineView;
 use fluoropose::locate::partial::known_fraction;
-use fluoropose::locate::{LocatedPoses, Workspace, locate, score_views};
+use fluoropose::locate::{LocatedPoses, locate, score_views};
 use fluoropose::pose::EulerPose;
 use fluoropose::search::Scores;
 use fluoropose::search::kernels::Kernels;
@@ -137,14 +137,8 @@ impl Matcher {
                     "Only a whole outline has a score for every view; of this one a part is unknown or cut off by the frame",
                 ));
             }
-            let library = self.library.borrow_dependent();
-            let mut work = Workspace {
-                canonical: &mut self.canonical,
-                rotated: &mut self.turned,
-                scores: &mut self.scores,
-                bytes: &mut self.bytes,
-                kernels: Kernels::PORTABLE,
-            };
+            let (library, buffers) = self.buffers();
+            let mut work = buffers.workspace(library, Kernels::PORTABLE);
             let (mask, camera) = (silhouette.mask(), traced.camera());
             let found = locate(mask, &camera, library, work.reborrow()).map_err(sentence)?;
             let scores = score_views(mask, &camera, library, work).map_err(sentence)?;

@@ -51,17 +51,17 @@ impl Matcher {
     /// A sentence where the silhouette has the canonical form of another library.
     #[wasm_bindgen(js_name = nearestView)]
     pub fn nearest_view(&mut self, canonical: &Canonical) -> Result<NearestView, JsError> {
-        let library = self.library.borrow_dependent();
+        let (library, buffers) = self.buffers();
+        let work = buffers.workspace(library, Kernels::PORTABLE);
         let spec = &library.info().canonical;
-        let (prepared, sketches) = self.bytes.split_at_mut(query_bytes_needed(spec));
+        let (prepared, sketches) = work.bytes.split_at_mut(query_bytes_needed(spec));
         let (straight, turned) = (&canonical.straight, &canonical.turned);
         let query = Query::new(spec, straight, turned, prepared).map_err(sentence)?;
         let memory = ViewSearchMemory {
-            bounds: &mut self.scores,
+            bounds: work.scores,
             sketches,
         };
-        let kernels = Kernels::PORTABLE;
-        let search = ViewSearch::new(library, &query, &kernels, memory);
+        let search = ViewSearch::new(library, &query, &work.kernels, memory);
         let best = search.map_err(sentence)?.best::<1>(Directions::Straight);
         let best = best
             .first()

@@ -5,6 +5,7 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
+use fluoropose::finder::Component;
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Outline, Point};
@@ -17,7 +18,7 @@ use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
-    Answer, Component, Observation, OneClick as Work, OneClickMemory, Progress, Prompt,
+    Answer, Observation, OneClick as Work, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
@@ -353,20 +354,9 @@ impl Matcher {
         with: impl FnOnce(&Component<'_>, Workspace<'_>, RefineMemory<'_>) -> Result<T, JsError>,
     ) -> Result<T, JsError> {
         let library = self.library.borrow_dependent();
-        let workspace = Workspace {
-            canonical: &mut self.canonical,
-            rotated: &mut self.turned,
-            scores: &mut self.scores,
-            bytes: &mut self.bytes,
-            kernels: Kernels::PORTABLE,
-        };
-        model_of(&mut self.model)?.lend(camera, |mesh, planes, refine| {
-            let component = Component {
-                library,
-                model: mesh,
-                planes,
-            };
-            with(&component, workspace, refine)
+        let model = model_of(&mut self.model)?;
+        model.with_component(library, camera, |component, memory| {
+            with(component, memory.workspace, memory.refine)
         })
     }
 

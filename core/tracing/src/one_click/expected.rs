@@ -1,7 +1,7 @@
 //! The size that a component has in a frame, from its library and the camera.
 
-use super::observation::Component;
 use fluoropose::camera::Camera;
+use fluoropose::finder::Component;
 use fluoropose::math::sqrt;
 
 /// Nearest and farthest distance of the object from the focus, as multiples of the library's: those of

@@ -3,8 +3,9 @@
 use super::candidates::Start;
 use super::error::OneClickError;
 use super::memory::{OneClickMemory, OneClickNeeds};
-use super::observation::{Component, Observation};
+use super::observation::Observation;
 use super::state::{LOCATED, OneClick, REGIONS, STARTS, Stage};
+use fluoropose::finder::Component;
 
 /// No further pass is needed where the outline of a first pose lies near edges by the first fraction, and covers its
 /// region by the second.

@@ -3,9 +3,6 @@
 use fluoropose::camera::Camera;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
-use fluoropose::library::Library;
-use fluoropose::mesh::Model;
-use fluoropose::mesh::symmetry::SymmetryPlane;
 use fluoropose::refine::Polarity;
 
 /// A frame and what is known of it.
@@ -28,15 +25,4 @@ impl core::fmt::Debug for Observation<'_> {
             .field("polarity", &self.polarity)
             .finish_non_exhaustive()
     }
-}
-
-/// The component that is searched.
-#[derive(Clone, Copy, Debug)]
-pub struct Component<'a> {
-    /// Its library of views.
-    pub library: &'a Library<'a>,
-    /// Its model.
-    pub model: &'a Model<'a>,
-    /// The model's planes of near-symmetry ([`fluoropose::mesh::symmetry::symmetry_planes`]).
-    pub planes: &'a [SymmetryPlane],
 }

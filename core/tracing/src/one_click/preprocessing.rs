@@ -4,11 +4,12 @@ use super::candidates::{Region, SAME_START, keep};
 use super::error::OneClickError;
 use super::flooding::flood;
 use super::memory::{OneClickMemory, OneClickNeeds};
-use super::observation::{Component, Observation};
+use super::observation::Observation;
 use super::opening::{Opening, sharpness};
 use super::state::{OneClick, RADII, SMOOTHING};
 use super::statistics::ThresholdStatistics;
 use super::window::{BLOCKED, LEVELS, levels};
+use fluoropose::finder::Component;
 use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use fluoropose::image::moments::Moments;
 

@@ -3,9 +3,10 @@
 use super::candidates::{Answer, LocatedPose, SAME_ANSWER, SAME_START, Start, keep};
 use super::error::OneClickError;
 use super::memory::OneClickMemory;
-use super::observation::{Component, Observation};
+use super::observation::Observation;
 use super::prompt::Prompt;
 use super::state::{OneClick, Stage};
+use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::math::{apply, multiply, radians, rotation_by};

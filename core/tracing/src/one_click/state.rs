@@ -6,12 +6,13 @@ use super::candidates::{Answer, LocatedPose, Region, Start};
 use super::error::OneClickError;
 use super::expected::Expected;
 use super::memory::OneClickNeeds;
-use super::observation::{Component, Observation};
+use super::observation::Observation;
 use super::prompt::{Prompt, SEEDS};
 use super::scoring::PoseScorer;
 use super::statistics::CHOSEN;
 use super::window::Window;
 use fluoropose::camera::Camera;
+use fluoropose::finder::Component;
 use fluoropose::image::moments::Moments;
 
 /// The greatest number of located poses of a preprocessing pass that are drawn.

@@ -1,6 +1,7 @@
 use super::*;
 use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
+use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};

@@ -35,7 +35,7 @@ pub fn build_library(
     let builder = Builder::new(mesh, camera, canonical, options.grid(), distance)?;
     let coarse = coarser(&mesh, builder.detail_mm());
     let builder = match &coarse {
-        Some(coarse) => builder.drawn_from(coarse.as_model()),
+        Some(coarse) => Builder::standing_for(*builder.info(), coarse.as_model())?,
         None => builder,
     };
     let bar = progress(builder.views(), "views");

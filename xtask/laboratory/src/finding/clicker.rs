@@ -4,21 +4,16 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
+use fluoropose::finder::{Component, FinderBuffers};
 use fluoropose::image::frame::Grey;
-use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::image::mask::Word;
 use fluoropose::library::Library;
-use fluoropose::locate::{Workspace, workspace_needed};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
-use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
-use fluoropose::render::{Projected, scratch_needed};
+use fluoropose::refine::Polarity;
 use fluoropose_tracing::one_click::{
-    Answer, Component, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Prompt,
-    Start,
+    Answer, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Prompt, Start,
 };
-
-/// Border pixels that are lent.
-const BORDER: usize = 16_384;
 
 /// What came of a prompt.
 pub struct Clicked {
@@ -50,33 +45,16 @@ struct Buffers {
     links: Vec<u32>,
     statistics: Vec<u32>,
     words: Vec<Word>,
-    canonical: Vec<Word>,
-    turned: Vec<Word>,
-    scores: Vec<u32>,
-    bytes: Vec<u8>,
-    projected: Vec<Projected>,
-    drawn: Vec<Word>,
-    places: Vec<u16>,
-    border: Vec<BorderPixel>,
+    finder: FinderBuffers,
 }
 
 impl Buffers {
-    fn new(library: &Library<'_>, mesh: &Model<'_>, camera: &Camera) -> Self {
-        let needs = workspace_needed(library);
-        Self {
-            canonical: vec![0; needs.words],
-            turned: vec![0; needs.words],
-            scores: vec![0; needs.scores],
-            bytes: vec![0; needs.bytes],
-            projected: vec![Projected::default(); scratch_needed(mesh)],
-            drawn: vec![0; words_needed(camera.width(), camera.height())],
-            places: vec![0; camera.width() * camera.height()],
-            border: vec![BorderPixel::default(); BORDER],
-            ..Self::default()
-        }
-    }
-
-    fn lend(&mut self, needs: &OneClickNeeds) -> OneClickMemory<'_> {
+    fn lend(
+        &mut self,
+        needs: &OneClickNeeds,
+        component: &Component<'_>,
+        camera: &Camera,
+    ) -> OneClickMemory<'_> {
         for pixels in [&mut self.grey, &mut self.reached, &mut self.distance] {
             pixels.resize(needs.pixels, 0);
         }
@@ -84,6 +62,8 @@ impl Buffers {
         self.links.resize(needs.links, 0);
         self.statistics.resize(needs.statistics, 0);
         self.words.resize(needs.words, 0);
+        let kernels = fluoropose_kernels::fastest();
+        let memory = self.finder.borrow(component, camera, kernels);
         OneClickMemory {
             grey: &mut self.grey,
             reached: &mut self.reached,
@@ -92,19 +72,8 @@ impl Buffers {
             links: &mut self.links,
             statistics: &mut self.statistics,
             words: &mut self.words,
-            workspace: Workspace {
-                canonical: &mut self.canonical,
-                rotated: &mut self.turned,
-                scores: &mut self.scores,
-                bytes: &mut self.bytes,
-                kernels: fluoropose_kernels::fastest(),
-            },
-            refine: RefineMemory {
-                projected: &mut self.projected,
-                drawn: &mut self.drawn,
-                places: &mut self.places,
-                border: &mut self.border,
-            },
+            workspace: memory.workspace,
+            refine: memory.refine,
         }
     }
 }
@@ -118,7 +87,7 @@ impl<'l> Clicker<'l> {
         let library = Library::open(bytes)?;
         Ok(Self {
             planes: symmetry_planes(mesh.mesh()).to_vec(),
-            buffers: Buffers::new(&library, &mesh, &camera),
+            buffers: Buffers::default(),
             library,
             mesh,
             camera,
@@ -153,7 +122,9 @@ impl<'l> Clicker<'l> {
             planes: &self.planes,
         };
         let mut work = OneClick::new(prompt, &self.camera, Some(&component))?;
-        let mut memory = self.buffers.lend(&work.needs(&self.camera));
+        let mut memory = self
+            .buffers
+            .lend(&work.needs(&self.camera), &component, &self.camera);
         let mut longest = Duration::ZERO;
         loop {
             let step = Instant::now();

@@ -6,16 +6,6 @@ use fluoropose::library::ViewGrid;
 
 use crate::options::{Pair, Range};
 
-/// Where the object is expected when nothing says so: this part of the way from the focus to
-/// the detector, as in a usual knee study.
-const USUAL_DEPTH: f64 = 0.9;
-/// The same where the calibration does not tell the detector's distance, mm.
-const USUAL_DISTANCE_MM: f64 = 1000.0;
-
-/// Between neighbouring views of a library of all directions, degrees, its canonical frame and area, pixels: as fine as
-/// refinement needs its starts.
-const ALL_AROUND: (f64, usize, u32) = (2.5, 64, 938);
-
 /// Which views a library holds.
 #[derive(clap::Args, Clone, Copy, Debug, Default)]
 pub struct ViewOptions {
@@ -69,7 +59,7 @@ impl ViewOptions {
     /// The grid of views: all directions, or a window about the nominal view.
     pub fn grid(&self) -> ViewGrid {
         if self.is_all_around() {
-            return ViewGrid::sphere(ALL_AROUND.0);
+            return ViewGrid::everywhere();
         }
         let Pair([x, y]) = self.nominal.unwrap_or_default();
         let window = ViewGrid::default();
@@ -84,18 +74,17 @@ impl ViewOptions {
     /// # Errors
     /// Those of [`CanonicalSpec::new`].
     pub fn canonical(&self) -> Result<CanonicalSpec, CanonicalError> {
-        let (size, area) = match self.is_all_around() {
-            true => (ALL_AROUND.1, ALL_AROUND.2),
-            false => (CanonicalSpec::USUAL.size(), CanonicalSpec::USUAL.area()),
+        let usual = match self.is_all_around() {
+            true => CanonicalSpec::COARSE,
+            false => CanonicalSpec::USUAL,
         };
+        let (size, area) = (usual.size(), usual.area());
         CanonicalSpec::new(self.size.unwrap_or(size), self.area.unwrap_or(area))
     }
 
     /// The distance asked for, or the usual one for a calibration, mm.
     pub fn distance_for(&self, calibration: &Calibration) -> f64 {
-        let usual = calibration
-            .principal_distance()
-            .map_or(USUAL_DISTANCE_MM, |distance| USUAL_DEPTH * distance);
-        self.distance.unwrap_or(usual)
+        self.distance
+            .unwrap_or_else(|| calibration.expected_distance())
     }
 }
