@@ -5,8 +5,10 @@
 //! and no signs, for what does not depend on them; [`anatomical_axes`] tells which way is up and forwards too.
 
 mod signs;
+mod words;
 
 pub use signs::{AnatomicalAxes, anatomical_axes};
+pub use words::AxesError;
 
 use crate::math::eigen::eigen_symmetric;
 use crate::math::{Matrix3, Vector3, cross, dot, norm, scale, subtract};
