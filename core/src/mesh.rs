@@ -13,7 +13,7 @@ pub mod symmetry;
 
 #[cfg(feature = "alloc")]
 pub use coarse::coarser;
-pub use model::Model;
+pub use model::{Model, OtherEdges};
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;
 pub use surface::*;
