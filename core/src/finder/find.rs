@@ -3,12 +3,13 @@
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
+use super::choice::{ChoiceContext, choose};
 use super::component::Component;
 use super::error::FindError;
 use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
 use super::rivals::{RefinedRival, SAME_DEG, STARTS, refine_rivals, worth_refining};
-use super::verdict::Limits;
+use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
@@ -39,6 +40,17 @@ pub struct Found {
     pub clipped: bool,
     /// Whether a part of the outline is unknown or cut off, so that pieces of it led to the poses.
     pub partial: bool,
+}
+
+impl Found {
+    /// Chooses among the candidates by what else is known of the frame, and judges the choice. `None` where there is no
+    /// candidate.
+    #[must_use]
+    pub fn decide(&self, context: &ChoiceContext<'_>) -> Option<Decision> {
+        let choice = choose(&contenders(&self.candidates), context)?;
+        let verdict = judge(&self.candidates, &choice, &Limits::USUAL)?;
+        Some(Decision { choice, verdict })
+    }
 }
 
 /// Finds the poses of a component that explain a silhouette; their mirror images are among them where the component is

@@ -10,8 +10,7 @@ use core::fmt;
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
-use super::choice::{Choice, ChoiceContext, OpenRival, RivalPose, choose};
-use super::find::Found;
+use super::choice::{Choice, OpenRival, RivalPose};
 use crate::pose::geodesic_deg;
 use crate::refine::{Fit, MET_WITHIN_PX};
 
@@ -162,21 +161,10 @@ impl fmt::Display for Refusal {
 /// The pose that was chosen for a frame, why, and how far it is to be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decision {
-    /// What was chosen among the candidates, and why; `index` counts in [`Found::candidates`].
+    /// What was chosen among the candidates, and why; `index` counts in [`super::Found::candidates`].
     pub choice: Choice,
     /// How far that is to be trusted. Where it is [`Verdict::NoFit`], the chosen candidate is the best of those refused.
     pub verdict: Verdict,
-}
-
-impl Found {
-    /// Chooses among the candidates by what else is known of the frame, and judges the choice. `None` where there is no
-    /// candidate.
-    #[must_use]
-    pub fn decide(&self, context: &ChoiceContext<'_>) -> Option<Decision> {
-        let choice = choose(&contenders(&self.candidates), context)?;
-        let verdict = judge(&self.candidates, &choice, &Limits::USUAL)?;
-        Some(Decision { choice, verdict })
-    }
 }
 
 /// Candidates as they are compared: one that does not fit at all comes last while another does, and is ruled out by it.

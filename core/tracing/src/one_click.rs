@@ -28,6 +28,8 @@ mod flooding;
 mod opening;
 mod statistics;
 
+#[cfg(feature = "alloc")]
+mod buffers;
 mod candidates;
 mod expected;
 mod memory;
@@ -40,6 +42,8 @@ mod preprocessing;
 mod rounds;
 mod state;
 
+#[cfg(feature = "alloc")]
+pub use buffers::OneClickBuffers;
 pub use candidates::{Answer, Start};
 pub use error::OneClickError;
 pub use job::Progress;

@@ -18,7 +18,7 @@ use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
-    Answer, Observation, OneClick as Work, OneClickMemory, Progress, Prompt,
+    Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
@@ -62,49 +62,7 @@ pub struct OneClick {
     prompt: Prompt,
     excluded: Option<Vec<Word>>,
     work: Option<Work>,
-    buffers: Buffers,
-}
-
-/// What the core wants lent of its own; the rest is the matcher's.
-#[derive(Default)]
-struct Buffers {
-    grey: Vec<u16>,
-    reached: Vec<u16>,
-    distance: Vec<u16>,
-    marks: Vec<u8>,
-    links: Vec<u32>,
-    statistics: Vec<u32>,
-    words: Vec<Word>,
-}
-
-impl Buffers {
-    fn lend<'m>(
-        &'m mut self,
-        work: &Work,
-        camera: &Camera,
-        workspace: Workspace<'m>,
-        refine: RefineMemory<'m>,
-    ) -> OneClickMemory<'m> {
-        let needs = work.needs(camera);
-        for pixels in [&mut self.grey, &mut self.reached, &mut self.distance] {
-            pixels.resize(needs.pixels, 0);
-        }
-        self.marks.resize(needs.pixels, 0);
-        self.links.resize(needs.links, 0);
-        self.statistics.resize(needs.statistics, 0);
-        self.words.resize(needs.words, 0);
-        OneClickMemory {
-            grey: &mut self.grey,
-            reached: &mut self.reached,
-            distance: &mut self.distance,
-            marks: &mut self.marks,
-            links: &mut self.links,
-            statistics: &mut self.statistics,
-            words: &mut self.words,
-            workspace,
-            refine,
-        }
-    }
+    buffers: OneClickBuffers,
 }
 
 #[wasm_bindgen]
@@ -132,7 +90,7 @@ impl OneClick {
             prompt: prompt_of(prompt)?,
             excluded: None,
             work: None,
-            buffers: Buffers::default(),
+            buffers: OneClickBuffers::default(),
         })
     }
 
@@ -189,7 +147,9 @@ impl OneClick {
         matcher.with_component(&self.camera, |component, workspace, refine| {
             let fresh = || Work::new(self.prompt, &self.camera, Some(component));
             let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
-            let mut memory = self.buffers.lend(&work, &self.camera, workspace, refine);
+            let mut memory = self
+                .buffers
+                .borrow(&work.needs(&self.camera), workspace, refine);
             let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
             let more = self.film.look(|frame| {
                 with_mask(excluded.as_deref(), camera, |excluded| {
@@ -300,7 +260,9 @@ impl OneClick {
             places: &mut [],
             border: &mut [],
         };
-        let mut memory = self.buffers.lend(&work, &self.camera, workspace, refine);
+        let mut memory = self
+            .buffers
+            .borrow(&work.needs(&self.camera), workspace, refine);
         let (camera, polarity, excluded) = (&self.camera, self.polarity, &self.excluded);
         let done = self.film.look(|frame| {
             with_mask(excluded.as_deref(), camera, |excluded| {

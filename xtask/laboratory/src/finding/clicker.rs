@@ -6,13 +6,12 @@ use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::finder::{Component, FinderBuffers};
 use fluoropose::image::frame::Grey;
-use fluoropose::image::mask::Word;
 use fluoropose::library::Library;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::Polarity;
 use fluoropose_tracing::one_click::{
-    Answer, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Prompt, Start,
+    Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start,
 };
 
 /// What came of a prompt.
@@ -33,49 +32,8 @@ pub struct Clicker<'l> {
     mesh: Model<'l>,
     planes: Vec<SymmetryPlane>,
     camera: Camera,
-    buffers: Buffers,
-}
-
-#[derive(Default)]
-struct Buffers {
-    grey: Vec<u16>,
-    reached: Vec<u16>,
-    distance: Vec<u16>,
-    marks: Vec<u8>,
-    links: Vec<u32>,
-    statistics: Vec<u32>,
-    words: Vec<Word>,
+    own: OneClickBuffers,
     finder: FinderBuffers,
-}
-
-impl Buffers {
-    fn lend(
-        &mut self,
-        needs: &OneClickNeeds,
-        component: &Component<'_>,
-        camera: &Camera,
-    ) -> OneClickMemory<'_> {
-        for pixels in [&mut self.grey, &mut self.reached, &mut self.distance] {
-            pixels.resize(needs.pixels, 0);
-        }
-        self.marks.resize(needs.pixels, 0);
-        self.links.resize(needs.links, 0);
-        self.statistics.resize(needs.statistics, 0);
-        self.words.resize(needs.words, 0);
-        let kernels = fluoropose_kernels::fastest();
-        let memory = self.finder.borrow(component, camera, kernels);
-        OneClickMemory {
-            grey: &mut self.grey,
-            reached: &mut self.reached,
-            distance: &mut self.distance,
-            marks: &mut self.marks,
-            links: &mut self.links,
-            statistics: &mut self.statistics,
-            words: &mut self.words,
-            workspace: memory.workspace,
-            refine: memory.refine,
-        }
-    }
 }
 
 impl<'l> Clicker<'l> {
@@ -87,7 +45,8 @@ impl<'l> Clicker<'l> {
         let library = Library::open(bytes)?;
         Ok(Self {
             planes: symmetry_planes(mesh.mesh()).to_vec(),
-            buffers: Buffers::default(),
+            own: OneClickBuffers::default(),
+            finder: FinderBuffers::default(),
             library,
             mesh,
             camera,
@@ -122,9 +81,10 @@ impl<'l> Clicker<'l> {
             planes: &self.planes,
         };
         let mut work = OneClick::new(prompt, &self.camera, Some(&component))?;
-        let mut memory = self
-            .buffers
-            .lend(&work.needs(&self.camera), &component, &self.camera);
+        let kernels = fluoropose_kernels::fastest();
+        let finder = self.finder.borrow(&component, &self.camera, kernels);
+        let needs = work.needs(&self.camera);
+        let mut memory = self.own.borrow(&needs, finder.workspace, finder.refine);
         let mut longest = Duration::ZERO;
         loop {
             let step = Instant::now();

@@ -2,6 +2,7 @@
 
 mod anywhere;
 mod random;
+mod ranges;
 mod refusal;
 mod strangers;
 
@@ -36,6 +37,8 @@ use crate::noise::{DisturbanceOptions, Disturbed, Noise, Scene};
 use crate::options::Pair;
 
 use crate::progress::progress;
+
+use ranges::{DEPTH_MM, FAILURE_DEG, LATERAL_MM};
 
 pub use anywhere::{Anywhere, Places, measure_anywhere};
 pub use refusal::{Kind, Refusal, measure_refusal};
@@ -104,12 +107,6 @@ pub struct Args {
     json: Option<PathBuf>,
 }
 
-/// Rotation errors above this are failures, degrees.
-const FAILURE_DEG: f64 = 4.0;
-/// Half range of x and y, mm.
-const LATERAL_MM: f64 = 40.0;
-/// Half range of z about the library's distance, mm.
-const DEPTH_MM: f64 = 50.0;
 /// Out-of-plane rotations keep this far from the library's border, degrees: an object 40 mm off
 /// the axis in x and y is seen from a direction that differs by up to 3 degrees.
 const MARGIN_DEG: f64 = 3.5;

@@ -6,7 +6,7 @@ use fluoropose::pose::Pose;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::{DEPTH_MM, LATERAL_MM};
+use super::ranges::{DEPTH_MM, LATERAL_MM};
 
 /// A rotation that is equally likely everywhere: a unit quaternion from inside the unit ball of four dimensions.
 pub(super) fn rotation(random: &mut ChaCha8Rng) -> Matrix3 {

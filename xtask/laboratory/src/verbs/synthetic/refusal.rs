@@ -11,6 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::ranges::FAILURE_DEG;
 use super::{random, strangers};
 use crate::files::MaskBuffer;
 use crate::finding::{Finder, Method, ViewOptions, build_library};
@@ -254,7 +255,7 @@ fn summary(name: &str, all: &[Judged]) -> Kind {
         none: count("none"),
         good_but_wrong: errors
             .iter()
-            .filter(|e| e.geodesic_deg > super::FAILURE_DEG)
+            .filter(|e| e.geodesic_deg > FAILURE_DEG)
             .count(),
         good_z_mm: (!depths.is_empty()).then(|| rms(&depths)),
         nine_in_ten: at(0.9),
