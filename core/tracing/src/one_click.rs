@@ -5,10 +5,10 @@
 //! 1. *Regions.* Metal is dark, so the threshold regions that hold the click are hypotheses. One pass finds all of them
 //!    (`flooding`), those with the sharpest borders are chosen (`statistics`), and each is tried once more with thin bridges
 //!    to other dark things cut (`opening`).
-//! 2. *Library.* The canonical form of each region is matched with the views ([`fluoropose::locate`]), and the model is
+//! 2. *Library.* The canonical form of each region is matched with the views ([`mod@fluoropose::locate`]), and the model is
 //!    drawn at the poses. A pose is dropped if it neither covers its region nor lies on edges.
 //! 3. *Edges.* The best poses are first brought onto the region's outline, which pulls from far away and tolerates parts of
-//!    it that are wrong, and then onto the edges of the frame itself ([`fluoropose::refine`]), where the region no longer
+//!    it that are wrong, and then onto the edges of the frame itself ([`mod@fluoropose::refine`]), where the region no longer
 //!    matters. What counts in the end is how much of the model's outline lies on edges of the right sign ([`Support`]).
 //!
 //! The resulting outline is the model's silhouette at the refined pose or, without a component, the region with the

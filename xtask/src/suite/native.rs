@@ -69,6 +69,24 @@ pub(crate) fn run(report: &mut Report) {
         })?;
         Ok(Said::default())
     });
+    report.step("native: pages of the crates", || {
+        let crates = [
+            "fluoropose",
+            "fluoropose-tracing",
+            "fluoropose-distortion",
+            "fluoropose-kernels",
+        ];
+        let packages = crates.iter().flat_map(|name| ["--package", name]);
+        let mut cargo = own_cargo();
+        cargo.args([
+            "doc",
+            "--no-deps",
+            "--release",
+            "--features",
+            "fluoropose/alloc",
+        ]);
+        quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
+    });
     // By itself it shares with the program that runs here all that this was built from.
     report.step("native: tests of this program", || {
         tests(own_cargo().args(["test", "--package", "xtask", "--release"]))
