@@ -1,5 +1,6 @@
 //! What was found for an outline, as the page reads it.
 
+use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Word;
 use fluoropose::pose::covariance::Deviations;
 use js_sys::{Uint8Array, Uint32Array};
@@ -13,6 +14,8 @@ pub(crate) struct Candidate {
     pub(crate) unmatched: Option<u32>,
     pub(crate) drawn: Option<u64>,
     pub(crate) residual_px: Option<f64>,
+    pub(crate) misfit: Option<f64>,
+    pub(crate) verdict: Option<Verdict>,
     pub(crate) deviations: Option<PoseNumbers>,
     pub(crate) start: Option<PoseNumbers>,
     pub(crate) view: [f64; 2],
@@ -110,6 +113,26 @@ impl Match {
     /// Root mean square of what remains between the outlines after refinement, pixels; nothing for a pose of the library.
     pub fn residual(&self, index: usize) -> Option<f64> {
         self.candidates.get(index)?.residual_px
+    }
+
+    /// By what candidates are compared, pixels: beside the residual it counts outline that has no counterpart. Nothing where
+    /// it was not compared.
+    pub fn misfit(&self, index: usize) -> Option<f64> {
+        self.candidates.get(index)?.misfit
+    }
+
+    /// The verdict on one candidate by itself, whatever other poses do.
+    #[wasm_bindgen(js_name = verdictOf)]
+    pub fn verdict_of(&self, index: usize) -> Option<String> {
+        let verdict = self.candidates.get(index)?.verdict?;
+        Some(verdict.word().to_owned())
+    }
+
+    /// Why one candidate has that verdict, in a sentence without its full stop.
+    #[wasm_bindgen(js_name = becauseOf)]
+    pub fn because_of(&self, index: usize) -> Option<String> {
+        let verdict = self.candidates.get(index)?.verdict?;
+        Some(verdict.to_string())
     }
 
     /// Standard deviations of the pose's numbers, in their order and units; nothing for a pose of the library or one that
