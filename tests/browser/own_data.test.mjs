@@ -34,7 +34,7 @@ pageTest('own files to a pose', async (page, t) => {
     const sheet = page.getByRole('dialog', { name: 'Femur' });
     await sheet.getByRole('button', { name: 'Build the library' }).click();
     await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    const ready = await until(() => sheet.innerText(), (text) => /Library: 1271 views/.test(text), 'the library');
+    const ready = await until(() => sheet.innerText(), (text) => /Library: 10368 views/.test(text), 'the library');
     t.diagnostic(/Library: .* s\./.exec(ready)?.[0] ?? ready);
     await sheet.getByRole('button', { name: 'Close Femur' }).click();
   });

@@ -20,7 +20,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
   await step(page, t, 'the demonstration opens, libraries are built with a count', async () => {
     await panel.openDemonstration(page);
     await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    await until(() => page.getByRole('contentinfo').innerText(), (text) => /\d+ of 1271 views/.test(text), 'a count of views');
+    await until(() => page.getByRole('contentinfo').innerText(), (text) => /\d+ of 10368 views/.test(text), 'a count of views');
     await screenshot(page, 'building');
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
     assert.equal(await panel.shownPose(page), null);

@@ -87,8 +87,11 @@ impl Surroundings {
             Reason::Residual {
                 chosen_px,
                 other_px,
-            } => {
+            } if other_px.is_finite() => {
                 format!("By the residual: {chosen_px:.2} px, the pose ruled out {other_px:.2} px.")
+            }
+            Reason::Residual { chosen_px, .. } => {
+                format!("By the residual: {chosen_px:.2} px; the others do not fit at all.")
             }
             Reason::Tilt {
                 chosen_deg,

@@ -46,22 +46,25 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
           ))}
         </dl>
       )}
-      <VerdictLine result={cell.result} />
-      <p class="card-note pose-note">{pose ? source : needs(cell, missing)}</p>
+      <div class="pose-note">
+        <VerdictLine result={cell.result} />
+        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+      </div>
       <HandButtons cell={cell} adjusting={adjusting} />
     </section>
   );
 }
 
-/** How far the pose is to be trusted, in a word, and why it is not. Its place is kept while there is none. */
+/** How far the pose is to be trusted, in a word, and why it is not. */
 function VerdictLine({ result }: { result: Result | null }) {
   const words = texts.panel.pose;
   const verdict = result?.kind === 'failed' ? ({ word: 'none', because: result.sentence } as const) : verdictOf(result);
-  const reason = verdict && verdict.word !== 'good' ? `: ${verdict.because}` : '';
+  if (!verdict) return null;
+  const { word, because } = verdict;
   return (
-    <p class={`verdict is-${verdict?.word ?? 'open'}`} role="group" aria-label={words.verdict} title={verdict?.because}>
-      {verdict && <span class="verdict-word">{words.verdicts[verdict.word]}</span>}
-      {reason}
+    <p class={`verdict is-${word}`} role="group" aria-label={words.verdict} title={because}>
+      <span class="verdict-word">{words.verdicts[word]}</span>
+      {word === 'good' ? '' : words.reason(because)}
     </p>
   );
 }

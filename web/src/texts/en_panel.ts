@@ -28,6 +28,7 @@ export const panel = {
     needs: (what: string) => `For a pose: ${what}.`,
     verdict: 'Verdict',
     verdicts: { good: 'Good', doubtful: 'Doubtful', none: 'No pose' },
+    reason: (because: string) => `: ${because.charAt(0).toLowerCase()}${because.slice(1)}`,
     finding: 'Finding it ...',
     number: (name: string, value: string, unit: string) => `${name} ${value} ${unit}`,
     deviation: (name: string, value: string, unit: string) => `${name} plus or minus ${value} ${unit}`,
