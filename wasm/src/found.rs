@@ -41,6 +41,7 @@ pub(crate) fn deviation_numbers(deviations: &Deviations) -> PoseNumbers {
 #[wasm_bindgen]
 pub struct Match {
     pub(crate) candidates: Vec<Candidate>,
+    pub(crate) compared: usize,
     pub(crate) clipped: bool,
     pub(crate) partial: bool,
     pub(crate) chosen: Option<Chosen>,
@@ -52,6 +53,12 @@ impl Match {
     #[wasm_bindgen(getter)]
     pub fn count(&self) -> usize {
         self.candidates.len()
+    }
+
+    /// How many poses were found and compared: the candidates are the best of them.
+    #[wasm_bindgen(getter)]
+    pub fn compared(&self) -> usize {
+        self.compared
     }
 
     /// Whether the canonical silhouette reaches its frame's border, where the score does not see all of it.

@@ -119,6 +119,7 @@ impl Matcher {
             let candidates = near.iter().take(OFFERED).map(|one| self.candidate(one));
             Ok(Match {
                 candidates: candidates.collect(),
+                compared: located.ranked.len(),
                 clipped: located.clipped,
                 partial: located.partial,
                 chosen: None,
@@ -153,6 +154,7 @@ impl Matcher {
             let offered = offered(&ranked, chosen.as_ref());
             Ok(Match {
                 candidates: offered.iter().map(|one| self.candidate(one)).collect(),
+                compared: ranked.len(),
                 clipped: found.clipped,
                 partial: found.partial,
                 chosen,

@@ -272,6 +272,7 @@ impl OneClick {
         answer.sentence = told(&answer.supports);
         answer.matched = Some(Match {
             candidates,
+            compared: answers.len(),
             clipped: false,
             partial: false,
             chosen: Some(chosen),
