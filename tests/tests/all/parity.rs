@@ -182,7 +182,7 @@ fn what_the_native_program_finds() {
             tibia,
             case("another component", traced(femur, pose(20.0, 4.0, -7.0))),
         ),
-        (femur, case("a triangle", triangle)),
+        (tibia, case("a triangle", triangle)),
     ];
     let cases: Vec<String> = cases.iter().map(|(part, case)| found(part, case)).collect();
     let text = format!(

@@ -78,7 +78,7 @@ function Chart({ facts, takable }: { facts: LandscapeFacts; takable: boolean }) 
 
 /** Canvas pixels of a view: fewer where there are many. */
 function sideOf({ y }: LandscapeFacts): number {
-  return y.count > MANY ? 4 : 8;
+  return y.count > MANY ? 2 : 8;
 }
 const MANY = 90;
 

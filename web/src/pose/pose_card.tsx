@@ -55,11 +55,11 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
   );
 }
 
-/** How far the pose is to be trusted, in a word, and why it is not. */
+/** How far the pose is to be trusted, in a word, and why it is not. Its place is kept while that is worked out. */
 function VerdictLine({ result }: { result: Result | null }) {
   const words = texts.panel.pose;
   const verdict = result?.kind === 'failed' ? ({ word: 'none', because: result.sentence } as const) : verdictOf(result);
-  if (!verdict) return null;
+  if (!verdict) return result?.kind === 'posed' && result.from === 'outline' ? <p class="verdict" /> : null;
   const { word, because } = verdict;
   return (
     <p class={`verdict is-${word}`} role="group" aria-label={words.verdict} title={because}>
