@@ -1,20 +1,20 @@
-//! From a traced outline to a refined pose: a library is built, the outline matched, the poses found refined and one of
-//! them chosen. `cargo run -p fluoropose --features alloc --example outline_to_pose`
+//! From a traced outline to a refined pose: a library is built, the finder looks for all poses that explain the outline,
+//! one of them is chosen and judged. `cargo run -p fluoropose --features alloc --example outline_to_pose`
 
 use std::error::Error;
 
-use fluoropose::finder::choice::{ChoiceContext, RivalPose};
+use fluoropose::finder::choice::ChoiceContext;
+use fluoropose::finder::{Component, FinderBuffers, Goal, Verdict, find};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::mask::words_needed;
 use fluoropose::library::{ViewAxis, ViewScratch};
-use fluoropose::locate::workspace_needed;
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::geodesic_deg;
-use fluoropose::refine::{RefineBuffers, uncertainty};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
 use fluoropose::{
-    Builder, Camera, CameraView, CanonicalSpec, Contour, EulerPose, Library, MaskMut, Model,
-    Outline, OwnedModel, Pose, RefineOptions, ViewGrid, Workspace, choose, locate, refine_rivals,
+    Builder, Camera, CanonicalSpec, Contour, EulerPose, Library, MaskMut, Model, Outline,
+    OwnedModel, Pose, RefineOptions, Silhouette, ViewGrid,
 };
 
 mod part;
@@ -43,50 +43,45 @@ fn main() -> Result<(), Box<dyn Error>> {
     mask.fill_outline(&Outline::new(&outline, SIDE, SIDE)?);
     let mask = mask.into_mask();
 
-    // First poses: the views of the library that differ least from the silhouette.
+    // All poses that explain the silhouette: those of the library's views that differ least from it, refined until the
+    // model's outline lies on the mask's.
     let bytes = library(model, camera)?;
     let library = Library::open(&bytes)?;
-    let needs = workspace_needed(&library);
-    let work = Workspace {
-        canonical: &mut vec![0; needs.words],
-        rotated: &mut vec![0; needs.words],
-        scores: &mut vec![0; needs.scores],
-        bytes: &mut vec![0; needs.bytes],
-        kernels: Kernels::PORTABLE,
+    let planes = symmetry_planes(model.mesh());
+    let component = Component {
+        library: &library,
+        model: &model,
+        planes: &planes,
     };
-    let found = locate::<4>(&mask, &camera, &library, work)?;
-    let starts: Vec<Pose> = found.poses.iter().map(|located| located.pose).collect();
-
-    // Each is refined until the model's outline lies on the mask's; the one that explains the mask best is chosen.
-    let mut buffers = RefineBuffers::default();
-    let mut memory = buffers.borrow(&model, &camera);
-    let views = [CameraView::only(&camera, &mask)];
-    let rivals = refine_rivals(
-        &model,
-        &views,
-        &starts,
-        &[],
-        RefineOptions::default(),
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let silhouette = Silhouette::from(&mask);
+    let options = RefineOptions::default();
+    let found = find(
+        &component,
+        &camera,
+        &silhouette,
+        Goal::Outline,
+        options,
         &mut memory,
     )?;
-    let candidates: Vec<RivalPose> = rivals
-        .iter()
-        .map(|rival| RivalPose {
-            pose: rival.refined.pose,
-            residual_px: rival.refined.residual_px,
-        })
-        .collect();
-    let choice = choose(&candidates, &ChoiceContext::default()).ok_or("no pose")?;
-    let best = rivals[choice.index].refined;
-    let covariance = uncertainty(&model, &views, &best, &mut memory)?
-        .ok_or("the outline does not determine the pose")?;
 
+    // The one that explains it best, why it was chosen, and how far it is to be trusted.
+    let decision = found
+        .decide(&ChoiceContext::default())
+        .ok_or("nothing was found")?;
+    let best = &found.candidates[decision.choice.index];
+    let covariance = best
+        .covariance
+        .ok_or("the outline does not determine the pose")?;
     println!("{:.3?}", EulerPose::from(best.pose));
     println!(
         "standard deviations: {:.3?}",
         covariance.deviations(&best.pose, &model.centre())
     );
-    println!("chosen by {}", choice);
+    println!("chosen by {}", decision.choice);
+    println!("{}: {}", decision.verdict.word(), decision.verdict);
+    assert_eq!(decision.verdict, Verdict::Good);
     assert!(geodesic_deg(&best.pose.rotation, &truth.rotation) < 0.1);
     let off = [0, 1, 2].map(|k| (best.pose.translation[k] - truth.translation[k]).abs());
     assert!(off[0] < 0.05 && off[1] < 0.05 && off[2] < 1.0, "{off:?} mm");

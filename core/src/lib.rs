@@ -15,7 +15,7 @@
 //! | [`search`] | a canonical silhouette, libraries | the views that differ from it in the fewest pixels |
 //! | [`mod@locate`] | a silhouette, whole or in part | first poses |
 //! | [`mod@refine`] | a first pose | [`Refined`], and how certain it is |
-//! | [`finder`] | several poses that fit alike | the one chosen, and why |
+//! | [`finder`] | a silhouette or a frame | all poses that explain it, the one chosen, why, and a verdict |
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -54,8 +54,11 @@ pub mod finder;
 pub use camera::Camera;
 pub use camera::calibration::Calibration;
 pub use canonical::CanonicalSpec;
+#[cfg(feature = "alloc")]
+pub use finder::FinderBuffers;
 pub use finder::choice::{choose, choose_film};
 pub use finder::rivals::refine_rivals;
+pub use finder::{Component, FinderMemory, Found, Goal, Verdict, find};
 pub use image::contour::{Contour, Outline, Point};
 pub use image::frame::Frame;
 pub use image::mask::{Mask, MaskMut};

@@ -8,12 +8,16 @@ pub mod mirror;
 mod model;
 #[cfg(feature = "alloc")]
 mod owned;
+#[cfg(feature = "alloc")]
+mod remarks;
 mod surface;
 pub mod symmetry;
 
 #[cfg(feature = "alloc")]
 pub use coarse::coarser;
-pub use model::Model;
+pub use model::{Model, OtherEdges};
 #[cfg(feature = "alloc")]
 pub use owned::OwnedModel;
+#[cfg(feature = "alloc")]
+pub use remarks::{SuspectedUnit, suspected_unit};
 pub use surface::*;

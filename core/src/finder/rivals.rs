@@ -184,6 +184,10 @@ impl RivalRefinement<'_, '_> {
                 let _ = kept.push((start, pose));
             }
         }
+        // From further away refinement passes by more false minima.
+        for (start, pose) in &mut kept {
+            *pose = starts[*start];
+        }
         kept
     }
 

@@ -1,8 +1,14 @@
-//! Which ways a component lies, found from its shape: mediolateral and superoinferior, without their signs.
+//! Which ways a component lies, found from its shape.
 //!
 //! CAD files have axes of any kind. A femoral component and a tray are nearly symmetric about the plane whose normal is
-//! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. Which way along an axis is
-//! lateral or upwards is not told here: what uses these axes must not depend on it.
+//! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. [`field_axes`] tells that much
+//! and no signs, for what does not depend on them; [`anatomical_axes`] tells which way is up and forwards too.
+
+mod signs;
+mod words;
+
+pub use signs::{AnatomicalAxes, anatomical_axes};
+pub use words::AxesError;
 
 use crate::math::eigen::eigen_symmetric;
 use crate::math::{Matrix3, Vector3, cross, dot, norm, scale, subtract};

@@ -90,9 +90,9 @@ mod tests {
         let radius = model.bounds().radius;
         assert!(coarser(&model, radius / 1000.0).is_none());
         assert!(coarser(&model, f64::NAN).is_none());
-        let (fine, cell) = (drawn(&model), radius / 4.0);
+        let (fine, cell) = (drawn(&model), radius / 3.0);
         let Some(coarse) = coarser(&model, cell) else {
-            panic!("a quarter of the radius draws vertices together");
+            panic!("a third of the radius draws vertices together");
         };
         assert!(2 * coarse.as_model().triangles().len() <= triangles.len());
         let differ: u32 = fine

@@ -1,8 +1,15 @@
 //! What is drawn: a mesh and, of a closed one, its edges.
 
+use thiserror::Error;
+
 use crate::math::Vector3;
 use crate::mesh::edges::Edges;
 use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest};
+
+/// Edges were given with a mesh that they are not of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("the edges are those of another mesh: link this one's")]
+pub struct OtherEdges;
 
 /// A component's CAD model, ready to be drawn. It borrows its vertices, triangles and edges, so a copy is cheap.
 ///
@@ -32,11 +39,19 @@ impl<'a> Model<'a> {
         Mesh::new(vertices, triangles).map(Self::new)
     }
 
-    /// A model that is drawn from the edges of its mesh.
+    /// A model that is drawn from the edges of its mesh, as [`crate::mesh::edges::link`] found them.
     ///
-    /// `edges` must be those of `mesh`, as [`crate::mesh::edges::link`] found them.
-    #[must_use]
-    pub fn with_edges(mesh: Mesh<'a>, edges: Edges<'a>) -> Self {
+    /// # Errors
+    /// [`OtherEdges`] where they are another mesh's: the silhouette would be no model's.
+    pub fn with_edges(mesh: Mesh<'a>, edges: Edges<'a>) -> Result<Self, OtherEdges> {
+        match edges.mark() == mesh.mark() {
+            true => Ok(Self::linked(mesh, edges)),
+            false => Err(OtherEdges),
+        }
+    }
+
+    /// The same of edges that were kept with their mesh.
+    pub(super) fn linked(mesh: Mesh<'a>, edges: Edges<'a>) -> Self {
         Self {
             mesh,
             edges: Some(edges),
@@ -89,5 +104,32 @@ impl<'a> Model<'a> {
 impl<'a> From<Mesh<'a>> for Model<'a> {
     fn from(mesh: Mesh<'a>) -> Self {
         Self::new(mesh)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::edges::fake::Linked;
+
+    #[test]
+    fn edges_of_another_mesh_are_refused() {
+        let mut vertices = [
+            [0.0f32, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+        ];
+        let triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let other = vertices;
+        vertices[3] = [0.0, 0.0, 2.0];
+        let mesh = Mesh::new(&vertices, &triangles).expect("valid");
+        let linked = Linked::new(&mesh);
+        assert!(Model::with_edges(mesh, linked.edges()).is_ok());
+        let other = Mesh::new(&other, &triangles).expect("valid");
+        assert_eq!(
+            Model::with_edges(other, linked.edges()).err(),
+            Some(OtherEdges)
+        );
     }
 }

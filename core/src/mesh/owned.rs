@@ -7,7 +7,7 @@ use crate::mesh::edges::{
     EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, SurfaceFaults, link, link_needed,
 };
 use crate::mesh::model::Model;
-use crate::mesh::surface::{Bounds, Mesh, MeshError};
+use crate::mesh::surface::{Bounds, Mesh, MeshError, SurfaceMark};
 
 /// Vertices, triangles and the edges that silhouettes are drawn from.
 ///
@@ -26,6 +26,7 @@ struct OwnedEdges {
     boxes: Vec<EdgeBox>,
     groups: Vec<EdgeGroup>,
     rims: Vec<RimEdge>,
+    mark: SurfaceMark,
 }
 
 impl OwnedModel {
@@ -63,9 +64,10 @@ impl OwnedModel {
             boxes,
             groups,
             rims,
+            mark,
         } = &self.edges;
-        match Edges::new(boxes, groups, rims) {
-            Some(edges) => Model::with_edges(mesh, edges),
+        match Edges::new(boxes, groups, rims, *mark) {
+            Some(edges) => Model::linked(mesh, edges),
             None => Model::new(mesh),
         }
     }
@@ -78,6 +80,7 @@ fn linked(mesh: &Mesh<'_>) -> (OwnedEdges, SurfaceFaults) {
         boxes: vec![EdgeBox::default(); needs.groups],
         groups: vec![EdgeGroup::default(); needs.groups],
         rims: vec![RimEdge::default(); needs.halves],
+        mark: mesh.mark(),
     };
     let memory = LinkMemory {
         halves: &mut vec![MeshEdge::default(); needs.halves],

@@ -64,6 +64,10 @@ impl Bounds {
     }
 }
 
+/// See [`Mesh::mark`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SurfaceMark(u64);
+
 impl<'a> Mesh<'a> {
     /// A mesh over vertices (mm, model coordinates) and triples of vertex indices.
     ///
@@ -123,6 +127,18 @@ impl<'a> Mesh<'a> {
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// By which edges are known to be this surface's. It tells surfaces apart that were mixed up, not ones that were made
+    /// to be alike, and takes a hundredth of the time of [`Self::digest`].
+    #[must_use]
+    pub fn mark(&self) -> SurfaceMark {
+        // FNV-1a, word by word.
+        let mix = |hash: u64, word: u32| (hash ^ u64::from(word)).wrapping_mul(0x100_0000_01b3);
+        let start = mix(0xcbf2_9ce4_8422_2325, self.vertices.len() as u32);
+        let vertices = self.vertices.iter().flatten().map(|x| x.to_bits());
+        let words = vertices.chain(self.triangles.iter().flatten().copied());
+        SurfaceMark(words.fold(start, mix))
     }
 
     /// Digest of the geometry, which a library records to know its model again.

@@ -280,10 +280,7 @@ mod tests {
         let (vertices, triangles) = sphere();
         let plain = Model::from_triangles(&vertices, &triangles).expect("valid");
         let linked = Linked::new(plain.mesh());
-        let (by_edges, by_triangles) = (
-            depths(&Model::with_edges(*plain.mesh(), linked.edges())),
-            depths(&plain),
-        );
+        let (by_edges, by_triangles) = (depths(&linked.model(*plain.mesh())), depths(&plain));
         // Where rays touch the sphere.
         let truth = DISTANCE - RADIUS * RADIUS / DISTANCE;
         assert_eq!(by_edges.len(), by_triangles.len());

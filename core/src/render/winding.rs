@@ -277,7 +277,7 @@ mod tests {
             let pose = Pose::from(EulerPose {
                 x_mm, y_mm, z_mm: nearer - 500.0, z_rot_deg, x_rot_deg, y_rot_deg
             });
-            prop_assert_eq!(draw(&model, &pose), draw(&Model::with_edges(*model.mesh(), linked.edges()), &pose));
+            prop_assert_eq!(draw(&model, &pose), draw(&linked.model(*model.mesh()), &pose));
         }
     }
 

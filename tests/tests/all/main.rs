@@ -1,6 +1,7 @@
 //! What crosses crates, in one program: it is linked once.
 
 mod accuracy;
+mod anatomy;
 mod biplane;
 mod golden;
 mod library;

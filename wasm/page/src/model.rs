@@ -53,6 +53,13 @@ impl Model {
         })
     }
 
+    /// What a person should know of the model as it was read, in sentences without their full stops: holes, a size that is no
+    /// knee component's.
+    #[wasm_bindgen(getter)]
+    pub fn remarks(&self) -> Vec<String> {
+        self.owned.remarks()
+    }
+
     /// Number of triangles.
     #[wasm_bindgen(getter, js_name = triangleCount)]
     pub fn triangle_count(&self) -> usize {

@@ -1,5 +1,6 @@
 //! From what is seen to the poses that explain it, with the memory that the core borrows.
 
+mod axes;
 pub mod biplane;
 mod build;
 mod clicker;
@@ -8,6 +9,7 @@ mod finder;
 mod refiner;
 mod views;
 
+pub use axes::axes_of;
 pub use build::{Built, build_library};
 pub use clicker::{Clicked, Clicker};
 pub use film::{FrameFound, find_poses, first_poses};

@@ -24,6 +24,13 @@ pub(crate) const CHECKED: [&str; 5] = [
     "profile.release.package.fluoropose.debug-assertions=true",
 ];
 
+/// Programs that check what they print.
+const EXAMPLES: [&str; 3] = [
+    "joint_kinematics",
+    "library_in_static_memory",
+    "outline_to_pose",
+];
+
 /// Runs the suite.
 pub(crate) fn run(report: &mut Report) {
     report.step("native: layers and cycles", || quiet(&mut tidy::program()));
@@ -53,6 +60,14 @@ pub(crate) fn run(report: &mut Report) {
             "--no-fail-fast",
         ];
         tests(own_cargo().args(everything).args(CHECKED))
+    });
+    report.step("native: examples of the core", || {
+        EXAMPLES.into_iter().try_for_each(|name| {
+            // The tests built them.
+            let example = workspace::target_dir().join("release/examples").join(name);
+            command::run(&mut Command::new(example))
+        })?;
+        Ok(Said::default())
     });
     // By itself it shares with the program that runs here all that this was built from.
     report.step("native: tests of this program", || {

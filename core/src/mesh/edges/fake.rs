@@ -1,7 +1,7 @@
 //! Closed surfaces for tests.
 
 use super::{EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, link, link_needed};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, Model, SurfaceMark};
 use std::vec;
 use std::vec::Vec;
 
@@ -10,6 +10,7 @@ pub(crate) struct Linked {
     boxes: Vec<EdgeBox>,
     groups: Vec<EdgeGroup>,
     rims: Vec<RimEdge>,
+    mark: SurfaceMark,
 }
 
 impl Linked {
@@ -31,11 +32,17 @@ impl Linked {
             boxes: boxes.to_vec(),
             groups: groups.to_vec(),
             rims: rims.to_vec(),
+            mark: edges.mark(),
         }
     }
 
     pub(crate) fn edges(&self) -> Edges<'_> {
-        Edges::new(&self.boxes, &self.groups, &self.rims).expect("as many")
+        Edges::new(&self.boxes, &self.groups, &self.rims, self.mark).expect("as many")
+    }
+
+    /// The mesh that they are of, with them.
+    pub(crate) fn model<'m>(&'m self, mesh: Mesh<'m>) -> Model<'m> {
+        Model::with_edges(mesh, self.edges()).expect("its own")
     }
 }
 

@@ -96,7 +96,7 @@ pub fn link<'e>(
     let boxes = first("boxes of edges", groups, memory.boxes)?;
     let groups = first("groups of edges", groups, memory.groups)?;
     boxes::gather(mesh, edges, boxes, groups);
-    let kept = Edges::new(boxes, groups, &memory.rims[..rims]);
+    let kept = Edges::new(boxes, groups, &memory.rims[..rims], mesh.mark());
     // They are as many, because both were cut to one length.
     kept.map(|edges| (edges, faults)).ok_or(TooLittleMemory {
         what: "groups of edges",

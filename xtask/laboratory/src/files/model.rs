@@ -31,8 +31,9 @@ pub fn read_model(path: &Path) -> Result<OwnedModel> {
         eprintln!("{}: {note}", path.display());
     }
     let (vertices, triangles) = (model.vertices, model.triangles);
-    Ok(OwnedModel::new(
-        vertices.into_flattened(),
-        triangles.into_flattened(),
-    )?)
+    let owned = OwnedModel::new(vertices.into_flattened(), triangles.into_flattened())?;
+    for remark in owned.remarks() {
+        eprintln!("{}: {remark}", path.display());
+    }
+    Ok(owned)
 }

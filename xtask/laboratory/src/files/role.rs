@@ -1,6 +1,7 @@
 //! The two components of a knee.
 
 use fluoropose::finder::choice::Counterpart;
+use fluoropose::mesh::anatomy::KneeComponent;
 use fluoropose::pose::Pose;
 use serde::Deserialize;
 
@@ -21,6 +22,22 @@ impl Role {
             "femur" => Some(Self::Femur),
             "tibia" => Some(Self::Tibia),
             _ => None,
+        }
+    }
+
+    /// The component as its anatomy knows it.
+    pub fn component(self) -> KneeComponent {
+        match self {
+            Self::Femur => KneeComponent::Femur,
+            Self::Tibia => KneeComponent::Tibia,
+        }
+    }
+
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Femur => Self::Tibia,
+            Self::Tibia => Self::Femur,
         }
     }
 

@@ -40,6 +40,9 @@ pub struct Component {
     pub role: Option<Role>,
     /// Reference poses (.jts), a row a frame.
     pub reference: Option<PathBuf>,
+    /// Which of the file's axes point anteriorly, superiorly and to the patient's right, as in "x y z", where its shape does
+    /// not tell it rightly.
+    pub axes: Option<String>,
     /// Rotations about x and y of the nominal view, degrees.
     #[serde(default)]
     pub nominal: Option<[f64; 2]>,

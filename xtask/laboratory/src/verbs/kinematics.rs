@@ -1,13 +1,15 @@
 //! Verb `kinematics`: joint kinematics from two pose files.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::kinematics::{self, joint_angles, relative_pose};
 use fluoropose::pose::{EulerPose, Pose};
 
-use crate::files::read_poses;
+use crate::files::{Role, read_model, read_poses};
+use crate::finding::axes_of;
 use crate::options::sides;
 use fluoropose_phantom::implant::Side;
 
@@ -16,7 +18,8 @@ use fluoropose_phantom::implant::Side;
 #[command(
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
 numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees). A frame in which either \
-has no pose has empty numbers.\n\n\
+has no pose has empty numbers. The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
+patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
 )]
 pub struct Args {
@@ -26,6 +29,19 @@ pub struct Args {
     /// Tibial poses (.jts, .jtak), as many
     #[arg(long)]
     tibia: PathBuf,
+    /// The femoral component's model: its anatomical axes are found from its shape, and poses are taken in them
+    #[arg(long, value_name = "FILE")]
+    femur_model: Option<PathBuf>,
+    /// The tibial component's model, likewise
+    #[arg(long, value_name = "FILE")]
+    tibia_model: Option<PathBuf>,
+    /// Which of the femoral file's axes point anteriorly, superiorly and to the patient's right, as in "x y z": instead
+    /// of what its shape tells
+    #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+    femur_axes: Option<String>,
+    /// The same of the tibial component
+    #[arg(long, value_name = "AXES", allow_hyphen_values = true)]
+    tibia_axes: Option<String>,
     /// Left or right knee
     #[arg(long, value_parser = sides())]
     side: Side,
@@ -49,6 +65,11 @@ pub fn run(args: Args) -> Result<()> {
             tibia.len()
         );
     }
+    let stated = |file: &Option<PathBuf>, words: &Option<String>, role| {
+        axes(file.as_deref(), words.as_deref(), role)
+    };
+    let femur_axes = stated(&args.femur_model, &args.femur_axes, Role::Femur)?;
+    let tibia_axes = stated(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
     let side = match args.side {
         Side::Left => kinematics::Side::Left,
         Side::Right => kinematics::Side::Right,
@@ -61,6 +82,7 @@ pub fn run(args: Args) -> Result<()> {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
             Some((femur, tibia)) => {
+                let (femur, tibia) = (femur.compose(&femur_axes), tibia.compose(&tibia_axes));
                 for number in joint_numbers(&relative_pose(&femur, &tibia), side) {
                     write!(table, ",{number:.4}")?;
                 }
@@ -70,6 +92,51 @@ pub fn run(args: Args) -> Result<()> {
         table.push('\n');
     }
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
+}
+
+/// The rotation from the field's axes to a file's: stated, told by the shape of its model, or, without either, none.
+fn axes(file: Option<&Path>, words: Option<&str>, role: Role) -> Result<Pose> {
+    let name = match role {
+        Role::Femur => "femoral",
+        Role::Tibia => "tibial",
+    };
+    let Some(axes) = known_axes(file, words, role)? else {
+        return Ok(Pose::IDENTITY);
+    };
+    println!("{name} anterior, superior, right: {axes}");
+    if !axes.are_files_own {
+        eprintln!(
+            "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
+        );
+    }
+    if !axes.front_is_known {
+        eprintln!(
+            "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
+        );
+    }
+    Ok(axes.model_from_field)
+}
+
+fn known_axes(
+    file: Option<&Path>,
+    words: Option<&str>,
+    role: Role,
+) -> Result<Option<AnatomicalAxes>> {
+    if let Some(words) = words {
+        return Ok(Some(AnatomicalAxes::from_words(words)?));
+    }
+    let Some(file) = file else {
+        return Ok(None);
+    };
+    let model = read_model(file)?;
+    let axes = axes_of(&model.as_model(), role, None)?;
+    let none = || {
+        format!(
+            "the shape of {} does not tell its axes: state them",
+            file.display()
+        )
+    };
+    axes.with_context(none).map(Some)
 }
 
 /// Numbers of a row after that of the frame.
@@ -119,6 +186,10 @@ mod tests {
         run(Args {
             femur,
             tibia,
+            femur_model: None,
+            tibia_model: None,
+            femur_axes: None,
+            tibia_axes: None,
             side,
             out: out.clone(),
         })

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use fluoropose::finder::Candidate;
 use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
 use fluoropose::math::Vector3;
+use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose};
 
 use crate::choice::{Decision, Reasons, decide, report};
@@ -14,7 +15,7 @@ use crate::choice::report::{Numbers, check_path, report, why, write_report};
 
 use crate::files::{Role, name_of, read, read_calibration, read_model, read_poses, write_poses};
 
-use crate::finding::{EdgeOptions, Finder, FrameFound, Method, find_poses};
+use crate::finding::{EdgeOptions, Finder, FrameFound, Method, axes_of, find_poses};
 
 use crate::noise::DisturbanceOptions;
 
@@ -65,6 +66,9 @@ pub struct Args {
     /// Poses of the other component in the same frames (.jts): the coronal tilt tells mirrored poses apart
     #[arg(long, value_name = "FILE", requires = "role")]
     counterpart: Option<PathBuf>,
+    /// The other component's model: the tilt is then taken in the axes that both shapes tell, else in those of the files
+    #[arg(long, value_name = "FILE", requires = "counterpart")]
+    counterpart_model: Option<PathBuf>,
     /// Pose file to write, a row a mask
     #[arg(long)]
     out: PathBuf,
@@ -102,7 +106,7 @@ pub fn run(args: Args) -> Result<()> {
         .with_edges(args.edges);
     let sequence = source.disturbed(&args.disturbance)?;
     let found = find_poses(&finder, &sequence);
-    let decisions = decide(&found, &counterparts, &Pose::IDENTITY)?;
+    let decisions = decide(&found, &counterparts, &own_axes(&args, &mesh)?)?;
     let middle = mesh.bounds().centre;
     for (frame, decision) in found.iter().zip(&decisions) {
         describe(frame, decision.as_ref(), &middle);
@@ -139,8 +143,26 @@ fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> 
             rows.len()
         );
     }
-    let against = |row: Option<Pose>| row.map(|pose| role.against(pose));
+    let axes = match &args.counterpart_model {
+        Some(file) => shape_axes(&read_model(file)?.as_model(), role.other())?,
+        None => Pose::IDENTITY,
+    };
+    let against = |row: Option<Pose>| row.map(|pose| role.against(pose.compose(&axes)));
     Ok(rows.into_iter().map(against).collect())
+}
+
+/// The rotation from the field's axes to the model's, where the other component's are known too.
+fn own_axes(args: &Args, model: &Model<'_>) -> Result<Pose> {
+    match (args.role, &args.counterpart_model) {
+        (Some(role), Some(_)) => shape_axes(model, role),
+        _ => Ok(Pose::IDENTITY),
+    }
+}
+
+fn shape_axes(model: &Model<'_>, role: Role) -> Result<Pose> {
+    let axes = axes_of(model, role, None)?;
+    let axes = axes.with_context(|| format!("the shape of the {role:?} does not tell its axes"))?;
+    Ok(axes.model_from_field)
 }
 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.

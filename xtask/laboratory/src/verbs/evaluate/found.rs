@@ -8,7 +8,7 @@ use fluoropose::camera::calibration::Calibration;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::library::ViewGrid;
 use fluoropose::locate::Located;
-use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
+use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::{
-    Built, Finder, FrameFound, Method, ViewOptions, build_library, find_poses, first_poses,
+    Built, Finder, FrameFound, Method, ViewOptions, axes_of, build_library, find_poses, first_poses,
 };
 use crate::measure::accuracy::median_absolute;
 use crate::sequence::{Folders, Sequence, Source};
@@ -88,7 +88,7 @@ pub(super) fn find_parts<'s>(
         }
     }
     for part in parts.iter().filter(|part| is(Role::Femur)(part)) {
-        let Some(axes) = part.axes() else {
+        let Some(axes) = part.axes()? else {
             continue;
         };
         let poses = part.found.iter().map(|found| {
@@ -100,7 +100,7 @@ pub(super) fn find_parts<'s>(
     }
     for part in parts.iter_mut().filter(|part| is(Role::Tibia)(part)) {
         // Without axes of its own a tibia has no tilt.
-        let (axes, known) = match part.axes() {
+        let (axes, known) = match part.axes()? {
             Some(axes) => (axes, &femurs[..]),
             None => (Pose::IDENTITY, &[][..]),
         };
@@ -160,15 +160,19 @@ impl<'s> Part<'s> {
         Ok(part)
     }
 
-    /// The rotation from the field's axes to the model's, as its shape tells it.
-    fn axes(&self) -> Option<Pose> {
-        let component = match self.component.role()? {
-            Role::Femur => KneeComponent::Femur,
-            Role::Tibia => KneeComponent::Tibia,
+    /// The rotation from the field's axes to the model's, as the study states it or the shape tells it. Where that does not
+    /// tell which way is up, the directions alone, which the tilt asks for.
+    fn axes(&self) -> Result<Option<Pose>> {
+        let Some(role) = self.component.role() else {
+            return Ok(None);
         };
         let model = self.model.as_model();
-        let planes = symmetry_planes(model.mesh());
-        field_axes(model.mesh(), &planes, component)
+        let axes = axes_of(&model, role, self.component.axes.as_deref())?;
+        let unsigned = || {
+            let planes = symmetry_planes(model.mesh());
+            field_axes(model.mesh(), &planes, role.component())
+        };
+        Ok(axes.map(|axes| axes.model_from_field).or_else(unsigned))
     }
 
     /// The library: with the views that the study asks for, else with those that the masks show. Perspective depends on the

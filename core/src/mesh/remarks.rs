@@ -1,0 +1,139 @@
+//! What a person should know of a model as it was read, in sentences.
+
+use alloc::format;
+use alloc::string::String;
+use alloc::vec::Vec;
+
+use super::owned::OwnedModel;
+use super::surface::Bounds;
+
+/// A unit of length that a file may have been written in instead of millimetres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SuspectedUnit {
+    /// Metres.
+    Metres,
+    /// Centimetres or inches: the size alone does not tell these two apart.
+    CentimetresOrInches,
+}
+
+/// Radii of the sphere round a component of a knee, mm, wide on both sides: trays of children and revision stems.
+const SMALLEST_MM: f64 = 15.0;
+const LARGEST_MM: f64 = 250.0;
+
+/// The unit that a component's size speaks for; `None` where it is that of a knee's in millimetres, or of none.
+#[must_use]
+pub fn suspected_unit(bounds: &Bounds) -> Option<SuspectedUnit> {
+    let is_knee = |mm_per_unit: f64| {
+        let radius = bounds.radius * mm_per_unit;
+        (SMALLEST_MM..LARGEST_MM).contains(&radius)
+    };
+    if is_knee(1.0) {
+        return None;
+    }
+    let units = [
+        (1000.0, SuspectedUnit::Metres),
+        (10.0, SuspectedUnit::CentimetresOrInches),
+        (25.4, SuspectedUnit::CentimetresOrInches),
+    ];
+    let fitting = units.into_iter().find(|&(factor, _)| is_knee(factor));
+    fitting.map(|(_, unit)| unit)
+}
+
+impl OwnedModel {
+    /// What a person should know of the model: what is unusual of its surface and what was done about it, and a size that
+    /// is no knee component's in millimetres. Sentences without their full stops; none of a closed surface of usual size.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let faults = self.faults();
+        let count = |number: usize, one: &str, many: &str| match number {
+            1 => format!("1 {one}"),
+            _ => format!("{number} {many}"),
+        };
+        let mut remarks = Vec::new();
+        if faults.rims > 0 {
+            let sides = count(
+                faults.rims,
+                "side of a triangle has",
+                "sides of triangles have",
+            );
+            remarks.push(format!(
+                "the surface has holes or cracks ({sides} no neighbour); its silhouette is that of its triangles as they are"
+            ));
+        }
+        if faults.flipped > 0 {
+            let triangles = count(faults.flipped, "triangle runs", "triangles run");
+            remarks.push(format!(
+                "{triangles} against the neighbours; this changes nothing"
+            ));
+        }
+        if faults.degenerate > 0 {
+            let triangles = count(faults.degenerate, "triangle covers", "triangles cover");
+            remarks.push(format!("{triangles} nothing; this changes nothing"));
+        }
+        let bounds = self.as_model().bounds();
+        let width = 2.0 * bounds.radius;
+        remarks.extend(suspected_unit(&bounds).map(|unit| {
+            let unit = match unit {
+                SuspectedUnit::Metres => "metres",
+                SuspectedUnit::CentimetresOrInches => "centimetres or inches",
+            };
+            format!(
+                "the model is {width:.3} across, which is no knee component's size in millimetres: is the file in {unit}? Write it again in millimetres, or every length is wrong"
+            )
+        }));
+        remarks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn box_of(size: f32) -> OwnedModel {
+        let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|bit| size * bit as f32);
+        let vertices = (0..8).flat_map(corner).collect();
+        let sides = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]);
+        OwnedModel::new(vertices, triangles.collect()).expect("a box")
+    }
+
+    #[test]
+    fn a_size_that_is_no_knees_is_said_with_the_unit_that_it_speaks_for() {
+        assert!(box_of(60.0).remarks().is_empty());
+        for (size, unit) in [
+            (0.06, "in metres?"),
+            (6.0, "in centimetres or inches?"),
+            (2.4, "in centimetres or inches?"),
+        ] {
+            let remarks = box_of(size).remarks();
+            assert!(
+                remarks.len() == 1 && remarks[0].contains(unit),
+                "{size}: {remarks:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn holes_and_windings_are_said() {
+        let vertices = [
+            0.0, 0.0, 0.0, 60.0, 0.0, 0.0, 0.0, 60.0, 0.0, 60.0, 60.0, 0.0,
+        ];
+        let open = OwnedModel::new(vertices.to_vec(), [0, 1, 2, 1, 2, 3].to_vec()).expect("valid");
+        let remarks = open.remarks();
+        assert!(
+            remarks[0].contains("4 sides of triangles have no neighbour"),
+            "{remarks:?}"
+        );
+        assert!(
+            remarks[1].contains("1 triangle runs against"),
+            "{remarks:?}"
+        );
+    }
+}
