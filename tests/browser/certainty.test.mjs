@@ -118,7 +118,7 @@ async function rivals(page, stage, t) {
   await page.getByRole('radio', { name: 'Tibia', exact: true }).click();
   await page.keyboard.press('0');
   // A hand's 20 points leave the tray's rotation about y to chance: poses 2 degrees apart fit alike.
-  const outline = await polygonWithin('tibia', 1, 0.4);
+  const outline = await polygonWithin('tibia', 1, 0.7);
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const card = page.getByRole('region', { name: 'Score and candidates' });

@@ -90,7 +90,7 @@ async function dragUndoRedo(page, stage, outline) {
 async function tibiaCandidates(page, stage, t) {
   await page.getByRole('radio', { name: 'Tibia', exact: true }).click();
   // A hand's 20 points leave the tray's turn around the leg to chance: poses 2 degrees apart fit alike.
-  const outline = await polygonWithin('tibia', 1, 0.4);
+  const outline = await polygonWithin('tibia', 1, 0.7);
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const best = await panel.waitForPose(page);
