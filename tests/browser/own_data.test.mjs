@@ -1,12 +1,32 @@
 /** One's own data: a frame, a calibration and a model as files, no demonstration. */
 import assert from 'node:assert/strict';
 import { pageTest, step, until } from './support/browser.mjs';
-import { choose, drop } from './support/files.mjs';
+import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, framePath, trueOutline, truePose } from './support/study.mjs';
 
 const FRAME = 6;
+
+/** The demonstration's camera as MayaCam 2.0 writes it: 1200 mm at 0.373 mm a pixel, and no word of millimetres. */
+const CAMERA_MATRIX = `image size
+1024,1024
+
+camera matrix
+${1200 / 0.373},0,511.5
+0,${1200 / 0.373},511.5
+0,0,1
+
+rotation
+1,0,0
+0,1,0
+0,0,1
+
+translation
+0
+0
+0
+`;
 
 pageTest('own files to a pose', async (page, t) => {
   const stage = new Stage(page);
@@ -34,7 +54,7 @@ pageTest('own files to a pose', async (page, t) => {
     const sheet = page.getByRole('dialog', { name: 'Femur' });
     await sheet.getByRole('button', { name: 'Build the library' }).click();
     await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    const ready = await until(() => sheet.innerText(), (text) => /Library: 1271 views/.test(text), 'the library');
+    const ready = await until(() => sheet.innerText(), (text) => /Library: 10368 views/.test(text), 'the library');
     t.diagnostic(/Library: .* s\./.exec(ready)?.[0] ?? ready);
     await sheet.getByRole('button', { name: 'Close Femur' }).click();
   });
@@ -48,4 +68,33 @@ pageTest('own files to a pose', async (page, t) => {
     t.diagnostic(`${outline.length} points: ${panel.differences(pose, truth)}`);
     panel.assertNear(pose, truth, HAND_TRACED);
   });
+
+  await step(page, t, 'a camera matrix will do, without any distance', (t) => byCameraMatrix(page, needs, t));
+  await step(page, t, 'a window of views is a choice', () => windowOfViews(page));
 });
+
+/** @param {import('playwright-core').Page} page @param {() => Promise<string>} shown @param {import('node:test').TestContext} t */
+async function byCameraMatrix(page, shown, t) {
+  await choose(page, file('cube.txt', CAMERA_MATRIX));
+  await page.getByRole('button', { name: 'Calibration: cube.txt' }).waitFor();
+  await until(shown, (text) => !/Found with another/.test(text) && /refined/.test(text), 'a pose by the new camera');
+  const pose = await panel.waitForPose(page);
+  const truth = await truePose('femur', FRAME);
+  t.diagnostic(panel.differences(pose, truth));
+  panel.assertNear(pose, truth, HAND_TRACED);
+}
+
+/** @param {import('playwright-core').Page} page */
+async function windowOfViews(page) {
+  await page.getByRole('button', { name: /^Femur: size 4\.stl/ }).click();
+  const sheet = page.getByRole('dialog', { name: 'Femur' });
+  assert.equal(await sheet.getByLabel('Nominal x (°)').count(), 0, 'all directions ask for no nominal view');
+  await sheet.getByRole('radio', { name: 'A window of views' }).click();
+  await sheet.getByLabel('Nominal x (°)').fill('5');
+  await sheet.getByText('1271 views').waitFor();
+  await sheet.getByRole('button', { name: 'Use these views' }).click();
+  await until(() => sheet.innerText(), (text) => /Library: 1271 views/.test(text), 'the library');
+  await sheet.getByRole('radio', { name: 'All directions' }).click();
+  await sheet.getByRole('button', { name: 'Use these views' }).click();
+  await until(() => sheet.innerText(), (text) => /Library: 10368 views/.test(text), 'the library of all directions');
+}

@@ -4,7 +4,7 @@ import { decode } from 'fast-png';
 import { atRest, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
-import { HAND_TRACED, trueOutline, truePose } from './support/study.mjs';
+import { HAND_TRACED, polygonWithin, trueOutline, truePose } from './support/study.mjs';
 
 /** How far a point is dragged off the border, px of the frame. */
 const OFF = 6;
@@ -20,7 +20,7 @@ pageTest('from the demonstration to a pose', async (page, t) => {
   await step(page, t, 'the demonstration opens, libraries are built with a count', async () => {
     await panel.openDemonstration(page);
     await page.getByRole('progressbar', { name: 'Femur library' }).waitFor();
-    await until(() => page.getByRole('contentinfo').innerText(), (text) => /\d+ of 1271 views/.test(text), 'a count of views');
+    await until(() => page.getByRole('contentinfo').innerText(), (text) => /\d+ of 10368 views/.test(text), 'a count of views');
     await screenshot(page, 'building');
     await panel.waitForLibraries(page, 'Femur', 'Tibia');
     assert.equal(await panel.shownPose(page), null);
@@ -89,7 +89,8 @@ async function dragUndoRedo(page, stage, outline) {
  */
 async function tibiaCandidates(page, stage, t) {
   await page.getByRole('radio', { name: 'Tibia', exact: true }).click();
-  const outline = await trueOutline('tibia', 1);
+  // A hand's 20 points leave the tray's turn around the leg to chance: poses 2 degrees apart fit alike.
+  const outline = await polygonWithin('tibia', 1, 0.7);
   await stage.zoomTo(outline);
   await stage.trace(outline);
   const best = await panel.waitForPose(page);
@@ -107,7 +108,6 @@ async function tibiaCandidates(page, stage, t) {
   const truth = await truePose('tibia', 1);
   t.diagnostic(`best: ${panel.differences(best, truth)}; rival: ${panel.differences(rival, truth)}`);
   const nearer = [best, rival].sort((a, b) => Math.abs(a.xRot - truth.xRot) - Math.abs(b.xRot - truth.xRot))[0];
-  // A small round tray says little about its turn around the leg.
   panel.assertNear(nearer, truth, { ...HAND_TRACED, yRot: 1.5 });
 }
 

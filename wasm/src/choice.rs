@@ -1,8 +1,8 @@
 //! Which of several refined poses is chosen, and why, in words.
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
-use fluoropose::finder::{Found, Verdict};
-use fluoropose::pose::Pose;
+use fluoropose::finder::{Doubt, Found, Verdict};
+use fluoropose::pose::{Pose, geodesic_deg};
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::pose_numbers::from_numbers;
@@ -87,8 +87,11 @@ impl Surroundings {
             Reason::Residual {
                 chosen_px,
                 other_px,
-            } => {
+            } if other_px.is_finite() => {
                 format!("By the residual: {chosen_px:.2} px, the pose ruled out {other_px:.2} px.")
+            }
+            Reason::Residual { chosen_px, .. } => {
+                format!("By the residual: {chosen_px:.2} px; the others do not fit at all.")
             }
             Reason::Tilt {
                 chosen_deg,
@@ -130,6 +133,7 @@ fn tenths(degrees: f64) -> String {
 pub struct Chosen {
     choice: Choice,
     sentence: String,
+    doubt: Option<Doubt>,
     verdict: Option<Verdict>,
 }
 
@@ -152,6 +156,13 @@ impl Chosen {
     pub fn sentence(&self) -> String {
         self.sentence.clone()
     }
+
+    /// What is doubtful about it, in a sentence without its full stop: another pose fits as well. Nothing where the others
+    /// were ruled out.
+    #[wasm_bindgen(getter)]
+    pub fn doubt(&self) -> Option<String> {
+        self.doubt.as_ref().map(ToString::to_string)
+    }
 }
 
 impl Chosen {
@@ -161,6 +172,7 @@ impl Chosen {
         Some(Self {
             choice,
             sentence,
+            doubt: doubt_among(candidates, &choice),
             verdict: None,
         })
     }
@@ -171,6 +183,7 @@ impl Chosen {
         Some(Self {
             choice: decision.choice,
             sentence: around.explain(&decision.choice),
+            doubt: None,
             verdict: Some(decision.verdict),
         })
     }
@@ -187,7 +200,17 @@ impl Chosen {
     }
 }
 
-/// Chooses among refined poses (six numbers each, one after another) with their residuals in pixels, when more has become
+/// What [`fluoropose::finder::judge`] says of an open choice.
+fn doubt_among(candidates: &[RivalPose], choice: &Choice) -> Option<Doubt> {
+    let open = choice.open?;
+    let (chosen, other) = (candidates.get(choice.index)?, candidates.get(open.index)?);
+    Some(Doubt::Open {
+        turn_deg: geodesic_deg(&chosen.pose.rotation, &other.pose.rotation),
+        other_px: other.residual_px,
+    })
+}
+
+/// Chooses among refined poses (six numbers each, one after another) with their misfits in pixels, when more has become
 /// known round them; nothing where there is none.
 ///
 /// # Errors
@@ -195,12 +218,12 @@ impl Chosen {
 #[wasm_bindgen(js_name = choosePose)]
 pub fn choose_pose(
     poses: &[f64],
-    residuals: &[f64],
+    misfits: &[f64],
     around: &Surroundings,
 ) -> Result<Option<Chosen>, JsError> {
     let candidates = poses
         .chunks(6)
-        .zip(residuals)
+        .zip(misfits)
         .map(|(pose, &residual_px)| {
             Ok(RivalPose {
                 pose: from_numbers(pose)?.into(),
@@ -242,9 +265,15 @@ mod tests {
                     .sentence
                     .starts_with("Undecided: the residuals are 0.30")
         );
+        let doubt = chosen.doubt().unwrap();
+        assert!(
+            doubt.starts_with("another pose, 8 degrees away, fits as well (0.30 px)"),
+            "{doubt}"
+        );
         around.neighbours.push(turned(-3.5).pose);
         let chosen = Chosen::among(&both, &around).unwrap();
         assert_eq!((chosen.index(), chosen.decided()), (1, true));
+        assert_eq!(chosen.doubt(), None);
         assert_eq!(
             chosen.sentence,
             "By continuity: turned 0.5° from the neighbouring frames, the pose ruled out 7.5°."

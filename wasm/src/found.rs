@@ -1,5 +1,6 @@
 //! What was found for an outline, as the page reads it.
 
+use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Word;
 use fluoropose::pose::covariance::Deviations;
 use js_sys::{Uint8Array, Uint32Array};
@@ -13,6 +14,8 @@ pub(crate) struct Candidate {
     pub(crate) unmatched: Option<u32>,
     pub(crate) drawn: Option<u64>,
     pub(crate) residual_px: Option<f64>,
+    pub(crate) misfit: Option<f64>,
+    pub(crate) verdict: Option<Verdict>,
     pub(crate) deviations: Option<PoseNumbers>,
     pub(crate) start: Option<PoseNumbers>,
     pub(crate) view: [f64; 2],
@@ -38,6 +41,7 @@ pub(crate) fn deviation_numbers(deviations: &Deviations) -> PoseNumbers {
 #[wasm_bindgen]
 pub struct Match {
     pub(crate) candidates: Vec<Candidate>,
+    pub(crate) compared: usize,
     pub(crate) clipped: bool,
     pub(crate) partial: bool,
     pub(crate) chosen: Option<Chosen>,
@@ -49,6 +53,12 @@ impl Match {
     #[wasm_bindgen(getter)]
     pub fn count(&self) -> usize {
         self.candidates.len()
+    }
+
+    /// How many poses were found and compared: the candidates are the best of them.
+    #[wasm_bindgen(getter)]
+    pub fn compared(&self) -> usize {
+        self.compared
     }
 
     /// Whether the canonical silhouette reaches its frame's border, where the score does not see all of it.
@@ -110,6 +120,26 @@ impl Match {
     /// Root mean square of what remains between the outlines after refinement, pixels; nothing for a pose of the library.
     pub fn residual(&self, index: usize) -> Option<f64> {
         self.candidates.get(index)?.residual_px
+    }
+
+    /// By what candidates are compared, pixels: beside the residual it counts outline that has no counterpart. Nothing where
+    /// it was not compared.
+    pub fn misfit(&self, index: usize) -> Option<f64> {
+        self.candidates.get(index)?.misfit
+    }
+
+    /// The verdict on one candidate by itself, whatever other poses do.
+    #[wasm_bindgen(js_name = verdictOf)]
+    pub fn verdict_of(&self, index: usize) -> Option<String> {
+        let verdict = self.candidates.get(index)?.verdict?;
+        Some(verdict.word().to_owned())
+    }
+
+    /// Why one candidate has that verdict, in a sentence without its full stop.
+    #[wasm_bindgen(js_name = becauseOf)]
+    pub fn because_of(&self, index: usize) -> Option<String> {
+        let verdict = self.candidates.get(index)?.verdict?;
+        Some(verdict.to_string())
     }
 
     /// Standard deviations of the pose's numbers, in their order and units; nothing for a pose of the library or one that

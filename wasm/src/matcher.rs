@@ -12,7 +12,7 @@ pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;
-use fluoropose::finder::FinderBuffers;
+use fluoropose::finder::{FinderBuffers, Verdict};
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
@@ -119,6 +119,7 @@ impl Matcher {
             let candidates = near.iter().take(OFFERED).map(|one| self.candidate(one));
             Ok(Match {
                 candidates: candidates.collect(),
+                compared: located.ranked.len(),
                 clipped: located.clipped,
                 partial: located.partial,
                 chosen: None,
@@ -127,7 +128,7 @@ impl Matcher {
     }
 
     /// The same, and then brings the model's outline onto this one. The pose that is chosen comes first, then its rival:
-    /// the next by residual, where that is at most twice the least. Takes some twenty times as long. Without the model
+    /// the next by misfit, where that is at most twice the least. Takes some twenty times as long. Without the model
     /// nothing can be refined, and the answer is that of `match_outline`.
     ///
     /// # Errors
@@ -153,6 +154,7 @@ impl Matcher {
             let offered = offered(&ranked, chosen.as_ref());
             Ok(Match {
                 candidates: offered.iter().map(|one| self.candidate(one)).collect(),
+                compared: ranked.len(),
                 clipped: found.clipped,
                 partial: found.partial,
                 chosen,
@@ -266,12 +268,14 @@ impl Matcher {
             unmatched: (!by_pieces).then_some(located.fine.unmatched),
             drawn: ranked.drawn,
             residual_px: ranked.fit.map(|fit| fit.refined.residual_px),
+            misfit: ranked.judged.map(|judged| judged.misfit),
+            verdict: ranked.judged.map(|judged| judged.verdict),
             deviations: self.deviations(ranked),
             start: ranked
                 .fit
                 .map(|fit| to_numbers(&EulerPose::from(fit.start))),
             view: [located.fine.record.x_deg, located.fine.record.y_deg],
-            at_border: located.fine.at_border,
+            at_border: located.fine.at_border && self.has_border(),
             input,
             library,
         }
@@ -296,21 +300,30 @@ impl Matcher {
         (input, view)
     }
 
+    /// Whether views are missing beyond those at its ends: there are none beyond all directions.
+    fn has_border(&self) -> bool {
+        !self.library.borrow_dependent().info().grid.is_around()
+    }
+
     fn deviations(&self, ranked: &Ranked) -> Option<PoseNumbers> {
         let deviations = self.model.as_ref()?.deviations_of(ranked)?;
         Some(deviation_numbers(&deviations))
     }
 }
 
-/// The chosen one, then the rival that is still open, or else those whose residual comes near the least.
+/// The chosen one, then the rival that is still open, or else those that fit and whose misfit comes near the least.
 fn offered(refined: &[Ranked], chosen: Option<&Chosen>) -> Vec<Ranked> {
     let first = chosen.map_or(0, Chosen::index);
     let open = chosen.and_then(Chosen::open);
-    let residual = |ranked: &Ranked| ranked.fit.map_or(f64::MAX, |fit| fit.refined.residual_px);
-    let least = refined.iter().map(residual).fold(f64::MAX, f64::min);
+    let misfit = |ranked: &Ranked| ranked.judged.map_or(f64::MAX, |judged| judged.misfit);
+    let least = refined.iter().map(misfit).fold(f64::MAX, f64::min);
+    let fits = |ranked: &Ranked| {
+        let judged = ranked.judged;
+        judged.is_some_and(|judged| !matches!(judged.verdict, Verdict::NoFit(_)))
+    };
     let is_rival = |at: usize| {
-        let rival = refined.get(at);
-        Some(at) != open && rival.is_some_and(|rival| residual(rival) <= RIVAL_WITHIN * least)
+        let rival = refined.get(at).filter(|rival| fits(rival));
+        Some(at) != open && rival.is_some_and(|rival| misfit(rival) <= RIVAL_WITHIN * least)
     };
     let rivals = (0..refined.len()).filter(|&at| at != first && is_rival(at));
     let order = [first].into_iter().chain(open).chain(rivals);

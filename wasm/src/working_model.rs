@@ -1,8 +1,10 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
+use fluoropose::finder::choice::{Choice, Reason};
 use fluoropose::finder::{
-    Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, find, first_poses,
+    Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
+    find, first_poses, judge,
 };
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
@@ -41,6 +43,31 @@ pub(crate) struct Ranked {
     pub(crate) fit: Option<Fit>,
     /// How sure it is.
     pub(crate) covariance: Option<PoseCovariance>,
+    /// How well it fits, where the finder compared it with others.
+    pub(crate) judged: Option<Judged>,
+}
+
+/// How well a pose fits by itself, whatever other poses do.
+#[derive(Clone, Copy)]
+pub(crate) struct Judged {
+    /// By what candidates are compared ([`Candidate::misfit`]).
+    pub(crate) misfit: f64,
+    pub(crate) verdict: Verdict,
+}
+
+impl Judged {
+    fn of(candidate: &Candidate) -> Option<Self> {
+        let alone = Choice {
+            index: 0,
+            reason: Reason::Only,
+            open: None,
+        };
+        let verdict = judge(core::slice::from_ref(candidate), &alone, &Limits::USUAL)?;
+        Some(Self {
+            misfit: candidate.misfit(),
+            verdict,
+        })
+    }
 }
 
 /// A refined pose.
@@ -60,6 +87,7 @@ impl Ranked {
             drawn: None,
             fit: None,
             covariance: None,
+            judged: None,
         }
     }
 }
@@ -184,6 +212,7 @@ impl WorkingModel {
                 start: candidate.start,
             }),
             covariance: candidate.covariance,
+            judged: Judged::of(candidate),
         })
     }
 

@@ -1,4 +1,4 @@
-/** How soon two libraries of 1271 views are there, from the demonstration's frames on. */
+/** How soon two libraries of all directions are there, from the demonstration's frames on. */
 import { visit } from '../support/browser.mjs';
 import * as panel from '../support/panel.mjs';
 import { quantile } from './speed.mjs';

@@ -50,7 +50,7 @@ export async function truePose(component, frame) {
 }
 
 /**
- * The poses of a `.jts` file, read by nothing of ours.
+ * The poses of a `.jts` file, read by nothing of ours: of a frame without one, six times NaN.
  *
  * @param {string} text
  * @returns {Pose[]}
@@ -62,7 +62,7 @@ export function readJts(text) {
   if (names !== 'x_tran y_tran z_tran z_rot x_rot y_rot') throw new Error(`unexpected columns: ${names}`);
   return rows.map((row) => {
     const values = row.split(/\s*,\s*/).map(Number);
-    if (values.length !== 6 || values.some(Number.isNaN)) throw new Error(`not six numbers: ${row}`);
+    if (values.length !== 6 || row.split(/\s*,\s*/).some((text, at) => Number.isNaN(values[at]) && text !== 'NaN')) throw new Error(`not six numbers: ${row}`);
     const [x, y, z, zRot, xRot, yRot] = values;
     return /** @type {Pose} */ ({ x, y, z, zRot, xRot, yRot });
   });

@@ -6,6 +6,7 @@ mod biplane;
 mod golden;
 mod library;
 mod options;
+mod parity;
 mod partial;
 mod sides;
 mod symmetry;

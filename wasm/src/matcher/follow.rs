@@ -57,6 +57,7 @@ impl Matcher {
             }
             let candidates: Vec<_> = followed.iter().map(|pose| self.candidate(pose)).collect();
             Ok((!candidates.is_empty()).then_some(Match {
+                compared: candidates.len(),
                 candidates,
                 clipped,
                 partial: false,

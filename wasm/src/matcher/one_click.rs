@@ -232,6 +232,7 @@ impl OneClick {
         answer.sentence = told(&answer.supports);
         answer.matched = Some(Match {
             candidates,
+            compared: answers.len(),
             clipped: false,
             partial: false,
             chosen: Some(chosen),
@@ -298,6 +299,8 @@ impl OneClick {
             unmatched: None,
             drawn: None,
             residual_px: Some(answer.refined.residual_px),
+            misfit: None,
+            verdict: None,
             deviations: deviations.as_ref().map(deviation_numbers),
             start: Some(to_numbers(&EulerPose::from(answer.start))),
             view,
@@ -352,7 +355,7 @@ impl Matcher {
             let last = axis.at(axis.count.saturating_sub(1) as f64);
             axis.first < at && at < last
         });
-        Ok((view, !inner))
+        Ok((view, !inner && self.has_border()))
     }
 }
 

@@ -13,7 +13,7 @@ const calibration = await readFile(calibrationFile, 'utf8');
 const { frame, outline } = JSON.parse(await readFile(outlineFile, 'utf8'));
 
 const implant = await openImplant({ model, calibration, frame });
-const { pose, candidates } = implant.pose(outline);
+const { pose, verdict, candidates } = implant.pose(outline);
 
-console.log(JSON.stringify({ pose, deviations: candidates[0].deviations, rivals: candidates.length - 1 }, null, 2));
+console.log(JSON.stringify({ pose, verdict, deviations: candidates[0].deviations, rivals: candidates.length - 1 }, null, 2));
 implant.close();

@@ -2,9 +2,9 @@ import { decodeModel } from './decode.js';
 import { buildLibrary } from './library.js';
 import init, { Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
-import type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size } from './types.js';
+import type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
 
-export type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Views } from './types.js';
+export type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict, Views } from './types.js';
 
 let ready: Promise<unknown> | undefined;
 
@@ -41,7 +41,7 @@ export class Implant {
 
   /**
    * The pose that brings the model's outline onto a traced one, refined: about a second. Throws a sentence about an
-   * outline from which no pose can be found.
+   * outline from which no pose can be found, and where the outline does not fit this model from any side.
    */
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     const around = surroundings(hints);
@@ -89,13 +89,20 @@ function surroundings({ femur, tibia, neighbours = [] }: Hints): Surroundings {
 function copied(match: Match): FoundPose {
   try {
     const { decided, partial, reason = null } = match;
+    const verdict = verdictOf(match);
     const candidates = Array.from({ length: match.count }, (_, index) => candidate(match, index));
     const [best] = candidates;
     if (!best) throw new Error('No view of the library explains this outline');
-    return { pose: best.pose, candidates, decided, reason, partial };
+    return { pose: best.pose, candidates, decided, reason, verdict, partial };
   } finally {
     match.free();
   }
+}
+
+/** Throws where nothing fits. */
+function verdictOf({ verdict: word, because = '' }: Match): Verdict | null {
+  if (word === 'none') throw new Error(`${because.charAt(0).toUpperCase()}${because.slice(1)}`);
+  return word === 'good' || word === 'doubtful' ? { word, because } : null;
 }
 
 function candidate(match: Match, index: number): Candidate {

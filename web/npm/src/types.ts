@@ -28,15 +28,22 @@ export interface Mesh {
   readonly triangles: Uint32Array;
 }
 
-/** Which views of the model are rendered: rotations out of the image plane, degrees, round a nominal view. */
+/**
+ * Which views of the model are rendered. Without `nominal`, `x` and `y` those of all directions, so that nothing needs to
+ * be known of how the implant stands; with any of them a window of finer steps round a nominal view. Rotations are those
+ * out of the image plane, degrees.
+ */
 export interface Views {
-  /** Rotation about x and about y of the nominal view. */
-  readonly nominal: readonly [x: number, y: number];
-  /** From, to and step about x. */
-  readonly x: readonly [from: number, to: number, step: number];
-  /** From, to and step about y. */
-  readonly y: readonly [from: number, to: number, step: number];
-  /** From the focus to the object, mm; left out, nine tenths of the calibration's principal distance. */
+  /** Rotation about x and about y of a window's nominal view; left out, 0 and 0. */
+  readonly nominal?: readonly [x: number, y: number];
+  /** From, to and step of a window about x; left out, -15, 15 and 1. */
+  readonly x?: readonly [from: number, to: number, step: number];
+  /** From, to and step of a window about y; left out, -20, 20 and 1. */
+  readonly y?: readonly [from: number, to: number, step: number];
+  /**
+   * From the focus to the object, mm; left out, nine tenths of the calibration's principal distance, or 1000. It sets the
+   * perspective of the views, never a pose.
+   */
   readonly distance?: number;
 }
 
@@ -48,8 +55,8 @@ export interface ImplantOptions {
   readonly frame: Size;
   /** A library made before (`Implant.library`): nothing needs to be rendered. It is refused when it is of another model. */
   readonly library?: Uint8Array;
-  /** Left out: 15 degrees about x and 20 about y to either side of 0, in steps of 1. */
-  readonly views?: Partial<Views>;
+  /** Left out: all directions. */
+  readonly views?: Views;
   /** Told while the library is rendered. */
   readonly onProgress?: (done: number, total: number) => void;
   /** Ends the rendering; `openImplant` then rejects with the signal's reason. */
@@ -75,10 +82,16 @@ export interface Candidate {
   readonly deviations: Pose | null;
   /** What remains between the outlines, px; null for a pose of the library. */
   readonly residual: number | null;
-  /** Unmatched pixels of 15 000 in the canonical frame; null where a part of the outline led to the pose. */
+  /** Unmatched pixels in the canonical frame, where a silhouette has 938 of all directions and 15 000 of a window; null where a part of the outline led to the pose. */
   readonly unmatched: number | null;
-  /** The best view lies at the border of the library: the truth may lie beyond it. */
+  /** The best view lies at the border of a window: the truth may lie beyond it. */
   readonly atBorder: boolean;
+}
+
+/** How far a pose is to be trusted, and why: a sentence without its full stop. */
+export interface Verdict {
+  readonly word: 'good' | 'doubtful';
+  readonly because: string;
 }
 
 export interface FoundPose {
@@ -90,6 +103,8 @@ export interface FoundPose {
   readonly decided: boolean;
   /** Why the first one was chosen, a sentence; null for poses of the library. */
   readonly reason: string | null;
+  /** How far the first one is to be trusted; null for poses of the library. Where nothing fits there is no pose. */
+  readonly verdict: Verdict | null;
   /** Only a part of the outline was known: pieces of it led to the poses. */
   readonly partial: boolean;
 }

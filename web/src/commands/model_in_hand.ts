@@ -44,13 +44,15 @@ export function placedPose(state: State, studio: Studio): { readonly pose: PoseN
   const pinhole = pinholeOf(studio, camera);
   if (!frame || !mesh || !pinhole || !camera) return null;
   const { librarySpec } = doc.components[component];
-  const depth = librarySpec.distance ?? USUAL_FRACTION * (studio.calibrationFacts(camera.text, camera).principal?.distance ?? USUAL_DISTANCE);
-  return { pose: inTheMiddle(frame, pinhole, depth, librarySpec, middleOf(mesh)), frame: null };
+  const { principal } = studio.calibrationFacts(camera.text, camera);
+  const depth = librarySpec.distance ?? (principal ? USUAL_FRACTION * principal.distance : USUAL_DISTANCE);
+  const { nominalX = 0, nominalY = 0 } = librarySpec.views === 'window' ? librarySpec : {};
+  return { pose: inTheMiddle(frame, pinhole, depth, { nominalX, nominalY }, middleOf(mesh)), frame: null };
 }
 
 /** Knees stand at this fraction of the principal distance, as libraries are built for; mm where that is not known. */
 const USUAL_FRACTION = 0.9;
-const USUAL_DISTANCE = 1100;
+const USUAL_DISTANCE = 1000;
 
 function nearestPosed(
   frames: readonly FrameEntry[],

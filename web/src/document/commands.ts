@@ -134,8 +134,8 @@ export function loadPoses(component: ComponentName, poses: readonly (PoseNumbers
         changed = withReference(changed, fileName, { [cellKey(frame.id, component)]: pose });
         const place = { frameId: frame.id, component };
         const { outline } = cellOf(changed, frame.id, component);
-        const candidates = [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }];
-        const choice = { chosen: 0, reason: null, decided: true };
+        const candidates = [{ pose, unmatched: null, drawn: null, residual: null, deviations: null, judged: null }];
+        const choice = { chosen: 0, reason: null, decided: true, verdict: null };
         const result = { kind: 'posed', from: 'file', origin: fileName, candidates, ...choice } as const;
         return withCell(changed, place, { outline, result, resultOf: outline });
       }, doc),

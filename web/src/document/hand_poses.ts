@@ -72,11 +72,11 @@ export function isPicked(result: Posed, candidate: Candidate): boolean {
 
 /** A pose of which nothing else is known. */
 export function bare(pose: PoseNumbers): Candidate {
-  return { pose, unmatched: null, drawn: null, residual: null, deviations: null };
+  return { pose, unmatched: null, drawn: null, residual: null, deviations: null, judged: null };
 }
 
 function byHand(origin: HandOrigin, candidate: Candidate, reason: string | null): Posed {
-  return { kind: 'posed', from: 'hand', origin, candidates: [candidate], chosen: 0, reason, decided: true };
+  return { kind: 'posed', from: 'hand', origin, candidates: [candidate], chosen: 0, reason, decided: true, verdict: null };
 }
 
 function withResult(doc: Doc, place: Place, result: Posed): Doc {

@@ -74,8 +74,19 @@ export interface FileReference {
   readonly sha256: string;
 }
 
-/** Which views a library holds: degrees around the nominal view, millimetres to the focus, canonical pixels. */
-export interface LibrarySpec {
+/** Which views a library holds. */
+export type LibrarySpec = AllDirections | ViewWindow;
+
+/** Nothing needs to be known of how the implant stands. */
+export interface AllDirections {
+  readonly views: 'all directions';
+  /** From the focus to the implant, mm; null: by the calibration. It sets the perspective of the views, never a pose. */
+  readonly distance: number | null;
+}
+
+/** Degrees around a nominal view, canonical pixels; finer than all directions, as Walker et al. 1996 have it. */
+export interface ViewWindow {
+  readonly views: 'window';
   readonly nominalX: number;
   readonly nominalY: number;
   readonly xFrom: number;
@@ -84,7 +95,7 @@ export interface LibrarySpec {
   readonly yFrom: number;
   readonly yTo: number;
   readonly yStep: number;
-  /** Null: nine tenths of the principal distance. */
+  /** As of all directions. */
   readonly distance: number | null;
   readonly area: number;
 }
@@ -119,6 +130,8 @@ export interface Posed {
   readonly reason: string | null;
   /** Did anything speak for it besides a slightly smaller residual? Then other choices may rest on it. */
   readonly decided: boolean;
+  /** On the first candidate, with what the others say; null where none was given: see `verdictOf`. */
+  readonly verdict: Verdict | null;
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
 }
@@ -140,6 +153,21 @@ export interface Candidate {
   readonly residual: number | null;
   /** Standard deviations of the pose's numbers; null for a pose of the library or a file, or one that is not determined. */
   readonly deviations: PoseNumbers | null;
+  /** How well it fits by itself; null where it was not compared with others. */
+  readonly judged: Judged | null;
+}
+
+/** How far a pose is to be trusted, and why: a sentence without its full stop. Where nothing fits there is no pose. */
+export interface Verdict {
+  readonly word: 'good' | 'doubtful';
+  readonly because: string;
+}
+
+export interface Judged {
+  /** By what candidates are compared, px: beside the residual it counts outline that has no counterpart. */
+  readonly misfit: number;
+  /** Whatever other poses do. */
+  readonly verdict: Verdict;
 }
 
 /** Grey values shown from black to white: centre -+ width / 2. */
@@ -150,7 +178,10 @@ export interface GreyWindow {
 
 export const EMPTY_CELL: Cell = { outline: null, result: null, resultOf: null };
 
-export const DEFAULT_LIBRARY: LibrarySpec = {
+export const DEFAULT_LIBRARY: LibrarySpec = { views: 'all directions', distance: null };
+
+export const DEFAULT_WINDOW: ViewWindow = {
+  views: 'window',
   nominalX: 0,
   nominalY: 0,
   xFrom: -15,
@@ -194,6 +225,13 @@ export function chosenCandidate(cell: Cell): Candidate | null {
 /** A pose that somebody set stays until somebody changes it: nothing that the page works out takes its place. */
 export function isByHand(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'hand';
+}
+
+/** On the pose that is chosen; null where none was given: poses of the library, of files, by hand, of old sessions. */
+export function verdictOf(result: Result | null): Verdict | null {
+  if (result?.kind !== 'posed') return null;
+  // Who took another one knows of the first.
+  return result.chosen === 0 ? result.verdict : (result.candidates[result.chosen]?.judged?.verdict ?? null);
 }
 
 /** Were the poses brought onto the outline, or are they the library's? */

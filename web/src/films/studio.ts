@@ -278,5 +278,5 @@ function pixelsOf(image: FrameImage | null): FramePixels['pixels'] | null {
   return image && (image.copyPixels() as FramePixels['pixels']);
 }
 
-/** At the focus, where nothing can be: other programs of the field read it without complaint. */
-const NO_POSE: readonly number[] = [0, 0, 0, 0, 0, 0];
+/** A frame without a pose keeps its row. */
+const NO_POSE: readonly number[] = [NaN, NaN, NaN, NaN, NaN, NaN];

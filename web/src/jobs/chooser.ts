@@ -2,7 +2,7 @@ import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
 import { withItsOutline } from '../document/own_outlines';
 import type { Store } from '../document/store';
-import { type Candidate, type Cell, cellOf, isRefined, type Posed } from '../document/types';
+import { type Candidate, type Cell, cellOf, isRefined, type Posed, type Verdict } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -43,7 +43,7 @@ export class Chooser {
     this.#knownThen.set(open.result.candidates, JSON.stringify(open.around));
     try {
       const { place, result, around } = open;
-      const candidates = result.candidates.map(({ pose, residual }) => ({ pose, residual: residual ?? NaN }));
+      const candidates = result.candidates.map(({ pose, residual, judged }) => ({ pose, residual: judged?.misfit ?? residual ?? NaN }));
       const choice = await this.#worker.call('choose', { component: place.component, candidates, around });
       if (choice) this.#apply(open, choice);
     } catch (error) {
@@ -69,7 +69,7 @@ export class Chooser {
     return null;
   }
 
-  #apply({ place, result }: Open, { index, decided, reason }: Choice): void {
+  #apply({ place, result }: Open, { index, decided, reason, doubt }: Choice): void {
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result !== result) return doc;
@@ -78,9 +78,15 @@ export class Chooser {
       const candidates = index === 0 || !first ? result.candidates : [first, ...others];
       const known = this.#knownThen.get(result.candidates);
       if (known !== undefined) this.#knownThen.set(candidates, known);
-      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason } });
+      return withCell(doc, place, { ...withItsOutline(cell, first), result: { ...result, candidates, decided, reason, verdict: withDoubt(first, doubt) } });
     });
   }
+}
+
+/** What is doubtful about a pose by itself comes before another one that fits as well. */
+function withDoubt(candidate: Candidate | undefined, doubt: string | null): Verdict | null {
+  const alone = candidate?.judged?.verdict ?? null;
+  return alone?.word === 'good' && doubt !== null ? { word: 'doubtful', because: doubt } : alone;
 }
 
 /** Refined rivals of which none was decided, nor chosen by hand. */

@@ -214,8 +214,8 @@ export class Poser {
 
   #take(task: Task, match: Match): void {
     const { outline, key } = task;
-    const result = posed(match, key);
-    const refused = task.method === 'refine' && !isRefined(result);
+    const result = match.refusal === null ? posed(match, key) : failed(match.refusal, key);
+    const refused = task.method === 'refine' && result.kind === 'posed' && !isRefined(result);
     const { candidates, canonicalArea, clipped, partial, milliseconds } = match;
     const details = candidates.map(({ pose, picture, atBorder, start }) => ({ pose, picture, atBorder, start }));
     const tried = task.method === 'refine';
@@ -225,6 +225,7 @@ export class Poser {
     this.#apply(task, result, followed);
   }
 
+  /** Nothing was found, or refined. */
   #refuse(task: Task, sentence: string): void {
     const { method, outline, key } = task;
     if (method === 'match') {
@@ -243,7 +244,8 @@ export class Poser {
     this.#store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.outline !== outline || poseKey(doc, place.component, frame) !== key) return doc;
-      const better = method === 'refine' && isRefined(result) && !isLoaded(cell) && (followed || !isRefined(cell.result));
+      const said = isRefined(result) || result.kind === 'failed';
+      const better = method === 'refine' && said && !isLoaded(cell) && (followed || !isRefined(cell.result));
       if (!isStale(cell, key) && !better) return doc;
       return withCell(doc, place, { outline, result: sameChoice(cell.result, result), resultOf: outline });
     });
@@ -290,15 +292,21 @@ function rotationBetween(a: Pick<Candidate, 'pose'>, b: Pick<Candidate, 'pose'>)
 }
 
 function posed(match: Match, origin: string): Result {
-  const { reason, decided } = match;
-  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }) => ({
+  const { reason, decided, verdict } = match;
+  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations, judged }) => ({
     pose,
     unmatched,
     drawn,
     residual,
     deviations,
+    judged,
   }));
-  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided, program: PROGRAM };
+  return { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided, verdict, program: PROGRAM };
+}
+
+/** No pose fits: the core's reason as a sentence. */
+function failed(refusal: string, origin: string): Result {
+  return { kind: 'failed', origin, sentence: `${refusal.charAt(0).toUpperCase()}${refusal.slice(1)}` };
 }
 
 function samePoints(a: Outline, b: Outline): boolean {

@@ -14,8 +14,6 @@ function nameOf(result: Posed | null, index: number): string | null {
   return isPicked(result, candidate) ? texts.hand.view : null;
 }
 
-const CANONICAL_AREA = '15 000';
-
 /** The score, and the rival pose where there is one: ambiguity is a visible choice. */
 export function Candidates({ cell }: { cell: Cell }) {
   const { actions, poser } = useApp();
@@ -32,7 +30,7 @@ export function Candidates({ cell }: { cell: Cell }) {
         <span class="value" role="group" aria-label={scoreName(result, findings)}>
           {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
         </span>
-        <span class="unit">{words.of(area > 0 ? grouped(area) : CANONICAL_AREA)}</span>
+        <span class="unit">{words.of(area > 0 ? grouped(area) : null)}</span>
       </div>
       <div class="rivals" role="radiogroup" aria-label={words.list}>
         {words.names.slice(0, Math.max(2, result?.candidates.length ?? 0)).map((name, index) => (

@@ -4,7 +4,7 @@ import type { LandscapeFacts } from '../workers/protocol/by_hand';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { cellAt, paintLandscape } from './landscape_picture';
-import { degreesOf, type LandscapeCell, summary } from '../results/landscape';
+import { degreesOf, goesAround, type LandscapeCell, summary } from '../results/landscape';
 import { grouped } from '../texts/numbers';
 
 /** The score of every view of the library for the outline on view: how sure the match is, and what else might fit. */
@@ -36,6 +36,7 @@ function Chart({ facts, takable }: { facts: LandscapeFacts; takable: boolean }) 
   }, [facts, cursor]);
   const score = facts.scores[cursor.y * facts.x.count + cursor.x] ?? 0;
   const [x, y] = [degreesOf(facts.x, cursor.x), degreesOf(facts.y, cursor.y)];
+  const side = sideOf(facts);
   const words = texts.seeing.landscape;
   const said = words.view(x, y, grouped(score));
   const take = (cell: LandscapeCell) => takable && void hand.takeView(facts, cell);
@@ -45,8 +46,9 @@ function Chart({ facts, takable }: { facts: LandscapeFacts; takable: boolean }) 
       <canvas
         ref={canvas}
         class="landscape-canvas"
-        width={CELL * facts.y.count}
-        height={CELL * facts.x.count}
+        width={side * facts.y.count}
+        height={side * facts.x.count}
+        style={{ aspectRatio: `${facts.y.count} / ${facts.x.count}` }}
         tabIndex={0}
         role="application"
         data-arrows
@@ -74,8 +76,11 @@ function Chart({ facts, takable }: { facts: LandscapeFacts; takable: boolean }) 
   );
 }
 
-/** Canvas pixels of a view. */
-const CELL = 8;
+/** Canvas pixels of a view: fewer where there are many. */
+function sideOf({ y }: LandscapeFacts): number {
+  return y.count > MANY ? 2 : 8;
+}
+const MANY = 90;
 
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [0, -1],
@@ -86,7 +91,8 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 
 function walked({ x, y }: LandscapeFacts, cell: LandscapeCell, [dx, dy]: readonly [number, number]): LandscapeCell {
   const within = (value: number, count: number) => Math.min(count - 1, Math.max(0, value));
-  return { x: within(cell.x + dx, x.count), y: within(cell.y + dy, y.count) };
+  const across = cell.y + dy;
+  return { x: within(cell.x + dx, x.count), y: goesAround(y) ? (across + y.count) % y.count : within(across, y.count) };
 }
 
 function bestCell({ scores, x }: LandscapeFacts): LandscapeCell {

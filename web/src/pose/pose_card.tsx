@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { referencePose } from '../document/reference';
 import { currentPlace } from '../document/store';
-import { chosenCandidate, isByHand, type Cell } from '../document/types';
+import { chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
 import { inWords } from '../results/missing';
 import { isFollowing, type Findings } from '../jobs/poser';
@@ -46,9 +46,26 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
           ))}
         </dl>
       )}
-      <p class="card-note pose-note">{pose ? source : needs(cell, missing)}</p>
+      <div class="pose-note">
+        <VerdictLine result={cell.result} />
+        <p class="card-note">{pose ? source : needs(cell, missing)}</p>
+      </div>
       <HandButtons cell={cell} adjusting={adjusting} />
     </section>
+  );
+}
+
+/** How far the pose is to be trusted, in a word, and why it is not. Its place is kept while that is worked out. */
+function VerdictLine({ result }: { result: Result | null }) {
+  const words = texts.panel.pose;
+  const verdict = result?.kind === 'failed' ? ({ word: 'none', because: result.sentence } as const) : verdictOf(result);
+  if (!verdict) return result?.kind === 'posed' && result.from === 'outline' ? <p class="verdict" /> : null;
+  const { word, because } = verdict;
+  return (
+    <p class={`verdict is-${word}`} role="group" aria-label={words.verdict} title={because}>
+      <span class="verdict-word">{words.verdicts[word]}</span>
+      {word === 'good' ? '' : words.reason(because)}
+    </p>
   );
 }
 
@@ -98,7 +115,7 @@ function sourceOf(cell: Cell, findings: Findings | null): string {
 
 function needs(cell: Cell, missing: readonly string[]): string {
   if (missing.length > 0) return texts.panel.pose.needs(inWords(missing));
-  return cell.result?.kind === 'failed' ? texts.panel.pose.noneFromOutline : texts.panel.pose.finding;
+  return cell.result?.kind === 'failed' ? '' : texts.panel.pose.finding;
 }
 
 interface NumberRowProps {

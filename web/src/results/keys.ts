@@ -1,5 +1,5 @@
 import { distortionKey, fits, numbersOf, type Distortion } from '../document/distortion';
-import type { Doc, FrameEntry } from '../document/types';
+import type { Doc, FrameEntry, LibrarySpec } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import type { DistortionInput, CameraInput } from '../workers/protocol/camera';
 
@@ -13,7 +13,12 @@ export function libraryKey(doc: Doc, component: ComponentName): string | null {
   const camera = cameraOf(doc, doc.frames[0] ?? null);
   if (!model || !camera) return null;
   const { width, height, text } = camera;
-  return `model ${model.sha256} views ${JSON.stringify(librarySpec)} frame ${width}x${height} camera ${JSON.stringify(text)}`;
+  return `model ${model.sha256} views ${viewsText(librarySpec)} frame ${width}x${height} camera ${JSON.stringify(text)}`;
+}
+
+/** Of a window as in sessions that knew nothing else: what was found then is still found so. */
+function viewsText({ views, ...settings }: LibrarySpec): string {
+  return `${views === 'window' ? '' : `${views} `}${JSON.stringify(settings)}`;
 }
 
 /** What a pose in this frame is found with. */

@@ -12,6 +12,11 @@ export function degreesOf({ first, step }: GridAxis, place: number): string {
   return inDegrees(first + step * place);
 }
 
+/** Are the last views neighbours of the first? */
+export function goesAround({ step, count }: GridAxis): boolean {
+  return Math.abs(step * count - 360) < step / 2;
+}
+
 function inDegrees(value: number): string {
   return `${(Math.round(10 * value) / 10).toString().replace('-', '\u2212')}°`;
 }

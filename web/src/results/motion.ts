@@ -22,7 +22,7 @@ export interface JointPoint {
   /** Of the frame, from 0. */
   readonly index: number;
   readonly motion: Motion;
-  /** Both poses are decided. */
+  /** Neither pose is doubtful. */
   readonly sure: boolean;
 }
 
@@ -41,7 +41,7 @@ export function jointMotion(doc: Doc, motionOf: MotionOf): readonly JointPoint[]
 }
 
 function isSure(doc: Doc, frameId: string, component: ComponentName): boolean {
-  return !progressOf(cellOf(doc, frameId, component), NO_MARK, null).ambiguous;
+  return !progressOf(cellOf(doc, frameId, component), NO_MARK, null).doubtful;
 }
 
 /** Points in runs of frames that follow each other: a line is drawn through a run, none across a gap. */

@@ -1,6 +1,6 @@
 import type { Place } from '../document/command';
 import { checkState, markOf, type CheckState } from '../document/marks';
-import { type Cell, cellOf, type Doc, type FrameEntry, isByHand, isRefined, type Mark } from '../document/types';
+import { type Cell, cellOf, type Doc, type FrameEntry, isByHand, isRefined, type Mark, type Result, verdictOf } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 
 /** How far a cell is, from nothing to a refined pose. */
@@ -11,8 +11,8 @@ export interface Progress {
   readonly stage: Stage;
   /** Model, calibration or library have changed since the pose was found. */
   readonly outdated: boolean;
-  /** Several poses fit, and nothing but a slightly smaller residual spoke for the first. */
-  readonly ambiguous: boolean;
+  /** It may be wrong: by its verdict, or of sessions without one, as nothing but a slightly smaller residual spoke for it. */
+  readonly doubtful: boolean;
   /** A pose of what is there now. */
   readonly posed: boolean;
   readonly check: CheckState;
@@ -27,7 +27,7 @@ export function progressOf(cell: Cell, mark: Mark, key: string | null): Progress
   return {
     stage,
     outdated,
-    ambiguous: isAmbiguous(cell),
+    doubtful: isDoubtful(cell),
     posed: POSED.includes(stage) && !outdated,
     check: checkState(cell, mark),
     flagged: mark.flagged,
@@ -49,7 +49,12 @@ function isOutdatedResult({ result }: Cell, key: string | null): boolean {
   return result?.kind === 'posed' && result.from === 'outline' && result.origin !== key;
 }
 
-function isAmbiguous({ result }: Cell): boolean {
+function isDoubtful({ result }: Cell): boolean {
+  const verdict = verdictOf(result);
+  return verdict ? verdict.word === 'doubtful' : isAmbiguous(result);
+}
+
+function isAmbiguous(result: Result | null): boolean {
   if (result?.kind !== 'posed' || result.from !== 'outline' || !isRefined(result)) return false;
   return result.candidates.length > 1 && result.chosen === 0 && !result.decided;
 }
@@ -78,7 +83,7 @@ export function entriesOf(doc: Doc, keyOf: KeyOf, components: readonly Component
   );
 }
 
-export const FILTERS = ['all', 'unfinished', 'unchecked', 'ambiguous', 'flagged'] as const;
+export const FILTERS = ['all', 'unfinished', 'unchecked', 'doubtful', 'flagged'] as const;
 export type Filter = (typeof FILTERS)[number];
 
 export function passes({ progress }: Entry, filter: Filter): boolean {
@@ -89,8 +94,8 @@ export function passes({ progress }: Entry, filter: Filter): boolean {
       return !progress.posed;
     case 'unchecked':
       return progress.posed && progress.check !== 'yes';
-    case 'ambiguous':
-      return progress.ambiguous;
+    case 'doubtful':
+      return progress.doubtful;
     case 'flagged':
       return progress.flagged;
   }

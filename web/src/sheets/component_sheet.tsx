@@ -1,10 +1,11 @@
 import { useState } from 'preact/hooks';
 import * as commands from '../document/commands';
 import type { LibraryState, State } from '../document/store';
-import type { LibrarySpec } from '../document/types';
+import { DEFAULT_WINDOW, type LibrarySpec, type ViewWindow } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import { useApp } from '../commands/app';
 import { NumberField } from '../controls/number_field';
+import { Segments } from '../controls/segments';
 import { texts } from '../texts/texts';
 
 /** A component's model and library. */
@@ -55,45 +56,60 @@ function libraryText(library: LibraryState, file: string | null): string {
 /** Which views: a change takes effect when it is asked for, as building takes a moment. */
 function LibraryForm({ component, spec }: { component: ComponentName; spec: LibrarySpec }) {
   const { store } = useApp().services;
-  const [draft, setDraft] = useState(spec);
-  const set = (field: keyof LibrarySpec) => (value: number) => setDraft({ ...draft, [field]: value });
-  const apply = () => store.perform(commands.setLibrarySpec(component, draft));
-  const usable = Object.values(draft).every((value) => value === null || Number.isFinite(value));
-  const views = axisLength(draft.xFrom, draft.xTo, draft.xStep) * axisLength(draft.yFrom, draft.yTo, draft.yStep);
+  const [views, setViews] = useState(spec.views);
+  const [distance, setDistance] = useState(spec.distance);
+  const [window, setWindow] = useState(spec.views === 'window' ? spec : DEFAULT_WINDOW);
+  const draft: LibrarySpec = views === 'window' ? { ...window, distance } : { views, distance };
+  const usable = Object.values(draft).every((value) => typeof value !== 'number' || Number.isFinite(value));
+  const count = views === 'window' ? axisLength(window.xFrom, window.xTo, window.xStep) * axisLength(window.yFrom, window.yTo, window.yStep) : NaN;
   return (
     <form
       class="library-form"
       onSubmit={(event) => {
         event.preventDefault();
-        apply();
+        store.perform(commands.setLibrarySpec(component, draft));
       }}
     >
       <h3>{texts.library.views}</h3>
+      <Segments label={texts.library.views} options={KINDS} value={views} onChoose={setViews} />
+      <p class="sheet-text quiet">{texts.library.kindSays[views]}</p>
       <div class="fields">
-        <NumberField label={texts.library.nominal('x')} unit="°" value={draft.nominalX} onChange={set('nominalX')} />
-        <NumberField label={texts.library.nominal('y')} unit="°" value={draft.nominalY} onChange={set('nominalY')} />
-        <NumberField label={texts.library.from('x')} unit="°" value={draft.xFrom} onChange={set('xFrom')} />
-        <NumberField label={texts.library.from('y')} unit="°" value={draft.yFrom} onChange={set('yFrom')} />
-        <NumberField label={texts.library.to('x')} unit="°" value={draft.xTo} onChange={set('xTo')} />
-        <NumberField label={texts.library.to('y')} unit="°" value={draft.yTo} onChange={set('yTo')} />
-        <NumberField label={texts.library.step('x')} unit="°" value={draft.xStep} onChange={set('xStep')} />
-        <NumberField label={texts.library.step('y')} unit="°" value={draft.yStep} onChange={set('yStep')} />
+        {views === 'window' && <WindowFields window={window} onChange={setWindow} />}
         <NumberField
           label={texts.library.distance}
           unit="mm"
-          value={draft.distance ?? NaN}
+          value={distance ?? NaN}
           placeholder={texts.library.automatic}
-          onChange={(value) => setDraft({ ...draft, distance: Number.isNaN(value) ? null : value })}
+          onChange={(value) => setDistance(Number.isNaN(value) ? null : value)}
         />
-        <NumberField label={texts.library.area} unit="px" value={draft.area} onChange={set('area')} />
       </div>
       <div class="sheet-buttons">
-        <button type="submit" class="button" disabled={!usable || draft === spec}>
+        <button type="submit" class="button" disabled={!usable || JSON.stringify(draft) === JSON.stringify(spec)}>
           {texts.library.use}
         </button>
-        <span class="sheet-text quiet">{Number.isFinite(views) && views > 0 ? texts.library.count(views) : ''}</span>
+        <span class="sheet-text quiet">{count > 0 ? texts.library.count(count) : ''}</span>
       </div>
     </form>
+  );
+}
+
+const KINDS = (['all directions', 'window'] as const).map((value) => ({ value, title: texts.library.kinds[value] }));
+
+/** What only a window asks for. */
+function WindowFields({ window, onChange }: { window: ViewWindow; onChange: (window: ViewWindow) => void }) {
+  const set = (field: Exclude<keyof ViewWindow, 'views'>) => (value: number) => onChange({ ...window, [field]: value });
+  return (
+    <>
+      <NumberField label={texts.library.nominal('x')} unit="°" value={window.nominalX} onChange={set('nominalX')} />
+      <NumberField label={texts.library.nominal('y')} unit="°" value={window.nominalY} onChange={set('nominalY')} />
+      <NumberField label={texts.library.from('x')} unit="°" value={window.xFrom} onChange={set('xFrom')} />
+      <NumberField label={texts.library.from('y')} unit="°" value={window.yFrom} onChange={set('yFrom')} />
+      <NumberField label={texts.library.to('x')} unit="°" value={window.xTo} onChange={set('xTo')} />
+      <NumberField label={texts.library.to('y')} unit="°" value={window.yTo} onChange={set('yTo')} />
+      <NumberField label={texts.library.step('x')} unit="°" value={window.xStep} onChange={set('xStep')} />
+      <NumberField label={texts.library.step('y')} unit="°" value={window.yStep} onChange={set('yStep')} />
+      <NumberField label={texts.library.area} unit="px" value={window.area} onChange={set('area')} />
+    </>
   );
 }
 

@@ -95,7 +95,7 @@ function EntryRow({ state, entry }: { state: State; entry: Entry }) {
 }
 
 const STAGES: readonly Stage[] = ['draft', 'traced', 'posed', 'refined', 'by hand', 'pose loaded', 'no pose'];
-const PLAIN = { stage: 'refined', outdated: false, ambiguous: false, posed: true, check: 'no', flagged: false, note: '' } as const;
+const PLAIN = { stage: 'refined', outdated: false, doubtful: false, posed: true, check: 'no', flagged: false, note: '' } as const;
 
 /** What the marks in the cells mean. */
 function Legend() {
@@ -103,7 +103,7 @@ function Legend() {
   const signs = [
     [marks.checked, { ...PLAIN, check: 'yes' }],
     [marks.changed, { ...PLAIN, check: 'changed since' }],
-    [marks.ambiguous, { ...PLAIN, ambiguous: true }],
+    [marks.doubtful, { ...PLAIN, doubtful: true }],
     [marks.outdated, { ...PLAIN, outdated: true }],
     [marks.flagged, { ...PLAIN, flagged: true }],
     [marks.noted, { ...PLAIN, note: marks.noted }],

@@ -2,7 +2,7 @@ import { useMemo } from 'preact/hooks';
 import { markOf } from '../document/marks';
 import { progressOf, type Progress } from '../results/progress';
 import type { State } from '../document/store';
-import { type Cell, cellOf, chosenCandidate } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, verdictOf } from '../document/types';
 import { type ComponentName, titleOf } from '../terms/component';
 import { poseKeys } from '../results/keys';
 import { texts } from '../texts/texts';
@@ -73,8 +73,8 @@ function CellButton({ component, index, cell, mark, poseKey, column, selected }:
 
 /** Everything that is marked has a sign of its own: none is told by colour alone. */
 export function CellSigns({ progress }: { progress: Progress }) {
-  const { stage, check, ambiguous, outdated, flagged, note } = progress;
-  const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : ambiguous ? '?' : outdated ? '!' : '';
+  const { stage, check, doubtful, outdated, flagged, note } = progress;
+  const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : doubtful ? '?' : outdated ? '!' : '';
   return (
     <>
       {sign && <span class="cell-sign">{sign}</span>}
@@ -93,11 +93,11 @@ function classOf(progress: Progress, column: boolean): string {
   return ['cell', lookOf(progress), column ? 'column' : ''].filter(Boolean).join(' ');
 }
 
-/** Whether a pose was refined is a detail; that there is one is what a list is looked through for. */
-function nameOf({ stage, check, flagged }: Progress): string {
+/** Whether a pose was refined is a detail; that there is one, and a doubtful one, is what a list is looked through for. */
+function nameOf({ stage, check, doubtful, flagged }: Progress): string {
   const word = stage === 'refined' || stage === 'by hand' ? texts.work.stages.posed : texts.work.stages[stage];
   const checked = check === 'yes' ? texts.work.checked : check === 'changed since' ? texts.work.changedSince : null;
-  return [word, checked, flagged ? texts.work.flagged : null].filter((part) => part !== null).join(', ');
+  return [word, doubtful ? texts.work.marks.doubtful : null, checked, flagged ? texts.work.flagged : null].filter((part) => part !== null).join(', ');
 }
 
 /** What the name leaves out, for the cell's description. */
@@ -107,7 +107,7 @@ export function detailsOf(progress: Progress, cell: Cell): readonly string[] {
   return [
     progress.stage === 'refined' || progress.stage === 'by hand' ? work.stages[progress.stage] : null,
     residual === null ? null : work.residual(residual.toFixed(2)),
-    progress.ambiguous ? work.ambiguous : null,
+    progress.doubtful ? work.doubtful(verdictOf(cell.result)?.because ?? null) : null,
     progress.outdated ? work.outdated : null,
     progress.note === '' ? null : work.note(progress.note),
   ].filter((part) => part !== null);

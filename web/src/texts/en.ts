@@ -131,6 +131,11 @@ export const en = {
     fromModel: 'Build from the model instead',
     build: 'Build the library',
     views: 'Views of the library',
+    kinds: { 'all directions': 'All directions', window: 'A window of views' },
+    kindSays: {
+      'all directions': 'From every side, 2.5° apart: nothing needs to be known of how the implant stands.',
+      window: 'Around a nominal view, finer: for implants that are known to stand so.',
+    },
     nominal: (axis: 'x' | 'y') => `Nominal ${axis}`,
     from: (axis: 'x' | 'y') => `${axis} from`,
     to: (axis: 'x' | 'y') => `${axis} to`,
@@ -144,12 +149,12 @@ export const en = {
 
   session: {
     meaning:
-      'A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file. A table holds poses with their standard deviations and the reason of each choice.',
+      'A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file. A table holds poses with their standard deviations, how far each is to be trusted, and the reason of each choice.',
     include: 'Include images and models (otherwise named by their SHA-256)',
     save: 'Save session file',
     poses: (component: string) => `${component} poses (.jts)`,
     table: (component: string) => `${component} table (.csv)`,
-    tableTitle: 'With standard deviations and the reason of the choice, a row a frame',
+    tableTitle: 'With standard deviations, verdicts and the reason of the choice, a row a frame',
   },
 
   convergence: {
@@ -248,7 +253,7 @@ export const en = {
       'no pose': 'no pose',
     },
     outdated: 'found with an earlier model, calibration or library',
-    ambiguous: 'ambiguous: another pose fits as well',
+    doubtful: (because: string | null) => `doubtful: ${because ?? 'another pose fits as well'}`,
     checked: 'checked',
     changedSince: 'changed since it was checked',
     flagged: 'flagged',
@@ -271,14 +276,14 @@ export const en = {
     notePlaceholder: 'Note',
     list: 'Work list',
     listTitle: 'Everything that is done and still to do (J)',
-    filters: { all: 'All', unfinished: 'Unfinished', unchecked: 'Unchecked', ambiguous: 'Ambiguous', flagged: 'Flagged' },
+    filters: { all: 'All', unfinished: 'Unfinished', unchecked: 'Unchecked', doubtful: 'Doubtful', flagged: 'Flagged' },
     filter: (name: string, count: number) => `${name} ${count}`,
     filterGroup: 'Show',
     nothing: {
       all: 'No frames yet.',
       unfinished: 'Every cell has a pose.',
       unchecked: 'Every pose has been checked.',
-      ambiguous: 'No pose is ambiguous.',
+      doubtful: 'No pose is doubtful.',
       flagged: 'Nothing is flagged.',
     },
     columns: { place: 'Frame', state: 'State', check: 'Checked', flag: 'Flag', note: 'Note' },
@@ -287,7 +292,7 @@ export const en = {
     checkRow: (frame: number, component: string) => `Frame ${frame}, ${component}, checked`,
     flagRow: (frame: number, component: string) => `Frame ${frame}, ${component}, flagged`,
     legend: 'Marks in the cells',
-    marks: { checked: 'checked', changed: 'changed since', ambiguous: 'ambiguous', flagged: 'flagged', noted: 'has a note', outdated: 'outdated' },
+    marks: { checked: 'checked', changed: 'changed since', doubtful: 'doubtful', flagged: 'flagged', noted: 'has a note', outdated: 'outdated' },
     allDone: 'Nothing is left to do: every cell has a pose and was checked.',
     nextUnfinished: (frame: number, component: string, state: string) => `Frame ${frame}, ${component}: ${state}.`,
     nextUnchecked: (frame: number, component: string) => `Every cell has a pose. Next to check: frame ${frame}, ${component} (Y marks it as checked).`,
@@ -315,7 +320,7 @@ export const en = {
     chart: (quantity: string, frames: number, least: string, most: string) => `${quantity} in ${frames} frames, ${least} to ${most}`,
     here: (value: string) => value,
     none: '–',
-    title: 'Click to go to a frame; hollow: a pose there is ambiguous',
+    title: 'Click to go to a frame; hollow: a pose there is doubtful',
   },
 
   /** Outlines and masks from files and into files. */

@@ -26,7 +26,9 @@ export const panel = {
     library: 'library',
     notRefined: (why: string) => `library. Not refined: ${why}`,
     needs: (what: string) => `For a pose: ${what}.`,
-    noneFromOutline: 'No pose from this outline; the bottom line says why.',
+    verdict: 'Verdict',
+    verdicts: { good: 'Good', doubtful: 'Doubtful', none: 'No pose' },
+    reason: (because: string) => `: ${because.charAt(0).toLowerCase()}${because.slice(1)}`,
     finding: 'Finding it ...',
     number: (name: string, value: string, unit: string) => `${name} ${value} ${unit}`,
     deviation: (name: string, value: string, unit: string) => `${name} plus or minus ${value} ${unit}`,
@@ -46,7 +48,7 @@ export const panel = {
     ofLibrary: 'Unmatched pixels, pose of the library',
     beingRefined: 'Unmatched pixels, pose of the library, being refined',
     follows: 'Unmatched pixels, pose following the outline, being refined',
-    of: (area: string) => `px of ${area}`,
+    of: (area: string | null) => (area === null ? 'px' : `px of ${area}`),
     list: 'Candidate poses',
     /** Best first. */
     names: ['Best', 'Rival', 'Third', 'Fourth'],
@@ -59,7 +61,7 @@ export const panel = {
     pixels: (count: string) => `${count} px`,
     drawn: (count: string) => `${count} px drawn`,
     atBorder:
-      'The best view lies at the border of the library: the true rotation may lie beyond it. Choose another nominal view under the component above.',
+      'The best view lies at the border of the library: the true rotation may lie beyond it. Choose all directions under the component above.',
     byHand: 'Chosen by hand; X goes back to the best.',
     compares: (reason: string) => `${reason} X compares.`,
     alone: 'No other view comes near: the choice is clear.',

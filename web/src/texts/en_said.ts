@@ -10,7 +10,7 @@ export const said = {
   sessionSaved: 'Session saved, with every file it needs.',
   sessionSavedWithoutFiles: 'Session saved; its files are named by digest, keep them.',
   posesSaved: (component: string, frames: number, without: number) =>
-    `Poses of the ${component} saved, a row for each of ${frames} frames.${without === 0 ? '' : ` ${without} without a pose: rows of zeros.`}`,
+    `Poses of the ${component} saved, a row for each of ${frames} frames.${without === 0 ? '' : ` ${without} without a pose: rows of NaN.`}`,
   tableSaved: (component: string, frames: number) =>
     `Poses of the ${component} saved with their standard deviations, a row for each of ${frames} frames.`,
 

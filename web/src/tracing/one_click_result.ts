@@ -14,13 +14,13 @@ export function oneClickOutline(place: Place, outlines: readonly Outline[], matc
   const [outline] = outlines;
   const label = texts.steps.oneClick;
   if (!outline || !match || origin === null) return setOutline(place, label, outline ?? null);
-  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations }, index) => {
-    const candidate = { pose, unmatched, drawn, residual, deviations };
+  const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations, judged }, index) => {
+    const candidate = { pose, unmatched, drawn, residual, deviations, judged };
     const own = outlines[index];
     if (own) setItsOutline(candidate, own);
     return candidate;
   });
   const { reason, decided } = match;
-  const result = { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided } as const;
+  const result = { kind: 'posed', from: 'outline', origin, candidates, chosen: 0, reason, decided, verdict: null } as const;
   return { label, place, apply: (doc) => withCell(doc, place, { ...cellOf(doc, place.frameId, place.component), outline, result, resultOf: outline }) };
 }

@@ -72,7 +72,7 @@ describe('a pose set by hand', () => {
   it('is previewed though a result of the outline is on view', () => {
     const store = traced();
     const { outline } = cell(store);
-    const result: Posed = { kind: 'posed', from: 'outline', origin: 'k', candidates: [bare(OTHER)], chosen: 0, reason: null, decided: true };
+    const result: Posed = { kind: 'posed', from: 'outline', origin: 'k', candidates: [bare(OTHER)], chosen: 0, reason: null, decided: true, verdict: null };
     store.amend((doc) => withCell(doc, PLACE, { outline, result, resultOf: outline }));
     store.preview(setPoseByHand(PLACE, POSE));
     expect(shown(store)).toEqual(POSE);
@@ -114,7 +114,7 @@ describe('what the page works out', () => {
   it('never takes the place of a pose set by hand, and does so again when that is dropped', async () => {
     const store = traced();
     const asked: string[] = [];
-    const match = { candidates: [{ ...bare(OTHER), start: null, atBorder: false, picture: null }], canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, reason: null, decided: false, milliseconds: 1 };
+    const match = { candidates: [{ ...bare(OTHER), start: null, atBorder: false, picture: null }], canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, reason: null, decided: false, verdict: null, refusal: null, milliseconds: 1 };
     let answer: () => void = () => undefined;
     const call = (method: string) => (asked.push(method), new Promise((resolve) => (answer = () => resolve(match))));
     new Poser(store, { call } as unknown as ConstructorParameters<typeof Poser>[1]);
@@ -210,7 +210,7 @@ describe('a view of the landscape', () => {
     const store = traced();
     const { outline } = cell(store);
     const best = { ...bare(POSE), drawn: 20, residual: 0.3 };
-    const result: Posed = { kind: 'posed', from: 'outline', origin: 'k', candidates: [best], chosen: 0, reason: 'Only.', decided: true };
+    const result: Posed = { kind: 'posed', from: 'outline', origin: 'k', candidates: [best], chosen: 0, reason: 'Only.', decided: true, verdict: null };
     store.amend((doc) => withCell(doc, PLACE, { outline, result, resultOf: outline }));
     for (const x of [8, 9]) store.perform(offerCandidate(PLACE, { ...bare({ ...POSE, x }), unmatched: 400 }));
     const now = cell(store).result as Posed;

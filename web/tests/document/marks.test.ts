@@ -28,14 +28,14 @@ function trace(store: Store, at: Place): void {
 }
 
 function pose(x: number): Candidate {
-  return { pose: { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 }, unmatched: 5, drawn: 6, residual: 0.2, deviations: null };
+  return { pose: { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 }, unmatched: 5, drawn: 6, residual: 0.2, deviations: null, judged: null };
 }
 
 function giveResult(store: Store, at: Place, result: Partial<Posed> = {}): void {
   store.amend((doc) => {
     const key = `${at.frameId}/${at.component}`;
     const cell = cellOf(doc, at.frameId, at.component);
-    const posed = { kind: 'posed', from: 'outline', origin: KEY, candidates: [pose(1)], chosen: 0, reason: null, decided: true, ...result } as const;
+    const posed = { kind: 'posed', from: 'outline', origin: KEY, candidates: [pose(1)], chosen: 0, reason: null, decided: true, verdict: null, ...result } as const;
     return { ...doc, cells: { ...doc.cells, [key]: { ...cell, result: posed, resultOf: cell.outline } satisfies Cell } };
   });
 }
@@ -85,7 +85,7 @@ describe('marks', () => {
 });
 
 describe('progress', () => {
-  it('tells stages, outdated and ambiguous poses apart', () => {
+  it('tells stages, outdated and doubtful poses apart', () => {
     const store = film(6);
     store.perform(addPoint(place(1), framePoint(1, 1)));
     for (const frame of [2, 3, 4, 5]) trace(store, place(frame));
@@ -95,13 +95,28 @@ describe('progress', () => {
     const entries = entriesOf(store.doc, keyOf, ['femur']);
     expect(entries.map(({ progress }) => progress.stage)).toEqual(['empty', 'draft', 'traced', 'posed', 'refined', 'refined']);
     expect(entries.map(({ progress }) => progress.outdated)).toEqual([false, false, false, false, true, false]);
-    expect(entries.map(({ progress }) => progress.ambiguous)).toEqual([false, false, false, false, false, true]);
+    expect(entries.map(({ progress }) => progress.doubtful)).toEqual([false, false, false, false, false, true]);
     const count = (filter: Filter) => entries.filter((entry) => passes(entry, filter)).map(({ index }) => index);
     expect(count('unfinished')).toEqual([0, 1, 2, 4]);
     expect(count('unchecked')).toEqual([3, 5]);
-    expect(count('ambiguous')).toEqual([5]);
+    expect(count('doubtful')).toEqual([5]);
     giveResult(store, place(5), { candidates: [pose(1), pose(2)], decided: false, chosen: 1 });
-    expect(entriesOf(store.doc, keyOf, ['femur'])[5]?.progress.ambiguous).toBe(false);
+    expect(entriesOf(store.doc, keyOf, ['femur'])[5]?.progress.doubtful).toBe(false);
+  });
+
+  it('a verdict says what is doubtful; who took another candidate has that one\u2019s', () => {
+    const store = film(1);
+    const doubtful = { word: 'doubtful', because: 'a part is hidden' } as const;
+    const good = { misfit: 0.3, verdict: { word: 'good', because: 'it fits' } } as const;
+    const candidates = [pose(1), { ...pose(2), judged: good }];
+    const isDoubtful = () => entriesOf(store.doc, keyOf, ['femur'])[0]?.progress.doubtful;
+    trace(store, place(0));
+    giveResult(store, place(0), { candidates, verdict: doubtful });
+    expect(isDoubtful()).toBe(true);
+    giveResult(store, place(0), { candidates, verdict: doubtful, chosen: 1 });
+    expect(isDoubtful()).toBe(false);
+    giveResult(store, place(0), { candidates, decided: false, verdict: good.verdict });
+    expect(isDoubtful()).toBe(false);
   });
 
   it('goes to what has no pose, component by component and round, then to what nobody checked', () => {

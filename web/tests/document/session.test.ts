@@ -14,10 +14,11 @@ const posed: Cell = {
     kind: 'posed',
     from: 'outline',
     origin: 'k',
-    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations }],
+    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations, judged: { misfit: 0.3, verdict: { word: 'good', because: 'it fits' } } }],
     chosen: 0,
     reason: 'The only pose found.',
     decided: true,
+    verdict: { word: 'doubtful', because: 'a part is hidden' },
   },
   resultOf: outline,
 };
@@ -28,10 +29,11 @@ const loaded: Cell = {
     kind: 'posed',
     from: 'file',
     origin: 'fem.jts',
-    candidates: [{ pose, unmatched: null, drawn: null, residual: null, deviations: null }],
+    candidates: [{ pose, unmatched: null, drawn: null, residual: null, deviations: null, judged: null }],
     chosen: 0,
     reason: null,
     decided: true,
+    verdict: null,
   },
   resultOf: null,
 };
@@ -66,10 +68,12 @@ describe('session', () => {
   });
 
   it('reads candidates that were saved before poses were refined', () => {
-    const old = written().replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
-    expect(old).not.toMatch(/residual|deviations/);
+    const old = written()
+      .replace(/,"judged":(null|\{.*?\}\})/g, '')
+      .replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
+    expect(old).not.toMatch(/residual|deviations|judged/);
     const result = readSession(old).doc.cells['ab:0/femur']?.result;
-    expect(result?.kind === 'posed' && result.candidates[0]).toMatchObject({ pose, residual: null, deviations: null });
+    expect(result?.kind === 'posed' && result.candidates[0]).toMatchObject({ pose, residual: null, deviations: null, judged: null });
   });
 
   it('reads outlines and choices that were saved before sides could be marked and choices had reasons', () => {
@@ -88,7 +92,7 @@ describe('session', () => {
   });
 
   it('names kind, version and program', () => {
-    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 2, program: 'fluoropose 0' });
+    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 3, program: 'fluoropose 0' });
   });
 
   it('refuses a file that is cut at any of many places', () => {
@@ -99,7 +103,9 @@ describe('session', () => {
   });
 
   it.each([
-    ['"version":2', '"version":3', /version 3.*newer page/],
+    ['"version":3', '"version":4', /version 4.*newer page/],
+    ['"all directions",', '"some directions",', /librarySpec\.views should be "all directions" or "window"/],
+    ['"word":"doubtful"', '"word":"none"', /verdict\.word should be "good" or "doubtful"/],
     ['fluoropose-session', 'something', /not a fluoropose session/],
     ['"width":1024', '"width":"1024"', /document\.frames\[0\]\.width should be a finite number/],
     ['"closed":true', '"closed":1', /closed should be true or false but is 1/],

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { auditOf, auditTroubles } from '../../src/document/session/audit';
 import { readSession, SESSION_VERSION, writeSession } from '../../src/document/session/session';
-import { cellKey, cellOf, chosenCandidate } from '../../src/document/types';
+import { cellKey, cellOf, chosenCandidate, DEFAULT_WINDOW, verdictOf } from '../../src/document/types';
 
 /** One file of each version there ever was: what somebody saved stays readable. */
 const file = (version: number) => readFileSync(new URL(`fixtures/session-v${version}.fluoropose.json`, import.meta.url), 'utf8');
@@ -29,6 +29,23 @@ describe('sessions of earlier versions', () => {
     const { doc, audit } = readSession(file(1));
     expect(doc.marks).toEqual({});
     expect(audit).toBeNull();
+  });
+
+  it.each([1, 2])('version %i has windows of views and no verdicts', (version) => {
+    const { doc } = readSession(file(version));
+    expect(doc.components.femur.librarySpec).toEqual(DEFAULT_WINDOW);
+    const { result } = cellOf(doc, doc.frames[0]!.id, 'femur');
+    expect(result).toMatchObject({ verdict: null });
+    expect(chosenCandidate(cellOf(doc, doc.frames[0]!.id, 'femur'))?.judged).toBeNull();
+  });
+
+  it('version 3 has libraries of all directions beside windows, and verdicts', () => {
+    const { doc } = readSession(file(3));
+    expect(doc.components.femur.librarySpec).toEqual({ views: 'all directions', distance: 1080 });
+    expect(doc.components.tibia.librarySpec).toMatchObject({ views: 'window', yTo: 20 });
+    const cell = cellOf(doc, doc.frames[0]!.id, 'femur');
+    expect(verdictOf(cell.result)).toEqual({ word: 'doubtful', because: 'only 40 % of the model\u2019s outline is known' });
+    expect(chosenCandidate(cell)?.judged?.misfit).toBe(0.34);
   });
 
   it('version 2 has marks, and an audit that fits', async () => {

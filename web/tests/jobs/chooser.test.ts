@@ -13,22 +13,23 @@ import { framePoint } from '../../src/geometry/points';
 
 const outline: Outline = { points: [framePoint(1, 1), framePoint(9, 1), framePoint(5, 9)], closed: true, unknownSides: [] };
 const poseOf = (x: number): PoseNumbers => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
-const candidate = (x: number): Candidate => ({ pose: poseOf(x), unmatched: 1, drawn: 1, residual: 0.3, deviations: null });
+const judged = { misfit: 0.4, verdict: { word: 'good', because: 'it fits' } } as const;
+const candidate = (x: number): Candidate => ({ pose: poseOf(x), unmatched: 1, drawn: 1, residual: 0.3, deviations: null, judged });
 
 function posed(decided: boolean, ...xs: number[]): Posed {
   const reason = decided ? 'By the residual.' : 'Undecided.';
-  return { kind: 'posed', from: 'outline', origin: 'k', candidates: xs.map(candidate), chosen: 0, reason, decided };
+  return { kind: 'posed', from: 'outline', origin: 'k', candidates: xs.map(candidate), chosen: 0, reason, decided, verdict: null };
 }
 
 const at = (frameId: string, component: ComponentName): Place => ({ frameId, component });
 
 /** Three frames, and a worker that chooses the second pose and says on what it did. */
-function bench() {
+function bench(doubt: string | null = null) {
   const store = new Store();
   const asked: PoseProtocol['choose']['input'][] = [];
   const call = async (_: string, input: PoseProtocol['choose']['input']) => {
     asked.push(input);
-    return { index: 1, decided: true, reason: 'By the coronal tilt.' };
+    return { index: 1, decided: true, reason: 'By the coronal tilt.', doubt };
   };
   new Chooser(store, { call } as unknown as ConstructorParameters<typeof Chooser>[1]);
   const frame = (id: string) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 });
@@ -51,6 +52,17 @@ describe('chooser', () => {
     put(at('b', 'femur'), posed(false, 3, 4));
     await settled();
     expect(asked).toEqual([]);
+  });
+
+  it.each([
+    [null, { word: 'good', because: 'it fits' }],
+    ['another pose fits as well', { word: 'doubtful', because: 'another pose fits as well' }],
+  ])('gives a verdict anew: doubt %s', async (doubt, verdict) => {
+    const { asked, put, shown } = bench(doubt);
+    put(at('b', 'tibia'), posed(false, 1, 2));
+    put(at('b', 'femur'), posed(true, 3));
+    await vi.waitFor(() => expect(shown(at('b', 'tibia'))?.verdict).toEqual(verdict));
+    expect(asked[0]?.candidates.map(({ residual }) => residual)).toEqual([0.4, 0.4]);
   });
 
   it('chooses anew when the other component is decided, and puts the chosen one first', async () => {

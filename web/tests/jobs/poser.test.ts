@@ -19,8 +19,8 @@ const PLACE: Place = { frameId: 'f', component: 'femur' };
 function matchOf(x: number, residual: number | null): Match {
   const pose = { x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
   const picture = { size: 1, input: new Uint8Array(1), view: new Uint8Array(1) };
-  const candidates = [{ pose, unmatched: 5, drawn: 6, residual, deviations: null, start: null, atBorder: false, picture }];
-  const choice = { reason: null, decided: false };
+  const candidates = [{ pose, unmatched: 5, drawn: 6, residual, deviations: null, judged: null, start: null, atBorder: false, picture }];
+  const choice = { reason: null, decided: false, verdict: null, refusal: null };
   return { candidates, canonicalSize: 1, canonicalArea: 1, clipped: false, partial: false, ...choice, milliseconds: 1 };
 }
 
@@ -75,6 +75,37 @@ describe('poser', () => {
     expect(shown()).toEqual({ x: 2, residual: 0.2 });
     await vi.advanceTimersByTimeAsync(10 * REST);
     expect(methods()).toEqual(['match', 'refine']);
+  });
+
+  it('takes the pose away where nothing fits, keeps the outline, and looks again when that changes', async () => {
+    const { store, shown, last, methods } = bench();
+    const { outline } = cellOf(store.doc, 'f', 'femur');
+    await last().answer(matchOf(1, null));
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer({ ...matchOf(2, 4.5), refusal: 'the outline does not fit this model from any side: 4.5 px' });
+    expect(shown()).toBeUndefined();
+    const cell = cellOf(store.doc, 'f', 'femur');
+    expect(cell.result).toMatchObject({ kind: 'failed', sentence: 'The outline does not fit this model from any side: 4.5 px' });
+    expect(cell.outline).toBe(outline);
+    await vi.advanceTimersByTimeAsync(10 * REST);
+    expect(methods()).toEqual(['match', 'refine']);
+    store.perform(moved(20));
+    expect(last().input.before).toEqual([]);
+    await last().answer(matchOf(3, null));
+    expect(shown()).toEqual({ x: 3, residual: null });
+  });
+
+  it('takes a refused pose away when the one before had fitted and followed', async () => {
+    const { store, last } = bench();
+    await last().answer(matchOf(1, null));
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer(matchOf(2, 0.2));
+    store.perform(moved(20));
+    await vi.advanceTimersByTimeAsync(PACE);
+    await last().answer(matchOf(3, 0.3));
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer({ ...matchOf(4, 4.5), refusal: 'nothing fits' });
+    expect(cellOf(store.doc, 'f', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'Nothing fits' });
   });
 
   it('does not refine while the outline keeps changing', async () => {

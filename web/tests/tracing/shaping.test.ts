@@ -288,6 +288,7 @@ describe('an outline by one click', () => {
     drawn: 10,
     residual: 0.2,
     deviations: null,
+    judged: null,
     start: null,
     atBorder: false,
     picture: null,
@@ -300,6 +301,8 @@ describe('an outline by one click', () => {
     partial: false,
     reason: 'It fits.',
     decided: false,
+    verdict: null,
+    refusal: null,
     milliseconds: 1,
   };
   const found = oneClickOutline(PLACE, [SQUARE, other], match, 'key').apply(EMPTY_DOC);

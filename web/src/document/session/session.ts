@@ -3,6 +3,7 @@ import { readAudit, type Audit } from './audit';
 import { readDistortion } from '../distortion';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
 import type {
+  AllDirections,
   Calibration,
   Candidate,
   Cell,
@@ -12,12 +13,15 @@ import type {
   FileReference,
   FrameEntry,
   GreyWindow,
+  Judged,
   LibrarySpec,
   Mark,
   Outline,
   Posed,
   Reference,
   Result,
+  Verdict,
+  ViewWindow,
 } from '../types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 
@@ -47,8 +51,8 @@ export interface SessionFile {
 }
 
 export const SESSION_KIND = 'fluoropose-session';
-export const SESSION_VERSION = 2;
-/** Version 1 had neither marks nor an audit. */
+export const SESSION_VERSION = 3;
+/** Version 1 had neither marks nor an audit, version 2 neither libraries of all directions nor verdicts. */
 const OLDEST_VERSION = 1;
 
 /** Parts of a blob: one long text may be more than a text can hold. */
@@ -131,6 +135,8 @@ const readOutline: Reader<Outline> = (value, path) => {
 
 const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
 
+const readVerdict = object<Verdict>({ word: oneOf('good', 'doubtful'), because: text });
+
 const readCandidate = object<Candidate>({
   pose: readPose,
   unmatched: nullable(number),
@@ -138,6 +144,8 @@ const readCandidate = object<Candidate>({
   // Sessions from before poses were refined do not have them.
   residual: optional(number),
   deviations: optional(readPose),
+  // Sessions of versions 1 and 2 have no verdicts.
+  judged: optional(object<Judged>({ misfit: number, verdict: readVerdict })),
 });
 
 const readPosedParts = object<Omit<Posed, 'program'>>({
@@ -148,6 +156,7 @@ const readPosedParts = object<Omit<Posed, 'program'>>({
   chosen: count,
   reason: optional(text),
   decided: missingAs(false, flag),
+  verdict: optional(readVerdict),
 });
 
 const readPosed: Reader<Posed> = (value, path) => {
@@ -184,7 +193,11 @@ const readFrame = object<FrameEntry>({
 
 const readReference = object<FileReference>({ name: text, sha256: text });
 
-const readSpec = object<LibrarySpec>({
+const readAllDirections = object<AllDirections>({ views: oneOf('all directions'), distance: nullable(number) });
+
+const readWindow = object<ViewWindow>({
+  // Sessions of versions 1 and 2 know windows alone.
+  views: missingAs('window', oneOf('window')),
   nominalX: number,
   nominalY: number,
   xFrom: number,
@@ -196,6 +209,11 @@ const readSpec = object<LibrarySpec>({
   distance: nullable(number),
   area: count,
 });
+
+const readSpec: Reader<LibrarySpec> = (value, path) => {
+  const { views } = object({ views: missingAs('window', oneOf('all directions', 'window')) })(value, path);
+  return views === 'window' ? readWindow(value, path) : readAllDirections(value, path);
+};
 
 const readComponent = object<Component>({
   model: nullable(readReference),

@@ -1,4 +1,4 @@
-import { cellOf, chosenCandidate, type Doc, isRefined, type Posed, type Result } from '../types';
+import { cellOf, chosenCandidate, type Doc, isRefined, type Posed, type Result, verdictOf } from '../types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 
@@ -20,6 +20,8 @@ const HEAD = [
   'sd_x_rot_deg',
   'sd_y_rot_deg',
   'residual_px',
+  'verdict',
+  'because',
   'method',
   'candidate',
   'candidates',
@@ -28,7 +30,7 @@ const HEAD = [
 
 /**
  * Poses of a component as a table with commas (RFC 4180): a row a frame, the chosen pose, one standard deviation of
- * each number, and why it was chosen. What is not known is empty.
+ * each number, how far it is to be trusted, and why it was chosen. What is not known is empty.
  */
 export function poseTable(doc: Doc, component: ComponentName): string {
   const rows = doc.frames.map((frame, index) => {
@@ -36,14 +38,21 @@ export function poseTable(doc: Doc, component: ComponentName): string {
     const candidate = chosenCandidate(cell);
     const pose = FIELDS.map((field) => candidate?.pose[field] ?? null);
     const deviations = FIELDS.map((field) => candidate?.deviations?.[field] ?? null);
-    return [index + 1, frame.name, ...pose, ...deviations, candidate?.residual ?? null, ...choiceOf(cell.result)];
+    return [index + 1, frame.name, ...pose, ...deviations, candidate?.residual ?? null, ...trustIn(cell.result), ...choiceOf(cell.result)];
   });
   return [HEAD, ...rows].map((row) => `${row.map(field).join(',')}\r\n`).join('');
 }
 
+/** The verdict, and why; where there is no pose, why not. */
+function trustIn(result: Result | null): (string | null)[] {
+  if (result?.kind === 'failed') return ['none', result.sentence];
+  const { word = null, because = null } = verdictOf(result) ?? {};
+  return [word, because];
+}
+
 /** Method, number of the candidate from 1, how many there are, and the reason. */
 function choiceOf(result: Result | null): (string | number | null)[] {
-  if (result?.kind !== 'posed') return [null, null, null, result?.sentence ?? null];
+  if (result?.kind !== 'posed') return [null, null, null, null];
   const reason = result.chosen === 0 ? result.reason : 'Chosen by hand.';
   return [methodOf(result), result.chosen + 1, result.candidates.length, reason];
 }

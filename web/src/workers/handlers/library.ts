@@ -34,6 +34,7 @@ function planned(): LibraryBuilder {
 }
 
 function viewsOf(spec: LibrarySpec): LibraryViews {
+  if (spec.views === 'all directions') return LibraryViews.everywhere(spec.distance ?? undefined);
   return new LibraryViews(
     Float64Array.of(spec.nominalX, spec.nominalY),
     Float64Array.of(spec.xFrom, spec.xTo, spec.xStep),

@@ -1,4 +1,5 @@
 import { choosePose, Matcher, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import type { Judged, Verdict } from '../../document/types';
 import type { ComponentName } from '../../terms/component';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
@@ -37,9 +38,9 @@ serve<PoseProtocol>({
     const { poses, residuals } = numbersOf(candidates);
     const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
     if (!chosen) return null;
-    const { index, decided, sentence: reason } = chosen;
+    const { index, decided, sentence: reason, doubt = null } = chosen;
     chosen.free();
-    return { index, decided, reason };
+    return { index, decided, reason, doubt };
   },
 });
 
@@ -114,9 +115,11 @@ function read(match: RawMatch, matcher: Matcher, milliseconds: number): Match {
 
 function copied(found: RawMatch, matcher: Matcher, milliseconds: number): Match {
   const { canonicalSize, canonicalArea } = matcher;
-  const { clipped, partial, reason = null, decided } = found;
+  const { clipped, partial, reason = null, decided, verdict: word, because } = found;
+  const refusal = word === 'none' ? (because ?? null) : null;
   const candidates = Array.from({ length: found.count }, (_, index) => candidateOf(found, index, canonicalSize));
-  return { candidates, canonicalSize, canonicalArea, clipped, partial, reason, decided, milliseconds };
+  const verdict = verdictFrom(word, because);
+  return { candidates, canonicalSize, canonicalArea, clipped, partial, reason, decided, verdict, refusal, milliseconds };
 }
 
 function candidateOf(found: RawMatch, index: number, size: number): MatchedCandidate {
@@ -128,10 +131,21 @@ function candidateOf(found: RawMatch, index: number, size: number): MatchedCandi
     drawn: found.drawn(index) ?? null,
     residual: found.residual(index) ?? null,
     deviations: deviations ? poseFrom(deviations) : null,
+    judged: judgedOf(found, index),
     start: start ? poseFrom(start) : null,
     atBorder: found.atBorder(index) ?? false,
     picture: pictureOf(found, index, size),
   };
+}
+
+function judgedOf(found: RawMatch, index: number): Judged | null {
+  const misfit = found.misfit(index);
+  const verdict = verdictFrom(found.verdictOf(index), found.becauseOf(index));
+  return misfit === undefined || !verdict ? null : { misfit, verdict };
+}
+
+function verdictFrom(word: string | undefined, because: string | undefined): Verdict | null {
+  return (word === 'good' || word === 'doubtful') && because !== undefined ? { word, because } : null;
 }
 
 function pictureOf(found: RawMatch, index: number, size: number): Picture | null {

@@ -1,4 +1,4 @@
-import type { Candidate } from '../../document/types';
+import type { Candidate, Verdict } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { CameraInput } from './camera';
@@ -15,6 +15,10 @@ export interface Match {
   /** Why the first candidate was chosen; null for poses of the library. */
   readonly reason: string | null;
   readonly decided: boolean;
+  /** On the first candidate; null for poses of the library, and where nothing fits. */
+  readonly verdict: Verdict | null;
+  /** Why no pose explains the outline; null where one does. */
+  readonly refusal: string | null;
   readonly milliseconds: number;
 }
 
@@ -44,7 +48,7 @@ export interface MatchInput {
   readonly camera: CameraInput;
 }
 
-/** A refined pose and what it leaves, px. */
+/** A refined pose and what it leaves, px; of poses that are compared, the misfit. */
 export interface Refined {
   readonly pose: PoseNumbers;
   readonly residual: number;
@@ -62,4 +66,6 @@ export interface Choice {
   readonly index: number;
   readonly decided: boolean;
   readonly reason: string;
+  /** Another pose fits as well: a sentence without its full stop; null where the others were ruled out. */
+  readonly doubt: string | null;
 }
