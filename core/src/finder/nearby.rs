@@ -92,7 +92,7 @@ struct NearbySearch<'s> {
 impl NearbySearch<'_> {
     /// Rotates `start` by `turn`, moves it onto the silhouette, and counts the pixels that differ then.
     fn moved(&mut self, turn: Vector3, start: &Pose) -> Option<(u64, Pose)> {
-        let mut pose = self.about_middle(start, &turn, [0.0; 3]);
+        let mut pose = about(&self.middle, start, &turn, [0.0; 3]);
         for _ in 0..self.moves {
             pose = self.onto_silhouette(&pose)?;
         }
@@ -123,7 +123,7 @@ impl NearbySearch<'_> {
         let turn = axis_angle(&self.wanted) - axis_angle(&drawn);
         let turn = wrap(turn, core::f64::consts::PI);
         let ray = scale(&centre, -1.0 / norm(&centre));
-        Some(self.about_middle(pose, &scale(&ray, turn), aside))
+        Some(about(&self.middle, pose, &scale(&ray, turn), aside))
     }
 
     fn moments_at(&mut self, pose: &Pose) -> Option<Moments> {
@@ -131,15 +131,15 @@ impl NearbySearch<'_> {
         render(self.model, self.camera, pose, self.scratch, &mut self.drawn).ok()?;
         Some(self.drawn.as_mask().moments())
     }
+}
 
-    /// A pose rotated about the model's middle, then shifted; both in camera axes.
-    fn about_middle(&self, pose: &Pose, turn: &Vector3, shift: Vector3) -> Pose {
-        let rotation = multiply(&rotation_by(turn), &pose.rotation);
-        let centre = add(&pose.transform(&self.middle), &shift);
-        Pose {
-            rotation,
-            translation: subtract(&centre, &apply(&rotation, &self.middle)),
-        }
+/// A pose rotated about a point of the model, then shifted; both in camera axes.
+pub(super) fn about(middle: &Vector3, pose: &Pose, turn: &Vector3, shift: Vector3) -> Pose {
+    let rotation = multiply(&rotation_by(turn), &pose.rotation);
+    let centre = add(&pose.transform(middle), &shift);
+    Pose {
+        rotation,
+        translation: subtract(&centre, &apply(&rotation, middle)),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use heapless::Vec;
 
-use crate::finder::nearby::nearby;
+use crate::finder::nearby::{about, nearby};
 use crate::image::mask::{MaskMut, words_needed};
 use crate::locate::rerank::{Reranked, unmatched_at_pose};
+use crate::math::radians;
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
@@ -35,6 +36,9 @@ const SPLIT_RATIO: f64 = 3.0;
 /// components.
 const EXACT_PX: f64 = 0.046;
 const INEXACT_PX: f64 = 0.03;
+
+/// So far beside a pose another minimum is looked for, degrees: as far as views of a coarse library lie apart.
+const BESIDE_DEG: f64 = 2.5;
 
 /// Step of the search around a pose that may be a false minimum near the right one, degrees.
 const CLOSE_DEG: f64 = 1.0;
@@ -101,6 +105,7 @@ pub fn refine_rivals(
     };
     search.refine_starts(starts)?;
     search.mirror();
+    search.look_beside();
     search.look_closer();
     Ok(distinct(&search.answers))
 }
@@ -204,6 +209,26 @@ impl RivalRefinement<'_, '_> {
                     // A mirror image that leads nowhere is no rival.
                     let _ = self.refine(&mirrored, start, true);
                 }
+            }
+        }
+    }
+
+    /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
+    /// pose, about both axes out of the image plane, it is tried whether another is there.
+    fn look_beside(&mut self) {
+        let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
+            return;
+        };
+        if self.planes.is_empty() || !self.is_outline() || view.placement != Pose::IDENTITY {
+            return;
+        }
+        let middle = self.model.bounds().centre;
+        for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
+            let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
+            let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
+            if let Some(found) = self.probe(&start, &best.refined) {
+                // From there it leads somewhere.
+                let _ = self.refine(&found, best.start, best.mirrored);
             }
         }
     }
