@@ -132,7 +132,9 @@ fn report(out: &mut dyn Write, found: &LocatedPoses<RIVALS>) -> Result<(), Failu
     number(out, "axis angle rad", found.form.angle)?;
     number(out, "canonical scale", found.form.scale)?;
     for located in &found.poses {
-        let Located { pose, view, fine } = located;
+        let Located {
+            pose, view, fine, ..
+        } = located;
         writeln!(
             out,
             "view {view}: reversed {}, unmatched {} px, at border {}",
