@@ -14,14 +14,11 @@ use crate::math::eigen::eigen_symmetric;
 use crate::math::{Matrix3, Vector3, cross, dot, norm, scale, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::pose::Pose;
+use crate::pose::{Pose, geodesic_deg};
 
 /// Most CAD axes are the anatomical ones in some order. What is found within this angle of one of the file's axes is taken
 /// to be that axis, so that numbers agree with those of programs that take the file's axes as they are. Degrees.
 pub const OWN_AXIS_DEG: f64 = 10.0;
-
-/// Cosine of [`OWN_AXIS_DEG`].
-const OWN_AXIS: f64 = 0.984_807_753;
 
 /// Planes whose deviations differ by less than this factor are equally good, and the wider way across is mediolateral.
 const AS_SYMMETRIC: f64 = 3.0;
@@ -36,7 +33,7 @@ pub fn mediolateral_axis(mesh: &Mesh<'_>, planes: &[SymmetryPlane]) -> Option<Ve
     let limit = AS_SYMMETRIC * best.max(1e-3 * mesh.bounds().radius);
     let alike = planes.iter().filter(|plane| plane.deviation_mm <= limit);
     let widest = alike.max_by(|a, b| width(mesh, &a.normal).total_cmp(&width(mesh, &b.normal)));
-    Some(own_axis(widest?.normal))
+    Some(upright(widest?.normal))
 }
 
 /// The normal of a tray's plate, perpendicular to `mediolateral`, model coordinates: the direction that most of its surface
@@ -61,7 +58,7 @@ pub fn superoinferior_axis(mesh: &Mesh<'_>, mediolateral: &Vector3) -> Option<Ve
         }
     }
     let ([largest, ..], [normal, ..]) = eigen_symmetric(&tensor);
-    (largest > 0.0).then(|| own_axis(normal))
+    (largest > 0.0).then(|| upright(normal))
 }
 
 /// A component of a knee.
@@ -89,10 +86,27 @@ pub fn field_axes(
         KneeComponent::Femur => perpendicular(&z),
     };
     let x = cross(&y, &z);
-    Some(Pose {
+    let found = Pose {
         rotation: core::array::from_fn(|row| [x[row], y[row], z[row]]),
         translation: [0.0; 3],
-    })
+    };
+    Some(own_axes(&found).unwrap_or(found))
+}
+
+/// The file's own axes in the order and the directions that are nearest to those found, where all are within
+/// [`OWN_AXIS_DEG`] of them, turned together.
+fn own_axes(found: &Pose) -> Option<Pose> {
+    let mut own = [[0.0; 3]; 3];
+    for (own, row) in own.iter_mut().zip(&found.rotation) {
+        let at = (0..3).max_by(|&a, &b| row[a].abs().total_cmp(&row[b].abs()))?;
+        own[at] = if row[at] < 0.0 { -1.0 } else { 1.0 };
+    }
+    let own = Pose {
+        rotation: own,
+        ..*found
+    };
+    let near = own.is_rigid(1e-9) && geodesic_deg(&own.rotation, &found.rotation) < OWN_AXIS_DEG;
+    near.then_some(own)
 }
 
 /// The file's y axis, or where that is too near to `axis` its x axis, made perpendicular to it.
@@ -115,16 +129,13 @@ fn width(mesh: &Mesh<'_>, axis: &Vector3) -> f64 {
     high - low
 }
 
-/// The file's own axis where one is within [`OWN_AXIS_DEG`], else the axis as it is; its largest component is positive.
-fn own_axis(axis: Vector3) -> Vector3 {
-    let mut own = axis;
-    for (k, x) in axis.iter().enumerate() {
-        if x.abs() > OWN_AXIS {
-            own = [0.0; 3];
-            own[k] = 1.0;
-        }
-    }
-    own
+/// The axis or its opposite, so that its largest component is positive.
+fn upright(axis: Vector3) -> Vector3 {
+    let largest = axis.iter().fold(
+        0.0f64,
+        |most, x| if x.abs() > most.abs() { *x } else { most },
+    );
+    scale(&axis, if largest < 0.0 { -1.0 } else { 1.0 })
 }
 
 #[cfg(test)]
@@ -185,13 +196,15 @@ mod tests {
             let vertices: Vec<[f32; 3]> =
                 vertices.iter().map(|v| pose.transform(v).map(|x| x as f32)).collect();
             let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-            let wide = mediolateral_axis(&mesh, &symmetry_planes(&mesh)).expect("a plane");
-            let up = superoinferior_axis(&mesh, &wide).expect("a plate");
-            let column = |k: usize| pose.rotation.map(|row| row[k]);
-            let cosine = |a: &Vector3, b: &Vector3| dot(a, b).abs();
+            let axes = field_axes(&mesh, &symmetry_planes(&mesh), KneeComponent::Tibia);
+            let axes = axes.expect("a plane and a plate");
             // Axes near the file's own are taken to be those.
-            prop_assert!(cosine(&wide, &column(2)) > OWN_AXIS - 1e-6);
-            prop_assert!(cosine(&up, &column(1)) > OWN_AXIS - 1e-6);
+            let cosine = |k: usize| {
+                let column = |pose: &Pose| pose.rotation.map(|row| row[k]);
+                dot(&column(&axes), &column(&pose)).abs()
+            };
+            let least = (OWN_AXIS_DEG + 0.5).to_radians().cos();
+            prop_assert!((0..3).all(|k| cosine(k) > least), "{:?}", axes);
         }
     }
 
@@ -204,14 +217,13 @@ mod tests {
                 .map(|v| core::array::from_fn(|k| v[(k + turn) % 3] as f32))
                 .collect();
             let mesh = Mesh::new(&vertices, &triangles).expect("valid");
-            let wide = mediolateral_axis(&mesh, &symmetry_planes(&mesh)).expect("a plane");
-            let up = superoinferior_axis(&mesh, &wide).expect("a plate");
             let unit =
                 |at: usize| core::array::from_fn(|k| f64::from(u8::from((k + turn) % 3 == at)));
-            assert_eq!((wide, up), (unit(2), unit(1)), "{turn}");
             let planes = symmetry_planes(&mesh);
             let axes = field_axes(&mesh, &planes, KneeComponent::Tibia).expect("axes");
             assert!(axes.is_rigid(1e-12) && (turn > 0 || axes == Pose::IDENTITY));
+            let column = |k: usize| axes.rotation.map(|row| row[k]);
+            assert_eq!((column(2), column(1)), (unit(2), unit(1)), "{turn}");
             let femur = field_axes(&mesh, &planes, KneeComponent::Femur).expect("axes");
             assert!(femur.is_rigid(1e-12) && (turn > 0 || femur == Pose::IDENTITY));
         }

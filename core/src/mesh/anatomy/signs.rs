@@ -3,7 +3,7 @@
 //! A femoral component seen from the side is a bow that opens towards the bone, upwards; its anterior flange is the longer
 //! arm. A tray's plate lies on top of its keel, and its border is notched behind, for the ligament.
 
-use super::{KneeComponent, mediolateral_axis, superoinferior_axis};
+use super::{KneeComponent, mediolateral_axis, own_axes, superoinferior_axis};
 use crate::math::{Vector3, add, cross, dot, norm, radians, scale, sin_cos, subtract};
 use crate::mesh::surface::Mesh;
 use crate::mesh::symmetry::SymmetryPlane;
@@ -38,7 +38,8 @@ impl AnatomicalAxes {
 }
 
 /// The anatomical axes of a component as its shape tells them; `planes` come from
-/// [`crate::mesh::symmetry::symmetry_planes`]. An axis within [`super::OWN_AXIS_DEG`] of one of the file's is that one.
+/// [`crate::mesh::symmetry::symmetry_planes`]. Where the file's own
+/// axes, in some order, lie within [`super::OWN_AXIS_DEG`] of those found, they are taken.
 /// `None` where the shape has no plane of symmetry or no up.
 #[must_use]
 pub fn anatomical_axes(
@@ -51,21 +52,22 @@ pub fn anatomical_axes(
         KneeComponent::Femur => opening(mesh, &across)?,
         KneeComponent::Tibia => above_the_keel(mesh, &superoinferior_axis(mesh, &across)?),
     };
-    let up = signed_own_axis(square_to(&up, &across)?);
+    let up = square_to(&up, &across)?;
     let forward = cross(&up, &across);
     let (forward, front_is_known) = match component {
         KneeComponent::Femur => along_the_longer_arm(mesh, &forward, &up),
         KneeComponent::Tibia => away_from_the_notch(mesh, &forward, &across, &up),
     };
     let right = cross(&forward, &up);
-    let is_own = |axis: &Vector3| axis.iter().any(|x| x.abs() > 1.0 - 1e-9);
+    let found = Pose {
+        rotation: core::array::from_fn(|k| [forward[k], up[k], right[k]]),
+        translation: [0.0; 3],
+    };
+    let own = own_axes(&found);
     Some(AnatomicalAxes {
-        model_from_field: Pose {
-            rotation: core::array::from_fn(|k| [forward[k], up[k], right[k]]),
-            translation: [0.0; 3],
-        },
+        model_from_field: own.unwrap_or(found),
         front_is_known,
-        are_files_own: is_own(&up) && is_own(&right),
+        are_files_own: own.is_some(),
     })
 }
 
@@ -74,16 +76,6 @@ fn square_to(axis: &Vector3, other: &Vector3) -> Option<Vector3> {
     let square = subtract(axis, &scale(other, dot(axis, other)));
     let length = norm(&square);
     (length > 1e-9).then(|| scale(&square, 1.0 / length))
-}
-
-/// The file's own axis in the direction that is meant, where one is near.
-fn signed_own_axis(axis: Vector3) -> Vector3 {
-    let own = super::own_axis(axis);
-    if dot(&own, &axis) < 0.0 {
-        scale(&own, -1.0)
-    } else {
-        own
-    }
 }
 
 fn vertices<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = Vector3> + Clone + 'm {
