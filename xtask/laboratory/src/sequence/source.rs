@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use rayon::prelude::*;
 
 use super::seen::Seen;
 use crate::files::{Frames, MaskBuffer, files_in, grey, read_mask};
@@ -52,7 +53,7 @@ impl Source {
     /// number, and a calibration for another size.
     pub fn read(folders: &Folders<'_>, calibration: &Calibration) -> Result<Self> {
         let masks: Vec<_> = files_in(folders.masks)?
-            .into_iter()
+            .into_par_iter()
             .map(|path| read_whole(&path).map(|mask| (path, mask)))
             .collect::<Result<_>>()?;
         let (_, first) = masks.first().context("a folder of masks is never empty")?;
