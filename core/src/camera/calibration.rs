@@ -135,7 +135,7 @@ impl Calibration {
 
     /// Where a knee is expected when nothing says so, mm from the focus: 0.9 of the principal distance, as knees stand
     /// before a detector close behind them; 1000 where the file does not state that. It sets the perspective of a library's
-    /// views, which changes slowly, and never a pose.
+    /// views, which changes slowly with it, and a first pose a little; a refined pose does not depend on it.
     #[must_use]
     pub fn expected_distance(&self) -> f64 {
         const PART: f64 = 0.9;

@@ -31,6 +31,7 @@ struct OwnedEdges {
 
 impl OwnedModel {
     /// Takes vertices (x, y and z of each, mm) and triangles (three vertex numbers each). One or two numbers left over at
+    /// the end of either are not read.
     ///
     /// # Errors
     /// [`MeshError`] names the vertex or triangle at fault.

@@ -22,21 +22,6 @@ pub struct AnatomicalAxes {
     pub are_files_own: bool,
 }
 
-impl AnatomicalAxes {
-    /// The axes where front and back are changed for each other: half a turn about the superior axis.
-    #[must_use]
-    pub fn turned_round(&self) -> Self {
-        let turned = self.model_from_field.rotation.map(|[x, y, z]| [-x, y, -z]);
-        Self {
-            model_from_field: Pose {
-                rotation: turned,
-                ..self.model_from_field
-            },
-            ..*self
-        }
-    }
-}
-
 /// The anatomical axes of a component as its shape tells them; `planes` come from
 /// [`crate::mesh::symmetry::symmetry_planes`]. Where the file's own
 /// axes, in some order, lie within [`super::OWN_AXIS_DEG`] of those found, they are taken.

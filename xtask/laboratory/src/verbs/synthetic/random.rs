@@ -2,7 +2,7 @@
 
 use fluoropose::math::{Matrix3, apply};
 use fluoropose::mesh::Model;
-use fluoropose::pose::Pose;
+use fluoropose::pose::{Pose, Quaternion};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -18,23 +18,7 @@ pub(super) fn rotation(random: &mut ChaCha8Rng) -> Matrix3 {
         }
     };
     let [w, x, y, z] = quaternion.map(|q| q / length);
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-        ],
-        [
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - w * x),
-        ],
-        [
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
+    Quaternion { w, x, y, z }.into()
 }
 
 /// A pose of any rotation, the middle of the model's box within the protocol's range about `distance`.
