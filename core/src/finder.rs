@@ -25,4 +25,4 @@ pub use error::FindError;
 pub use find::{Found, Goal, find};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 pub use memory::FinderMemory;
-pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge};
+pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};

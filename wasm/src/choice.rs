@@ -1,19 +1,22 @@
 //! Which of several refined poses is chosen, and why, in words.
 
 use fluoropose::finder::choice::{Choice, ChoiceContext, Counterpart, Reason, RivalPose, choose};
-use fluoropose::finder::{Doubt, Found, Verdict};
+use fluoropose::finder::{Doubt, Found, Limits, Verdict, contenders, judge};
 use fluoropose::pose::{Pose, geodesic_deg};
 use wasm_bindgen::prelude::*;
 
-use fluoropose_page::pose_numbers::from_numbers;
+use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
 /// What is known round a frame's component: the other component in the frame, and the same one in neighbouring frames.
 /// Only poses that can be relied on belong here.
 #[wasm_bindgen]
 #[derive(Default)]
 pub struct Surroundings {
+    /// In the field's axes.
     counterpart: Option<Counterpart>,
     neighbours: Vec<Pose>,
+    /// Those of the component that is chosen for; without them they are its file's own.
+    model_from_field: Option<Pose>,
 }
 
 #[wasm_bindgen]
@@ -24,13 +27,23 @@ impl Surroundings {
         Self::default()
     }
 
-    /// The femoral component is known and a tibial pose is to be chosen.
+    /// The anatomical axes of the component's model (nine numbers, as `axes_from` takes them), in which its tilt is taken.
     ///
     /// # Errors
-    /// A sentence where `pose` is not six finite numbers.
+    /// A sentence where they are no right-handed frame.
+    #[wasm_bindgen(js_name = setAxes)]
+    pub fn set_axes(&mut self, axes: &[f64]) -> Result<(), JsError> {
+        self.model_from_field = Some(axes_from(axes)?);
+        Ok(())
+    }
+
+    /// The femoral component is known and a tibial pose is to be chosen; without `axes` its file has the field's.
+    ///
+    /// # Errors
+    /// A sentence where `pose` is not six finite numbers, or the axes are no right-handed frame.
     #[wasm_bindgen(js_name = setFemur)]
-    pub fn set_femur(&mut self, pose: &[f64]) -> Result<(), JsError> {
-        self.counterpart = Some(Counterpart::Femur(from_numbers(pose)?.into()));
+    pub fn set_femur(&mut self, pose: &[f64], axes: Option<Vec<f64>>) -> Result<(), JsError> {
+        self.counterpart = Some(Counterpart::Femur(in_field_axes(pose, axes)?));
         Ok(())
     }
 
@@ -39,8 +52,8 @@ impl Surroundings {
     /// # Errors
     /// As of `set_femur`.
     #[wasm_bindgen(js_name = setTibia)]
-    pub fn set_tibia(&mut self, pose: &[f64]) -> Result<(), JsError> {
-        self.counterpart = Some(Counterpart::Tibia(from_numbers(pose)?.into()));
+    pub fn set_tibia(&mut self, pose: &[f64], axes: Option<Vec<f64>>) -> Result<(), JsError> {
+        self.counterpart = Some(Counterpart::Tibia(in_field_axes(pose, axes)?));
         Ok(())
     }
 
@@ -55,12 +68,34 @@ impl Surroundings {
     }
 }
 
+fn in_field_axes(pose: &[f64], axes: Option<Vec<f64>>) -> Result<Pose, JsError> {
+    let pose = Pose::from(from_numbers(pose)?);
+    Ok(match axes {
+        Some(axes) => pose.compose(&axes_from(&axes)?),
+        None => pose,
+    })
+}
+
 impl Surroundings {
-    fn context(&self) -> ChoiceContext<'_> {
-        ChoiceContext {
+    /// Chooses among poses of the model.
+    fn choose(&self, candidates: &[RivalPose]) -> Option<Choice> {
+        let field = |pose: &Pose| match &self.model_from_field {
+            Some(axes) => pose.compose(axes),
+            None => *pose,
+        };
+        let candidates: Vec<RivalPose> = candidates
+            .iter()
+            .map(|candidate| RivalPose {
+                pose: field(&candidate.pose),
+                ..*candidate
+            })
+            .collect();
+        let neighbours: Vec<Pose> = self.neighbours.iter().map(field).collect();
+        let context = ChoiceContext {
             counterpart: self.counterpart,
-            neighbours: &self.neighbours,
-        }
+            neighbours: &neighbours,
+        };
+        choose(&candidates, &context)
     }
 
     /// Why a pose was chosen, in a sentence or two.
@@ -167,11 +202,10 @@ impl Chosen {
 
 impl Chosen {
     pub(crate) fn among(candidates: &[RivalPose], around: &Surroundings) -> Option<Self> {
-        let choice = choose(candidates, &around.context())?;
-        let sentence = around.explain(&choice);
+        let choice = around.choose(candidates)?;
         Some(Self {
             choice,
-            sentence,
+            sentence: around.explain(&choice),
             doubt: doubt_among(candidates, &choice),
             verdict: None,
         })
@@ -179,13 +213,22 @@ impl Chosen {
 
     /// The choice among what was found for a frame, with its verdict.
     pub(crate) fn of(found: &Found, around: &Surroundings) -> Option<Self> {
-        let decision = found.decide(&around.context())?;
+        let choice = around.choose(&contenders(&found.candidates))?;
+        let verdict = judge(&found.candidates, &choice, &Limits::USUAL)?;
         Some(Self {
-            choice: decision.choice,
-            sentence: around.explain(&decision.choice),
+            choice,
+            sentence: around.explain(&choice),
             doubt: None,
-            verdict: Some(decision.verdict),
+            verdict: Some(verdict),
         })
+    }
+
+    /// The same choice with a verdict: that on the chosen pose alone, and what other poses do.
+    pub(crate) fn judged(self, alone: Verdict) -> Self {
+        Self {
+            verdict: Some(alone.or_open(self.doubt)),
+            ..self
+        }
     }
 
     /// How far the choice is to be trusted, where that is known: the word for it, and why.
@@ -285,7 +328,7 @@ mod tests {
         let both = [turned(4.0), turned(-1.0)];
         let around = Surroundings {
             counterpart: Some(Counterpart::Femur(turned(4.0).pose)),
-            neighbours: Vec::new(),
+            ..Surroundings::default()
         };
         let chosen = Chosen::among(&both, &around).unwrap();
         assert_eq!(chosen.index(), 0);
@@ -294,5 +337,28 @@ mod tests {
                 .sentence
                 .starts_with("By the coronal tilt against the femur: 0.0°")
         );
+    }
+
+    /// Models whose files have other axes than the field's: the tilt is the same once the axes are told.
+    #[test]
+    fn the_tilt_is_taken_in_anatomical_axes() {
+        let axes = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+        let other_file = |x_rot_deg: f64| {
+            let field_from_model = axes_from(&axes).ok().unwrap().inverse();
+            RivalPose {
+                pose: turned(x_rot_deg).pose.compose(&field_from_model),
+                ..turned(x_rot_deg)
+            }
+        };
+        let both = [other_file(-1.0), other_file(4.0)];
+        let mut around = Surroundings {
+            counterpart: Some(Counterpart::Femur(turned(4.0).pose)),
+            ..Surroundings::default()
+        };
+        around.set_axes(&axes).ok().unwrap();
+        let chosen = Chosen::among(&both, &around).unwrap();
+        assert_eq!(chosen.index(), 1);
+        let tilt = "By the coronal tilt against the femur: 0.0°";
+        assert!(chosen.sentence.starts_with(tilt), "{}", chosen.sentence);
     }
 }

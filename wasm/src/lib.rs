@@ -5,6 +5,7 @@
 //! in a worker. Memory and errors are as there.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+mod anatomy;
 mod bead_grid;
 mod choice;
 mod exchange;
@@ -13,12 +14,13 @@ mod library;
 mod matcher;
 mod working_model;
 
+pub use anatomy::{ShapeAxes, shape_axes};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use found::Match;
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{
-    Canonical, HandFit, HiddenPixels, Landscape, Matcher, NearestView, OneClick, OneClickAnswer,
-    ViewPose,
+    Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,
+    OneClickAnswer, ViewPose,
 };

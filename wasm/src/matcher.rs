@@ -6,7 +6,7 @@ mod landscape;
 mod nearest;
 mod one_click;
 
-pub use from_here::{HandFit, HiddenPixels};
+pub use from_here::{HandFit, HandVerdict, HiddenPixels};
 pub use landscape::{Landscape, ViewPose};
 pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};

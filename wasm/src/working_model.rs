@@ -1,10 +1,9 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
-use fluoropose::finder::choice::{Choice, Reason};
 use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
-    find, first_poses, judge,
+    find, first_poses, judge_fit,
 };
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
@@ -17,8 +16,8 @@ use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
-    CameraView, Iterate, Polarity, RefineOptions, Refined, outline_samples, refine, refine_traced,
-    uncertainty,
+    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, assess, fit_at,
+    outline_samples, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
@@ -56,17 +55,27 @@ pub(crate) struct Judged {
 }
 
 impl Judged {
-    fn of(candidate: &Candidate) -> Option<Self> {
-        let alone = Choice {
-            index: 0,
-            reason: Reason::Only,
-            open: None,
-        };
-        let verdict = judge(core::slice::from_ref(candidate), &alone, &Limits::USUAL)?;
-        Some(Self {
+    fn of(candidate: &Candidate) -> Self {
+        let determined = candidate.refined.is_none() || candidate.covariance.is_some();
+        Self {
             misfit: candidate.misfit(),
-            verdict,
-        })
+            verdict: judge_fit(&candidate.fit, determined, &Limits::USUAL),
+        }
+    }
+}
+
+/// What a target says of a refined pose.
+pub(crate) struct Assessed {
+    /// Standard deviations of its numbers; nothing where the target does not determine them.
+    pub(crate) deviations: Option<Deviations>,
+    /// How well the model's outline is met there.
+    pub(crate) fit: OutlineFit,
+}
+
+impl Assessed {
+    /// How far the pose is to be trusted by itself.
+    pub(crate) fn verdict(&self) -> Verdict {
+        judge_fit(&self.fit, self.deviations.is_some(), &Limits::USUAL)
     }
 }
 
@@ -212,7 +221,7 @@ impl WorkingModel {
                 start: candidate.start,
             }),
             covariance: candidate.covariance,
-            judged: Judged::of(candidate),
+            judged: Some(Judged::of(candidate)),
         })
     }
 
@@ -222,20 +231,38 @@ impl WorkingModel {
         Some(ranked.covariance?.deviations(&ranked.pose, &middle))
     }
 
-    /// Standard deviations of a refined pose's numbers, by what a camera saw; nothing where that does not determine it.
+    /// How sure a refined pose is and how well it fits, by what a camera saw.
     ///
     /// # Errors
     /// The core's sentence about the model.
-    pub(crate) fn deviations_in(
+    pub(crate) fn assess(
         &mut self,
         refined: &Refined,
         view: CameraView<'_>,
-    ) -> Result<Option<Deviations>, JsError> {
+    ) -> Result<Assessed, JsError> {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
-        let covariance = uncertainty(&model, &[view], refined, &mut memory).map_err(sentence)?;
+        let found = assess(&model, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = model.bounds().centre;
-        Ok(covariance.map(|covariance| covariance.deviations(&refined.pose, &middle)))
+        let deviations = |covariance: PoseCovariance| covariance.deviations(&refined.pose, &middle);
+        Ok(Assessed {
+            deviations: found.covariance.map(deviations),
+            fit: found.fit,
+        })
+    }
+
+    /// How well a pose fits that somebody set.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    pub(crate) fn fit_at(
+        &mut self,
+        pose: &Pose,
+        view: CameraView<'_>,
+    ) -> Result<OutlineFit, JsError> {
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        fit_at(&model, &[view], pose, &mut memory).map_err(sentence)
     }
 
     /// Brings one pose onto what was seen, without rivals or mirror images: somebody chose where to start.

@@ -108,6 +108,15 @@ impl Verdict {
             Self::NoFit(_) => "none",
         }
     }
+
+    /// The verdict where another pose is open too. What speaks against the fit itself comes first.
+    #[must_use]
+    pub fn or_open(self, open: Option<Doubt>) -> Self {
+        match (self, open) {
+            (Self::Good | Self::Doubtful(Doubt::Undetermined), Some(open)) => Self::Doubtful(open),
+            _ => self,
+        }
+    }
 }
 
 impl fmt::Display for Verdict {
@@ -186,10 +195,6 @@ pub fn contenders(candidates: &[Candidate]) -> Vec<RivalPose, CANDIDATES> {
 #[must_use]
 pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Option<Verdict> {
     let chosen = candidates.get(choice.index)?;
-    let fit = &chosen.fit;
-    if let Some(refusal) = refusal(fit, limits) {
-        return Some(Verdict::NoFit(refusal));
-    }
     let open = choice.open.and_then(|OpenRival { index, .. }| {
         let other = candidates.get(index)?;
         Some(Doubt::Open {
@@ -197,11 +202,20 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
             other_px: other.misfit(),
         })
     });
-    let doubt = doubt_of_fit(fit, limits).or(open).or_else(|| {
-        let undetermined = chosen.refined.is_some() && chosen.covariance.is_none();
-        undetermined.then_some(Doubt::Undetermined)
-    });
-    Some(doubt.map_or(Verdict::Good, Verdict::Doubtful))
+    let determined = chosen.refined.is_none() || chosen.covariance.is_some();
+    Some(judge_fit(&chosen.fit, determined, limits).or_open(open))
+}
+
+/// How far a pose is to be trusted by itself, whatever other poses do; `determined` where its uncertainty is known, or was
+/// not asked for.
+#[must_use]
+pub fn judge_fit(fit: &Fit, determined: bool, limits: &Limits) -> Verdict {
+    if let Some(refusal) = refusal(fit, limits) {
+        return Verdict::NoFit(refusal);
+    }
+    let undetermined = (!determined).then_some(Doubt::Undetermined);
+    let doubt = doubt_of_fit(fit, limits).or(undetermined);
+    doubt.map_or(Verdict::Good, Verdict::Doubtful)
 }
 
 fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {

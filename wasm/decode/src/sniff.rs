@@ -38,6 +38,8 @@ pub enum Kind {
     Coco,
     /// A correction of distortion.
     Distortion,
+    /// A study: which files belong together, and what is known of them.
+    Study,
     /// A video, which only a browser reads.
     Video,
     /// None of these.
@@ -46,7 +48,7 @@ pub enum Kind {
 
 impl Kind {
     /// A word for programs: `png`, `jpeg`, `jpeg2000`, `tiff`, `dicom`, `stl`, `obj`, `ply`, `jts`, `calibration`,
-    /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `video`, `unknown`.
+    /// `mayacam`, `library`, `session`, `outlines`, `coco`, `distortion`, `study`, `video`, `unknown`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -65,6 +67,7 @@ impl Kind {
             Self::Outlines => "outlines",
             Self::Coco => "coco",
             Self::Distortion => "distortion",
+            Self::Study => "study",
             Self::Video => "video",
             Self::Unknown => "unknown",
         }
@@ -89,6 +92,7 @@ impl Kind {
             Self::Outlines => "a file of outlines",
             Self::Coco => "outlines in COCO form",
             Self::Distortion => "a correction of distortion",
+            Self::Study => "a study",
             Self::Video => "a video",
             Self::Unknown => "a file of an unknown kind",
         }
@@ -103,6 +107,9 @@ const COCO_WORDS: [&str; 3] = ["\"annotations\"", "\"images\"", "\"categories\""
 
 /// First lines of files of poses.
 const POSES: [&str; 3] = ["JT_EULER_312", "JTA_EULER_KINEMATICS", "JTA_EULER_POSE"];
+
+/// A line of every study file.
+const STUDY: &str = "[[component]]";
 
 /// First bytes that belong to one kind alone.
 const SIGNATURES: [(&[u8], Kind); 12] = [
@@ -187,6 +194,8 @@ fn text_kind(bytes: &[u8]) -> Option<Kind> {
         Some(Kind::Distortion)
     } else if text.starts_with('{') && COCO_WORDS.iter().any(|word| text.contains(word)) {
         Some(Kind::Coco)
+    } else if text.lines().any(|line| line.trim_end() == STUDY) {
+        Some(Kind::Study)
     } else if stl_form::is_ascii(bytes) {
         Some(Kind::Stl)
     } else if text.lines().any(is_obj_line) {

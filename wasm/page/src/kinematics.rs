@@ -4,18 +4,24 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::kinematics::{Side, joint_angles, relative_pose};
 use wasm_bindgen::prelude::*;
 
-use crate::pose_numbers::from_numbers;
+use crate::pose_numbers::{axes_from, from_numbers};
 
-/// The six numbers of a joint from the poses of its components (x, y, z in mm, then z, x and y rotation in degrees):
-/// anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation
-/// (degrees). `left` is the side of the body.
+/// The six numbers of a joint from the poses of its components (x, y, z in mm, then z, x and y rotation in degrees) and the
+/// axes of their models (nine numbers each, as `axes_from` takes them): anterior-posterior, superior-inferior and
+/// mediolateral translation (mm), flexion, abduction and internal rotation (degrees). `left` is the side of the body.
 ///
 /// # Errors
-/// When a pose is not six finite numbers.
+/// When a pose is not six finite numbers, or axes are no right-handed frame.
 #[wasm_bindgen(js_name = jointMotion)]
-pub fn joint_motion(femur: &[f64], tibia: &[f64], left: bool) -> Result<Vec<f64>, JsError> {
-    let femur = Pose::from(from_numbers(femur)?);
-    let tibia = Pose::from(from_numbers(tibia)?);
+pub fn joint_motion(
+    femur: &[f64],
+    femur_axes: &[f64],
+    tibia: &[f64],
+    tibia_axes: &[f64],
+    left: bool,
+) -> Result<Vec<f64>, JsError> {
+    let femur = Pose::from(from_numbers(femur)?).compose(&axes_from(femur_axes)?);
+    let tibia = Pose::from(from_numbers(tibia)?).compose(&axes_from(tibia_axes)?);
     let side = if left { Side::Left } else { Side::Right };
     let joint = joint_angles(&relative_pose(&femur, &tibia), side);
     Ok(vec![
@@ -31,14 +37,33 @@ pub fn joint_motion(femur: &[f64], tibia: &[f64], left: bool) -> Result<Vec<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pose_numbers::to_numbers;
+    use fluoropose::pose::EulerPose;
+
+    const OWN: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    const FEMUR: [f64; 6] = [0.0, 0.0, -1000.0, 0.0, 0.0, 0.0];
+    const TIBIA: [f64; 6] = [3.0, -20.0, -999.0, -60.0, 0.0, 0.0];
 
     #[test]
     fn the_order_is_the_cores() {
-        let femur = [0.0, 0.0, -1000.0, 0.0, 0.0, 0.0];
-        let tibia = [3.0, -20.0, -999.0, -60.0, 0.0, 0.0];
-        let joint = joint_motion(&femur, &tibia, true).ok().unwrap();
+        let joint = joint_motion(&FEMUR, &OWN, &TIBIA, &OWN, true).ok().unwrap();
         assert_eq!(joint.len(), 6);
         assert!((joint[3] - 60.0).abs() < 1e-9, "flexion {}", joint[3]);
         assert!((joint[2] + 1.0).abs() < 1e-9, "mediolateral {}", joint[2]);
     }
+
+    /// A file whose y points forwards, z up and x to the right shows the same joint.
+    #[test]
+    fn the_files_axes_drop_out() {
+        let axes = [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+        let field_from_model = axes_from(&axes).ok().unwrap().inverse();
+        let pose = Pose::from(from_numbers(&TIBIA).ok().unwrap()).compose(&field_from_model);
+        let other = to_numbers(&EulerPose::from(pose));
+        let wanted = joint_motion(&FEMUR, &OWN, &TIBIA, &OWN, false).ok().unwrap();
+        let joint = joint_motion(&FEMUR, &OWN, &other, &axes, false).ok().unwrap();
+        for (number, wanted) in joint.iter().zip(&wanted) {
+            assert!((number - wanted).abs() < 1e-9, "{joint:?} for {wanted:?}");
+        }
+    }
+
 }

@@ -1,6 +1,6 @@
 //! Poses as six numbers, the form in which they cross into JavaScript.
 
-use fluoropose::pose::EulerPose;
+use fluoropose::pose::{EulerPose, Pose};
 use wasm_bindgen::JsError;
 
 /// x, y, z (mm), then z, x and y rotation (degrees).
@@ -38,4 +38,22 @@ pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
         }
         _ => Err(JsError::new("A pose is six finite numbers")),
     }
+}
+
+/// The rotation `model_from_field` of nine numbers: the directions anterior, superior and to the patient's right, one after
+/// another, in the model's coordinates.
+///
+/// # Errors
+/// A sentence where they are no right-handed frame.
+pub fn axes_from(directions: &[f64]) -> Result<Pose, JsError> {
+    let wrong = || JsError::new("Axes are three directions of length one, at right angles and right-handed");
+    let &[ax, ay, az, sx, sy, sz, rx, ry, rz] = directions else {
+        return Err(wrong());
+    };
+    let axes = Pose {
+        rotation: [[ax, sx, rx], [ay, sy, ry], [az, sz, rz]],
+        translation: [0.0; 3],
+    };
+    // Sessions keep them to some decimals.
+    if axes.is_rigid(1e-6) { Ok(axes) } else { Err(wrong()) }
 }

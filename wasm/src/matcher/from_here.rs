@@ -1,6 +1,7 @@
 //! Poses that a person set, refined from where they stand: against an outline, or the grey frame itself.
 
 use fluoropose::camera::Camera;
+use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions, Refined};
@@ -23,6 +24,37 @@ pub struct HandFit {
     drawn: Option<u64>,
     deviations: Option<PoseNumbers>,
     bright: bool,
+    verdict: HandVerdict,
+}
+
+/// How far a pose that somebody set is to be trusted. It stays whatever the verdict, so there are two words.
+#[wasm_bindgen]
+#[derive(Clone)]
+pub struct HandVerdict(Verdict);
+
+#[wasm_bindgen]
+impl HandVerdict {
+    /// `good` or `doubtful`.
+    #[wasm_bindgen(getter)]
+    pub fn word(&self) -> String {
+        let word = match self.0 {
+            Verdict::Good => "good",
+            Verdict::Doubtful(_) | Verdict::NoFit(_) => "doubtful",
+        };
+        word.to_owned()
+    }
+
+    /// Why, in a sentence without its full stop.
+    #[wasm_bindgen(getter)]
+    pub fn because(&self) -> String {
+        let Verdict::NoFit(Refusal::NoFit { misfit_px, met }) = self.0 else {
+            return self.0.to_string();
+        };
+        let percent = 100.0 * met;
+        format!(
+            "at this pose only {percent:.0} % of the model's outline is met ({misfit_px:.1} px): bring it nearer, then refine from there"
+        )
+    }
 }
 
 #[wasm_bindgen]
@@ -55,6 +87,12 @@ impl HandFit {
     #[wasm_bindgen(getter)]
     pub fn bright(&self) -> bool {
         self.bright
+    }
+
+    /// How far the pose is to be trusted.
+    #[wasm_bindgen(getter)]
+    pub fn verdict(&self) -> HandVerdict {
+        self.verdict.clone()
     }
 }
 
@@ -155,21 +193,72 @@ impl Matcher {
     ) -> Result<HandFit, JsError> {
         let (start, options) = begin(start, locked)?;
         let model = model_of(&mut self.model)?;
-        let camera = hidden.camera;
-        let unknown =
-            Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
-        film.look(|frame| {
-            let polarity = model.polarity(&start, &camera, frame)?;
-            let target = ImageTarget {
-                frame,
-                unknown: Some(&unknown),
-                polarity,
-            };
-            let fit = fitted(model, &start, CameraView::only(&camera, target), options)?;
-            let bright = polarity == Polarity::BrightImplant;
+        on_frame(model, film, hidden, &start, |model, view, bright| {
+            let fit = fitted(model, &start, view, options)?;
             Ok(HandFit { bright, ..fit })
         })
     }
+
+    /// How far a pose that somebody set (six numbers) is to be trusted, by an outline.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    #[wasm_bindgen(js_name = judgeOutline)]
+    pub fn judge_outline(&mut self, traced: &Traced, pose: &[f64]) -> Result<HandVerdict, JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        let model = model_of(&mut self.model)?;
+        let camera = traced.camera();
+        traced.look(|silhouette| judged(model, &pose, CameraView::only(&camera, *silhouette)))
+    }
+
+    /// The same by the edges of a grey frame.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    #[wasm_bindgen(js_name = judgeOnFrame)]
+    pub fn judge_on_frame(
+        &mut self,
+        film: &FrameImage,
+        hidden: &HiddenPixels,
+        pose: &[f64],
+    ) -> Result<HandVerdict, JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        let model = model_of(&mut self.model)?;
+        on_frame(model, film, hidden, &pose, |model, view, _| {
+            judged(model, &pose, view)
+        })
+    }
+}
+
+fn judged(
+    model: &mut WorkingModel,
+    pose: &Pose,
+    view: CameraView<'_>,
+) -> Result<HandVerdict, JsError> {
+    let fit = model.fit_at(pose, view)?;
+    Ok(HandVerdict(judge_fit(&fit, true, &Limits::USUAL)))
+}
+
+/// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose`, and told too.
+fn on_frame<T>(
+    model: &mut WorkingModel,
+    film: &FrameImage,
+    hidden: &HiddenPixels,
+    pose: &Pose,
+    with: impl FnOnce(&mut WorkingModel, CameraView<'_>, bool) -> Result<T, JsError>,
+) -> Result<T, JsError> {
+    let camera = hidden.camera;
+    let unknown = Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
+    film.look(|frame| {
+        let polarity = model.polarity(pose, &camera, frame)?;
+        let target = ImageTarget {
+            frame,
+            unknown: Some(&unknown),
+            polarity,
+        };
+        let bright = polarity == Polarity::BrightImplant;
+        with(model, CameraView::only(&camera, target), bright)
+    })
 }
 
 fn fitted(
@@ -179,18 +268,18 @@ fn fitted(
     options: RefineOptions,
 ) -> Result<HandFit, JsError> {
     let refined: Refined = model.refine_from(start, view, options)?;
+    let assessed = model.assess(&refined, view)?;
     // How sure a pose is of which a part was given is not known.
-    let deviations = if options.locks.is_empty() {
-        model.deviations_in(&refined, view)?
-    } else {
-        None
-    };
+    let free = options.locks.is_empty();
+    let determined = !free || assessed.deviations.is_some();
+    let deviations = assessed.deviations.filter(|_| free);
     Ok(HandFit {
         pose: to_numbers(&EulerPose::from(refined.pose)),
         residual_px: refined.residual_px,
         drawn: None,
         deviations: deviations.as_ref().map(deviation_numbers),
         bright: false,
+        verdict: HandVerdict(judge_fit(&assessed.fit, determined, &Limits::USUAL)),
     })
 }
 

@@ -13,7 +13,6 @@ use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
 use fluoropose::locate::Workspace;
 use fluoropose::math::{multiply, transpose};
-use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
 use fluoropose::search::kernels::Kernels;
@@ -27,6 +26,7 @@ use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
 use crate::exchange::simplified;
 use crate::found::{Candidate, Match, deviation_numbers};
+use crate::working_model::Assessed;
 use answer::told;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -230,12 +230,16 @@ impl OneClick {
             candidates.push(self.candidate(one, matcher)?);
         }
         answer.sentence = told(&answer.supports);
+        let alone = candidates.first().and_then(|first| first.verdict);
         answer.matched = Some(Match {
             candidates,
             compared: answers.len(),
             clipped: false,
             partial: false,
-            chosen: Some(chosen),
+            chosen: Some(match alone {
+                Some(alone) => chosen.judged(alone),
+                None => chosen,
+            }),
         });
         Ok(answer)
     }
@@ -282,14 +286,14 @@ impl OneClick {
 
     fn candidate(&self, answer: &Answer, matcher: &mut Matcher) -> Result<Candidate, JsError> {
         let (camera, polarity) = (&self.camera, self.polarity);
-        let deviations = self.film.look(|frame| {
+        let assessed = self.film.look(|frame| {
             with_mask(self.excluded.as_deref(), camera, |unknown| {
                 let target = ImageTarget {
                     frame,
                     unknown,
                     polarity,
                 };
-                matcher.deviations_on(&answer.refined, CameraView::only(camera, target))
+                matcher.assess_on(&answer.refined, CameraView::only(camera, target))
             })
         })?;
         let pose = &answer.refined.pose;
@@ -299,9 +303,9 @@ impl OneClick {
             unmatched: None,
             drawn: None,
             residual_px: Some(answer.refined.residual_px),
-            misfit: None,
-            verdict: None,
-            deviations: deviations.as_ref().map(deviation_numbers),
+            misfit: Some(misfit(answer)),
+            verdict: Some(assessed.verdict()),
+            deviations: assessed.deviations.as_ref().map(deviation_numbers),
             start: Some(to_numbers(&EulerPose::from(answer.start))),
             view,
             at_border,
@@ -325,13 +329,13 @@ impl Matcher {
         })
     }
 
-    /// How sure a pose is that was refined on a film.
-    fn deviations_on(
+    /// How sure a pose is that was refined on a film, and how well it fits.
+    fn assess_on(
         &mut self,
         refined: &Refined,
         view: CameraView<'_>,
-    ) -> Result<Option<Deviations>, JsError> {
-        model_of(&mut self.model)?.deviations_in(refined, view)
+    ) -> Result<Assessed, JsError> {
+        model_of(&mut self.model)?.assess(refined, view)
     }
 
     /// The model's silhouette at a pose as an outline: columns and rows by turns.
@@ -392,16 +396,21 @@ fn with_mask<T>(
 fn contender(answer: &Answer) -> Contender {
     Contender {
         pose: answer.refined.pose,
-        residual_px: answer.refined.residual_px,
+        residual_px: misfit(answer),
     }
+}
+
+/// By what answers are compared, as the finder compares its candidates: it counts outline that lies on no edge.
+fn misfit(answer: &Answer) -> f64 {
+    (2.0 * answer.refined.loss).sqrt()
 }
 
 /// Numbers of the answers that are offered: the chosen one, the rival that is still open, and others that come near.
 fn offered(answers: &[Answer], chosen: &Chosen) -> Vec<usize> {
-    let residual = |at: usize| answers[at].refined.residual_px;
-    let least = (0..answers.len()).map(residual).fold(f64::MAX, f64::min);
+    let misfit = |at: usize| misfit(&answers[at]);
+    let least = (0..answers.len()).map(misfit).fold(f64::MAX, f64::min);
     let first = [chosen.index()].into_iter().chain(chosen.open());
-    let near = (0..answers.len()).filter(|&at| residual(at) <= RIVAL_WITHIN * least);
+    let near = (0..answers.len()).filter(|&at| misfit(at) <= RIVAL_WITHIN * least);
     let mut places: Vec<usize> = Vec::new();
     for place in first.chain(near) {
         if place < answers.len() && places.len() < OFFERED && !places.contains(&place) {

@@ -191,6 +191,14 @@ export class Actions {
     return true;
   }
 
+  /** The outline was of the other component. */
+  giveOutline(to: ComponentName): void {
+    const place = currentPlace(this.#store.state);
+    if (!place) return;
+    this.#store.perform(commands.giveOutline(place, to));
+    this.#store.selectComponent(to);
+  }
+
   /** By keyboard through the points, round and round. */
   #selectPoint(step: number): boolean {
     const { state } = this.#store;

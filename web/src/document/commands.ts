@@ -10,6 +10,7 @@ import {
   cellOf,
   type Component,
   type Doc,
+  EMPTY_CELL,
   type FileReference,
   type FrameEntry,
   type GreyWindow,
@@ -63,6 +64,21 @@ export function deletePoint(place: Place, index: number): Command {
 
 export function deleteOutline(place: Place): Command {
   return onOutline(texts.steps.deleteOutline, place, () => null);
+}
+
+/** The outline becomes that of the other component, whose pose is found anew; where that has one, nothing changes. */
+export function giveOutline(place: Place, to: ComponentName): Command {
+  return {
+    label: texts.steps.giveOutline(texts.component[to]),
+    place,
+    apply: (doc) => {
+      const { outline } = cellOf(doc, place.frameId, place.component);
+      const there = cellOf(doc, place.frameId, to);
+      if (!outline || there.outline || to === place.component) return doc;
+      const given = withCell(doc, { ...place, component: to }, { outline: { ...outline }, result: null, resultOf: null });
+      return withCell(given, place, EMPTY_CELL);
+    },
+  };
 }
 
 /** Marks a side as unknown, or as known again where it was marked. */
@@ -159,8 +175,13 @@ export function setCalibration(calibration: Calibration | null): Command {
   return { label: texts.steps.changeCalibration, apply: (doc) => ({ ...doc, calibration }) };
 }
 
+/** Axes are those of a file: with another one they are found again. What a study said before its model came is of this one. */
 export function setModel(name: ComponentName, model: FileReference): Command {
-  return onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({ ...component, model }));
+  return onComponent(texts.steps.openModel(texts.component[name]), name, (component) => ({
+    ...component,
+    model,
+    axes: component.model === null ? component.axes : null,
+  }));
 }
 
 export function setLibraryFile(name: ComponentName, libraryFile: FileReference | null): Command {

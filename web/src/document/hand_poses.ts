@@ -1,6 +1,6 @@
 import { withCell } from './commands';
 import type { Command, Place } from './command';
-import { type Candidate, cellOf, type Doc, isByHand, type Posed } from './types';
+import { type Candidate, cellOf, type Doc, isByHand, type Posed, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { texts } from '../texts/texts';
 
@@ -14,6 +14,7 @@ export interface HandFit {
   readonly candidate: Candidate;
   /** A sentence: against what it was refined, and what was held. */
   readonly reason: string;
+  readonly verdict: Verdict;
 }
 
 /** Sets a pose by hand. Nudges with the same `mergeKey` are one step back. */
@@ -22,17 +23,27 @@ export function setPoseByHand(place: Place, pose: PoseNumbers, label = texts.ste
     label,
     place,
     ...(mergeKey === undefined ? {} : { mergeKey }),
-    apply: (doc) => withResult(doc, place, byHand('set by hand', bare(pose), null)),
+    apply: (doc) => withResult(doc, place, byHand('set by hand', bare(pose), null, null)),
   };
 }
 
 /** Takes over what refinement made of a pose set by hand. */
-export function takeHandFit(place: Place, { candidate, reason }: HandFit): Command {
+export function takeHandFit(place: Place, { candidate, reason, verdict }: HandFit): Command {
   return {
     label: texts.steps.refineFromHand,
     place,
-    apply: (doc) => withResult(doc, place, byHand('refined from a pose set by hand', candidate, reason)),
+    apply: (doc) => withResult(doc, place, byHand('refined from a pose set by hand', candidate, reason, verdict)),
   };
+}
+
+/**
+ * What the cell's outline, or the frame without one, says of a pose set by hand; null where nothing can be held against it.
+ * The page works it out by itself: no unit of undo.
+ */
+export function withHandVerdict(doc: Doc, place: Place, of: Posed, verdict: Verdict | null): Doc {
+  const cell = cellOf(doc, place.frameId, place.component);
+  if (cell.result !== of) return doc;
+  return withCell(doc, place, { ...cell, result: { ...of, verdict }, resultOf: cell.outline });
 }
 
 /** Gives the cell back to its outline: the page finds its pose anew. */
@@ -75,8 +86,8 @@ export function bare(pose: PoseNumbers): Candidate {
   return { pose, unmatched: null, drawn: null, residual: null, deviations: null, judged: null };
 }
 
-function byHand(origin: HandOrigin, candidate: Candidate, reason: string | null): Posed {
-  return { kind: 'posed', from: 'hand', origin, candidates: [candidate], chosen: 0, reason, decided: true, verdict: null };
+function byHand(origin: HandOrigin, candidate: Candidate, reason: string | null, verdict: Verdict | null): Posed {
+  return { kind: 'posed', from: 'hand', origin, candidates: [candidate], chosen: 0, reason, decided: true, verdict };
 }
 
 function withResult(doc: Doc, place: Place, result: Posed): Doc {

@@ -45,6 +45,8 @@ export interface Ui {
   /** Brings a newer version of the page into use; null while there is none. */
   readonly update: (() => void) | null;
   readonly theme: Theme;
+  /** Models whose remarks somebody has read and put away, by SHA-256. */
+  readonly dismissed: readonly string[];
   /** Libraries that are open in the pose worker, by component: their key. */
   readonly libraries: Readonly<Record<ComponentName, LibraryState>>;
 }
@@ -120,6 +122,7 @@ const EMPTY_UI: Ui = {
   measuring: null,
   update: null,
   theme: 'dark',
+  dismissed: [],
   libraries: { femur: { state: 'none' }, tibia: { state: 'none' } },
 };
 

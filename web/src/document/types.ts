@@ -1,3 +1,4 @@
+import type { Directions } from '../geometry/axes';
 import type { FramePoint } from '../geometry/points';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
@@ -66,7 +67,22 @@ export interface Component {
   readonly model: FileReference | null;
   readonly libraryFile: FileReference | null;
   readonly librarySpec: LibrarySpec;
+  /** Null until its shape has been looked at, or somebody said. */
+  readonly axes: Axes | null;
 }
+
+/** Which way a component lies in the coordinates of its file, and who said so. */
+export interface Axes {
+  readonly directions: Directions;
+  readonly from: 'shape' | 'person' | 'study';
+  readonly told: Told;
+}
+
+/**
+ * What of them is known. `not the front`: anterior and right may both have the other sign. `no signs`: each of the three
+ * may; of a femur right alone is known. `nothing`: they are the file's own, and nobody said that these are right.
+ */
+export type Told = 'all' | 'not the front' | 'no signs' | 'nothing';
 
 export interface FileReference {
   readonly name: string;
@@ -194,7 +210,7 @@ export const DEFAULT_WINDOW: ViewWindow = {
   area: 15000,
 };
 
-const EMPTY_COMPONENT: Component = { model: null, libraryFile: null, librarySpec: DEFAULT_LIBRARY };
+const EMPTY_COMPONENT: Component = { model: null, libraryFile: null, librarySpec: DEFAULT_LIBRARY, axes: null };
 
 export const EMPTY_DOC: Doc = {
   name: '',
@@ -227,7 +243,7 @@ export function isByHand(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'hand';
 }
 
-/** On the pose that is chosen; null where none was given: poses of the library, of files, by hand, of old sessions. */
+/** On the pose that is chosen; null where none was given: poses of the library, of files, of old sessions. */
 export function verdictOf(result: Result | null): Verdict | null {
   if (result?.kind !== 'posed') return null;
   // Who took another one knows of the first.

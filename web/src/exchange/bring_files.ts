@@ -30,12 +30,11 @@ export async function bringFiles(services: Services, doc: Doc, title: string): P
   return missing;
 }
 
-/** Decodes a model and hands it to the studio; the document is left alone. Returns what was left out of the file. */
-export async function holdModel(services: Services, asset: Asset): Promise<readonly string[]> {
-  if (services.studio.meshOf(asset.sha256)) return [];
+/** Decodes a model and hands it to the studio; the document is left alone. What is to be said of it, the studio knows then. */
+export async function holdModel(services: Services, asset: Asset): Promise<void> {
+  if (services.studio.meshOf(asset.sha256)) return;
   const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });
   services.studio.addModel(asset.sha256, mesh);
-  return mesh.notes ?? [];
 }
 
 /** Decodes every frame of a file into the studio. Frames that were there already are not held twice. */

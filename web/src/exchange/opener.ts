@@ -7,6 +7,7 @@ import { Aborted } from '../workers/bridge';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import type { OutlineFile } from './importer';
+import type { Study } from './study_file';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
@@ -21,11 +22,13 @@ interface Recognised extends Incoming {
  * others are opened all the same.
  */
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
-  const recognised: Recognised[] = [];
-  for (const file of files) recognised.push({ ...file, kind: await recognise(services, file) });
-  recognised.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
+  const all: Recognised[] = [];
+  for (const file of files) all.push({ ...file, kind: await recognise(services, file) });
+  all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
   const failed: string[] = [];
+  const study = await studyAmong(all, failed);
+  const recognised = study ? study.sorted(all, failed) : all;
   for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
     const sentence = await mismatchOf(services, file);
     if (sentence) failed.push(sentence);
@@ -41,6 +44,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   for (const file of recognised.filter((file) => file.kind === 'poses')) {
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
+  if (study) opened.push(study.take(services));
   if (strangers.length > 0) failed.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   tell(services, opened, failed);
@@ -48,8 +52,41 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
 }
 
-/** Frames, poses and videos have their own time. */
-const LATER: readonly FileKind[] = ['frames', 'poses', 'video'];
+/** Frames, poses, studies and videos have their own time. */
+const LATER: readonly FileKind[] = ['frames', 'poses', 'study', 'video'];
+
+/** A study among other files says which of them is what; what it tells of the models is taken once they are here. */
+interface StudyAmongFiles {
+  readonly sorted: (files: readonly Recognised[], failed: string[]) => readonly Recognised[];
+  readonly take: (services: Services) => string;
+}
+
+async function studyAmong(files: readonly Recognised[], failed: string[]): Promise<StudyAmongFiles | null> {
+  const file = files.find(({ kind }) => kind === 'study');
+  if (!file) return null;
+  const { componentIn, readStudy, takeStudy } = await import('./study_file');
+  let study: Study;
+  try {
+    study = readStudy(new TextDecoder().decode(file.bytes));
+  } catch (error) {
+    failed.push(named(file.name, sentenceOf(error)));
+    return null;
+  }
+  return {
+    sorted: (all, failed) => {
+      const meant = all.map((one) => ({ ...one, component: one.component ?? (one.kind === 'model' ? componentIn(study, 'model', one.name) : componentIn(study, 'reference', one.name)) }));
+      // Where the study names its reference, files of poses beside it are those of other methods.
+      const hasReference = meant.some(({ kind, name }) => kind === 'poses' && componentIn(study, 'reference', name));
+      const others = hasReference ? meant.filter(({ kind, name }) => kind === 'poses' && !componentIn(study, 'reference', name)) : [];
+      if (others.length > 0) failed.push(texts.study.otherPoses(others.length, fewNames(others)));
+      return meant.filter((one) => !others.includes(one));
+    },
+    take: ({ store }) => {
+      store.perform(takeStudy(study, file.name));
+      return texts.study.opened(study.name || file.name);
+    },
+  };
+}
 
 /** What opens the first of the videos that were given. */
 export type BeginVideo = (file: Incoming) => Promise<void> | undefined;
@@ -128,7 +165,7 @@ async function openAsFrames(services: Services, files: readonly Incoming[]): Pro
 
 /** A session first: it replaces everything. Frames before poses: poses are for frames. */
 const ORDER: readonly FileKind[] = [
-  'session', 'calibration', 'distortion', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
+  'session', 'calibration', 'distortion', 'study', 'model', 'library', 'frames', 'poses', 'outlines', 'coco', 'video', 'unknown',
 ];
 
 function byName(a: string, b: string): number {
@@ -204,11 +241,12 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.bytes);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
-  const notes = await holdModel(services, asset);
+  await holdModel(services, asset);
+  const remarks = services.studio.remarksOn(asset.sha256);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
   const opened = texts.said.asModel(file.name, texts.component[component]);
-  return notes.length === 0 ? opened : texts.files.modelNotes(opened, notes.join(' '));
+  return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));
 }
 
 async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {

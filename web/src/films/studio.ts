@@ -14,11 +14,12 @@ import init, {
 } from '../pkg/page/fluoropose_page.js';
 import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
+import { numbersOf } from '../geometry/axes';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
 import type { Size } from '../geometry/viewport';
-import type { Motion } from '../results/motion';
+import type { Motion, PlacedInJoint } from '../results/motion';
 import { poseArray, poseFrom } from '../workers/protocol/pose_array';
 import { paintPreprocessed } from './preprocessing';
 import type { Preprocessing } from '../terms/seeing';
@@ -47,6 +48,8 @@ interface HeldFrame {
 interface HeldModel {
   readonly mesh: ModelMesh;
   readonly model: Model;
+  /** Once somebody asked. */
+  remarks?: readonly string[];
 }
 
 /** Part of a canvas, its pixels. */
@@ -160,6 +163,17 @@ export class Studio {
   }
 
   /**
+   * What a person should know of a model as it was read, in sentences without their full stops: what was left out of its
+   * file, holes, windings, a size that is no knee component's.
+   */
+  remarksOn(sha256: string): readonly string[] {
+    const held = this.#models.get(sha256);
+    if (!held) return [];
+    held.remarks ??= [...(held.mesh.notes ?? []), ...held.model.remarks];
+    return held.remarks;
+  }
+
+  /**
    * Finds the silhouette of a model at a pose: its border in frame coordinates, columns and rows by turns. What has holes
    * or more than one part is painted on the canvas too. Null without the model.
    */
@@ -251,10 +265,12 @@ export class Studio {
   }
 
   /** The tibial component relative to the femoral one. */
-  motionOf(femur: PoseNumbers, tibia: PoseNumbers, side: 'left' | 'right'): Motion {
+  motionOf(femur: PlacedInJoint, tibia: PlacedInJoint, side: 'left' | 'right'): Motion {
     const [anterior = NaN, superior = NaN, lateral = NaN, flexion = NaN, abduction = NaN, internal = NaN] = jointMotion(
-      Float64Array.from(poseArray(femur)),
-      Float64Array.from(poseArray(tibia)),
+      Float64Array.from(poseArray(femur.pose)),
+      numbersOf(femur.axes),
+      Float64Array.from(poseArray(tibia.pose)),
+      numbersOf(tibia.axes),
       side === 'left',
     );
     return { anterior, superior, lateral, flexion, abduction, internal };

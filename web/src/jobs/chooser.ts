@@ -18,9 +18,9 @@ interface Open {
 }
 
 /**
- * Chooses anew between rivals of which none was decided, whenever more has become known around them: the femur was posed
- * after the tibia, or the frame before after this one. What was decided stays so, and what a person chose by hand is
- * left alone, so this comes to an end.
+ * Chooses anew between rivals of which none was decided, or the one that was is doubtful, whenever more has become known
+ * around them: the femur was posed after the tibia, or the frame before after this one. What was decided and is good stays
+ * so, what a person chose by hand is left alone, and nothing doubtful speaks for others, so this comes to an end.
  */
 export class Chooser {
   readonly #store: Store;
@@ -89,9 +89,10 @@ function withDoubt(candidate: Candidate | undefined, doubt: string | null): Verd
   return alone?.word === 'good' && doubt !== null ? { word: 'doubtful', because: doubt } : alone;
 }
 
-/** Refined rivals of which none was decided, nor chosen by hand. */
+/** Refined rivals of which none was decided or the one that was is doubtful, nor any chosen by hand. */
 function isOpen(cell: Cell): cell is Cell & { result: Posed } {
   const { result, outline, resultOf } = cell;
   if (result?.kind !== 'posed' || result.from !== 'outline' || resultOf !== outline) return false;
-  return result.candidates.length > 1 && result.chosen === 0 && !result.decided && isRefined(result);
+  const settled = result.decided && result.verdict?.word !== 'doubtful';
+  return result.candidates.length > 1 && result.chosen === 0 && !settled && isRefined(result);
 }

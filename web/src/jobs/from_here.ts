@@ -5,7 +5,7 @@ import type { Locks, PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { FitFacts } from '../workers/protocol/by_hand';
+import type { FitFacts, OnFrame } from '../workers/protocol/by_hand';
 import { cameraOf } from '../results/keys';
 import { flatten } from './poser';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -56,7 +56,7 @@ export class FromHere {
       const against = outline?.closed
         ? texts.hand.fitOutline(fit.residual.toFixed(2))
         : texts.hand.fitFrame(fit.residual.toFixed(2), fit.bright);
-      return { candidate: candidateOf(fit), reason: against + heldWords(locks) };
+      return { candidate: candidateOf(fit), reason: against + heldWords(locks), verdict: fit.verdict };
     });
   }
 
@@ -71,20 +71,9 @@ export class FromHere {
   }
 
   #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
-    const { store, studio } = this.#services;
-    const { component, frameId } = place;
-    const camera = cameraOf(store.doc, frameOf(store.doc, place));
-    const pixels = studio.framePixels(frameId);
-    if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
-    if (!pixels) throw new Error(texts.hand.said.noPixels);
-    if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
-    const { width, height } = camera;
-    const others = COMPONENT_NAMES.flatMap((other) => {
-      const there = other !== component && store.ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(store.doc, frameId, other));
-      return there ? [{ component: other, pose: there.pose }] : [];
-    });
-    const input = { component, camera, frame: { pixels, width, height }, start: pose, locked: flagsOf(locks), others };
-    return this.#worker.call('refineOnFrame', input, { signal, transfer: [pixels.buffer] });
+    const onFrame = onFrameInput(this.#services, place);
+    const input = { ...onFrame, start: pose, locked: flagsOf(locks) };
+    return this.#worker.call('refineOnFrame', input, { signal, transfer: [onFrame.frame.pixels.buffer] });
   }
 
   #take(place: Place, start: Candidate, fit: HandFit): void {
@@ -96,11 +85,27 @@ export class FromHere {
   }
 }
 
+/** The frame itself as what a pose is held against. Throws a sentence where it cannot be. */
+export function onFrameInput({ store, studio }: Services, { component, frameId }: Place): OnFrame {
+  const { doc, ui } = store;
+  const camera = cameraOf(doc, frameOf(doc, { component, frameId }));
+  const pixels = studio.framePixels(frameId);
+  if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
+  if (!pixels) throw new Error(texts.hand.said.noPixels);
+  if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
+  const { width, height } = camera;
+  const others = COMPONENT_NAMES.flatMap((other) => {
+    const there = other !== component && ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(doc, frameId, other));
+    return there ? [{ component: other, pose: there.pose }] : [];
+  });
+  return { component, camera, frame: { pixels, width, height }, others };
+}
+
 function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {
   return { ...bare(pose), residual, drawn, deviations };
 }
 
-function frameOf(doc: Doc, place: Place): FrameEntry | null {
+export function frameOf(doc: Doc, place: Place): FrameEntry | null {
   return doc.frames.find((frame) => frame.id === place.frameId) ?? null;
 }
 

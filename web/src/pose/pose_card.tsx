@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { referencePose } from '../document/reference';
 import { currentPlace } from '../document/store';
-import { chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
+import { cellOf, chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
 import { inWords } from '../results/missing';
 import { isFollowing, type Findings } from '../jobs/poser';
@@ -31,25 +31,25 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
   const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
   return (
     <section class="card pose" aria-label={texts.panel.pose.region}>
-      {adjusting ? (
-        <HandNumbers pose={pose} />
-      ) : (
+      {adjusting && <HandNumbers pose={pose} />}
+      {pose && !adjusting && (
         <dl class="numbers">
           {QUANTITIES.map((quantity) => (
             <NumberRow
               key={quantity.field}
               quantity={quantity}
-              value={pose && pose[quantity.field]}
+              value={pose[quantity.field]}
               deviation={deviations && deviations[quantity.field]}
-              difference={pose && reference && pose[quantity.field] - reference[quantity.field]}
+              difference={reference && pose[quantity.field] - reference[quantity.field]}
             />
           ))}
         </dl>
       )}
-      <div class="pose-note">
+      <div class={pose ? 'pose-note posed' : 'pose-note'}>
         <VerdictLine result={cell.result} />
         <p class="card-note">{pose ? source : needs(cell, missing)}</p>
       </div>
+      {cell.result?.kind === 'failed' && <Remedies cell={cell} />}
       <HandButtons cell={cell} adjusting={adjusting} />
     </section>
   );
@@ -59,13 +59,38 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
 function VerdictLine({ result }: { result: Result | null }) {
   const words = texts.panel.pose;
   const verdict = result?.kind === 'failed' ? ({ word: 'none', because: result.sentence } as const) : verdictOf(result);
-  if (!verdict) return result?.kind === 'posed' && result.from === 'outline' ? <p class="verdict" /> : null;
+  if (!verdict) return result?.kind === 'posed' && result.from !== 'file' ? <p class="verdict" /> : null;
   const { word, because } = verdict;
   return (
     <p class={`verdict is-${word}`} role="group" aria-label={words.verdict} title={because}>
       <span class="verdict-word">{words.verdicts[word]}</span>
       {word === 'good' ? '' : words.reason(because)}
     </p>
+  );
+}
+
+/** What to do where nothing fits. */
+function Remedies({ cell }: { cell: Cell }) {
+  const { actions, services } = useApp();
+  const { store } = services;
+  const words = texts.panel.pose;
+  const { component } = store.ui;
+  const other = component === 'femur' ? 'tibia' : 'femur';
+  const there = currentPlace(store.state);
+  const isFree = there !== null && cellOf(store.doc, there.frameId, other).outline === null;
+  return (
+    <div class="pose-buttons" role="group" aria-label={words.remedies}>
+      {cell.outline && (
+        <button type="button" class="button small" title={words.traceAgainTitle} onClick={() => actions.deleteOutline()}>
+          {words.traceAgain}
+        </button>
+      )}
+      {cell.outline?.closed && isFree && (
+        <button type="button" class="button small" title={words.giveTitle(texts.component[other])} onClick={() => actions.giveOutline(other)}>
+          {words.give(texts.component[other])}
+        </button>
+      )}
+    </div>
   );
 }
 
@@ -96,7 +121,7 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
           {words.drop}
         </button>
       )}
-      {!adjusting && <ConvergenceButton disabled={residual === null || isByHand(cell.result)} />}
+      {!adjusting && residual !== null && !isByHand(cell.result) && <ConvergenceButton />}
     </div>
   );
 }
@@ -120,7 +145,7 @@ function needs(cell: Cell, missing: readonly string[]): string {
 
 interface NumberRowProps {
   readonly quantity: Quantity;
-  readonly value: number | null;
+  readonly value: number;
   /** One standard deviation. */
   readonly deviation: number | null;
   /** From the set to compare with; it takes the deviation's place. */
@@ -130,11 +155,10 @@ interface NumberRowProps {
 function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
   const { store } = useApp().services;
   const decimals = decimalsFor(deviation, quantity.decimals);
-  const text = value === null ? '–' : formatNumber(value, decimals);
+  const text = formatNumber(value, decimals);
   const unit = unitWord(quantity.unit);
   const flashing = useFlash(text);
   const copy = () => {
-    if (value === null) return;
     void navigator.clipboard.writeText(String(value)).then(
       () => store.say('info', texts.panel.pose.copied(quantity.name, value)),
       () => store.say('error', texts.panel.pose.notCopied),
@@ -149,7 +173,6 @@ function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
           class={flashing ? 'value flash' : 'value'}
           aria-label={texts.panel.pose.number(quantity.name, text, unit)}
           title={texts.panel.pose.copyTitle}
-          disabled={value === null}
           onClick={copy}
         >
           {text}
@@ -157,7 +180,7 @@ function NumberRow({ quantity, value, deviation, difference }: NumberRowProps) {
         {difference !== null ? (
           <Difference name={quantity.name} unit={unit} text={signed(quantity.unit === '°' ? wrapped(difference) : difference, quantity.decimals)} />
         ) : (
-          <Deviation name={quantity.name} unit={unit} text={value === null || deviation === null ? null : formatDeviation(deviation, decimals)} />
+          <Deviation name={quantity.name} unit={unit} text={deviation === null ? null : formatDeviation(deviation, decimals)} />
         )}
         <span class="unit">{quantity.unit}</span>
       </dd>
@@ -189,7 +212,7 @@ function Deviation({ name, unit, text }: { name: string; unit: string; text: str
   );
 }
 
-function ConvergenceButton({ disabled }: { disabled: boolean }) {
+function ConvergenceButton() {
   const { store } = useApp().services;
   const open = store.ui.popover === 'convergence';
   return (
@@ -199,7 +222,6 @@ function ConvergenceButton({ disabled }: { disabled: boolean }) {
       aria-haspopup="dialog"
       aria-expanded={open}
       title={texts.panel.pose.convergenceTitle}
-      disabled={disabled}
       onClick={() => store.show({ popover: open ? null : 'convergence' })}
     >
       {texts.panel.pose.convergence}
@@ -216,7 +238,7 @@ function useFlash(text: string): boolean {
     const now = performance.now();
     const quiet = now - last.current.at > FLASH_PAUSE;
     last.current = { text, at: now };
-    if (!quiet || text === '–') return undefined;
+    if (!quiet) return undefined;
     setFlashing(true);
     // Not cleared when the text changes again: the flash ends all the same.
     const over = work.begin();

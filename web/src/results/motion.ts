@@ -1,8 +1,10 @@
 import { progressOf } from './progress';
+import { knownAxes } from '../document/axes';
 import { NO_MARK } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc } from '../document/types';
+import type { Directions } from '../geometry/axes';
 import type { PoseNumbers } from '../geometry/pose_numbers';
-import type { ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 
 /** The six numbers of a joint, as the core gives them: mm, then degrees. */
 export interface Motion {
@@ -26,17 +28,42 @@ export interface JointPoint {
   readonly sure: boolean;
 }
 
-type MotionOf = (femur: PoseNumbers, tibia: PoseNumbers, side: 'left' | 'right') => Motion;
+/** A component's pose, and the anatomical axes of its model. */
+export interface PlacedInJoint {
+  readonly pose: PoseNumbers;
+  readonly axes: Directions;
+}
 
-/** Empty while the side of the body is not known: signs depend on it. */
+type MotionOf = (femur: PlacedInJoint, tibia: PlacedInJoint, side: 'left' | 'right') => Motion;
+
+/** What is missing for the joint's motion: signs depend on the side of the body, everything on the axes of the models. */
+export type MotionNeeds = { readonly what: 'side' } | { readonly what: 'poses' } | { readonly what: 'front' | 'axes'; readonly component: ComponentName };
+
+export function motionNeeds(doc: Doc): MotionNeeds {
+  for (const component of COMPONENT_NAMES) {
+    const { axes } = doc.components[component];
+    if (axes?.told === 'not the front') return { what: 'front', component };
+    if (axes && axes.told !== 'all') return { what: 'axes', component };
+  }
+  if (doc.side === 'unknown') return { what: 'side' };
+  const unread = COMPONENT_NAMES.find((component) => !knownAxes(doc.components[component]) && isPosed(doc, component));
+  return unread ? { what: 'axes', component: unread } : { what: 'poses' };
+}
+
+function isPosed(doc: Doc, component: ComponentName): boolean {
+  return doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)));
+}
+
+/** Empty while the side of the body or the axes of a model are not known. */
 export function jointMotion(doc: Doc, motionOf: MotionOf): readonly JointPoint[] {
   const { side } = doc;
-  if (side === 'unknown') return [];
+  const [femurAxes, tibiaAxes] = [knownAxes(doc.components.femur), knownAxes(doc.components.tibia)];
+  if (side === 'unknown' || !femurAxes || !tibiaAxes) return [];
   return doc.frames.flatMap((frame, index) => {
     const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => cellOf(doc, frame.id, component));
     const [a, b] = [femur && chosenCandidate(femur), tibia && chosenCandidate(tibia)];
     if (!a || !b) return [];
-    return [{ index, motion: motionOf(a.pose, b.pose, side), sure: isSure(doc, frame.id, 'femur') && isSure(doc, frame.id, 'tibia') }];
+    return [{ index, motion: motionOf({ pose: a.pose, axes: femurAxes }, { pose: b.pose, axes: tibiaAxes }, side), sure: isSure(doc, frame.id, 'femur') && isSure(doc, frame.id, 'tibia') }];
   });
 }
 

@@ -1,24 +1,37 @@
-import { type Cell, cellOf, chosenCandidate, type Doc, isByHand } from '../document/types';
+import { tiltAxes } from '../document/axes';
+import { checkState, markOf } from '../document/marks';
+import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
-import type { Surroundings } from '../workers/protocol/match';
+import type { Counterpart, Surroundings } from '../workers/protocol/match';
 
-/** What a choice in a frame may rest on: poses that were decided themselves, chosen by hand or read from a file. */
+/**
+ * What a choice in a frame may rest on: poses that were decided themselves, chosen by hand, set by hand, or read from a
+ * file. What is called doubtful speaks for nothing else, unless a person has checked it.
+ */
 export function surroundingsOf(doc: Doc, frameId: string, component: ComponentName): Surroundings {
   const index = doc.frames.findIndex((frame) => frame.id === frameId);
-  const reliable = (frame: number, name: ComponentName) => reliablePose(cellOf(doc, doc.frames[frame]?.id, name));
-  const neighbours = [index - 1, index + 1].map((frame) => reliable(frame, component));
-  return {
-    counterpart: reliable(index, component === 'femur' ? 'tibia' : 'femur'),
-    neighbours: neighbours.filter((pose) => pose !== null),
-  };
+  const neighbours = [index - 1, index + 1].map((frame) => reliablePose(doc, frame, component));
+  return { counterpart: counterpartOf(doc, index, component), neighbours: neighbours.filter((pose) => pose !== null) };
 }
 
-function reliablePose(cell: Cell): PoseNumbers | null {
+function counterpartOf(doc: Doc, frame: number, component: ComponentName): Counterpart | null {
+  const other = component === 'femur' ? 'tibia' : 'femur';
+  const pose = reliablePose(doc, frame, other);
+  const [axes, own] = [other, component].map((name) => tiltAxes(doc.components[name as ComponentName]));
+  return pose && axes && own ? { pose, axes, own } : null;
+}
+
+function reliablePose(doc: Doc, index: number, component: ComponentName): PoseNumbers | null {
+  const frameId = doc.frames[index]?.id;
+  const cell = cellOf(doc, frameId, component);
   const { result, resultOf, outline } = cell;
   const candidate = chosenCandidate(cell);
-  if (candidate && isByHand(result)) return candidate.pose;
-  if (result?.kind !== 'posed' || !candidate || resultOf !== outline) return null;
+  if (frameId === undefined || result?.kind !== 'posed' || !candidate) return null;
+  const checked = checkState(cell, markOf(doc, { frameId, component })) === 'yes';
+  if (verdictOf(result)?.word === 'doubtful' && !checked) return null;
+  if (isByHand(result)) return candidate.pose;
+  if (resultOf !== outline) return null;
   if (result.from === 'file' || result.chosen !== 0) return candidate.pose;
-  return result.decided && candidate.residual !== null ? candidate.pose : null;
+  return (result.decided || checked) && candidate.residual !== null ? candidate.pose : null;
 }

@@ -4,6 +4,7 @@ import type { LibraryState, State } from '../document/store';
 import { DEFAULT_WINDOW, type LibrarySpec, type ViewWindow } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import { useApp } from '../commands/app';
+import { AxesSection } from './axes_section';
 import { NumberField } from '../controls/number_field';
 import { Segments } from '../controls/segments';
 import { texts } from '../texts/texts';
@@ -33,8 +34,22 @@ export function ComponentSheet({ state, component }: { state: State; component: 
           </button>
         )}
       </div>
+      <Remarks remarks={model ? services.studio.remarksOn(model.sha256) : []} />
+      <AxesSection state={state} component={component} />
       <LibraryForm key={JSON.stringify(librarySpec)} component={component} spec={librarySpec} />
     </div>
+  );
+}
+
+/** What was found and done when the model was opened. */
+function Remarks({ remarks }: { remarks: readonly string[] }) {
+  if (remarks.length === 0) return null;
+  return (
+    <ul class="remarks" aria-label={texts.models.card}>
+      {remarks.map((remark) => (
+        <li key={remark}>{`${remark.charAt(0).toUpperCase()}${remark.slice(1)}.`}</li>
+      ))}
+    </ul>
   );
 }
 

@@ -24,14 +24,16 @@ export function Page() {
     const elsewhere = target?.closest('[role=dialog]') || target?.hasAttribute('aria-haspopup');
     if (target && !elsewhere && event.detail > 0) actions.stage?.focus();
   };
+  // Before there is a frame there is nothing to do it with.
+  const empty = state.history.present.frames.length === 0;
   return (
-    <div class={dropping ? 'page dropping' : 'page'} data-drop={texts.stage.drop} onClick={giveBack}>
+    <div class={['page', dropping ? 'dropping' : '', empty ? 'empty-page' : ''].filter(Boolean).join(' ')} data-drop={texts.stage.drop} onClick={giveBack}>
       <TopBar state={state} />
-      <Rail state={state} />
-      <ToolStrip state={state} />
+      {!empty && <Rail state={state} />}
+      {!empty && <ToolStrip state={state} />}
       <Stage state={state} />
-      <Panel state={state} />
-      <Timeline state={state} />
+      {!empty && <Panel state={state} />}
+      {!empty && <Timeline state={state} />}
       <StatusLine state={state} />
       <Popovers state={state} />
     </div>

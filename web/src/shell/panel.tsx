@@ -1,5 +1,5 @@
 import { currentCell, currentFrame, type State } from '../document/store';
-import { cellOf } from '../document/types';
+import { type Cell, cellOf, chosenCandidate } from '../document/types';
 import { COMPONENT_NAMES, titleOf } from '../terms/component';
 import { isOutdated, missingForPose } from '../results/missing';
 import { useApp } from '../commands/app';
@@ -7,15 +7,21 @@ import { Display } from './display';
 import { PoseNumbersCard } from '../pose/pose_card';
 import { Candidates } from '../pose/candidates';
 import { CompareCard } from '../pose/compare_card';
+import { ComponentNotes } from '../pose/component_notes';
 import { Pictures } from '../pose/pictures';
 import { texts } from '../texts/texts';
 
-/** The right side: the selected component's pose, how far to trust it, and how the frame is shown. */
+/**
+ * The right side: the selected component's pose, how far to trust it, and how the frame is shown. A card is there when it
+ * has something to say and takes no room otherwise.
+ */
 export function Panel({ state }: { state: State }) {
   const { actions, services } = useApp();
   const { component } = state.ui;
   const cell = currentCell(state);
   const frame = currentFrame(state);
+  const { reference } = state.history.present;
+  const posed = chosenCandidate(cell) !== null;
   return (
     <aside class={`panel ${component}`} aria-label={texts.panel.region}>
       <div class="switch" role="radiogroup" aria-label={texts.panel.component}>
@@ -35,20 +41,31 @@ export function Panel({ state }: { state: State }) {
         ))}
       </div>
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
-      <CompareCard state={state} />
-      <Candidates cell={cell} />
-      <Pictures state={state} />
+      <ComponentNotes state={state} />
+      {(posed || reference) && <CompareCard state={state} />}
+      {posed && <Candidates cell={cell} />}
+      {isPictured(state, cell) && <Pictures state={state} />}
       <Display state={state} />
       <div class="panel-foot">
-        <button type="button" class="button" title={texts.panel.savePosesTitle} disabled={!actions.hasPoses(component)} onClick={() => actions.savePoses(component)}>
-          {texts.panel.savePoses(texts.component[component])}
-        </button>
-        <button type="button" class="button" disabled={!frame || !cell.outline} title={texts.panel.deleteOutlineTitle} onClick={() => actions.deleteOutline()}>
-          {texts.panel.deleteOutline}
-        </button>
+        {actions.hasPoses(component) && (
+          <button type="button" class="button" title={texts.panel.savePosesTitle} onClick={() => actions.savePoses(component)}>
+            {texts.panel.savePoses(texts.component[component])}
+          </button>
+        )}
+        {cell.outline && (
+          <button type="button" class="button" title={texts.panel.deleteOutlineTitle} onClick={() => actions.deleteOutline()}>
+            {texts.panel.deleteOutline}
+          </button>
+        )}
       </div>
     </aside>
   );
+
+  /** Scores of a closed outline, or models with a pose. */
+  function isPictured(state: State, cell: Cell): boolean {
+    const shown = COMPONENT_NAMES.map((name) => cellOf(state.history.present, frame?.id, name));
+    return cell.outline?.closed === true || shown.some((one) => chosenCandidate(one) !== null);
+  }
 
   function dotOf(state: State, name: (typeof COMPONENT_NAMES)[number]): string {
     const { outline, result } = cellOf(state.history.present, frame?.id, name);

@@ -107,6 +107,7 @@ export function detailsOf(progress: Progress, cell: Cell): readonly string[] {
   return [
     progress.stage === 'refined' || progress.stage === 'by hand' ? work.stages[progress.stage] : null,
     residual === null ? null : work.residual(residual.toFixed(2)),
+    cell.result?.kind === 'failed' ? cell.result.sentence.replace(/\.$/, '') : null,
     progress.doubtful ? work.doubtful(verdictOf(cell.result)?.because ?? null) : null,
     progress.outdated ? work.outdated : null,
     progress.note === '' ? null : work.note(progress.note),

@@ -1,4 +1,5 @@
 import type { ComponentName } from '../terms/component';
+import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
@@ -12,6 +13,9 @@ import { steps } from './en_steps';
 /** English, as the page speaks it. Grouped as the page is. */
 export const en = {
   program: 'fluoropose',
+  axes,
+  models,
+  study,
   tracing,
   calibrate,
   files,

@@ -85,9 +85,10 @@ export class OneClick {
   #take(answer: OneClickFacts, place: Place, key: string | null): void {
     const { store } = this.#services;
     const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [] }));
-    store.perform(oneClickOutline(place, outlines, answer.match, key));
+    store.perform(oneClickOutline(place, outlines, answer.match, key, answer.sentence));
     store.show({ selectedPoint: null });
-    store.say('info', answer.sentence);
+    // What was refused stands in the cell and the bottom line as long as it does.
+    if (answer.match?.refusal == null) store.say('info', answer.sentence);
   }
 }
 

@@ -11,6 +11,7 @@ import {
   setModel,
   withCell,
 } from '../../src/document/commands';
+import { withAxes } from '../../src/document/axes';
 import type { Place } from '../../src/document/command';
 import { bare, dropHandPose, isPicked, offerCandidate, setPoseByHand, takeHandFit } from '../../src/document/hand_poses';
 import { forgetReference, keepReference, referencePose } from '../../src/document/reference';
@@ -19,7 +20,7 @@ import { readTaste, writeTaste } from '../../src/keep/taste_text';
 import { readSession, writeSession } from '../../src/document/session/session';
 import { Store } from '../../src/document/store';
 import { poseTable } from '../../src/document/session/table';
-import { cellOf, chosenCandidate, isByHand, type Posed } from '../../src/document/types';
+import { type Axes, cellOf, chosenCandidate, isByHand, type Posed } from '../../src/document/types';
 import { NO_LOCKS, type PoseNumbers } from '../../src/geometry/pose_numbers';
 import { FromHere } from '../../src/jobs/from_here';
 import { Poser } from '../../src/jobs/poser';
@@ -28,6 +29,7 @@ import { surroundingsOf } from '../../src/results/surroundings';
 import { framePoint } from '../../src/geometry/points';
 import { rememberTaste } from '../../src/keep/taste';
 
+const OWN_AXES: Axes = { directions: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], from: 'shape', told: 'all' };
 const PLACE: Place = { frameId: 'f', component: 'femur' };
 const POSE: PoseNumbers = { x: 1, y: 2, z: -1000, zRot: 3, xRot: 4, yRot: 5 };
 const OTHER: PoseNumbers = { ...POSE, x: 9 };
@@ -85,10 +87,11 @@ describe('a pose set by hand', () => {
   it('may be relied on by its neighbours, and is named in the table', () => {
     const store = traced();
     store.perform(setPoseByHand(PLACE, POSE));
-    expect(surroundingsOf(store.doc, 'f', 'tibia').counterpart).toEqual(POSE);
+    for (const component of ['femur', 'tibia'] as const) store.amend((doc) => withAxes(doc, component, OWN_AXES));
+    expect(surroundingsOf(store.doc, 'f', 'tibia').counterpart?.pose).toEqual(POSE);
     expect(poseTable(store.doc, 'femur')).toContain(',by hand,');
-    store.perform(takeHandFit(PLACE, { candidate: { ...bare(OTHER), residual: 0.2 }, reason: 'Refined.' }));
-    expect(poseTable(store.doc, 'femur')).toContain(',"by hand, refined",1,1,Refined.');
+    store.perform(takeHandFit(PLACE, { candidate: { ...bare(OTHER), residual: 0.2 }, reason: 'Refined.', verdict: { word: 'good', because: 'it fits' } }));
+    expect(poseTable(store.doc, 'femur')).toContain(',good,it fits,"by hand, refined",1,1,Refined.');
   });
 });
 

@@ -44,6 +44,10 @@ const doc: Doc = {
   side: 'left',
   frames: [{ id: 'ab:0', name: 'film.tif #1', source: 'ab', indexInSource: 0, width: 1024, height: 1000 }],
   calibration: { name: 'c.txt', text: 'JT_INTCALIB\n1198\n0\n0\n0.373\n' },
+  components: {
+    ...EMPTY_DOC.components,
+    tibia: { ...EMPTY_DOC.components.tibia, axes: { directions: [[0, 0, 1], [0, -1, 0], [1, 0, 0]], from: 'shape', told: 'not the front' } },
+  },
   cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
   window: { centre: 2000, width: 4095 },
   marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
@@ -92,7 +96,7 @@ describe('session', () => {
   });
 
   it('names kind, version and program', () => {
-    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 3, program: 'fluoropose 0' });
+    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 4, program: 'fluoropose 0' });
   });
 
   it('refuses a file that is cut at any of many places', () => {
@@ -103,7 +107,8 @@ describe('session', () => {
   });
 
   it.each([
-    ['"version":3', '"version":4', /version 4.*newer page/],
+    ['"version":4', '"version":5', /version 5.*newer page/],
+    ['"told":"not the front"', '"told":"half"', /axes\.told should be "all" or "not the front"/],
     ['"all directions",', '"some directions",', /librarySpec\.views should be "all directions" or "window"/],
     ['"word":"doubtful"', '"word":"none"', /verdict\.word should be "good" or "doubtful"/],
     ['fluoropose-session', 'something', /not a fluoropose session/],

@@ -5,7 +5,7 @@ import { oneClickOutline } from '../../src/tracing/one_click_result';
 import { copyOutline, tracedNeighbour } from '../../src/document/outlines';
 import { carriedSides } from '../../src/document/sides';
 import { ahead, markedStretch, perimeter, pointsOf } from '../../src/document/stretch';
-import { cellOf, EMPTY_CELL, EMPTY_DOC, type Doc, type Outline } from '../../src/document/types';
+import { cellOf, EMPTY_CELL, EMPTY_DOC, verdictOf, type Doc, type Outline } from '../../src/document/types';
 import { piecesOf } from '../../src/tracing/snapping';
 import { sidesFrom } from '../../src/tracing/pixels';
 import type { Match, MatchedCandidate } from '../../src/workers/protocol/match';
@@ -301,15 +301,22 @@ describe('an outline by one click', () => {
     partial: false,
     reason: 'It fits.',
     decided: false,
-    verdict: null,
+    verdict: { word: 'doubtful', because: 'a part is hidden' },
     refusal: null,
     milliseconds: 1,
   };
-  const found = oneClickOutline(PLACE, [SQUARE, other], match, 'key').apply(EMPTY_DOC);
+  const found = oneClickOutline(PLACE, [SQUARE, other], match, 'key', 'It fits.').apply(EMPTY_DOC);
   const cell = (doc: Doc) => cellOf(doc, 'f', 'femur');
 
   it('comes with its pose', () => {
     expect(cell(found)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'posed', origin: 'key', chosen: 0 } });
+    expect(verdictOf(cell(found).result)).toEqual({ word: 'doubtful', because: 'a part is hidden' });
+  });
+
+  it('has no pose where nothing fits, and says what to do', () => {
+    const sentence = 'That is little: click elsewhere.';
+    const refused = oneClickOutline(PLACE, [SQUARE, other], { ...match, verdict: null, refusal: 'no fit' }, 'key', sentence).apply(EMPTY_DOC);
+    expect(cell(refused)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'failed', origin: 'key', sentence } });
   });
 
   it('changes with the candidate, and back', () => {
@@ -326,6 +333,6 @@ describe('an outline by one click', () => {
   });
 
   it('is an outline like any other where no model led to it', () => {
-    expect(cell(oneClickOutline(PLACE, [SQUARE], null, null).apply(EMPTY_DOC))).toMatchObject({ outline: SQUARE, result: null });
+    expect(cell(oneClickOutline(PLACE, [SQUARE], null, null, '').apply(EMPTY_DOC))).toMatchObject({ outline: SQUARE, result: null });
   });
 });

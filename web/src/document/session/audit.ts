@@ -1,7 +1,7 @@
 import { digestOf } from '../digest';
 import { count, list, nullable, number, object, oneOf, optional, text, type Reader } from '../reader';
-import { methodOf } from './table';
-import { cellOf, chosenCandidate, type Doc, type FrameEntry, type Outline, type Posed } from '../types';
+import { methodOf, verdictRecord, type VerdictRecord } from './table';
+import { cellOf, type Doc, type FrameEntry, type Outline, type Posed } from '../types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
 
@@ -38,12 +38,14 @@ export interface ResultRecord {
   readonly origin: string;
   /** Of the outline as `outlineText` writes it; null without one. */
   readonly outlineSha256: string | null;
-  /** Candidate that was chosen, from 1, and of how many. */
+  /** Candidate that was chosen, from 1, and of how many; 0 where there is no pose. */
   readonly candidate: number;
   readonly candidates: number;
   readonly reason: string | null;
-  /** Mm and degrees. */
-  readonly pose: PoseNumbers;
+  /** How far it is to be trusted, and why; null where nobody said: poses of the library, of files, of old sessions. */
+  readonly verdict: VerdictRecord | null;
+  /** Mm and degrees; null where nothing fits. */
+  readonly pose: PoseNumbers | null;
   readonly deviations: PoseNumbers | null;
   /** Px. */
   readonly residual: number | null;
@@ -77,20 +79,29 @@ async function inputsOf(doc: Doc): Promise<InputDigest[]> {
 }
 
 async function recordOf(doc: Doc, frame: FrameEntry, index: number, component: ComponentName): Promise<ResultRecord | null> {
-  const cell = cellOf(doc, frame.id, component);
-  const candidate = chosenCandidate(cell);
-  if (cell.result?.kind !== 'posed' || !candidate) return null;
-  const { result, resultOf } = cell;
-  const { pose, deviations, residual } = candidate;
+  const { result, resultOf } = cellOf(doc, frame.id, component);
+  if (!result) return null;
   return {
     frame: frame.id,
     name: frame.name,
     number: index + 1,
     component,
-    method: methodOf(result),
-    program: result.program ?? null,
     origin: result.origin,
     outlineSha256: resultOf && (await outlineDigest(resultOf)),
+    verdict: verdictRecord(result),
+    ...(result.kind === 'posed' ? poseRecord(result) : NO_POSE),
+  };
+}
+
+type PoseRecord = Pick<ResultRecord, 'method' | 'program' | 'candidate' | 'candidates' | 'reason' | 'pose' | 'deviations' | 'residual'>;
+
+const NO_POSE: PoseRecord = { method: 'none', program: null, candidate: 0, candidates: 0, reason: null, pose: null, deviations: null, residual: null };
+
+function poseRecord(result: Posed): PoseRecord {
+  const { pose = null, deviations = null, residual = null } = result.candidates[result.chosen] ?? {};
+  return {
+    method: methodOf(result),
+    program: result.program ?? null,
     candidate: result.chosen + 1,
     candidates: result.candidates.length,
     reason: reasonOf(result),
@@ -140,7 +151,7 @@ function resultTroubles(then: Audit, now: Audit): string[] {
 }
 
 function changed(before: ResultRecord, after: ResultRecord | undefined): string | null {
-  if (!after) return 'the pose was taken out';
+  if (!after || (before.pose && !after.pose)) return 'the pose was taken out';
   if (before.outlineSha256 !== after.outlineSha256) return 'the outline was changed';
   if (JSON.stringify(before.pose) !== JSON.stringify(after.pose)) return 'the pose was changed';
   return before.origin === after.origin ? null : 'what the pose was found with was changed';
@@ -182,7 +193,9 @@ const readRecord = object<ResultRecord>({
   candidate: count,
   candidates: count,
   reason: nullable(text),
-  pose: readPose,
+  // Audits of versions 2 and 3 have no verdicts, and say nothing of what has no pose.
+  verdict: optional(object<VerdictRecord>({ word: oneOf('good', 'doubtful', 'none'), because: text })),
+  pose: nullable(readPose),
   deviations: nullable(readPose),
   residual: nullable(number),
 });

@@ -1,5 +1,6 @@
 import { framePoint, type FramePoint } from '../../geometry/points';
 import { readAudit, type Audit } from './audit';
+import { readAxes } from '../axes';
 import { readDistortion } from '../distortion';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
 import type {
@@ -51,8 +52,11 @@ export interface SessionFile {
 }
 
 export const SESSION_KIND = 'fluoropose-session';
-export const SESSION_VERSION = 3;
-/** Version 1 had neither marks nor an audit, version 2 neither libraries of all directions nor verdicts. */
+export const SESSION_VERSION = 4;
+/**
+ * Version 1 had neither marks nor an audit, version 2 neither libraries of all directions nor verdicts, version 3 no
+ * anatomical axes and no verdicts in its audit.
+ */
 const OLDEST_VERSION = 1;
 
 /** Parts of a blob: one long text may be more than a text can hold. */
@@ -219,6 +223,8 @@ const readComponent = object<Component>({
   model: nullable(readReference),
   libraryFile: nullable(readReference),
   librarySpec: readSpec,
+  // Sessions of versions 1 to 3 have none: the shape is asked.
+  axes: optional(readAxes),
 });
 
 /** Sessions from before poses could be compared have none. */

@@ -43,10 +43,19 @@ export function poseTable(doc: Doc, component: ComponentName): string {
   return [HEAD, ...rows].map((row) => `${row.map(field).join(',')}\r\n`).join('');
 }
 
-/** The verdict, and why; where there is no pose, why not. */
+/** How far a pose is to be trusted, as tables and audits have it. */
+export interface VerdictRecord {
+  readonly word: 'good' | 'doubtful' | 'none';
+  readonly because: string;
+}
+
+/** The verdict, and why; where there is no pose, why not; null where nobody said. */
+export function verdictRecord(result: Result | null): VerdictRecord | null {
+  return result?.kind === 'failed' ? { word: 'none', because: result.sentence } : verdictOf(result);
+}
+
 function trustIn(result: Result | null): (string | null)[] {
-  if (result?.kind === 'failed') return ['none', result.sentence];
-  const { word = null, because = null } = verdictOf(result) ?? {};
+  const { word = null, because = null } = verdictRecord(result) ?? {};
   return [word, because];
 }
 

@@ -4,16 +4,18 @@ import {
   Color,
   DirectionalLight,
   DoubleSide,
+  type Group,
   HemisphereLight,
   Matrix4,
   Mesh,
   MeshPhongMaterial,
   Scene,
 } from 'three';
+import { arrowsOf, letGo, type Arrow } from './arrows';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { ModelMesh } from '../../workers/protocol/decode';
-import { rotationOf } from '../../geometry/pose_motion';
+import { rotationOf, type Vector } from '../../geometry/pose_motion';
 import { COMPONENT_COLOURS } from '../../controls/colours';
 
 /** A model where it is. The camera frame of the project is that of three: x right, y up, looking along -z, mm. */
@@ -21,6 +23,8 @@ export interface PlacedModel {
   readonly component: ComponentName;
   readonly mesh: ModelMesh;
   readonly pose: PoseNumbers;
+  /** From its middle. */
+  readonly arrows?: readonly Arrow[];
 }
 
 const geometries = new WeakMap<ModelMesh, BufferGeometry>();
@@ -29,6 +33,7 @@ const geometries = new WeakMap<ModelMesh, BufferGeometry>();
 export class ModelScene {
   readonly scene = new Scene();
   readonly #meshes = new Map<ComponentName, Mesh>();
+  readonly #arrows = new Map<ComponentName, { readonly of: string; readonly group: Group }>();
 
   constructor() {
     this.scene.add(new HemisphereLight(0xffffff, 0x555b63, 1.6));
@@ -41,12 +46,36 @@ export class ModelScene {
   show(models: readonly PlacedModel[]): void {
     const wanted = new Set(models.map(({ component }) => component));
     for (const [component, mesh] of this.#meshes) mesh.visible = wanted.has(component);
+    for (const component of this.#arrows.keys()) if (!wanted.has(component)) this.#dropArrows(component);
     for (const model of models) {
       const mesh = this.#meshOf(model.component);
       mesh.geometry = geometryOf(model.mesh);
       mesh.matrix.copy(matrixOf(model.pose));
       mesh.matrixWorldNeedsUpdate = true;
+      this.#showArrows(model, mesh.matrix);
     }
+  }
+
+  #showArrows({ component, mesh, arrows = [] }: PlacedModel, matrix: Matrix4): void {
+    const of = JSON.stringify(arrows);
+    if (this.#arrows.get(component)?.of !== of) {
+      this.#dropArrows(component);
+      const group = arrowsOf(arrows, middleOf(mesh), radiusOf(mesh), component);
+      group.matrixAutoUpdate = false;
+      this.scene.add(group);
+      this.#arrows.set(component, { of, group });
+    }
+    const group = this.#arrows.get(component)?.group;
+    group?.matrix.copy(matrix);
+    if (group) group.matrixWorldNeedsUpdate = true;
+  }
+
+  #dropArrows(component: ComponentName): void {
+    const group = this.#arrows.get(component)?.group;
+    if (!group) return;
+    this.scene.remove(group);
+    letGo(group);
+    this.#arrows.delete(component);
   }
 
   #meshOf(component: ComponentName): Mesh {
@@ -78,6 +107,11 @@ function geometryOf(mesh: ModelMesh): BufferGeometry {
 /** How large a model is: the radius of a ball around it, mm. */
 export function radiusOf(mesh: ModelMesh): number {
   return geometryOf(mesh).boundingSphere?.radius ?? 1;
+}
+
+function middleOf(mesh: ModelMesh): Vector {
+  const { center } = geometryOf(mesh).boundingSphere ?? { center: { x: 0, y: 0, z: 0 } };
+  return [center.x, center.y, center.z];
 }
 
 function matrixOf(pose: PoseNumbers): Matrix4 {

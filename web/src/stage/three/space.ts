@@ -4,14 +4,13 @@ import type { ComponentName } from '../../terms/component';
 import { inCamera, type Vector } from '../../geometry/pose_motion';
 import { ModelScene, radiusOf, type PlacedModel } from './models';
 
-/** Where one looks from, with what is upwards there. */
-const SIDES = {
-  camera: { from: [0, 0, 1], up: [0, 1, 0] },
-  side: { from: [1, 0, 0], up: [0, 1, 0] },
-  above: { from: [0, 1, 0], up: [0, 0, -1] },
-} as const satisfies Record<string, { from: Vector; up: Vector }>;
+/** Where one looks from, with what is upwards there, in the camera's frame. */
+export interface Viewpoint {
+  readonly from: Vector;
+  readonly up: Vector;
+}
 
-export type Side = keyof typeof SIDES;
+const AS_THE_CAMERA: Viewpoint = { from: [0, 0, 1], up: [0, 1, 0] };
 
 const FIELD_OF_VIEW = 30;
 
@@ -45,14 +44,13 @@ export class SpaceView {
     this.#controls.target.copy(target);
     this.#camera.position.add(moved);
     this.#radius = radiusOf(model.mesh);
-    if (this.#shown === null) this.look('camera');
+    if (this.#shown === null) this.look(AS_THE_CAMERA);
     this.#shown = selected;
     this.#controls.update();
     this.#schedule();
   }
 
-  look(side: Side): void {
-    const { from, up } = SIDES[side];
+  look({ from, up }: Viewpoint): void {
     const away = (1.6 * this.#radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
     this.#camera.up.fromArray(up);
     this.#camera.position.copy(this.#controls.target).addScaledVector(new Vector3().fromArray(from), away);

@@ -1,5 +1,5 @@
 import { useMemo, useState } from 'preact/hooks';
-import { jointMotion, QUANTITIES, runsOf, type JointPoint, type Quantity } from '../../results/motion';
+import { jointMotion, motionNeeds, QUANTITIES, runsOf, type JointPoint, type Quantity } from '../../results/motion';
 import type { State } from '../../document/store';
 import { cellOf, chosenCandidate, type Doc } from '../../document/types';
 import { COMPONENT_NAMES } from '../../terms/component';
@@ -25,8 +25,8 @@ export function MotionCurve({ state }: { state: State }) {
   const { services } = useApp();
   const [quantity, setQuantity] = useState<Quantity>('flexion');
   const doc = state.history.present;
-  const { cells, frames, side } = doc;
-  const points = useMemo(() => jointMotion(doc, (...poses) => services.studio.motionOf(...poses)), [cells, frames, side]);
+  const { cells, components, frames, side } = doc;
+  const points = useMemo(() => jointMotion(doc, (...poses) => services.studio.motionOf(...poses)), [cells, components, frames, side]);
   const here = points.find(({ index }) => index === state.ui.frameIndex);
   const { motion } = texts;
   return (
@@ -44,9 +44,25 @@ export function MotionCurve({ state }: { state: State }) {
       {points.length > 0 ? (
         <Curve points={points} quantity={quantity} count={frames.length} current={state.ui.frameIndex} onPick={(index) => services.store.goTo(index)} />
       ) : (
-        <p class="motion-empty">{side === 'unknown' ? motion.needsSide : motion.needsBoth}</p>
+        <MotionNeeds state={state} />
       )}
     </div>
+  );
+}
+
+/** What the curve waits for, and where to say it. */
+function MotionNeeds({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const needs = motionNeeds(state.history.present);
+  if (needs.what === 'side' || needs.what === 'poses') return <p class="motion-empty">{needs.what === 'side' ? texts.motion.needsSide : texts.motion.needsBoth}</p>;
+  const { what, component } = needs;
+  return (
+    <p class="motion-empty">
+      {texts.axes.motion[what](texts.component[component])}{' '}
+      <button type="button" class="button small" aria-haspopup="dialog" onClick={() => store.show({ component, popover: component })}>
+        {texts.axes.look}
+      </button>
+    </p>
   );
 }
 

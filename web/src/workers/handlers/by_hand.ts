@@ -1,6 +1,7 @@
-import { HiddenPixels, type HandFit, type Landscape, type Matcher, type Traced } from '../../pkg/core/fluoropose_wasm.js';
+import { type FrameImage, HiddenPixels, type HandFit, type HandVerdict, type Landscape, type Matcher, type Traced } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
-import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
+import type { Verdict } from '../../document/types';
+import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum, OnFrame } from '../protocol/by_hand';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { MatchInput } from '../protocol/match';
 import { imageOf } from './frame_pixels';
@@ -13,21 +14,25 @@ export interface Held {
 }
 
 export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> {
+  const onFrame = async <T>({ component, camera, frame, others }: OnFrame, work: (matcher: Matcher, image: FrameImage, hidden: HiddenPixels) => T): Promise<T> => {
+    const matcher = await matcherOf(component);
+    const image = imageOf(frame);
+    const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
+    try {
+      for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
+      return work(matcher, image, hidden);
+    } finally {
+      hidden.free();
+      image.free();
+    }
+  };
   return {
     refineFrom: ({ start, locked, ...input }) =>
       withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
-    refineOnFrame: async ({ component, camera, frame, start, locked, others }) => {
-      const matcher = await matcherOf(component);
-      const image = imageOf(frame);
-      const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
-      try {
-        for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
-        return factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked)));
-      } finally {
-        hidden.free();
-        image.free();
-      }
-    },
+    refineOnFrame: ({ start, locked, ...input }) =>
+      onFrame(input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked)))),
+    judgeOutline: ({ pose, ...input }) => withTraced(input, (matcher, traced) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose))))),
+    judgeOnFrame: ({ pose, ...input }) => onFrame(input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose))))),
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),
     viewPose: ({ view, ...input }) =>
       withTraced(input, (matcher, traced) => {
@@ -43,8 +48,15 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
 function factsOf(fit: HandFit): FitFacts {
   const { residual, drawn = null, deviations, bright } = fit;
   const pose = poseFrom(fit.pose);
+  const verdict = verdictOf(fit.verdict);
   fit.free();
-  return { pose, residual, drawn, deviations: deviations ? poseFrom(deviations) : null, bright };
+  return { pose, residual, drawn, deviations: deviations ? poseFrom(deviations) : null, bright, verdict };
+}
+
+function verdictOf(raw: HandVerdict): Verdict {
+  const { word, because } = raw;
+  raw.free();
+  return { word: word === 'good' ? 'good' : 'doubtful', because };
 }
 
 function landscapeOf(landscape: Landscape): LandscapeFacts {

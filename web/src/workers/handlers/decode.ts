@@ -98,6 +98,7 @@ function kindOf(word: string): FileKind {
     case 'outlines':
     case 'coco':
     case 'distortion':
+    case 'study':
     case 'video':
       return word;
     default:

@@ -1,5 +1,6 @@
-import { choosePose, Matcher, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
-import type { Judged, Verdict } from '../../document/types';
+import { choosePose, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import type { Judged, Told, Verdict } from '../../document/types';
+import { directionsFrom, numbersOf } from '../../geometry/axes';
 import type { ComponentName } from '../../terms/component';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
@@ -25,6 +26,13 @@ serve<PoseProtocol>({
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },
+  axes: async ({ component, mesh }) => {
+    await ready;
+    const found = shapeAxes(mesh.vertices, mesh.triangles, component === 'femur');
+    const axes = { directions: directionsFrom(found.directions), told: found.told as Told };
+    found.free();
+    return axes;
+  },
   match: ({ before, ...input }) =>
     withTraced(input, (matcher, traced) => found(matcher, () => followed(matcher, traced, before) ?? matcher.matchOutline(traced))),
   refine: ({ around, ...input }) =>
@@ -35,7 +43,7 @@ serve<PoseProtocol>({
     withTraced(input, (matcher, traced) => stepsOf(matcher.convergence(traced, Float64Array.from(poseArray(start))))),
   choose: async ({ component, candidates, around }) => {
     await ready;
-    const { poses, residuals } = numbersOf(candidates);
+    const { poses, residuals } = flattened(candidates);
     const chosen = withSurroundings(component, around, (raw) => choosePose(poses, residuals, raw));
     if (!chosen) return null;
     const { index, decided, sentence: reason, doubt = null } = chosen;
@@ -78,8 +86,12 @@ function withSurroundings<T>(component: ComponentName, around: Surroundings, wor
   const raw = new RawSurroundings();
   try {
     const { counterpart, neighbours } = around;
-    const array = counterpart && Float64Array.from(poseArray(counterpart));
-    if (array) component === 'tibia' ? raw.setFemur(array) : raw.setTibia(array);
+    if (counterpart) {
+      const pose = Float64Array.from(poseArray(counterpart.pose));
+      const axes = numbersOf(counterpart.axes);
+      raw.setAxes(numbersOf(counterpart.own));
+      component === 'tibia' ? raw.setFemur(pose, axes) : raw.setTibia(pose, axes);
+    }
     for (const pose of neighbours) raw.addNeighbour(Float64Array.from(poseArray(pose)));
     return work(raw);
   } finally {
@@ -87,7 +99,7 @@ function withSurroundings<T>(component: ComponentName, around: Surroundings, wor
   }
 }
 
-function numbersOf(refined: readonly Refined[]): { poses: Float64Array; residuals: Float64Array } {
+function flattened(refined: readonly Refined[]): { poses: Float64Array; residuals: Float64Array } {
   return {
     poses: Float64Array.from(refined.flatMap(({ pose }) => poseArray(pose))),
     residuals: Float64Array.from(refined, ({ residual }) => residual),
@@ -96,7 +108,7 @@ function numbersOf(refined: readonly Refined[]): { poses: Float64Array; residual
 
 function followed(matcher: Matcher, traced: Traced, before: readonly Refined[]): RawMatch | undefined {
   if (before.length === 0) return undefined;
-  const { poses, residuals } = numbersOf(before);
+  const { poses, residuals } = flattened(before);
   return matcher.follow(traced, poses, residuals);
 }
 

@@ -1,3 +1,4 @@
+import type { Verdict } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { MatchInput } from './match';
@@ -5,6 +6,14 @@ import type { CameraInput } from './camera';
 import type { FramePixels } from './frame_pixels';
 
 /** What the pose worker does with a pose that somebody set, and with all views of a library. */
+
+/** The frame itself is what a pose is held against; edges of the other components at their poses do not count. */
+export interface OnFrame {
+  readonly component: ComponentName;
+  readonly camera: CameraInput;
+  readonly frame: FramePixels;
+  readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
+}
 
 /** Where refinement starts, and which of the six numbers stay, in the order of `poseArray`. */
 export interface HandStart {
@@ -22,6 +31,7 @@ export interface FitFacts {
   readonly deviations: PoseNumbers | null;
   /** The implant was taken to be brighter than what surrounds it; of the frame alone. */
   readonly bright: boolean;
+  readonly verdict: Verdict;
 }
 
 /** A grid of views: the rotation of the first, degrees, the step, and how many. */
@@ -51,17 +61,11 @@ export interface Minimum {
 export interface HandProtocol {
   /** From a start onto the outline. */
   refineFrom: { input: MatchInput & HandStart; output: FitFacts; progress: never };
-  /** From a start onto the edges of the frame; those of the other components at their poses do not count. */
-  refineOnFrame: {
-    input: HandStart & {
-      readonly component: ComponentName;
-      readonly camera: CameraInput;
-      readonly frame: FramePixels;
-      readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
-    };
-    output: FitFacts;
-    progress: never;
-  };
+  /** From a start onto the edges of the frame. */
+  refineOnFrame: { input: HandStart & OnFrame; output: FitFacts; progress: never };
+  /** How far a pose that somebody set is to be trusted, by the outline or by the frame. */
+  judgeOutline: { input: MatchInput & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
+  judgeOnFrame: { input: OnFrame & { readonly pose: PoseNumbers }; output: Verdict; progress: never };
   /** Throws for an outline of which only a part is known. */
   landscape: { input: MatchInput; output: LandscapeFacts; progress: never };
   viewPose: {

@@ -31,7 +31,7 @@ export interface StatedGeometry {
   readonly magnification: number | null;
 }
 
-export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'video' | 'unknown';
+export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'study' | 'video' | 'unknown';
 
 export interface DecodeProtocol {
   /** By the file's beginning and its length, bytes. */

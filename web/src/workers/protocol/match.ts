@@ -1,5 +1,6 @@
 import type { Candidate, Verdict } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { Directions } from '../../geometry/axes';
 import type { ComponentName } from '../../terms/component';
 import type { CameraInput } from './camera';
 
@@ -54,10 +55,17 @@ export interface Refined {
   readonly residual: number;
 }
 
+/** The other component, with the anatomical axes of its model and those of the one that is chosen for. */
+export interface Counterpart {
+  readonly pose: PoseNumbers;
+  readonly axes: Directions;
+  readonly own: Directions;
+}
+
 /** Poses that a choice may rest on. */
 export interface Surroundings {
-  /** The other component in the same frame. */
-  readonly counterpart: PoseNumbers | null;
+  /** The other component in the same frame; null where the axes of either are not known, in which tilts are taken. */
+  readonly counterpart: Counterpart | null;
   /** The same component in the frames before and after. */
   readonly neighbours: readonly PoseNumbers[];
 }

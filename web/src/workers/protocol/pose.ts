@@ -1,3 +1,4 @@
+import type { Axes } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { HandProtocol } from './by_hand';
@@ -25,6 +26,8 @@ export interface PoseProtocol extends HandProtocol, OneClickProtocol {
     output: LibraryFacts;
     progress: never;
   };
+  /** What a model's shape tells of its axes. */
+  axes: { input: { component: ComponentName; mesh: ModelMesh }; output: Pick<Axes, 'directions' | 'told'>; progress: never };
   /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */
   match: { input: MatchInput & { readonly before: readonly Refined[] }; output: Match; progress: never };
   /** The same, then the model's outline brought onto the traced one. Without a model the answer is that of `match`. */

@@ -1,0 +1,99 @@
+import type { Place } from '../document/command';
+import { withHandVerdict } from '../document/hand_poses';
+import { currentPlace } from '../document/store';
+import { type Cell, cellOf, chosenCandidate, type Posed, type Verdict } from '../document/types';
+import { cameraOf } from '../results/keys';
+import { COMPONENT_NAMES } from '../terms/component';
+import { work } from '../workers/activity';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import { frameOf, onFrameInput } from './from_here';
+import { flatten } from './poser';
+import type { Services } from './services';
+
+interface Task {
+  readonly place: Place;
+  readonly cell: Cell & { readonly result: Posed };
+}
+
+/** How long a pose has to be left alone before it is judged, ms: nobody wants it while the hand moves. */
+export const HAND_REST = 200;
+
+/**
+ * Says how far poses that somebody set are to be trusted: by the closed outline of their cell, else by the frame. When the
+ * outline changes afterwards they are judged again. The pose itself stays, whatever is said of it.
+ */
+export class HandJudge {
+  readonly #services: Services;
+  readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  /** Nothing could be held against these; with the outline they had. */
+  readonly #untold = new WeakMap<Posed, Cell['outline']>();
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #pauseIsOver: () => void = () => undefined;
+  #busy = false;
+
+  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+    this.#services = services;
+    this.#worker = worker;
+    services.store.subscribe(() => this.#consider());
+  }
+
+  #consider(): void {
+    clearTimeout(this.#timer);
+    this.#pauseIsOver();
+    if (this.#busy || !this.#find()) return;
+    this.#pauseIsOver = work.begin();
+    this.#timer = setTimeout(() => void this.#next(), HAND_REST);
+  }
+
+  #find(): Task | null {
+    const { store } = this.#services;
+    const shown = currentPlace(store.state);
+    const places = store.doc.frames.flatMap(({ id: frameId }) => COMPONENT_NAMES.map((component) => ({ frameId, component })));
+    for (const place of shown ? [shown, ...places] : places) {
+      const cell = cellOf(store.doc, place.frameId, place.component);
+      if (this.#isUnjudged(cell) && store.ui.libraries[place.component].state === 'ready') return { place, cell };
+    }
+    return null;
+  }
+
+  #isUnjudged(cell: Cell): cell is Task['cell'] {
+    const { result, resultOf, outline } = cell;
+    if (result?.kind !== 'posed' || result.from !== 'hand') return false;
+    const isOld = isClosed(resultOf) !== isClosed(outline) || (isClosed(outline) && resultOf !== outline);
+    return (result.verdict === null || isOld) && this.#untold.get(result) !== outline;
+  }
+
+  async #next(): Promise<void> {
+    const task = this.#find();
+    this.#pauseIsOver();
+    if (!task) return;
+    this.#busy = true;
+    const { place, cell } = task;
+    try {
+      const verdict = await this.#ask(task);
+      this.#services.store.amend((doc) => (cellOf(doc, place.frameId, place.component).outline === cell.outline ? withHandVerdict(doc, place, cell.result, verdict) : doc));
+    } catch (error) {
+      // Without pixels or a model nobody can say; the pose is there all the same.
+      if (!(error instanceof Aborted)) this.#untold.set(cell.result, cell.outline);
+    } finally {
+      this.#busy = false;
+      this.#consider();
+    }
+  }
+
+  async #ask({ place, cell }: Task): Promise<Verdict> {
+    const { doc } = this.#services.store;
+    const pose = chosenCandidate(cell)!.pose;
+    const camera = cameraOf(doc, frameOf(doc, place));
+    if (isClosed(cell.outline) && cell.outline && camera) {
+      return this.#worker.call('judgeOutline', { component: place.component, ...flatten(cell.outline), camera, pose });
+    }
+    const input = onFrameInput(this.#services, place);
+    return this.#worker.call('judgeOnFrame', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
+  }
+}
+
+function isClosed(outline: Cell['outline']): boolean {
+  return outline?.closed ?? false;
+}

@@ -1,0 +1,55 @@
+import type { State } from '../document/store';
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import { useApp } from '../commands/app';
+import { Icon } from '../controls/icons';
+
+/** What a person should know of the selected component's model, and what only a person can tell of it. */
+export function ComponentNotes({ state }: { state: State }) {
+  const { component } = state.ui;
+  return (
+    <>
+      <RemarksCard state={state} component={component} />
+      <AxesCard state={state} component={component} />
+    </>
+  );
+}
+
+function RemarksCard({ state, component }: { state: State; component: ComponentName }) {
+  const { studio, store } = useApp().services;
+  const { model } = state.history.present.components[component];
+  const remarks = model ? studio.remarksOn(model.sha256) : [];
+  if (!model || remarks.length === 0 || state.ui.dismissed.includes(model.sha256)) return null;
+  const words = texts.models;
+  return (
+    <section class="card note" aria-label={words.card}>
+      <p class="card-note">{words.remarks(model.name, remarks)}</p>
+      <button
+        type="button"
+        class="button square small"
+        aria-label={words.dismiss}
+        title={words.dismissTitle}
+        onClick={() => store.show({ dismissed: [...state.ui.dismissed, model.sha256] })}
+      >
+        <Icon name="close" />
+      </button>
+    </section>
+  );
+}
+
+/** Asked where the shape does not tell; nothing waits for the answer but what speaks of front and back. */
+function AxesCard({ state, component }: { state: State; component: ComponentName }) {
+  const { store } = useApp().services;
+  const { axes } = state.history.present.components[component];
+  if (!axes || axes.told === 'all') return null;
+  const words = texts.axes;
+  const say = axes.told === 'not the front' ? words.cardText.front : words.cardText.axes;
+  return (
+    <section class="card note" aria-label={words.card}>
+      <p class="card-note">{say(texts.component[component])}</p>
+      <button type="button" class="button small" aria-haspopup="dialog" aria-expanded={state.ui.popover === component} onClick={() => store.show({ popover: component })}>
+        {words.look}
+      </button>
+    </section>
+  );
+}

@@ -1,0 +1,62 @@
+/** English of anatomical axes: which way a component lies in the coordinates of its file. */
+export const axes = {
+  heading: 'Axes',
+  /** Three of x, -x, y ...; the third is that of `third`. */
+  words: (anterior: string, superior: string, other: string, third: string) => `${anterior} anterior, ${superior} superior, ${other} ${third}`,
+  /** Where the file's own axes are others. */
+  turned: (anterior: string, superior: string, other: string, third: string) => `anterior ${anterior}, superior ${superior}, ${third} ${other}`,
+  lateral: 'lateral',
+  right: 'right',
+  from: { shape: 'as its shape tells', person: 'as you said', study: 'as the study file says' },
+  sentence: (words: string, from: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}; ${from}.`,
+  notTheFront: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}, or the other way round: its shape does not tell front from back.`,
+  unsigned: {
+    femur: 'Its shape tells its mediolateral line alone. Which of the file’s axes are anterior and superior?',
+    tibia: 'Its shape tells the lines of its axes, not which way they go. Which of the file’s axes are anterior and superior?',
+  },
+  nothing: 'Its shape does not tell its axes. Which of the file’s axes are anterior and superior?',
+  finding: 'They are being found from its shape.',
+  noModel: 'Its model’s shape tells them; without one, say them here.',
+  question: 'Which way is the front?',
+  asShown: 'As the arrow shows',
+  otherWay: 'The other way',
+  anterior: 'Anterior',
+  superior: 'Superior',
+  third: (word: string) => `to the patient’s right: ${word}`,
+  skew: 'These two lie along one line: choose another.',
+  use: 'Use these axes',
+  reset: 'As its shape tells',
+  picture: 'Model and axes',
+  canvas: (component: string, words: string) => `${component} with its axes: ${words}; drag or use the arrows to look from elsewhere`,
+  /** In the panel, while somebody is asked. */
+  card: 'Axes to be told',
+  cardText: {
+    front: (component: string) => `Which way is the front of the ${component}? Its shape does not tell; joint angles wait for it.`,
+    axes: (component: string) => `Which way does the ${component} lie? Its shape does not tell; joint angles wait for it.`,
+  },
+  look: 'Look and say',
+  /** In place of the joint's curve. */
+  motion: {
+    front: (component: string) => `Joint angles wait: which way is the front of the ${component}?`,
+    axes: (component: string) => `Joint angles wait for the axes of the ${component}.`,
+  },
+  arrows: { anterior: 'anterior', superior: 'superior' },
+  perhaps: (name: string) => `${name}?`,
+};
+
+/** English of what was done to a model when it was opened, and of study files. */
+export const models = {
+  card: 'About the model',
+  remarks: (name: string, remarks: readonly string[]) => `${name}: ${remarks.join('. ')}.`,
+  dismiss: 'Dismiss',
+  dismissTitle: 'It stays readable under the component above',
+};
+
+export const study = {
+  opened: (name: string) => `the study ${name}`,
+  notRead: (why: string) => `it is not read as a study: ${why}`,
+  wrongAxes: (component: string, words: string) =>
+    `the axes of the ${component}, "${words}", are not three of x, -x, y, -y, z and -z that make a right-handed frame: anterior, superior, right`,
+  otherPoses: (count: number, names: string) => `${count === 1 ? 'One file of poses is' : `${count} files of poses are`} not the study’s reference and left out: ${names}.`,
+  place: 'study',
+};

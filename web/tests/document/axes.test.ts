@@ -1,0 +1,80 @@
+import { describe, expect, it } from 'vitest';
+import { setAxes, withAxes, withFront } from '../../src/document/axes';
+import { setModel, setSide } from '../../src/document/commands';
+import { Store } from '../../src/document/store';
+import type { Axes } from '../../src/document/types';
+import { directionsFromWords, wordsOf, type Directions } from '../../src/geometry/axes';
+import { jointMotion, motionNeeds } from '../../src/results/motion';
+import { axesInWords, axesSentence, namedArrows } from '../../src/results/axes_words';
+
+const axes = (words: string, told: Axes['told'] = 'all', from: Axes['from'] = 'shape'): Axes => ({ directions: directionsFromWords(words) as Directions, from, told });
+
+/** A store with a model whose shape told something. */
+function bench(found: Axes) {
+  const store = new Store();
+  store.perform(setModel('tibia', { name: 'tray.stl', sha256: 't' }));
+  store.amend((doc) => withAxes(doc, 'tibia', found));
+  return { store, now: () => store.doc.components.tibia.axes };
+}
+
+describe('axes of a component', () => {
+  it('are a person’s word once somebody said, and the shape’s again by undo', () => {
+    const { store, now } = bench(axes('x y z'));
+    store.perform(setAxes('tibia', axes('y z x', 'all', 'person')));
+    expect(now()).toMatchObject({ from: 'person' });
+    expect(store.state.history.past.at(-1)?.label).toBe('change the axes of the tibia');
+    store.undo();
+    expect(now()).toMatchObject({ from: 'shape' });
+    store.redo();
+    expect(wordsOf(now()!.directions)).toEqual(['y', 'z', 'x']);
+  });
+
+  it.each([['as shown', ['x', 'y', 'z']], ['the other way', ['-x', 'y', '-z']]] as const)('the front is told by a person: %s', (front, words) => {
+    const { store, now } = bench(axes('x y z', 'not the front'));
+    store.perform(setAxes('tibia', withFront(now()!, front)));
+    expect(now()).toMatchObject({ from: 'person', told: 'all' });
+    expect(wordsOf(now()!.directions)).toEqual(words);
+  });
+
+  it('are found again for another model, but those that a study said of one that was still to come stay', () => {
+    const { store, now } = bench(axes('x y z', 'all', 'person'));
+    store.perform(setModel('tibia', { name: 'other.stl', sha256: 'o' }));
+    expect(now()).toBeNull();
+    store.perform(setAxes('femur', axes('y z x', 'all', 'study')));
+    store.perform(setModel('femur', { name: 'femur.stl', sha256: 'f' }));
+    expect(store.doc.components.femur.axes?.from).toBe('study');
+  });
+});
+
+describe('axes in words', () => {
+  it.each([
+    ['unknown', 'x anterior, y superior, z right'],
+    ['right', 'x anterior, y superior, z lateral'],
+    ['left', 'x anterior, y superior, \u2212z lateral'],
+  ] as const)('of a knee whose side is %s', (side, words) => {
+    expect(axesInWords(directionsFromWords('x y z')!, side)).toBe(words);
+  });
+
+  it('say who said so, and ask what is not told', () => {
+    expect(axesSentence(axes('x y z', 'all', 'study'), 'femur', 'right', true)).toBe('X anterior, y superior, z lateral; as the study file says.');
+    expect(axesSentence(axes('x y z', 'not the front'), 'tibia', 'right', true)).toMatch(/or the other way round: its shape does not tell front from back/);
+    expect(namedArrows(axes('x y z', 'not the front'), 'right').map(({ name }) => name)).toEqual(['anterior?', 'superior', 'lateral?']);
+    expect(namedArrows(axes('x y z', 'no signs'), 'right')).toEqual([]);
+  });
+});
+
+describe('the joint’s motion', () => {
+  const both = (femur: Axes | null, tibia: Axes | null) => {
+    const store = new Store();
+    store.perform(setSide('left'));
+    store.amend((doc) => withAxes(withAxes(doc, 'femur', femur), 'tibia', tibia));
+    return store.doc;
+  };
+
+  it('asks for what is not told instead of guessing', () => {
+    expect(motionNeeds(both(axes('x y z'), axes('x y z', 'not the front')))).toEqual({ what: 'front', component: 'tibia' });
+    expect(motionNeeds(both(axes('x y z', 'nothing'), axes('x y z')))).toEqual({ what: 'axes', component: 'femur' });
+    expect(motionNeeds(both(axes('x y z'), axes('x y z')))).toEqual({ what: 'poses' });
+    expect(jointMotion(both(axes('x y z'), axes('x y z', 'not the front')), () => { throw new Error('not asked'); })).toEqual([]);
+  });
+});

@@ -1,0 +1,56 @@
+import { describe, expect, it } from 'vitest';
+import { componentIn, readStudy, takeStudy } from '../../src/exchange/study_file';
+import { Store } from '../../src/document/store';
+import { wordsOf } from '../../src/geometry/axes';
+
+const STUDY = `
+# a comment
+name = "my study"
+side = "left"
+calibration = "calibration.txt"
+[[component]]
+name = "fem size 4"
+model = "cad/femur.stl"
+reference = "femur.jts"
+masks.hand = "masks/femur"
+axes = "y z x"
+[[component]]
+name = "insert"
+role = "tibia"
+model = "tray.stl"
+nominal = [5.0, -90]
+distance_mm = 1080.0
+[[component]]
+name = "patella"
+model = "patella.stl"
+`;
+
+describe('a study file', () => {
+  it('says which file is what, and what is known of the models; undone in one step', () => {
+    const study = readStudy(STUDY);
+    expect(componentIn(study, 'model', 'femur.stl')).toBe('femur');
+    expect(componentIn(study, 'model', 'tray.stl')).toBe('tibia');
+    expect(componentIn(study, 'model', 'patella.stl')).toBeUndefined();
+    expect(componentIn(study, 'reference', 'femur.jts')).toBe('femur');
+    const store = new Store();
+    store.perform(takeStudy(study, 'study.toml'));
+    const { name, side, components } = store.doc;
+    expect([name, side]).toEqual(['my study', 'left']);
+    expect(components.femur.axes).toMatchObject({ from: 'study', told: 'all' });
+    expect(wordsOf(components.femur.axes!.directions)).toEqual(['y', 'z', 'x']);
+    expect(components.tibia.axes).toBeNull();
+    expect(components.tibia.librarySpec).toMatchObject({ views: 'window', nominalX: 5, nominalY: -90, distance: 1080 });
+    store.undo();
+    expect(store.doc.components.femur.axes).toBeNull();
+    expect(store.doc.side).toBe('unknown');
+  });
+
+  it.each([
+    ['axes = "y z x"', 'axes = "y x z"', /the axes of the femur, "y x z", are not three/],
+    ['side = "left"', 'side = "west"', /^study\.side should be "left" or "right"/],
+    ['side = "left"', 'side = left', /^it is not read as a study: Invalid TOML/],
+    ['distance_mm = 1080.0', 'distance_mm = "far"', /^study\.component\[1\]\.distance_mm should be a finite number/],
+  ])('is refused with its place: %s as %s', (from, to, sentence) => {
+    expect(() => readStudy(STUDY.replace(from, to))).toThrow(sentence);
+  });
+});
