@@ -81,7 +81,7 @@ async function nudges(page, stage) {
     const angles = /** @type {const} */ (['zRot', 'xRot', 'yRot']);
     for (const other of angles) if (other !== field) assert.equal(after[other], before[other], `${keys} leaves ${other}`);
   }
-  await page.getByText('Set by hand; the page does not change it.').first().waitFor();
+  await byHand(page).waitFor();
   await screenshot(page, 'hand');
 }
 
@@ -200,7 +200,7 @@ async function outlineStays(page, stage) {
   await atRest(page);
   const shown = await panel.shownPose(page);
   for (const [field] of FIELDS) assert.equal(shown?.[field], own[field], `${field} stays`);
-  await page.getByRole('radio', { name: 'By hand candidate', checked: true }).waitFor();
+  await byHand(page).waitFor();
 }
 
 /** @param {Page} page @param {Pose} truth @param {import('node:test').TestContext} t */
@@ -251,7 +251,7 @@ async function session(page) {
   await drop(page, saved);
   await panel.waitForWords(page, /^Opened the session/);
   await panel.waitForThePose(page, /** @type {Pose} */ (before));
-  await page.getByRole('radio', { name: 'By hand candidate', checked: true }).waitFor();
+  await byHand(page).waitFor();
 }
 
 /** @param {Page} page @param {Pose} truth @param {import('node:test').TestContext} t */
@@ -263,7 +263,7 @@ async function dropped(page, truth, t) {
   t.diagnostic(`found from the outline: ${panel.differences(pose, truth)}`);
   panel.assertNear(pose, truth, HAND_TRACED);
   await page.keyboard.press('Control+z');
-  await page.getByRole('radio', { name: 'By hand candidate', checked: true }).waitFor();
+  await byHand(page).waitFor();
 }
 
 /** @param {Page} page @param {Stage} stage */
@@ -282,6 +282,11 @@ async function placed(page, stage) {
   // In the middle of the frame, where the model was placed.
   await page.mouse.dblclick(...stage.toPage([512, 512]));
   await page.getByRole('button', { name: 'Adjust pose', pressed: true }).waitFor();
+}
+
+/** What the pose card says of a pose that somebody set. @param {Page} page */
+function byHand(page) {
+  return page.getByRole('region', { name: 'Pose numbers' }).getByText(/Set by hand; the page does not change it\.$/);
 }
 
 /** Pixels, from the demonstration's calibration. */

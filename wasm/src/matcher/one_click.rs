@@ -27,7 +27,7 @@ use crate::choice::{Chosen, Surroundings};
 use crate::exchange::simplified;
 use crate::found::{Candidate, Match, deviation_numbers};
 use crate::working_model::Assessed;
-use answer::told;
+use answer::{FAIR, told};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -296,6 +296,7 @@ impl OneClick {
                 matcher.assess_on(&answer.refined, CameraView::only(camera, target))
             })
         })?;
+        let assessed = supported(assessed, answer.support.fraction);
         let pose = &answer.refined.pose;
         let (view, at_border) = matcher.view_of(pose)?;
         Ok(Candidate {
@@ -398,6 +399,15 @@ fn contender(answer: &Answer) -> Contender {
         pose: answer.refined.pose,
         residual_px: misfit(answer),
     }
+}
+
+/// What else lies near an outline is no counterpart where only a little of its length lies on strong edges of the right
+/// polarity.
+fn supported(mut assessed: Assessed, part: f64) -> Assessed {
+    if part < FAIR {
+        assessed.fit.met = assessed.fit.met.min(part);
+    }
+    assessed
 }
 
 /// By what answers are compared, as the finder compares its candidates: it counts outline that lies on no edge.

@@ -60,7 +60,16 @@ function readText(file: OutlineFile): ReturnType<typeof readCoco> {
 function subjectsOf(items: readonly ProposedItem[], selected: ComponentName): Record<string, ComponentName | null> {
   const subjects = [...new Set(items.map(({ subject }) => subject))];
   const only = subjects.length === 1 ? selected : null;
-  return Object.fromEntries(subjects.map((subject) => [subject, componentNamed(subject) ?? only]));
+  const taken = new Set<ComponentName>();
+  return Object.fromEntries(
+    subjects.map((subject) => {
+      const component = componentNamed(subject) ?? only;
+      // Of several sources of masks of one component the first is proposed, and a person may choose another.
+      const isFree = component !== null && !taken.has(component);
+      if (isFree) taken.add(component);
+      return [subject, isFree ? component : null];
+    }),
+  );
 }
 
 // --- Masks --------------------------------------------------------------------------------------------------------
@@ -92,11 +101,12 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
 }
 
 function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPage }[], remarks: string[]): ProposedItem[] {
+  const subjectOf = subjectsByFolder(pages.map(({ file }) => pathOf(file)));
   const several = pages.some(({ page }) => page.labels.length > 1);
   const places = new Map<string, number>();
   return pages.flatMap(({ file, name, page }) => {
     if (page.labels.length === 0) remarks.push(texts.exchange.emptyMask(name));
-    const folder = componentNamed(pathOf(file)) ?? texts.exchange.unnamed;
+    const folder = subjectOf(pathOf(file));
     return page.labels.map((label) => {
       const subject = several ? texts.exchange.value(label.value) : folder;
       const order = places.get(subject) ?? 0;
@@ -115,6 +125,24 @@ function itemsOf(pages: readonly { file: OutlineFile; name: string; page: MaskPa
       };
     });
   });
+}
+
+/** What masks are of, by their paths: the component, or the folder where one component has masks in several. */
+function subjectsByFolder(paths: readonly string[]): (path: string) => string {
+  const folderOf = (path: string) => path.split('/').slice(0, -1).slice(-2).join('/');
+  const folders = new Map<ComponentName, Set<string>>();
+  for (const path of paths) {
+    const component = componentNamed(path);
+    if (component) folders.set(component, (folders.get(component) ?? new Set()).add(folderOf(path)));
+  }
+  return (path) => {
+    const component = componentNamed(path);
+    if (!component) return texts.exchange.unnamed;
+    const folder = folderOf(path);
+    // A folder's name that says nothing of the component would be taken for none.
+    const tells = componentNamed(folder) === component && (folders.get(component)?.size ?? 0) > 1;
+    return tells ? folder : component;
+  };
 }
 
 function notesOf({ specks, holes, differing, area }: MaskLabel): string[] {

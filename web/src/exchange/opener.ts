@@ -27,8 +27,9 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
   const failed: string[] = [];
+  const leftOut: string[] = [];
   const study = await studyAmong(all, failed);
-  const recognised = study ? study.sorted(all, failed) : all;
+  const recognised = study ? study.sorted(all, leftOut) : all;
   for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
     const sentence = await mismatchOf(services, file);
     if (sentence) failed.push(sentence);
@@ -45,9 +46,9 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
   if (study) opened.push(study.take(services));
-  if (strangers.length > 0) failed.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
+  if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
-  tell(services, opened, failed);
+  tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
 }
@@ -57,7 +58,7 @@ const LATER: readonly FileKind[] = ['frames', 'poses', 'study', 'video'];
 
 /** A study among other files says which of them is what; what it tells of the models is taken once they are here. */
 interface StudyAmongFiles {
-  readonly sorted: (files: readonly Recognised[], failed: string[]) => readonly Recognised[];
+  readonly sorted: (files: readonly Recognised[], leftOut: string[]) => readonly Recognised[];
   readonly take: (services: Services) => string;
 }
 
@@ -73,12 +74,12 @@ async function studyAmong(files: readonly Recognised[], failed: string[]): Promi
     return null;
   }
   return {
-    sorted: (all, failed) => {
+    sorted: (all, leftOut) => {
       const meant = all.map((one) => ({ ...one, component: one.component ?? (one.kind === 'model' ? componentIn(study, 'model', one.name) : componentIn(study, 'reference', one.name)) }));
       // Where the study names its reference, files of poses beside it are those of other methods.
       const hasReference = meant.some(({ kind, name }) => kind === 'poses' && componentIn(study, 'reference', name));
       const others = hasReference ? meant.filter(({ kind, name }) => kind === 'poses' && !componentIn(study, 'reference', name)) : [];
-      if (others.length > 0) failed.push(texts.study.otherPoses(others.length, fewNames(others)));
+      if (others.length > 0) leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
       return meant.filter((one) => !others.includes(one));
     },
     take: ({ store }) => {
@@ -198,8 +199,10 @@ function named(name: string, sentence: string): string {
   return sentence.startsWith(name) ? sentence : texts.said.of(name, sentence);
 }
 
-function tell({ store }: Services, opened: readonly string[], failed: readonly string[]): void {
-  if (opened.length > 0) store.say('info', texts.said.opened(opened.join(', ')));
+/** What was left out of a folder is news, no error: nobody asked for it. */
+function tell({ store }: Services, opened: readonly string[], failed: readonly string[], leftOut: readonly string[] = []): void {
+  const news = [...(opened.length > 0 ? [texts.said.opened(opened.join(', '))] : []), ...leftOut];
+  if (news.length > 0) store.say(opened.length > 0 ? 'info' : 'error', news.join(' '));
   for (const sentence of failed) store.say('error', sentence);
 }
 

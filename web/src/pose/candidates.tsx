@@ -5,54 +5,46 @@ import { useApp } from '../commands/app';
 import { grouped } from '../texts/numbers';
 import { isRefined, type Candidate, type Cell, type Posed } from '../document/types';
 
-/** Of poses that were not found by matching and refining. */
-function nameOf(result: Posed | null, index: number): string | null {
-  const candidate = result?.candidates[index];
-  if (!result || !candidate) return null;
-  if (result.from === 'file') return texts.panel.candidates.loaded;
-  if (result.from === 'hand') return texts.hand.candidate;
-  return isPicked(result, candidate) ? texts.hand.view : null;
-}
-
-/** The score, and the rival pose where there is one: ambiguity is a visible choice. */
-export function Candidates({ cell }: { cell: Cell }) {
+/** The score of a pose that was found from an outline, and the rival where there is one: ambiguity is a visible choice. */
+export function Candidates({ cell: { outline }, result }: { cell: Cell; result: Posed }) {
   const { actions, poser } = useApp();
   const words = texts.panel.candidates;
-  const result = cell.result?.kind === 'posed' ? cell.result : null;
-  const findings = poser.findings(cell.outline);
+  const findings = poser.findings(outline);
   const area = findings?.canonicalArea ?? 0;
-  const chosen = result?.candidates[result.chosen] ?? null;
-  const beyondBorder = chosen !== null && (poser.detail(cell.outline, chosen)?.atBorder ?? false);
+  const chosen = result.candidates[result.chosen] ?? null;
+  const beyondBorder = chosen !== null && (poser.detail(outline, chosen)?.atBorder ?? false);
+  const isProvisional = isFollowing(result, findings) || !isRefined(result);
   return (
     <section class="card candidates" aria-label={words.region}>
-      <div class="number score">
-        <span class="label">{words.unmatched}</span>
-        <span class="value" role="group" aria-label={scoreName(result, findings)}>
-          {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
-        </span>
-        <span class="unit">{words.of(area > 0 ? grouped(area) : null)}</span>
-      </div>
+      {(chosen?.unmatched != null || isProvisional) && (
+        <div class="number score">
+          <span class="label">{words.unmatched}</span>
+          <span class="value" role="group" aria-label={scoreName(result, findings)}>
+            {chosen?.unmatched == null ? '–' : grouped(chosen.unmatched)}
+          </span>
+          <span class="unit">{words.of(area > 0 ? grouped(area) : null)}</span>
+        </div>
+      )}
       <div class="rivals" role="radiogroup" aria-label={words.list}>
-        {words.names.slice(0, Math.max(2, result?.candidates.length ?? 0)).map((name, index) => (
+        {result.candidates.map((candidate, index) => (
           <CandidateButton
-            key={name}
+            key={index}
             index={index}
-            name={nameOf(result, index) ?? name}
-            candidate={result?.candidates[index] ?? null}
-            chosen={result !== null && result.chosen === index}
-            onChoose={() => result && result.chosen !== index && actions.chooseCandidate(index)}
+            name={isPicked(result, candidate) ? texts.hand.view : (words.names[index] ?? String(index + 1))}
+            candidate={candidate}
+            chosen={result.chosen === index}
+            onChoose={() => result.chosen !== index && actions.chooseCandidate(index)}
           />
         ))}
       </div>
-      <p class="card-note">{result ? (beyondBorder ? words.atBorder : reason(result)) : ''}</p>
+      <p class="card-note">{beyondBorder ? words.atBorder : reason(result)}</p>
     </section>
   );
 }
 
 /** The score's name tells how far the pose has come. */
-function scoreName(result: Posed | null, findings: Findings | null): string {
+function scoreName(result: Posed, findings: Findings | null): string {
   const words = texts.panel.candidates;
-  if (result?.from !== 'outline') return words.unmatchedPixels;
   if (isFollowing(result, findings)) return words.follows;
   if (isRefined(result)) return words.refined;
   return findings?.refusal ? words.ofLibrary : words.beingRefined;
@@ -61,13 +53,13 @@ function scoreName(result: Posed | null, findings: Findings | null): string {
 interface CandidateButtonProps {
   readonly index: number;
   readonly name: string;
-  readonly candidate: Candidate | null;
+  readonly candidate: Candidate;
   readonly chosen: boolean;
   readonly onChoose: () => void;
 }
 
 function CandidateButton({ index, name, candidate, chosen, onChoose }: CandidateButtonProps) {
-  const { pose } = candidate ?? {};
+  const { pose } = candidate;
   return (
     <button
       type="button"
@@ -76,14 +68,13 @@ function CandidateButton({ index, name, candidate, chosen, onChoose }: Candidate
       aria-checked={chosen}
       aria-label={texts.panel.candidates.candidate(name)}
       aria-keyshortcuts="X"
-      disabled={!candidate}
       title={index > 0 ? texts.panel.candidates.rivalTitle : texts.panel.candidates.bestTitle}
       onClick={onChoose}
     >
       <span>{name}</span>
-      <span class="rival-score">{candidate ? scoreOf(candidate) : '–'}</span>
-      <span class="rival-pose">{pose ? texts.panel.candidates.rotations(degrees(pose.xRot), degrees(pose.yRot)) : texts.panel.candidates.none}</span>
-      <span class="rival-pose">{candidate?.drawn == null ? '' : texts.panel.candidates.drawn(grouped(candidate.drawn))}</span>
+      <span class="rival-score">{scoreOf(candidate)}</span>
+      <span class="rival-pose">{texts.panel.candidates.rotations(degrees(pose.xRot), degrees(pose.yRot))}</span>
+      <span class="rival-pose">{candidate.drawn === null ? '' : texts.panel.candidates.drawn(grouped(candidate.drawn))}</span>
     </button>
   );
 }
@@ -98,10 +89,9 @@ function scoreOf({ residual, unmatched }: Candidate): string {
 const DECISIVE = 1.3;
 
 /** Why the first candidate comes first. */
-function reason({ from, candidates, chosen, reason: stated }: Posed): string {
+function reason({ candidates, chosen, reason: stated }: Posed): string {
   const [best, rival] = candidates;
-  if (from === 'hand') return stated ?? texts.hand.source;
-  if (from === 'file' || !best) return '';
+  if (!best) return '';
   if (chosen !== 0) return texts.panel.candidates.byHand;
   if (stated !== null) return rival ? texts.panel.candidates.compares(stated) : stated;
   if (!rival) return texts.panel.candidates.alone;

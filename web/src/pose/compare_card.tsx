@@ -16,10 +16,12 @@ export function CompareCard({ state }: { state: State }) {
   const turn = comparing && own && other ? ` · ${words.rotation(turnBetween(own, other).toFixed(2))}` : '';
   return (
     <section class="card compare" aria-label={words.region}>
-      <button type="button" class="button small" aria-pressed={comparing} aria-keyshortcuts="Q" disabled={!reference} title={words.showTitle} onClick={() => hand.toggleCompare()}>
-        {words.show}
-      </button>
-      <span class="compare-with">{reference ? `${words.with(reference.name)}${other ? turn : ` · ${words.noneHere}`}` : ''}</span>
+      {reference && (
+        <button type="button" class="button small" aria-pressed={comparing} aria-keyshortcuts="Q" title={words.showTitle} onClick={() => hand.toggleCompare()}>
+          {words.show}
+        </button>
+      )}
+      {reference && <span class="compare-with">{`${words.with(reference.name)}${other ? turn : ` · ${words.noneHere}`}`}</span>}
       <button type="button" class="button small" title={words.keepTitle} disabled={!own} onClick={() => hand.keepReference()}>
         {words.keep}
       </button>

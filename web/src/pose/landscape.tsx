@@ -18,7 +18,7 @@ export function Landscape({ state }: { state: State }) {
   const byHand = result?.kind === 'posed' && result.from !== 'outline';
   return (
     <section class="card landscape" aria-label={words.region}>
-      {facts ? <Chart facts={facts} takable={!byHand} /> : <div class="landscape-empty" />}
+      {facts ? <Chart facts={facts} takable={!byHand} /> : outline?.closed && <div class="landscape-empty" />}
       <p class="card-note">{refusal ?? (facts ? (byHand ? words.byHand : summary(facts)) : outline?.closed ? words.working : words.none)}</p>
     </section>
   );

@@ -45,7 +45,7 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
           ))}
         </dl>
       )}
-      <div class={pose ? 'pose-note posed' : 'pose-note'}>
+      <div class={pose && cell.result?.kind === 'posed' && cell.result.from !== 'file' ? 'pose-note posed' : 'pose-note'}>
         <VerdictLine result={cell.result} />
         <p class="card-note">{pose ? source : needs(cell, missing)}</p>
       </div>
@@ -130,7 +130,7 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
 function sourceOf(cell: Cell, findings: Findings | null): string {
   if (cell.result?.kind !== 'posed') return '';
   if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
-  if (cell.result.from === 'hand') return texts.hand.source;
+  if (cell.result.from === 'hand') return [cell.result.reason, texts.hand.source].filter((part) => part !== null).join(' ');
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
   const words = texts.panel.pose;
   if (residual !== null && isFollowing(cell.result, findings)) return words.follows(residual.toFixed(2));

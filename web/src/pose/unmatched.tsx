@@ -28,6 +28,13 @@ export function Unmatched({ state }: { state: State }) {
     if (picture) services.studio.paintUnmatched(context, picture);
     else context.clearRect(0, 0, SIZE, SIZE);
   }, [picture, services]);
+  if (!matched) {
+    return (
+      <section class="card unmatched" aria-label={texts.panel.unmatched.region}>
+        <p class="card-note">{texts.panel.unmatched.none}</p>
+      </section>
+    );
+  }
   return (
     <section class="card unmatched" aria-label={texts.panel.unmatched.region}>
       <canvas
@@ -35,7 +42,7 @@ export function Unmatched({ state }: { state: State }) {
         width={picture?.size ?? SIZE}
         height={picture?.size ?? SIZE}
         role="img"
-        aria-label={picture ? texts.panel.unmatched.picture : texts.panel.unmatched.none}
+        aria-label={picture ? texts.panel.unmatched.picture : texts.panel.unmatched.working}
       />
       <p class="card-note">
         <span class="key-swatch" aria-hidden="true" /> {texts.panel.unmatched.differs}

@@ -22,6 +22,8 @@ export function Panel({ state }: { state: State }) {
   const frame = currentFrame(state);
   const { reference } = state.history.present;
   const posed = chosenCandidate(cell) !== null;
+  // Poses of a file or by hand have neither rivals nor a score.
+  const found = cell.result?.kind === 'posed' && cell.result.from === 'outline' ? cell.result : null;
   return (
     <aside class={`panel ${component}`} aria-label={texts.panel.region}>
       <div class="switch" role="radiogroup" aria-label={texts.panel.component}>
@@ -43,7 +45,7 @@ export function Panel({ state }: { state: State }) {
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
       <ComponentNotes state={state} />
       {(posed || reference) && <CompareCard state={state} />}
-      {posed && <Candidates cell={cell} />}
+      {found && <Candidates cell={cell} result={found} />}
       {isPictured(state, cell) && <Pictures state={state} />}
       <Display state={state} />
       <div class="panel-foot">

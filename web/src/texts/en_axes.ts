@@ -7,9 +7,9 @@ export const axes = {
   turned: (anterior: string, superior: string, other: string, third: string) => `anterior ${anterior}, superior ${superior}, ${third} ${other}`,
   lateral: 'lateral',
   right: 'right',
-  from: { shape: 'as its shape tells', person: 'as you said', study: 'as the study file says' },
-  sentence: (words: string, from: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}; ${from}.`,
-  notTheFront: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}, or the other way round: its shape does not tell front from back.`,
+  from: { shape: 'Found from its shape', person: 'As you said', study: 'As the study file says' },
+  sentence: (words: string, from: string) => `${from}: ${words}.`,
+  notTheFront: (words: string) => `Found from its shape: ${words}, or facing the other way. Its shape does not tell front from back.`,
   unsigned: {
     femur: 'Its shape tells its mediolateral line alone. Which of the file’s axes are anterior and superior?',
     tibia: 'Its shape tells the lines of its axes, not which way they go. Which of the file’s axes are anterior and superior?',

@@ -47,7 +47,6 @@ export const hand = {
     `Refined from the pose set by hand, against the ${bright ? 'bright' : 'dark'} edges of the frame: ${residual} px.`,
   held: (names: string) => `Held: ${names}.`,
   source: 'Set by hand; the page does not change it.',
-  candidate: 'By hand',
   view: 'View',
   hints: {
     absent: (component: string) => `No pose of the ${component} here: click where it is, or press Enter, to place the model.`,

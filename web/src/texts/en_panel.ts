@@ -48,7 +48,6 @@ export const panel = {
   candidates: {
     region: 'Score and candidates',
     unmatched: 'Unmatched',
-    unmatchedPixels: 'Unmatched pixels',
     refined: 'Unmatched pixels, pose refined',
     ofLibrary: 'Unmatched pixels, pose of the library',
     beingRefined: 'Unmatched pixels, pose of the library, being refined',
@@ -57,12 +56,10 @@ export const panel = {
     list: 'Candidate poses',
     /** Best first. */
     names: ['Best', 'Rival', 'Third', 'Fourth'],
-    loaded: 'Loaded',
     candidate: (name: string) => `${name} candidate`,
     rivalTitle: 'Another pose that explains the outline nearly as well (X switches)',
     bestTitle: 'The pose that was chosen; the reason stands below (X switches)',
     rotations: (x: string, y: string) => `x ${x}, y ${y}`,
-    none: 'none',
     pixels: (count: string) => `${count} px`,
     drawn: (count: string) => `${count} px drawn`,
     atBorder:
@@ -78,7 +75,8 @@ export const panel = {
   unmatched: {
     region: 'Unmatched pixels in the canonical frame',
     picture: 'Outline and library view in canonical form, black where they differ',
-    none: 'No match to show',
+    none: 'Poses that are found from an outline have a match to show.',
+    working: 'No picture of the match yet',
     differs: 'differs',
     partial: (milliseconds: string) => `from a part of the outline · ${milliseconds} ms`,
     clipped: (milliseconds: string) => `cut at the border · ${milliseconds} ms`,

@@ -56,8 +56,8 @@ describe('axes in words', () => {
   });
 
   it('say who said so, and ask what is not told', () => {
-    expect(axesSentence(axes('x y z', 'all', 'study'), 'femur', 'right', true)).toBe('X anterior, y superior, z lateral; as the study file says.');
-    expect(axesSentence(axes('x y z', 'not the front'), 'tibia', 'right', true)).toMatch(/or the other way round: its shape does not tell front from back/);
+    expect(axesSentence(axes('x y z', 'all', 'study'), 'femur', 'right', true)).toBe('As the study file says: x anterior, y superior, z lateral.');
+    expect(axesSentence(axes('x y z', 'not the front'), 'tibia', 'right', true)).toMatch(/or facing the other way\. Its shape does not tell front from back/);
     expect(namedArrows(axes('x y z', 'not the front'), 'right').map(({ name }) => name)).toEqual(['anterior?', 'superior', 'lateral?']);
     expect(namedArrows(axes('x y z', 'no signs'), 'right')).toEqual([]);
   });

@@ -5,9 +5,9 @@ use wasm_bindgen::prelude::*;
 
 use crate::found::Match;
 
-/// Shares of the outline on edges from which an answer is good, and fair.
+/// Parts of the outline on edges from which an answer is good, and fair.
 const GOOD: f64 = 0.85;
-const FAIR: f64 = 0.65;
+pub(super) const FAIR: f64 = 0.65;
 
 /// What came of a click or a box: candidates, the chosen one first. Asked beyond `count`, the methods answer nothing.
 #[wasm_bindgen]
@@ -82,9 +82,9 @@ pub(super) fn told(supports: &[f64]) -> String {
     };
     let rivals = match supports.len() {
         0 | 1 => String::new(),
-        2 => " Another pose explains the film nearly as well.".to_owned(),
+        2 => " Another pose explains the frame nearly as well.".to_owned(),
         count => format!(
-            " {} other poses explain the film nearly as well.",
+            " {} other poses explain the frame nearly as well.",
             count - 1
         ),
     };
@@ -99,7 +99,7 @@ mod tests {
     fn a_sentence_tells_how_sure_it_is_and_of_rivals() {
         let good = "The model's outline lies on edges along 94 % of its length.";
         assert_eq!(told(&[0.936]), good);
-        assert!(told(&[0.936, 0.9]).ends_with(" Another pose explains the film nearly as well."));
+        assert!(told(&[0.936, 0.9]).ends_with(" Another pose explains the frame nearly as well."));
         assert!(told(&[0.7]).ends_with(" Check it before you go on."));
         assert!(told(&[0.4]).contains("correct it or click elsewhere"));
     }

@@ -1,4 +1,4 @@
-import { CanvasTexture, Color, ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Quaternion, Sprite, SpriteMaterial, Vector3 } from 'three';
+import { type Camera, CanvasTexture, Color, ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, Quaternion, Sprite, SpriteMaterial, Vector3 } from 'three';
 import type { Vector } from '../../geometry/pose_motion';
 import type { ComponentName } from '../../terms/component';
 import { COMPONENT_COLOURS } from '../../controls/colours';
@@ -11,9 +11,9 @@ export interface Arrow {
 }
 
 /** Parts of an arrow's length, and of its name's height. */
-const THICKNESS = 0.012;
-const HEAD = 0.14;
-const LETTERS = 0.2;
+const THICKNESS = 0.018;
+const HEAD = 0.16;
+const LETTERS = 0.28;
 
 /** Arrows and their names lie over everything: what they say holds of a part's back, too. */
 const ON_TOP = { depthTest: false, depthWrite: false, transparent: true };
@@ -21,6 +21,7 @@ const ON_TOP = { depthTest: false, depthWrite: false, transparent: true };
 /** Arrows of a model as long as its radius and a little more. */
 export function arrowsOf(arrows: readonly Arrow[], middle: Vector, radius: number, component: ComponentName): Group {
   const group = new Group();
+  group.userData['middle'] = middle;
   const length = 1.15 * radius;
   const color = new Color(COMPONENT_COLOURS[component].light);
   for (const { direction, name } of arrows) {
@@ -68,6 +69,20 @@ function nameSprite(name: string, height: number): Sprite {
   sprite.scale.set((height * width) / canvas.height, height, 1);
   sprite.renderOrder = 2;
   return sprite;
+}
+
+/** Cosine between an arrow and the line of sight from which its name is left out. */
+const AT_THE_EYE = 0.94;
+
+export function hideNamesTowards(group: Group, eye: Camera): void {
+  const sight = eye.getWorldDirection(new Vector3());
+  const [middle, tip] = [new Vector3(), new Vector3()];
+  for (const part of group.children) {
+    if (!(part instanceof Sprite)) continue;
+    middle.fromArray(group.userData['middle'] as Vector).applyMatrix4(group.matrix);
+    tip.copy(part.position).applyMatrix4(group.matrix);
+    part.visible = Math.abs(tip.sub(middle).normalize().dot(sight)) < AT_THE_EYE;
+  }
 }
 
 /** What the graphics card holds of them. */

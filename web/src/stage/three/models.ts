@@ -1,6 +1,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
+  type Camera,
   Color,
   DirectionalLight,
   DoubleSide,
@@ -11,7 +12,7 @@ import {
   MeshPhongMaterial,
   Scene,
 } from 'three';
-import { arrowsOf, letGo, type Arrow } from './arrows';
+import { arrowsOf, hideNamesTowards, letGo, type Arrow } from './arrows';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { ModelMesh } from '../../workers/protocol/decode';
@@ -68,6 +69,11 @@ export class ModelScene {
     const group = this.#arrows.get(component)?.group;
     group?.matrix.copy(matrix);
     if (group) group.matrixWorldNeedsUpdate = true;
+  }
+
+  /** A name whose arrow points at the eye, or away from it, would lie on the model. */
+  faceEye(eye: Camera): void {
+    for (const { group } of this.#arrows.values()) hideNamesTowards(group, eye);
   }
 
   #dropArrows(component: ComponentName): void {

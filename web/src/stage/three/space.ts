@@ -85,6 +85,7 @@ export class SpaceView {
       this.#renderer.setSize(width, height, false);
       this.#camera.aspect = width / height;
       this.#camera.updateProjectionMatrix();
+      this.#models.faceEye(this.#camera);
       this.#renderer.render(this.#models.scene, this.#camera);
     });
   }
