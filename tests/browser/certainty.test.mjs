@@ -35,7 +35,7 @@ pageTest('how sure a pose is', async (page, t) => {
       const error = Math.abs(pose[field] - truth[field]);
       assert(error <= HARDLY_EVER * deviations[field] + panel.ROUNDING[field], `${field}: off by ${error}, ±${deviations[field]}`);
     }
-    assert.equal(await verdict(page), 'Good');
+    assert.equal(await panel.verdict(page), 'Good');
     await screenshot(page, 'plus-minus');
   });
 
@@ -52,6 +52,7 @@ pageTest('how sure a pose is', async (page, t) => {
 
   await step(page, t, 'the table of poses has the deviations and the reason', () => table(page));
   await step(page, t, 'an outline that nothing fits has no pose, and says why', () => refusal(page, stage));
+  await step(page, t, 'and what to do: it may be the other component’s, or be traced again', () => remedies(page));
 });
 
 /** @param {Page} page */
@@ -171,23 +172,36 @@ async function refusal(page, stage) {
   await stage.zoomTo(triangle);
   await stage.trace(triangle);
   await until(() => panel.cells(page), (cells) => cells.includes('Frame 2, tibia: no pose'), 'the refusal');
-  assert.match(await verdict(page), /^No pose: the outline does not fit this model from any side: \d+\.\d px, .* mirrored\?$/);
+  assert.match(await panel.verdict(page), /^No pose: the outline does not fit this model from any side: \d+\.\d px, .* mirrored\?$/);
   assert.equal(await panel.shownPose(page), null);
   await panel.waitForWords(page, /^The outline does not fit this model from any side/);
-  await page.getByRole('button', { name: 'Delete outline' }).and(page.locator(':enabled')).waitFor();
+  const cell = page.getByRole('button', { name: 'Frame 2, tibia: no pose' });
+  assert.match((await cell.getAttribute('title')) ?? '', /; The outline does not fit this model from any side/);
   await screenshot(page, 'no-pose');
   const jts = await downloaded(page, 'Save tibia poses');
   const rows = readJts(jts.buffer.toString());
   assert(Number.isFinite(rows[0].x) && Object.values(rows[1]).every(Number.isNaN), JSON.stringify(rows.slice(0, 2)));
+  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  const session = await downloaded(page, 'Save session file');
+  const { results } = JSON.parse(session.buffer.toString()).audit;
+  const verdicts = results.map((/** @type {any} */ { number, component, verdict, pose }) => [number, component, verdict?.word, pose !== null]);
+  assert.deepEqual(verdicts, [[1, 'femur', 'good', true], [1, 'tibia', 'good', true], [2, 'tibia', 'none', false]]);
   await page.getByRole('button', { name: 'Save session', exact: true }).click();
   const { buffer } = await downloaded(page, 'Tibia table (.csv)');
   assert.match(buffer.toString().split('\r\n')[2], /^2,0002\.png,{14}none,"The outline does not fit this model .*",,,,$/);
   await page.keyboard.press('Escape');
 }
 
-/** How far the pose is to be trusted, as the panel says it. @param {Page} page */
-async function verdict(page) {
-  return (await page.getByRole('group', { name: 'Verdict' }).innerText()).trim();
+/** @param {Page} page */
+async function remedies(page) {
+  const todo = page.getByRole('group', { name: 'What to do' });
+  await todo.getByRole('button', { name: 'It is the femur' }).click();
+  // A triangle is no femur either.
+  await until(() => panel.cells(page), (cells) => cells.includes('Frame 2, femur: no pose') && cells.includes('Frame 2, tibia: empty'), 'the outline to be the femur’s');
+  await page.getByRole('button', { name: 'Undo: give the outline to the femur' }).click();
+  await until(() => panel.cells(page), (cells) => cells.includes('Frame 2, femur: empty') && cells.includes('Frame 2, tibia: no pose'), 'it to be back');
+  await todo.getByRole('button', { name: 'Trace it again' }).click();
+  await until(() => panel.cells(page), (cells) => cells.includes('Frame 2, tibia: empty'), 'the outline to be gone');
 }
 
 /** How long the last answer took, as the panel says it. @param {Page} page */

@@ -218,6 +218,7 @@ async function onTheOutline(page, truth, t) {
   await until(() => numbers(page), (now) => now.z !== held.z, 'z to move');
   const found = await numbers(page);
   t.diagnostic(`held: ${panel.differences(held, truth)}; free: ${panel.differences(found, truth)}`);
+  assert.equal(await panel.verdict(page), 'Good');
   panel.assertNear(found, truth, HAND_TRACED);
 }
 
@@ -242,6 +243,9 @@ async function session(page) {
   const before = await panel.shownPose(page);
   await page.getByRole('button', { name: 'Save session', exact: true }).click();
   const saved = await downloaded(page, 'Save session file');
+  const { results } = JSON.parse(saved.buffer.toString()).audit;
+  const own = results.find((/** @type {any} */ { number, component }) => number === 1 && component === 'femur');
+  assert.deepEqual([own.method, own.verdict.word], ['by hand, refined', 'good']);
   await page.getByRole('application', { name: /outline$/ }).focus();
   await page.keyboard.press('a');
   await page.keyboard.press('ArrowRight');
@@ -276,6 +280,7 @@ async function placed(page, stage) {
   await panel.waitForWords(page, /^Placed in front of the camera/);
   const pose = await numbers(page);
   assert(pose.z < -500 && Math.abs(pose.x) < 200, `placed at ${JSON.stringify(pose)}`);
+  assert.match(await panel.verdict(page), /^Doubtful: /);
   await page.keyboard.press('Escape');
   await page.getByRole('button', { name: 'Edit points', pressed: true }).waitFor();
   await stage.learn();

@@ -28,6 +28,7 @@ pageTest('a new user with one click', async (page, t) => {
   assert(clicks < MOST_CLICKS, `${clicks} clicks`);
   assert(seconds < MOST_SECONDS, `${seconds} s`);
   assert((await panel.cells(page)).includes('Frame 1, femur: posed'));
+  assert.equal(await panel.verdict(page), 'Good');
   await page.getByRole('button', { name: 'Undo: outline by one click' }).click();
   await until(() => panel.shownPose(page), (shown) => shown === null, 'outline and pose to be gone together');
   await page.keyboard.press('Control+y');

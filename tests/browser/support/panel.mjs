@@ -104,6 +104,12 @@ export async function unmatched(page) {
   return Number(text.replace(/\s/g, ''));
 }
 
+/** How far the pose is to be trusted, once the panel says it. @param {Page} page */
+export async function verdict(page) {
+  await atRest(page);
+  return (await page.getByRole('group', { name: 'Verdict' }).innerText()).trim();
+}
+
 /** What the bottom line says. @param {Page} page */
 export function said(page) {
   return page.getByRole('contentinfo', { name: 'Status' }).getByRole('status').innerText();

@@ -31,15 +31,25 @@ export function withFront(axes: Axes, front: 'as shown' | 'the other way'): Axes
   return { directions, from: 'person', told: 'all' };
 }
 
-/** What speaks of front and back, left and right. */
+/** What speaks of front and back, left and right. Null while the shape is looked at, and where it does not tell. */
 export function knownAxes(component: Component): Directions | null {
+  if (isAssumed(component)) return OWN_AXES;
   return component.axes?.told === 'all' ? component.axes.directions : null;
 }
 
 /** The tilt asks for lines, not for directions. */
 export function tiltAxes(component: Component): Directions | null {
+  if (isAssumed(component)) return OWN_AXES;
   return component.axes && component.axes.told !== 'nothing' ? component.axes.directions : null;
 }
+
+/** Without a model there is no shape to ask: poses are taken in the field's axes, as the laboratory does, and that is said. */
+export function isAssumed({ model, axes }: Component): boolean {
+  return model === null && axes === null;
+}
+
+/** x anterior, y superior, z to the patient's right. */
+export const OWN_AXES: Directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 /** Choices between rivals may have rested on the tilt. What a person chose stays. */
 function withOpenChoices(doc: Doc): Doc {

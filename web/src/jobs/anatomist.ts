@@ -1,11 +1,11 @@
-import { withAxes } from '../document/axes';
+import { OWN_AXES, withAxes } from '../document/axes';
 import type { Axes } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Services } from './services';
 
-const NOTHING_TOLD: Axes = { directions: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], from: 'shape', told: 'nothing' };
+const NOTHING_TOLD: Axes = { directions: OWN_AXES, from: 'shape', told: 'nothing' };
 
 /** Sees to it that the axes of every model are known as far as its shape tells them. What somebody said stays. */
 export class Anatomist {

@@ -1,4 +1,6 @@
+import { isAssumed } from '../document/axes';
 import type { State } from '../document/store';
+import { cellOf, chosenCandidate, type Component } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
@@ -37,13 +39,22 @@ function RemarksCard({ state, component }: { state: State; component: ComponentN
   );
 }
 
+/** Poses of a component without a model are taken in their own axes, and that is said. */
+function questionOf(about: Component, isPosed: boolean): ((component: string) => string) | null {
+  const { cardText } = texts.axes;
+  if (isAssumed(about)) return isPosed ? cardText.assumed : null;
+  if (!about.axes || about.axes.told === 'all') return null;
+  return about.axes.told === 'not the front' ? cardText.front : cardText.axes;
+}
+
 /** Asked where the shape does not tell; nothing waits for the answer but what speaks of front and back. */
 function AxesCard({ state, component }: { state: State; component: ComponentName }) {
   const { store } = useApp().services;
-  const { axes } = state.history.present.components[component];
-  if (!axes || axes.told === 'all') return null;
+  const doc = state.history.present;
+  const about = doc.components[component];
   const words = texts.axes;
-  const say = axes.told === 'not the front' ? words.cardText.front : words.cardText.axes;
+  const say = questionOf(about, doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)) !== null));
+  if (!say) return null;
   return (
     <section class="card note" aria-label={words.card}>
       <p class="card-note">{say(texts.component[component])}</p>

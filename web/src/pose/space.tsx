@@ -6,7 +6,6 @@ import { rotationOf } from '../geometry/pose_motion';
 import { axesInWords, namedArrows } from '../results/axes_words';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
-import { middleOf } from '../commands/model_in_hand';
 import { placedModels } from '../stage/shading';
 import type { PlacedModel } from '../stage/three/models';
 import { drawingKey, turnByKey, useSpaceView } from './space_view';
@@ -25,8 +24,8 @@ export function Space({ state }: { state: State }) {
   const selected = models.find((model) => model.component === component) ?? models[0];
   const axes = selected ? doc.components[selected.component].axes : null;
   useEffect(() => {
-    if (view && selected) view.show(models, component, middleOf(selected.mesh));
-  }, [view, component, selected?.mesh, drawingKey(models)]);
+    view?.show(models);
+  }, [view, selected?.mesh, drawingKey(models)]);
   const words = texts.seeing.space;
   const look = (name: ViewName) => selected && view?.look(viewpointOf(name, rotationOf(selected.pose), axes?.told === 'all' ? axes.directions : null, doc.side));
   const told = axes?.told === 'all' ? axesInWords(axes.directions, doc.side) : '';

@@ -40,7 +40,7 @@ function shownWord(direction: Vector): string {
 /** A sentence or two: what the axes are, who said so, and what is not known of them. */
 export function axesSentence(axes: Axes | null, component: ComponentName, side: Side, hasModel: boolean): string {
   const words = texts.axes;
-  if (!axes) return hasModel ? words.finding : words.noModel;
+  if (!axes) return hasModel ? words.finding : words.assumed;
   switch (axes.told) {
     case 'all':
       return words.sentence(axesInWords(axes.directions, side), words.from[axes.from]);

@@ -37,7 +37,7 @@ export interface PlacedInJoint {
 type MotionOf = (femur: PlacedInJoint, tibia: PlacedInJoint, side: 'left' | 'right') => Motion;
 
 /** What is missing for the joint's motion: signs depend on the side of the body, everything on the axes of the models. */
-export type MotionNeeds = { readonly what: 'side' } | { readonly what: 'poses' } | { readonly what: 'front' | 'axes'; readonly component: ComponentName };
+export type MotionNeeds = { readonly what: 'side' | 'poses'; readonly component?: undefined } | { readonly what: 'front' | 'axes'; readonly component: ComponentName };
 
 export function motionNeeds(doc: Doc): MotionNeeds {
   for (const component of COMPONENT_NAMES) {
@@ -45,13 +45,7 @@ export function motionNeeds(doc: Doc): MotionNeeds {
     if (axes?.told === 'not the front') return { what: 'front', component };
     if (axes && axes.told !== 'all') return { what: 'axes', component };
   }
-  if (doc.side === 'unknown') return { what: 'side' };
-  const unread = COMPONENT_NAMES.find((component) => !knownAxes(doc.components[component]) && isPosed(doc, component));
-  return unread ? { what: 'axes', component: unread } : { what: 'poses' };
-}
-
-function isPosed(doc: Doc, component: ComponentName): boolean {
-  return doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)));
+  return { what: doc.side === 'unknown' ? 'side' : 'poses' };
 }
 
 /** Empty while the side of the body or the axes of a model are not known. */

@@ -60,7 +60,7 @@ function AxesPicture({ component, axes, mesh, side, sentence }: AxesPictureProps
   const placed: PlacedModel = { component, mesh, pose: fromTheRight(axes.directions, middle, AWAY), arrows: namedArrows(axes, side) };
   useEffect(() => {
     if (!view) return;
-    view.show([placed], component, middle);
+    view.show([placed]);
     view.look(viewpointOf('camera', rotationOf(placed.pose), null, side));
     // A little from above and from the front, so that all three are seen.
     view.turn(-25, 20);

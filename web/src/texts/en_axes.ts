@@ -16,9 +16,9 @@ export const axes = {
   },
   nothing: 'Its shape does not tell its axes. Which of the file’s axes are anterior and superior?',
   finding: 'They are being found from its shape.',
-  noModel: 'Its model’s shape tells them; without one, say them here.',
+  assumed: 'Without its model the file’s own are taken: x anterior, y superior, z right. Its model tells others, or say them here.',
   question: 'Which way is the front?',
-  asShown: 'As the arrow shows',
+  asShown: 'As shown',
   otherWay: 'The other way',
   anterior: 'Anterior',
   superior: 'Superior',
@@ -33,6 +33,7 @@ export const axes = {
   cardText: {
     front: (component: string) => `Which way is the front of the ${component}? Its shape does not tell; joint angles wait for it.`,
     axes: (component: string) => `Which way does the ${component} lie? Its shape does not tell; joint angles wait for it.`,
+    assumed: (component: string) => `No model of the ${component}: joint angles take its poses’ own axes, x anterior, y superior, z right.`,
   },
   look: 'Look and say',
   /** In place of the joint's curve. */

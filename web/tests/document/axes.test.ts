@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { setAxes, withAxes, withFront } from '../../src/document/axes';
+import { knownAxes, setAxes, withAxes, withFront } from '../../src/document/axes';
 import { setModel, setSide } from '../../src/document/commands';
 import { Store } from '../../src/document/store';
 import type { Axes } from '../../src/document/types';
@@ -75,6 +75,8 @@ describe('the joint’s motion', () => {
     expect(motionNeeds(both(axes('x y z'), axes('x y z', 'not the front')))).toEqual({ what: 'front', component: 'tibia' });
     expect(motionNeeds(both(axes('x y z', 'nothing'), axes('x y z')))).toEqual({ what: 'axes', component: 'femur' });
     expect(motionNeeds(both(axes('x y z'), axes('x y z')))).toEqual({ what: 'poses' });
+    expect(knownAxes(both(null, null).components.femur)).toEqual(axes('x y z').directions);
+    expect(axesSentence(null, 'femur', 'left', false)).toMatch(/^Without its model the file’s own are taken/);
     expect(jointMotion(both(axes('x y z'), axes('x y z', 'not the front')), () => { throw new Error('not asked'); })).toEqual([]);
   });
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { addFrames, chooseCandidate, withCell } from '../../src/document/commands';
+import { addFrames, chooseCandidate, setModel, withCell } from '../../src/document/commands';
 import type { Place } from '../../src/document/command';
 import { Store } from '../../src/document/store';
 import { type Axes, type Candidate, cellOf, type Outline, type Posed } from '../../src/document/types';
@@ -159,6 +159,8 @@ describe('surroundings', () => {
     store.perform(setAxes('femur', { ...AXES.femur, told: 'nothing' }));
     expect(round(store).counterpart).toBeNull();
     store.perform(setAxes('femur', AXES.femur));
+    // While the shape of its model is being looked at.
+    store.perform(setModel('tibia', { name: 'tray.stl', sha256: 't' }));
     store.perform(setAxes('tibia', null));
     expect(round(store).counterpart).toBeNull();
   });

@@ -115,7 +115,8 @@ export function radiusOf(mesh: ModelMesh): number {
   return geometryOf(mesh).boundingSphere?.radius ?? 1;
 }
 
-function middleOf(mesh: ModelMesh): Vector {
+/** The middle of that ball, in the model's own coordinates. */
+export function middleOf(mesh: ModelMesh): Vector {
   const { center } = geometryOf(mesh).boundingSphere ?? { center: { x: 0, y: 0, z: 0 } };
   return [center.x, center.y, center.z];
 }

@@ -1,8 +1,7 @@
 import { PerspectiveCamera, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import type { ComponentName } from '../../terms/component';
 import { inCamera, type Vector } from '../../geometry/pose_motion';
-import { ModelScene, radiusOf, type PlacedModel } from './models';
+import { middleOf, ModelScene, radiusOf, type PlacedModel } from './models';
 
 /** Where one looks from, with what is upwards there, in the camera's frame. */
 export interface Viewpoint {
@@ -21,7 +20,7 @@ export class SpaceView {
   readonly #camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 1, 10_000);
   readonly #controls: OrbitControls;
   readonly #canvas: HTMLCanvasElement;
-  #shown: ComponentName | null = null;
+  #isFirst = true;
   #radius = 50;
   #scheduled = 0;
 
@@ -34,18 +33,17 @@ export class SpaceView {
     this.#controls.addEventListener('change', () => this.#schedule());
   }
 
-  /** `middle` is that of the selected model, in its own coordinates. */
-  show(models: readonly PlacedModel[], selected: ComponentName, middle: Vector): void {
-    const model = models.find(({ component }) => component === selected) ?? models[0];
-    if (!model) return;
+  /** All of them are in sight, and turn about what lies between them. */
+  show(models: readonly PlacedModel[]): void {
+    if (models.length === 0) return;
     this.#models.show(models);
-    const target = new Vector3().fromArray(inCamera(model.pose, middle));
-    const moved = target.clone().sub(this.#controls.target);
+    const middles = models.map(({ mesh, pose }) => new Vector3(...inCamera(pose, middleOf(mesh))));
+    const target = middles.reduce((sum, middle) => sum.add(middle), new Vector3()).divideScalar(models.length);
+    this.#camera.position.add(target.clone().sub(this.#controls.target));
     this.#controls.target.copy(target);
-    this.#camera.position.add(moved);
-    this.#radius = radiusOf(model.mesh);
-    if (this.#shown === null) this.look(AS_THE_CAMERA);
-    this.#shown = selected;
+    this.#radius = Math.max(...models.map(({ mesh }, at) => radiusOf(mesh) + target.distanceTo(middles[at]!)));
+    if (this.#isFirst) this.look(AS_THE_CAMERA);
+    this.#isFirst = false;
     this.#controls.update();
     this.#schedule();
   }

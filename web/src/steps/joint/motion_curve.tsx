@@ -54,7 +54,7 @@ export function MotionCurve({ state }: { state: State }) {
 function MotionNeeds({ state }: { state: State }) {
   const { store } = useApp().services;
   const needs = motionNeeds(state.history.present);
-  if (needs.what === 'side' || needs.what === 'poses') return <p class="motion-empty">{needs.what === 'side' ? texts.motion.needsSide : texts.motion.needsBoth}</p>;
+  if (needs.component === undefined) return <p class="motion-empty">{needs.what === 'side' ? texts.motion.needsSide : texts.motion.needsBoth}</p>;
   const { what, component } = needs;
   return (
     <p class="motion-empty">
