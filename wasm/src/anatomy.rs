@@ -39,7 +39,11 @@ impl ShapeAxes {
 /// # Errors
 /// The core's sentence about the vertex or triangle at fault.
 #[wasm_bindgen(js_name = shapeAxes)]
-pub fn shape_axes(vertices: &[f32], triangles: &[u32], femoral: bool) -> Result<ShapeAxes, JsError> {
+pub fn shape_axes(
+    vertices: &[f32],
+    triangles: &[u32],
+    femoral: bool,
+) -> Result<ShapeAxes, JsError> {
     let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0).map_err(sentence)?;
     let planes = symmetry_planes(&mesh);
     let component = match femoral {
@@ -49,12 +53,78 @@ pub fn shape_axes(vertices: &[f32], triangles: &[u32], femoral: bool) -> Result<
     if let Some(found) = anatomical_axes(&mesh, &planes, component) {
         return Ok(ShapeAxes {
             model_from_field: found.model_from_field,
-            told: if found.front_is_known { "all" } else { "not the front" },
+            told: if found.front_is_known {
+                "all"
+            } else {
+                "not the front"
+            },
         });
     }
     let directions = field_axes(&mesh, &planes, component);
     Ok(ShapeAxes {
-        told: if directions.is_some() { "no signs" } else { "nothing" },
+        told: if directions.is_some() {
+            "no signs"
+        } else {
+            "nothing"
+        },
         model_from_field: directions.unwrap_or(Pose::IDENTITY),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners and triangles of a box, appended.
+    fn add_box(low: [f32; 3], high: [f32; 3], vertices: &mut Vec<f32>, triangles: &mut Vec<u32>) {
+        let first = (vertices.len() / 3) as u32;
+        for corner in 0..8 {
+            let ends = [0, 1, 2].map(|axis| {
+                if corner >> axis & 1 == 0 {
+                    low[axis]
+                } else {
+                    high[axis]
+                }
+            });
+            vertices.extend(ends);
+        }
+        for [a, b, c, d] in [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ] {
+            triangles.extend([a, b, c, a, c, d].map(|corner| first + corner));
+        }
+    }
+
+    /// A plate 76 mm wide on a keel, with its notch behind or without one; x is anterior and y superior.
+    fn tray(notched: bool) -> (Vec<f32>, Vec<u32>) {
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        let mut add = |low, high| add_box(low, high, &mut vertices, &mut triangles);
+        add([-7.0, -40.0, -5.0], [7.0, 0.0, 5.0]);
+        if notched {
+            add([-20.0, 0.0, -38.0], [25.0, 4.0, 38.0]);
+            add([-25.0, 0.0, 12.0], [-20.0, 4.0, 38.0]);
+            add([-25.0, 0.0, -38.0], [-20.0, 4.0, -12.0]);
+        } else {
+            add([-25.0, 0.0, -38.0], [25.0, 4.0, 38.0]);
+        }
+        (vertices, triangles)
+    }
+
+    #[test]
+    fn a_notch_tells_the_front_and_without_one_a_person_has_to() {
+        for (notched, told) in [(true, "all"), (false, "not the front")] {
+            let (vertices, triangles) = tray(notched);
+            let axes = shape_axes(&vertices, &triangles, false).ok().unwrap();
+            assert_eq!(axes.told(), told);
+            let directions = axes.directions();
+            assert_eq!(directions[3..6], [0.0, 1.0, 0.0], "superior");
+            assert_eq!(directions[0].abs(), 1.0, "x is anterior, or its opposite");
+            assert!(!notched || directions[0] > 0.0, "the notch is behind");
+        }
+    }
 }

@@ -59,11 +59,14 @@ mod tests {
         let field_from_model = axes_from(&axes).ok().unwrap().inverse();
         let pose = Pose::from(from_numbers(&TIBIA).ok().unwrap()).compose(&field_from_model);
         let other = to_numbers(&EulerPose::from(pose));
-        let wanted = joint_motion(&FEMUR, &OWN, &TIBIA, &OWN, false).ok().unwrap();
-        let joint = joint_motion(&FEMUR, &OWN, &other, &axes, false).ok().unwrap();
+        let wanted = joint_motion(&FEMUR, &OWN, &TIBIA, &OWN, false)
+            .ok()
+            .unwrap();
+        let joint = joint_motion(&FEMUR, &OWN, &other, &axes, false)
+            .ok()
+            .unwrap();
         for (number, wanted) in joint.iter().zip(&wanted) {
             assert!((number - wanted).abs() < 1e-9, "{joint:?} for {wanted:?}");
         }
     }
-
 }

@@ -46,7 +46,9 @@ pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
 /// # Errors
 /// A sentence where they are no right-handed frame.
 pub fn axes_from(directions: &[f64]) -> Result<Pose, JsError> {
-    let wrong = || JsError::new("Axes are three directions of length one, at right angles and right-handed");
+    let wrong = || {
+        JsError::new("Axes are three directions of length one, at right angles and right-handed")
+    };
     let &[ax, ay, az, sx, sy, sz, rx, ry, rz] = directions else {
         return Err(wrong());
     };
@@ -55,5 +57,9 @@ pub fn axes_from(directions: &[f64]) -> Result<Pose, JsError> {
         translation: [0.0; 3],
     };
     // Sessions keep them to some decimals.
-    if axes.is_rigid(1e-6) { Ok(axes) } else { Err(wrong()) }
+    if axes.is_rigid(1e-6) {
+        Ok(axes)
+    } else {
+        Err(wrong())
+    }
 }

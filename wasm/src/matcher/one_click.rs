@@ -229,7 +229,8 @@ impl OneClick {
             answer.supports.push(one.support.fraction);
             candidates.push(self.candidate(one, matcher)?);
         }
-        answer.sentence = told(&answer.supports);
+        let share = answer.supports.first().copied().unwrap_or(0.0);
+        answer.sentence = told(share, chosen.open().is_some());
         let alone = candidates.first().and_then(|first| first.verdict);
         answer.matched = Some(Match {
             candidates,
@@ -331,11 +332,7 @@ impl Matcher {
     }
 
     /// How sure a pose is that was refined on a film, and how well it fits.
-    fn assess_on(
-        &mut self,
-        refined: &Refined,
-        view: CameraView<'_>,
-    ) -> Result<Assessed, JsError> {
+    fn assess_on(&mut self, refined: &Refined, view: CameraView<'_>) -> Result<Assessed, JsError> {
         model_of(&mut self.model)?.assess(refined, view)
     }
 

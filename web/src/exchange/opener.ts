@@ -2,12 +2,12 @@ import { decodeFrames, holdModel } from './bring_files';
 import type { Incoming } from './incoming';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
+import { componentIn, takeStudy, type Study } from '../document/study';
 import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
 import type { OutlineFile } from './importer';
-import type { Study } from './study_file';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
@@ -29,7 +29,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   const failed: string[] = [];
   const leftOut: string[] = [];
   const study = await studyAmong(all, failed);
-  const recognised = study ? study.sorted(all, leftOut) : all;
+  const recognised = study ? asTheStudyMeans(study, all, leftOut) : all;
   for (const file of recognised.filter(({ kind }) => kind === 'frames' || kind === 'model' || kind === 'library')) {
     const sentence = await mismatchOf(services, file);
     if (sentence) failed.push(sentence);
@@ -45,7 +45,7 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
   for (const file of recognised.filter((file) => file.kind === 'poses')) {
     await attempt(file, () => openPoses(services, file), opened, failed);
   }
-  if (study) opened.push(study.take(services));
+  if (study) opened.push(openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   tell(services, opened, failed, leftOut);
@@ -56,37 +56,35 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
 /** Frames, poses, studies and videos have their own time. */
 const LATER: readonly FileKind[] = ['frames', 'poses', 'study', 'video'];
 
-/** A study among other files says which of them is what; what it tells of the models is taken once they are here. */
-interface StudyAmongFiles {
-  readonly sorted: (files: readonly Recognised[], leftOut: string[]) => readonly Recognised[];
-  readonly take: (services: Services) => string;
-}
-
-async function studyAmong(files: readonly Recognised[], failed: string[]): Promise<StudyAmongFiles | null> {
+/** A study says which of the files beside it is what; what it tells of the models is taken once they are here. */
+async function studyAmong(files: readonly Recognised[], failed: string[]): Promise<StudyFile | null> {
   const file = files.find(({ kind }) => kind === 'study');
   if (!file) return null;
-  const { componentIn, readStudy, takeStudy } = await import('./study_file');
-  let study: Study;
   try {
-    study = readStudy(new TextDecoder().decode(file.bytes));
+    const { readStudy } = await import('./study_file');
+    return { name: file.name, study: readStudy(new TextDecoder().decode(file.bytes)) };
   } catch (error) {
     failed.push(named(file.name, sentenceOf(error)));
     return null;
   }
-  return {
-    sorted: (all, leftOut) => {
-      const meant = all.map((one) => ({ ...one, component: one.component ?? (one.kind === 'model' ? componentIn(study, 'model', one.name) : componentIn(study, 'reference', one.name)) }));
-      // Where the study names its reference, files of poses beside it are those of other methods.
-      const hasReference = meant.some(({ kind, name }) => kind === 'poses' && componentIn(study, 'reference', name));
-      const others = hasReference ? meant.filter(({ kind, name }) => kind === 'poses' && !componentIn(study, 'reference', name)) : [];
-      if (others.length > 0) leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
-      return meant.filter((one) => !others.includes(one));
-    },
-    take: ({ store }) => {
-      store.perform(takeStudy(study, file.name));
-      return texts.study.opened(study.name || file.name);
-    },
-  };
+}
+
+interface StudyFile {
+  readonly name: string;
+  readonly study: Study;
+}
+
+/** Files with the components that the study means. Where it names its reference poses, others are those of other methods. */
+function asTheStudyMeans({ study }: StudyFile, files: readonly Recognised[], leftOut: string[]): readonly Recognised[] {
+  const meant = files.map((file): Recognised => {
+    const said = file.kind === 'model' ? componentIn(study, 'model', file.name) : file.kind === 'poses' ? componentIn(study, 'reference', file.name) : undefined;
+    return { ...file, component: file.component ?? said };
+  });
+  const poses = files.filter(({ kind }) => kind === 'poses');
+  const others = poses.filter(({ name }) => !componentIn(study, 'reference', name));
+  if (others.length === 0 || others.length === poses.length) return meant;
+  leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
+  return meant.filter(({ bytes }) => !others.some((other) => other.bytes === bytes));
 }
 
 /** What opens the first of the videos that were given. */
@@ -250,6 +248,11 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
   const opened = texts.said.asModel(file.name, texts.component[component]);
   return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));
+}
+
+function openStudy({ store }: Services, { name, study }: StudyFile): string {
+  store.perform(takeStudy(study, name));
+  return texts.study.opened(study.name || name);
 }
 
 async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {

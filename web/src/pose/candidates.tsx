@@ -79,8 +79,9 @@ function CandidateButton({ index, name, candidate, chosen, onChoose }: Candidate
   );
 }
 
-/** What remains between the outlines; of a pose of the library, unmatched canonical pixels. */
-function scoreOf({ residual, unmatched }: Candidate): string {
+/** By what they are compared, as the reason has it; of a pose of the library, unmatched canonical pixels. */
+function scoreOf({ judged, residual: left, unmatched }: Candidate): string {
+  const residual = judged?.misfit ?? left;
   if (residual !== null) return texts.panel.candidates.pixels(residual.toFixed(2));
   return unmatched === null ? '–' : texts.panel.candidates.pixels(grouped(unmatched));
 }

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { componentIn, readStudy, takeStudy } from '../../src/exchange/study_file';
+import { readStudy } from '../../src/exchange/study_file';
+import { componentIn, takeStudy } from '../../src/document/study';
 import { Store } from '../../src/document/store';
 import { wordsOf } from '../../src/geometry/axes';
 

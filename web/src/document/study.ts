@@ -1,0 +1,47 @@
+import { texts } from '../texts/texts';
+import type { ComponentName } from '../terms/component';
+import { withStatedAxes } from './axes';
+import type { Command } from './command';
+import { type Axes, DEFAULT_WINDOW, type Doc, type LibrarySpec } from './types';
+
+/** What a `study.toml` tells a page: which file is what, and what is known of the models. Methods and masks are the laboratory's. */
+export interface Study {
+  readonly name: string;
+  readonly side: 'left' | 'right' | null;
+  readonly parts: readonly StudyPart[];
+}
+
+export interface StudyPart {
+  readonly component: ComponentName;
+  /** Names of files, without their folders. */
+  readonly model: string | null;
+  readonly reference: string | null;
+  readonly axes: Axes | null;
+  readonly nominal: readonly [number, number] | null;
+  readonly distance: number | null;
+}
+
+/** The component that the study means by a file; undefined where it names no such file. */
+export function componentIn({ parts }: Study, kind: 'model' | 'reference', name: string): ComponentName | undefined {
+  return parts.find((part) => part[kind] === name)?.component;
+}
+
+/** Everything that the study tells of the document, one step back. */
+export function takeStudy(study: Study, fileName: string): Command {
+  return {
+    label: texts.steps.readStudy(fileName),
+    apply: (doc) => study.parts.reduce(withPart, { ...doc, name: study.name || doc.name, side: study.side ?? doc.side }),
+  };
+}
+
+function withPart(doc: Doc, { component, axes, nominal, distance }: StudyPart): Doc {
+  const known = axes ? withStatedAxes(doc, component, axes) : doc;
+  if (!nominal && distance === null) return known;
+  const librarySpec = specOf(known.components[component].librarySpec, nominal, distance);
+  return { ...known, components: { ...known.components, [component]: { ...known.components[component], librarySpec } } };
+}
+
+function specOf(spec: LibrarySpec, nominal: readonly [number, number] | null, distance: number | null): LibrarySpec {
+  const known = { ...spec, distance: distance ?? spec.distance };
+  return nominal ? { ...DEFAULT_WINDOW, nominalX: nominal[0], nominalY: nominal[1], distance: known.distance } : known;
+}
