@@ -41,7 +41,7 @@ export class SpaceView {
     const target = middles.reduce((sum, middle) => sum.add(middle), new Vector3()).divideScalar(models.length);
     this.#camera.position.add(target.clone().sub(this.#controls.target));
     this.#controls.target.copy(target);
-    this.#radius = Math.max(...models.map(({ mesh }, at) => radiusOf(mesh) + target.distanceTo(middles[at]!)));
+    this.#radius = Math.max(...models.map((model, at) => reachOf(model) + target.distanceTo(middles[at]!)));
     if (this.#isFirst) this.look(AS_THE_CAMERA);
     this.#isFirst = false;
     this.#controls.update();
@@ -49,7 +49,7 @@ export class SpaceView {
   }
 
   look({ from, up }: Viewpoint): void {
-    const away = (1.6 * this.#radius) / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
+    const away = this.#radius / Math.sin((FIELD_OF_VIEW * Math.PI) / 360);
     this.#camera.up.fromArray(up);
     this.#camera.position.copy(this.#controls.target).addScaledVector(new Vector3().fromArray(from), away);
     this.#camera.lookAt(this.#controls.target);
@@ -87,4 +87,10 @@ export class SpaceView {
       this.#renderer.render(this.#models.scene, this.#camera);
     });
   }
+}
+
+/** How far a model with its arrows and their names reaches from its middle, mm. */
+function reachOf({ mesh, arrows = [] }: PlacedModel): number {
+  const named = arrows.some(({ name }) => name !== null);
+  return radiusOf(mesh) * (named ? 1.5 : arrows.length > 0 ? 1.2 : 1.05);
 }
