@@ -5,8 +5,8 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
-use fluoropose::finder::Component;
 use fluoropose::finder::choice::RivalPose as Contender;
+use fluoropose::finder::{Component, Verdict};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Outline, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
@@ -223,11 +223,17 @@ impl OneClick {
         let mut candidates = Vec::new();
         for place in offered(&answers, &chosen) {
             let one = &answers[place];
+            let candidate = self.candidate(one, matcher)?;
+            // The chosen one stays for its reason.
+            let fits = !matches!(candidate.verdict, Some(Verdict::NoFit(_)));
+            if !fits && !candidates.is_empty() {
+                continue;
+            }
             answer
                 .outlines
                 .push(matcher.outline_at(&one.refined.pose, &self.camera)?);
             answer.supports.push(one.support.fraction);
-            candidates.push(self.candidate(one, matcher)?);
+            candidates.push(candidate);
         }
         let share = answer.supports.first().copied().unwrap_or(0.0);
         answer.sentence = told(share, chosen.open().is_some());

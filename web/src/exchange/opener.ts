@@ -319,5 +319,7 @@ function addToDocument({ store }: Services, entries: readonly FrameEntry[]): voi
 }
 
 function studyName(frame: FrameEntry): string {
-  return frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '') || texts.said.study;
+  const name = frame.name.replace(/ #\d+$/, '').replace(/\.[a-z0-9]+$/i, '').replace(/[-_ ]*0*1?$/, '');
+  // A number is no name of a study.
+  return /^\d*$/.test(name) ? texts.said.study : name;
 }

@@ -45,7 +45,7 @@ export function ComponentSheet({ state, component }: { state: State; component: 
 function Remarks({ remarks }: { remarks: readonly string[] }) {
   if (remarks.length === 0) return null;
   return (
-    <ul class="remarks" aria-label={texts.models.card}>
+    <ul class="model-remarks" aria-label={texts.models.card}>
       {remarks.map((remark) => (
         <li key={remark}>{`${remark.charAt(0).toUpperCase()}${remark.slice(1)}.`}</li>
       ))}
