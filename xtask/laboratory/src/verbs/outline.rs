@@ -1,7 +1,6 @@
 //! Verb `outline`: one-click outlines on a study's grey frames, against its masks.
 
 mod picture;
-mod prompts;
 
 use std::path::PathBuf;
 
@@ -18,6 +17,8 @@ use crate::files::{
     Component, MaskBuffer, Study, grey, read_calibration, read_model, read_poses, write_json,
 };
 
+use crate::finding::prompts::Kind;
+
 use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
 
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
@@ -25,7 +26,6 @@ use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 use crate::options::Pair;
 
 use crate::sequence::{Folders, Source};
-use prompts::Kind;
 
 /// Options of `outline`.
 #[derive(clap::Args)]

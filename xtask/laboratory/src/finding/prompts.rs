@@ -14,7 +14,7 @@ const WIDER: [f64; 2] = [0.05, 0.15];
 
 /// Kinds of prompts, in the order of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub enum Kind {
     /// A click where the implant is thickest.
     Deepest,
     /// A click anywhere inside.
@@ -25,10 +25,10 @@ pub(super) enum Kind {
 
 impl Kind {
     /// All of them.
-    pub(super) const ALL: [Self; 3] = [Self::Deepest, Self::Anywhere, Self::Box];
+    pub const ALL: [Self; 3] = [Self::Deepest, Self::Anywhere, Self::Box];
 
     /// The word for it in the table.
-    pub(super) fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             Self::Deepest => "click in the middle",
             Self::Anywhere => "click anywhere inside",
@@ -38,7 +38,7 @@ impl Kind {
 
     /// A prompt of this kind for the implant of `mask`; `seed` tells random ones apart. `None`
     /// for a mask too thin to click into.
-    pub(super) fn prompt(self, mask: &Mask<'_>, seed: u64) -> Option<Prompt> {
+    pub fn prompt(self, mask: &Mask<'_>, seed: u64) -> Option<Prompt> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         match self {
             Self::Deepest => {
