@@ -9,11 +9,11 @@ use std::str::FromStr;
 /// Grey of the open beam and grey levels for each factor of e in intensity.
 const WHITE: f64 = 214.0;
 const CONTRAST: f64 = 38.0;
-/// Curves that are not logarithmic show what passes a knee, less than a quarter of the open beam, in nearly all greys:
-/// grey of no light, and of a quarter of the open beam.
+/// Curves that are not logarithmic show what passes a knee, less than half of the open beam, in nearly all greys:
+/// grey of no light, and of half of the open beam.
 const BLACK: f64 = 10.0;
 const BRIGHT: f64 = 240.0;
-const BRIGHT_AT: f64 = 0.25;
+const BRIGHT_AT: f64 = 0.5;
 
 /// The display's curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn an_unsharp_mask_overshoots_on_both_sides_of_an_edge_and_leaves_plateaus() {
         let values = (0..64 * 8)
-            .map(|k| if k % 64 < 32 { 0.05 } else { 0.15 })
+            .map(|k| if k % 64 < 32 { 0.1 } else { 0.3 })
             .collect();
         let step = Plane {
             width: 64,
@@ -132,7 +132,7 @@ mod tests {
             sigma_px: 3.0,
         };
         let shown = show(step, 1.0, Display::Linear, Some(unsharp));
-        let [dark, bright] = [0.05, 0.15].map(|value| (Display::Linear.of(value) + 0.5) as u8);
+        let [dark, bright] = [0.1, 0.3].map(|value| (Display::Linear.of(value) + 0.5) as u8);
         assert_eq!([shown[2], shown[61]], [dark, bright]);
         assert!(shown[31] < dark - 10 && shown[32] > bright + 10);
     }

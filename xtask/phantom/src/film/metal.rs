@@ -270,6 +270,33 @@ mod tests {
         assert!(edge > middle && edge < 1.0, "{edge}");
     }
 
+    /// What an opaque square hides is its projected area, to some hundredths of a pixel along its sides, whichever way it
+    /// is turned.
+    #[test]
+    fn edges_are_true_to_hundredths_of_a_pixel() {
+        let mesh = slab();
+        let camera = Camera::from_principal_distance(96, 96, 1000.0, 0.4, [0.0, 0.0]).unwrap();
+        let side = 20.0 * 1000.0 / 0.4 / (950.0 - 3.5);
+        for turn in [3.0, 17.0, 31.0, 44.0] {
+            let pose = Pose::from(fluoropose::pose::EulerPose {
+                z_mm: -950.0,
+                z_rot_deg: turn,
+                ..Default::default()
+            });
+            let mut picture = Plane {
+                width: 96,
+                height: 96,
+                values: vec![1.0; 96 * 96],
+            };
+            let placed = Placed::at_rest(&mesh, pose);
+            let shadow = Shadow::cast(&camera, &placed, Sampling::EXACT).unwrap();
+            shadow.shade(&mut picture, 1000.0).unwrap();
+            let hidden: f64 = picture.values.iter().map(|value| 1.0 - value).sum();
+            let outside = (hidden - side * side) / (4.0 * side);
+            assert!(outside.abs() < 0.02, "{outside} px at {turn} degrees");
+        }
+    }
+
     /// The shadow of an opaque part and the core's silhouette of it have one centroid: no half pixel is lost between them.
     #[test]
     fn shadow_lies_where_the_silhouette_does() {

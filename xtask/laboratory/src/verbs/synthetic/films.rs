@@ -19,7 +19,8 @@ use draw::{Film, Number, draw};
 pub use kinds::FilmKind;
 pub use table::FilmRow;
 use table::{print, print_heading, print_legend};
-use trial::{Bench, Outcome, Way};
+pub use trial::FilmWay;
+use trial::{Bench, Outcome};
 
 /// Side of the square frames (pixels), focus to detector and pitch of its pixels (mm), distance of the libraries' views (mm).
 const FRAME: usize = 1024;
@@ -51,6 +52,8 @@ pub struct Films<'f> {
     pub count: usize,
     /// Seed of poses and noise: the same seed shows the same knees in every kind.
     pub seed: u64,
+    /// How poses are come by.
+    pub ways: &'f [FilmWay],
 }
 
 /// Measures and prints.
@@ -66,6 +69,7 @@ pub(super) fn run(args: &FilmArgs, seed: u64, json: Option<&Path>) -> Result<()>
         kinds: &kinds,
         count: args.count,
         seed,
+        ways: &FilmWay::ALL,
     };
     print_heading();
     let rows = measure_films(&what, print)?;
@@ -92,10 +96,10 @@ pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<Fi
     let mut rows = Vec::new();
     for kind in what.kinds {
         let films = films_of(kind, &implants, camera, what)?;
-        let outcomes = outcomes_of(&films, &|| Bench::open(&libraries, models, camera))?;
-        for (index, way) in Way::ALL.into_iter().enumerate() {
+        for &way in what.ways {
+            let outcomes = outcomes_of(&films, way, &|| Bench::open(&libraries, models, camera))?;
             for (part, name) in PARTS.into_iter().enumerate() {
-                let column: Vec<Outcome> = outcomes.iter().map(|film| film[index][part]).collect();
+                let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
                 let row = FilmRow::of(&kind.name, [name, way.word()], &column);
                 each(&row);
                 rows.push(row);
@@ -127,15 +131,16 @@ fn films_of(
     films
 }
 
-/// What comes of each film, by way and component.
+/// What comes of each film, by component.
 fn outcomes_of<'b>(
     films: &[Film],
+    way: FilmWay,
     open: &(impl Fn() -> Result<Bench<'b>> + Sync),
-) -> Result<Vec<[[Outcome; 2]; 2]>> {
+) -> Result<Vec<[Outcome; 2]>> {
     let bar = progress(films.len(), "found");
     let run = |bench: &mut Result<Bench<'b>>, film: &Film| match bench {
         Ok(bench) => {
-            let outcome = bench.run(film);
+            let outcome = bench.run(film, way);
             bar.inc(1);
             outcome
         }

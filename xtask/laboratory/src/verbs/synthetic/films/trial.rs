@@ -25,17 +25,19 @@ const WRONG_SD: f64 = 3.0;
 
 /// How a pose was come by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub enum FilmWay {
     /// From one click; the tray's with the femur's pose known.
     Click,
     /// Refined on the film from the true pose.
     Image,
 }
 
-impl Way {
-    pub(super) const ALL: [Self; 2] = [Self::Click, Self::Image];
+impl FilmWay {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Click, Self::Image];
 
-    pub(super) fn word(self) -> &'static str {
+    /// The word for it in tables.
+    pub fn word(self) -> &'static str {
         match self {
             Self::Click => "click",
             Self::Image => "image",
@@ -94,18 +96,20 @@ impl<'b> Bench<'b> {
         })
     }
 
-    /// Both components of a film, the femur first, in each way.
+    /// Both components of a film, the femur first.
     ///
     /// # Errors
     /// For a film of another size.
-    pub(super) fn run(&mut self, film: &Film) -> Result<[[Outcome; 2]; 2]> {
+    pub(super) fn run(&mut self, film: &Film, way: FilmWay) -> Result<[Outcome; 2]> {
         let (width, height) = (self.camera.width(), self.camera.height());
         let frame = Frame::new(&film.pixels, width, height, width)?;
+        if way == FilmWay::Image {
+            return Ok([self.refined(&frame, film, 0), self.refined(&frame, film, 1)]);
+        }
         let (femur, known) = self.clicked(&frame, film, 0, None);
         let known = known.map(Counterpart::Femur);
         let (tibia, _) = self.clicked(&frame, film, 1, known);
-        let refined = [self.refined(&frame, film, 0), self.refined(&frame, film, 1)];
-        Ok([[femur, tibia], refined])
+        Ok([femur, tibia])
     }
 
     /// One click, and the pose that it led to unless that was refused.
