@@ -92,12 +92,17 @@ pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<Fi
         let built = build_library(models[part], camera, &ViewOptions::default(), DISTANCE);
         built.map(|built| built.bytes)
     };
-    let libraries = [library(0)?, library(1)?];
+    let libraries = match what.ways.contains(&FilmWay::Click) {
+        true => Some([library(0)?, library(1)?]),
+        false => None,
+    };
     let mut rows = Vec::new();
     for kind in what.kinds {
         let films = films_of(kind, &implants, camera, what)?;
         for &way in what.ways {
-            let outcomes = outcomes_of(&films, way, &|| Bench::open(&libraries, models, camera))?;
+            let outcomes = outcomes_of(&films, way, &|| {
+                Bench::open(libraries.as_ref(), models, camera)
+            })?;
             for (part, name) in PARTS.into_iter().enumerate() {
                 let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
                 let row = FilmRow::of(&kind.name, [name, way.word()], &column);

@@ -72,24 +72,28 @@ pub(super) struct Found {
 /// Everything that finds the poses of one film's components; a copy for each core.
 pub(super) struct Bench<'b> {
     pub(super) models: [Model<'b>; 2],
-    pub(super) clickers: [Clicker<'b>; 2],
+    /// Where there are libraries.
+    pub(super) clickers: Option<[Clicker<'b>; 2]>,
     pub(super) refiners: [Refiner<'b>; 2],
     pub(super) camera: Camera,
 }
 
 impl<'b> Bench<'b> {
-    /// Opens the libraries of both models.
+    /// Opens the libraries of both models, which clicks need.
     ///
     /// # Errors
     /// Those of [`Clicker::open`].
     pub(super) fn open(
-        libraries: &'b [Vec<u8>; 2],
+        libraries: Option<&'b [Vec<u8>; 2]>,
         models: [Model<'b>; 2],
         camera: Camera,
     ) -> Result<Self> {
-        let clicker = |part: usize| Clicker::open(&libraries[part], models[part], camera);
+        let clickers = libraries.map(|libraries| -> Result<[Clicker<'b>; 2]> {
+            let open = |part: usize| Clicker::open(&libraries[part], models[part], camera);
+            Ok([open(0)?, open(1)?])
+        });
         Ok(Self {
-            clickers: [clicker(0)?, clicker(1)?],
+            clickers: clickers.transpose()?,
             refiners: models.map(|model| Refiner::new(model, RefineOptions::default())),
             models,
             camera,
@@ -120,11 +124,15 @@ impl<'b> Bench<'b> {
         part: usize,
         counterpart: Option<Counterpart>,
     ) -> (Outcome, Option<Pose>) {
-        let clicker = &mut self.clickers[part];
         let begin = Instant::now();
-        let clicked = clicker.click(frame, film.clicks[part], Polarity::DarkImplant);
+        let clicked = self.clickers.as_mut().and_then(|clickers| {
+            let click = film.clicks[part];
+            clickers[part]
+                .click(frame, click, Polarity::DarkImplant)
+                .ok()
+        });
         let ms = begin.elapsed().as_secs_f64() * 1e3;
-        let candidates = clicked.map_or_else(|_| Vec::new(), |clicked| clicked.candidates);
+        let candidates = clicked.map_or_else(Vec::new, |clicked| clicked.candidates);
         let context = ChoiceContext {
             counterpart,
             ..ChoiceContext::default()
