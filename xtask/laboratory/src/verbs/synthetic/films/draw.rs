@@ -59,7 +59,7 @@ pub(super) fn draw(
     let click = |placed: &Placed<'_>| -> Result<Prompt> {
         let words = film::silhouette(&camera, placed)?;
         let mask = Mask::new(&words, camera.width(), camera.height())?;
-        let click = Kind::Deepest.prompt(&mask, number.frame);
+        let click = Kind::Deepest.prompt(&mask, None, number.frame);
         click.context("a silhouette has a middle")
     };
     Ok(Film {
