@@ -40,6 +40,7 @@ mod support;
 mod job;
 mod judged;
 mod preprocessing;
+mod rims;
 mod rounds;
 mod state;
 
