@@ -212,8 +212,11 @@ impl WorkingModel {
         camera: &Camera,
         silhouette: &Silhouette<'_>,
     ) -> Result<Ranked, JsError> {
+        let located = candidate
+            .located
+            .ok_or_else(|| JsError::new("the library did not lead to this pose"))?;
         Ok(Ranked {
-            located: candidate.located.located,
+            located: located.located,
             pose: candidate.pose,
             drawn: self.draw(&candidate.pose, camera, silhouette)?,
             fit: candidate.refined.map(|refined| Fit {

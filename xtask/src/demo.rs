@@ -37,6 +37,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         frames: args.frames,
         seed: args.seed,
         side: args.side,
+        ..Options::default()
     };
     sequence::write(&options, &args.out)?;
     println!("{} frames in {}", args.frames, args.out.display());

@@ -18,8 +18,8 @@ pub struct Candidate {
     /// The pose that it was refined from: one of the library, the mirror image of a refined pose, or, on a grey frame, that
     /// of the outline. Of a pose that was not refined, itself.
     pub start: Pose,
-    /// What the library said.
-    pub located: Reranked,
+    /// What the library said, where it led to the pose.
+    pub located: Option<Reranked>,
     /// What refinement made of it, where it was asked for.
     pub refined: Option<Refined>,
     /// How sure the refined pose is.
@@ -35,7 +35,8 @@ impl Candidate {
     #[must_use]
     pub fn misfit(&self) -> f64 {
         let refined = self.refined.map(|refined| sqrt(2.0 * refined.loss));
-        refined.unwrap_or(self.located.unmatched as f64)
+        let located = || self.located.map(|located| located.unmatched as f64);
+        refined.or_else(located).unwrap_or(f64::INFINITY)
     }
 
     /// The candidate as it is compared with others.

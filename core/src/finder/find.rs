@@ -129,7 +129,7 @@ impl Way<'_, '_> {
             let candidate = Candidate {
                 pose,
                 start: pose,
-                located: *located,
+                located: Some(*located),
                 refined: None,
                 covariance: None,
                 fit,
@@ -170,7 +170,7 @@ impl Way<'_, '_> {
         // Their mirror images are among them.
         let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
         let mut candidates = Vec::new();
-        let located = |found: &RefinedRival| Some(outline.get(found.start)?.located);
+        let located = |found: &RefinedRival| outline.get(found.start)?.located;
         self.add(&view, &refined, located, &mut candidates)?;
         Ok(candidates)
     }
@@ -216,7 +216,7 @@ impl Way<'_, '_> {
             let candidate = Candidate {
                 pose: found.refined.pose,
                 start: found.from,
-                located,
+                located: Some(located),
                 refined: Some(found.refined),
                 covariance: assessment.covariance,
                 fit: assessment.fit,

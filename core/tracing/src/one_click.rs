@@ -38,7 +38,9 @@ mod scoring;
 mod support;
 
 mod job;
+mod judged;
 mod preprocessing;
+mod rims;
 mod rounds;
 mod state;
 
@@ -47,6 +49,7 @@ pub use buffers::OneClickBuffers;
 pub use candidates::{Answer, Start};
 pub use error::OneClickError;
 pub use job::Progress;
+pub use judged::candidates;
 pub use memory::{OneClickMemory, OneClickNeeds};
 pub use observation::Observation;
 pub use prompt::Prompt;

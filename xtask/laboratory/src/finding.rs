@@ -6,6 +6,7 @@ mod build;
 mod clicker;
 mod film;
 mod finder;
+pub mod prompts;
 mod refiner;
 mod views;
 

@@ -153,6 +153,7 @@ fn files_agree_with_each_other_and_repeat_bit_for_bit() {
         frames: 2,
         seed: 5,
         side: Side::Right,
+        ..Options::default()
     };
     write(&options, &one.0).unwrap();
     write(&options, &two.0).unwrap();

@@ -1,7 +1,8 @@
-//! A film of a deep knee bend as the files of a study: frames, true masks, poses, models, calibration.
+//! A film as the files of a study: frames, true masks, poses, models, calibration.
 
+use crate::film::activity::{Activity, Course};
 use crate::film::motion::{self, Position};
-use crate::film::{self, Placed, Scene};
+use crate::film::{self, Motion, Physics, Placed, Scene};
 use crate::implant::{self, Parameters, Side, Size, Triangles};
 use crate::picture::{write_grey, write_mask};
 use crate::stl;
@@ -20,18 +21,28 @@ const FRAME: usize = 1024;
 /// Focus to detector and pitch of the pixels there, mm.
 const PRINCIPAL_DISTANCE: f64 = 1200.0;
 const PITCH: f64 = 0.373;
-/// What the sequence is called.
+/// What the demonstration is called.
 const NAME: &str = "deep-knee-bend";
 
 /// What is filmed.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Number of frames, from extension to 110 degrees of flexion.
+    /// Number of frames; of the demonstration, from extension to 110 degrees of flexion.
     pub frames: usize,
     /// Seed of the noise, of the bones' texture and of small rotations; the same seed gives the same files.
     pub seed: u64,
     /// Left or right knee.
     pub side: Side,
+    /// What the person does, at the rate of a fluoroscope; else the demonstration's few frames of a deep knee bend.
+    pub activity: Option<Activity>,
+    /// How the film is made.
+    pub physics: Physics,
+    /// Part of the time from one frame to the next during which a frame is exposed: motion blur.
+    pub shutter: f64,
+    /// Whether the other leg passes behind this one. Of activities.
+    pub second_leg: bool,
+    /// Whether the joint leaves the field and comes back. Of activities.
+    pub leaves_field: bool,
 }
 
 impl Default for Options {
@@ -41,14 +52,62 @@ impl Default for Options {
             frames: 8,
             seed: 1,
             side: Side::Left,
+            activity: None,
+            physics: Physics::default(),
+            shutter: 0.0,
+            second_leg: false,
+            leaves_field: false,
         }
+    }
+}
+
+impl Options {
+    fn name(&self) -> String {
+        let activity = self.activity.as_ref();
+        activity.map_or_else(|| NAME.to_owned(), ToString::to_string)
+    }
+
+    fn course(&self) -> Option<Course> {
+        self.activity.map(|activity| Course {
+            activity,
+            frames: self.frames,
+            side: self.side,
+            seed: self.seed,
+            leaves_field: self.leaves_field,
+        })
+    }
+
+    fn positions(&self, femur: &Triangles, width_mm: f64) -> Vec<Position> {
+        match self.course() {
+            Some(course) => course.positions(femur, width_mm),
+            None => motion::deep_knee_bend(self.frames, self.side, femur, width_mm, self.seed),
+        }
+    }
+
+    /// How one frame is made.
+    fn physics_of(&self, frame: usize) -> Physics {
+        let mut physics = self.physics;
+        if let Some(course) = self.course().filter(|_| self.second_leg) {
+            physics.surroundings.second_leg_mm = Some(course.second_leg_mm(frame));
+        }
+        physics
+    }
+
+    /// How a component moves while a frame is exposed, by the frames before and after.
+    fn motion(&self, poses: &[EulerPose], frame: usize) -> Motion {
+        if self.shutter <= 0.0 {
+            return Motion::default();
+        }
+        let (from, to) = (frame.saturating_sub(1), (frame + 1).min(poses.len() - 1));
+        let part = self.shutter / (to - from).max(1) as f64;
+        Motion::between(&poses[from].into(), &poses[to].into(), part)
     }
 }
 
 /// The page's list of what the folder holds; paths are relative to it.
 #[derive(Serialize)]
 struct Manifest {
-    name: &'static str,
+    name: String,
     side: Side,
     calibration: &'static str,
     frames: Vec<String>,
@@ -84,36 +143,30 @@ pub fn write(options: &Options, out: &Path) -> Result<()> {
     };
     let implants = [implant::femur(&parameters)?, implant::tibia(&parameters)?];
     let width_mm = parameters.size.width_mm();
-    let positions = motion::deep_knee_bend(
-        options.frames,
-        options.side,
-        &implants[0],
-        width_mm,
-        options.seed,
-    );
+    let positions = options.positions(&implants[0], width_mm);
     write_texts(options, &positions, out)?;
     stl::write_file(&implants[0], &out.join("femur.stl"))?;
     stl::write_file(&implants[1], &out.join("tibia.stl"))?;
-    positions
-        .par_iter()
-        .enumerate()
-        .try_for_each(|(index, position)| write_frame(options, &implants, position, index, out))
+    (0..positions.len())
+        .into_par_iter()
+        .try_for_each(|index| write_frame(options, &implants, &positions, index, out))
 }
 
 fn write_frame(
     options: &Options,
     implants: &[Triangles; 2],
-    position: &Position,
+    positions: &[Position],
     index: usize,
     out: &Path,
 ) -> Result<()> {
-    let [femur, tibia] = [
-        (&implants[0], position.femur),
-        (&implants[1], position.tibia),
-    ]
-    .map(|(mesh, pose)| Placed {
-        mesh,
-        pose: Pose::from(pose),
+    let poses: [Vec<EulerPose>; 2] = [
+        positions.iter().map(|position| position.femur).collect(),
+        positions.iter().map(|position| position.tibia).collect(),
+    ];
+    let [femur, tibia] = [0, 1].map(|part| Placed {
+        mesh: &implants[part],
+        pose: Pose::from(poses[part][index]),
+        motion: options.motion(&poses[part], index),
     });
     let camera =
         Camera::from_principal_distance(FRAME, FRAME, PRINCIPAL_DISTANCE, PITCH, [0.0, 0.0])?;
@@ -125,7 +178,8 @@ fn write_frame(
         tibia,
     };
     let name = frame_name(index);
-    let pixels = film::expose(&scene, options.seed, index as u64)?;
+    let physics = options.physics_of(index);
+    let pixels = film::expose(&scene, &physics, options.seed, index as u64)?;
     write_grey(&out.join("frames").join(&name), (FRAME, FRAME), &pixels)?;
     for (component, placed) in [("femur", &femur), ("tibia", &tibia)] {
         let words = film::silhouette(&camera, placed)?;
@@ -148,11 +202,11 @@ fn write_texts(options: &Options, positions: &[Position], out: &Path) -> Result<
         "calibration.txt",
         &format!("JT_INTCALIB\n{PRINCIPAL_DISTANCE}\n0\n0\n{PITCH}\n"),
     )?;
-    save("study.toml", &study(options.side))?;
+    save("study.toml", &study(&options.name(), options.side))?;
     save("femur.jts", &poses(positions, |position| position.femur)?)?;
     save("tibia.jts", &poses(positions, |position| position.tibia)?)?;
     let manifest = Manifest {
-        name: NAME,
+        name: options.name(),
         side: options.side,
         calibration: "calibration.txt",
         frames: (0..positions.len())
@@ -183,9 +237,10 @@ fn poses(positions: &[Position], of: fn(&Position) -> EulerPose) -> Result<Strin
     Ok(text)
 }
 
-fn study(side: Side) -> String {
+fn study(name: &str, side: Side) -> String {
+    let what = name.replace('-', " ");
     let mut text = format!(
-        "# Synthetic: a deep knee bend, both components at known poses.\nname = \"{NAME}\"\nside = \"{side}\"\n\
+        "# Synthetic: a {what}, both components at known poses.\nname = \"{name}\"\nside = \"{side}\"\n\
          calibration = \"calibration.txt\"\nframes = \"frames\"\n"
     );
     for component in ["femur", "tibia"] {

@@ -47,6 +47,7 @@ impl OneClick {
             }
             Stage::Narrow => Progress::Poses(0.58),
             Stage::Around(_) => Progress::Poses(0.5 + 0.08 * self.round as f64),
+            Stage::Beyond(_) => Progress::Poses(0.85),
             Stage::Mirror(_) => Progress::Poses(0.9),
             Stage::Done => Progress::Done,
         }
@@ -123,6 +124,13 @@ impl OneClick {
                 }
                 None => Stage::Refine(0),
             },
+            Stage::Beyond(at) => {
+                if self.look_beyond(at, observation, component, memory)? {
+                    Stage::Beyond(at + 1)
+                } else {
+                    Stage::Mirror(0)
+                }
+            }
             Stage::Mirror(at) => {
                 if self.mirror(at, observation, component, memory)? {
                     Stage::Mirror(at + 1)

@@ -45,7 +45,7 @@ impl OneClick {
         self.round += 1;
         let hopeless = self.answers.is_empty() && self.round > 1;
         if hopeless || self.is_convinced() {
-            return Stage::Mirror(0);
+            return Stage::Beyond(0);
         }
         self.starts.clear();
         match self.round {
@@ -57,7 +57,7 @@ impl OneClick {
                 self.rotated_from = self.answers.first().copied();
                 Stage::Around(0)
             }
-            _ => Stage::Mirror(0),
+            _ => Stage::Beyond(0),
         }
     }
 

@@ -45,6 +45,8 @@ pub(super) enum Stage {
     Narrow,
     /// Rotations around the best answer are scored, one by one.
     Around(usize),
+    /// Outer rims are looked for beyond the answers, one by one.
+    Beyond(usize),
     /// The mirror images of the best answer are refined, one by one.
     Mirror(usize),
     /// Nothing is left to do.
@@ -81,6 +83,8 @@ pub struct OneClick {
     pub(super) sharpest: Option<(f64, Region)>,
     pub(super) starts: Vec<Start, STARTS>,
     pub(super) answers: Vec<Answer, ANSWERS>,
+    /// The answers beyond which outer rims are looked for.
+    pub(super) inner: Vec<Answer, ANSWERS>,
 }
 
 impl OneClick {
@@ -116,6 +120,7 @@ impl OneClick {
             sharpest: None,
             starts: Vec::new(),
             answers: Vec::new(),
+            inner: Vec::new(),
         })
     }
 

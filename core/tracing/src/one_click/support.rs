@@ -61,6 +61,35 @@ pub(super) fn support(
     })
 }
 
+/// Weights of readings along an outline, for slopes of faint edges.
+const FAINTLY: [f64; 5] = [0.2; 5];
+
+/// The slope at a distance outwards from a sample, of readings averaged along the outline; positive from an implant to what
+/// surrounds it, grey values a pixel. `None` where it is excluded or beyond the frame.
+pub(super) fn second_slope(
+    observation: &Observation<'_>,
+    sample: &OutlineSample,
+    t: f64,
+) -> Option<f64> {
+    let place = [sample.column, sample.row];
+    let at = |t: f64| grey_across(observation.frame, place, sample.normal, &FAINTLY, t);
+    let (column, row) = (
+        (sample.column + t * sample.normal[0]).max(0.0) as usize,
+        (sample.row + t * sample.normal[1]).max(0.0) as usize,
+    );
+    if observation
+        .excluded
+        .is_some_and(|mask| mask.get(column, row))
+    {
+        return None;
+    }
+    let outwards = (at(t + HALF)? - at(t - HALF)?) / (2.0 * HALF);
+    Some(match observation.polarity {
+        Polarity::DarkImplant => outwards,
+        Polarity::BrightImplant => -outwards,
+    })
+}
+
 /// The greatest slope of the right sign near a sample, grey values a pixel; `None` where the
 /// sample is excluded or too near to the frame's border.
 fn slope(observation: &Observation<'_>, sample: &OutlineSample, reach: f64) -> Option<f64> {

@@ -4,14 +4,14 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::finder::{Component, FinderBuffers};
+use fluoropose::finder::{Candidate, Component, FinderBuffers};
 use fluoropose::image::frame::Grey;
 use fluoropose::library::Library;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::Polarity;
 use fluoropose_tracing::one_click::{
-    Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start,
+    Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start, candidates,
 };
 
 /// What came of a prompt.
@@ -20,6 +20,8 @@ pub struct Clicked {
     pub starts: Vec<Start>,
     /// Refined poses, best first; at least one.
     pub answers: Vec<Answer>,
+    /// Those of them that are rivals, as the finder chooses among them and judges them.
+    pub candidates: Vec<Candidate>,
     /// Wall time of all steps.
     pub took: Duration,
     /// Wall time of the longest step.
@@ -94,10 +96,14 @@ impl<'l> Clicker<'l> {
                 break;
             }
         }
+        let took = begin.elapsed();
+        let answers = work.answers();
+        let rivals = candidates(answers, &observation, &self.mesh, &mut memory.refine)?;
         Ok(Clicked {
+            candidates: rivals.to_vec(),
             starts: work.starts().to_vec(),
-            answers: work.answers().to_vec(),
-            took: begin.elapsed(),
+            answers: answers.to_vec(),
+            took,
             longest,
         })
     }

@@ -1,6 +1,7 @@
 //! Verb `evaluate`: poses from a study's masks against its reference poses.
 
 mod found;
+mod inside;
 mod limits;
 mod print;
 mod reference;
@@ -24,7 +25,7 @@ pub use table::{Row, StartDifference, Table, Verdicts};
 #[command(
     after_help = format!("For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
 the reference poses, and the other methods' pose files named there in the same table. wrong counts frames whose pose is nearer to the \
-reference's mirror image than to the reference. The mean error stands below as bias. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
+reference's mirror image than to the reference. The mean error stands below as bias, and then the percent of frames in which each number lies within one and two of its standard deviations of the reference's: 68 and 95 where they are told right. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
 Of several poses of a frame one is chosen by its residual, where it decides; of a tibia by the coronal tilt against the femur of the same \
 source; then by continuity over the frames. How many frames were chosen by what stands below each row. Components are femur and tibia by their names or \
 by the key role = \"femur\" or \"tibia\".\n\n\
@@ -141,6 +142,8 @@ impl Part<'_> {
         row.from_reference = starts.map(|starts| StartDifference::of(&poses, starts));
         let noise = Noise::of(&request.disturbance, 1);
         let mesh = self.model.as_model();
+        let middle = mesh.bounds().centre;
+        [row.inside_1sd, row.inside_2sd] = inside::inside(&found.decisions, reference, &middle);
         row.limits = Some(limits::against(reference, mesh, found, noise, &row.rms)?);
         Ok(Some(row))
     }

@@ -1,12 +1,13 @@
 //! Verb `outline`: one-click outlines on a study's grey frames, against its masks.
 
 mod picture;
-mod prompts;
 
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
+use fluoropose::finder::choice::{ChoiceContext, choose};
+use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
 use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
@@ -18,6 +19,8 @@ use crate::files::{
     Component, MaskBuffer, Study, grey, read_calibration, read_model, read_poses, write_json,
 };
 
+use crate::finding::prompts::Kind;
+
 use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
 
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
@@ -25,15 +28,15 @@ use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 use crate::options::Pair;
 
 use crate::sequence::{Folders, Source};
-use prompts::Kind;
 
 /// Options of `outline`.
 #[derive(clap::Args)]
 #[command(
     after_help = "For each frame of the study: a click where the implant is thickest, a click anywhere inside it and a rough box, 5 to 15 % \
-larger on each side, all derived from its mask. Each is given to the one-click outline with the grey frame and the component's library, \
+larger on each side, all derived from its mask, and a click at the middle of the model where the reference pose has it. Each is given to the one-click outline with the grey frame and the component's library, \
 built for the usual distance; nothing else of the mask is used. The table holds the overlap (intersection over union) of the model's \
-silhouette with the mask, the pose's errors against the reference poses, and the time.\n\n\
+silhouette with the mask, the pose's errors against the reference poses, and the time; and how many poses are right (at most 4 degrees and 25 mm of \
+depth off), how many of the others are told to be doubtful or refused, and how many are called good.\n\n\
 Example:\n  cargo xtask outline --study study.toml --component femur"
 )]
 pub struct Args {
@@ -49,6 +52,9 @@ pub struct Args {
     /// The implant is brighter than what surrounds it
     #[arg(long)]
     bright_implant: bool,
+    /// Only this kind of prompt
+    #[arg(long, value_enum)]
+    prompt: Option<Kind>,
     /// Only this frame, from 0
     #[arg(long)]
     frame: Option<usize>,
@@ -80,6 +86,12 @@ pub struct Row {
     pub median: Option<Errors>,
     /// First answers nearer to the reference's mirror image than to the reference.
     pub wrong_side: usize,
+    /// Poses chosen at most 4 degrees and 25 mm of depth off.
+    pub right: usize,
+    /// The others that are told to be doubtful, were refused, or have no answer.
+    pub marked: usize,
+    /// The others that are called good.
+    pub wrong: usize,
     /// Median time, ms.
     pub median_ms: f64,
     /// Median of the longest step of each, ms.
@@ -91,9 +103,21 @@ struct Outcome {
     iou: f64,
     errors: Option<Errors>,
     wrong_side: bool,
+    good: bool,
     ms: f64,
     step_ms: f64,
 }
+
+impl Outcome {
+    fn is_right(&self) -> bool {
+        let (turn, depth) = RIGHT;
+        let right = |errors: Errors| errors.geodesic_deg <= turn && errors.z_mm.abs() <= depth;
+        self.errors.is_some_and(right)
+    }
+}
+
+/// A pose is right within this of the reference: degrees, mm of depth.
+const RIGHT: (f64, f64) = (4.0, 25.0);
 
 /// Runs the verb.
 ///
@@ -136,7 +160,8 @@ pub fn run(args: Args) -> Result<()> {
         args: &args,
     };
     let mut rows = Vec::new();
-    for kind in Kind::ALL {
+    let wanted = |kind: &Kind| args.prompt.is_none_or(|prompt| prompt == *kind);
+    for kind in Kind::ALL.into_iter().filter(wanted) {
         let row = trial.row(kind)?;
         print(&row);
         rows.push(row);
@@ -188,6 +213,12 @@ impl Trial<'_> {
             least_iou: overlaps.iter().copied().fold(1.0, f64::min),
             median: (!errors.is_empty()).then(|| Errors::summarise(&errors, median_absolute)),
             wrong_side: done.iter().filter(|outcome| outcome.wrong_side).count(),
+            right: done.iter().filter(|outcome| outcome.is_right()).count(),
+            marked: frames.len() - done.iter().filter(|one| one.is_right() || one.good).count(),
+            wrong: done
+                .iter()
+                .filter(|one| !one.is_right() && one.good)
+                .count(),
             median_ms: median(|outcome| outcome.ms),
             step_ms: median(|outcome| outcome.step_ms),
         })
@@ -197,8 +228,12 @@ impl Trial<'_> {
     fn outcome(&mut self, kind: Kind, frame: usize) -> Result<Option<Outcome>> {
         let (path, mask) = &self.source.masks[frame];
         let mask = mask.mask();
+        let reference = self.references.get(frame).copied().flatten();
+        let middle = self.mesh.bounds().centre;
+        let centre =
+            reference.and_then(|pose| self.source.camera.project(&pose.transform(&middle)));
         let prompt = kind
-            .prompt(&mask, frame as u64)
+            .prompt(&mask, centre, frame as u64)
             .with_context(|| format!("{} is too thin to click into", path.display()))?;
         let frames = self.source.frames.as_ref().context("there are no frames")?;
         let decoded = frames.decode(frame)?;
@@ -220,18 +255,20 @@ impl Trial<'_> {
                 &format!("frame {frame} {} {prompt:?}", kind.word()),
                 &clicked,
                 &mask,
+                reference.as_ref(),
             )?;
         }
-        let best = &clicked.answers[0].refined.pose;
+        let (chosen, verdict) = chosen(&clicked.candidates).context("there is no candidate")?;
+        let best = &chosen.pose;
         let drawn = draw(&self.mesh, &self.source.camera, best)?;
         if let Some(folder) = &self.args.pictures {
             let name = format!("{}-{frame:03}-{kind:?}.png", self.args.component);
             picture::write(&folder.join(name), &*grey, &mask, &drawn.mask(), &prompt)?;
         }
-        let reference = self.references.get(frame).copied().flatten();
         let planes = self.clicker.planes();
         Ok(Some(Outcome {
             iou: overlap(&mask, &drawn.mask()),
+            good: verdict == Verdict::Good,
             errors: reference.map(|reference| Errors::of(best, &reference)),
             wrong_side: reference.is_some_and(|reference| is_wrong_side(best, &reference, planes)),
             ms: clicked.took.as_secs_f64() * 1e3,
@@ -239,15 +276,23 @@ impl Trial<'_> {
         }))
     }
 
-    fn tell(&self, what: &str, clicked: &Clicked, mask: &Mask<'_>) -> Result<()> {
+    fn tell(
+        &self,
+        what: &str,
+        clicked: &Clicked,
+        mask: &Mask<'_>,
+        reference: Option<&Pose>,
+    ) -> Result<()> {
         eprintln!("{what}: {:.0} ms", clicked.took.as_secs_f64() * 1e3);
         let iou = |pose: &Pose| -> Result<f64> {
             let drawn = draw(&self.mesh, &self.source.camera, pose)?;
             Ok(overlap(mask, &drawn.mask()))
         };
         for start in &clicked.starts {
+            let errors = reference.map(|known| Errors::of(&start.pose, known));
+            let (turn, depth) = errors.map_or((f64::NAN, f64::NAN), |e| (e.geodesic_deg, e.z_mm));
             eprintln!(
-                "  start: iou {:.3}, score {:.3}, region {:.3}, edges {:.3}, share {:.3}",
+                "  start: {turn:5.1} deg, z {depth:6.1} mm, iou {:.3}, score {:.3}, region {:.3}, edges {:.3}, share {:.3}",
                 iou(&start.pose)?,
                 start.score,
                 start.overlap,
@@ -256,8 +301,10 @@ impl Trial<'_> {
             );
         }
         for answer in &clicked.answers {
+            let errors = reference.map(|known| Errors::of(&answer.refined.pose, known));
+            let (turn, depth) = errors.map_or((f64::NAN, f64::NAN), |e| (e.geodesic_deg, e.z_mm));
             eprintln!(
-                "  answer: iou {:.3}, score {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
+                "  answer: {turn:5.1} deg, z {depth:6.1} mm, iou {:.3}, score {:.3}, share {:.3}, residual {:.2} px, loss {:.3}{}",
                 iou(&answer.refined.pose)?,
                 answer.score,
                 answer.support.fraction,
@@ -268,6 +315,13 @@ impl Trial<'_> {
         }
         Ok(())
     }
+}
+
+/// The pose that the finder chooses, and how far it is to be trusted.
+fn chosen(candidates: &[Candidate]) -> Option<(Candidate, Verdict)> {
+    let choice = choose(&contenders(candidates), &ChoiceContext::default())?;
+    let verdict = judge(candidates, &choice, &Limits::USUAL)?;
+    Some((*candidates.get(choice.index)?, verdict))
 }
 
 /// The silhouette of a pose.
@@ -304,6 +358,10 @@ fn print(row: &Row) {
         println!(
             "{:22} median errors: x {:.2}, y {:.2}, z {:.2} mm; {:.2} deg; {} on the wrong side",
             "", errors.x_mm, errors.y_mm, errors.z_mm, errors.geodesic_deg, row.wrong_side
+        );
+        println!(
+            "{:22} right {}, marked {}, wrong and called good {}",
+            "", row.right, row.marked, row.wrong
         );
     }
 }

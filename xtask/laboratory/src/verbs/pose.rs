@@ -195,13 +195,14 @@ fn line(candidate: &Candidate, middle: &Vector3, note: &str) {
     };
     let fit = match candidate.refined {
         Some(_) => format!("{:.3} px residual", candidate.misfit()),
-        None => format!("{} px unmatched", candidate.located.unmatched),
+        None => format!("{} px unmatched", candidate.misfit()),
     };
     let offset = candidate.refined.filter(|refined| refined.offset_px != 0.0);
     let offset = offset.map_or(String::new(), |refined| {
         format!(", edges {:.2} px outside", refined.offset_px)
     });
-    let border = if candidate.located.located.fine.at_border {
+    let located = candidate.located.map(|located| located.located);
+    let border = if located.is_some_and(|located| located.fine.at_border) {
         "  (at the border of the library)"
     } else {
         ""

@@ -67,21 +67,35 @@ pub fn deep_knee_bend(
             };
             // The bend starts and ends gently.
             let flexion_deg = DEEPEST_DEG * (0.6 * part + 0.4 * smooth_step(part));
-            position(flexion_deg, side, femur, width_mm / 70.0, &sway)
+            position(flexion_deg, side, femur, width_mm, &sway)
         })
         .collect()
 }
 
-fn position(flexion: f64, side: Side, femur: &Triangles, scale: f64, sway: &Sway) -> Position {
+fn position(flexion: f64, side: Side, femur: &Triangles, width_mm: f64, sway: &Sway) -> Position {
     let [x_mm, y_mm, z_mm] = TIBIA_PLACE.map(|place| place.at(flexion));
-    let tibia = Pose::from(EulerPose {
+    let tibia = EulerPose {
         x_mm,
         y_mm,
         z_mm,
         z_rot_deg: LEAN.at(flexion),
         x_rot_deg: TIBIA_X.at(flexion) + sway.at(flexion, 0),
         y_rot_deg: TIBIA_Y.at(flexion) + sway.at(flexion, 1),
-    });
+    };
+    knee(tibia, flexion, side, femur, width_mm)
+}
+
+/// A knee bent by so many degrees whose tray is at a pose: that of a left knee's; a right one is its mirror image.
+///
+/// `femur` is the mesh that is set down on the insert; `width_mm` is its mediolateral width.
+pub fn knee(
+    tibia: EulerPose,
+    flexion: f64,
+    side: Side,
+    femur: &Triangles,
+    width_mm: f64,
+) -> Position {
+    let (tibia, scale) = (Pose::from(tibia), width_mm / 70.0);
     let turn = Pose::from(EulerPose {
         z_rot_deg: -flexion,
         x_rot_deg: ABDUCTION.at(flexion),

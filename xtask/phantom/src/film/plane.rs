@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 /// Values row by row.
+#[derive(Clone)]
 pub(super) struct Plane {
     pub(super) width: usize,
     pub(super) height: usize,
@@ -12,9 +13,39 @@ pub(super) struct Plane {
 impl Plane {
     /// Convolved with a Gaussian of this standard deviation in pixels; the border is continued.
     pub(super) fn blurred(&self, sigma: f64) -> Self {
+        if sigma <= 0.0 {
+            return self.clone();
+        }
         let kernel = kernel(sigma);
         let once = self.convolved_along_rows(&kernel).transposed();
         once.convolved_along_rows(&kernel).transposed()
+    }
+
+    /// Multiplied, value by value.
+    pub(super) fn multiply(&mut self, other: &Self) {
+        let pairs = self.values.iter_mut().zip(&other.values);
+        pairs.for_each(|(value, other)| *value *= other);
+    }
+
+    /// Added, value by value.
+    pub(super) fn add(&mut self, other: &Self) {
+        let pairs = self.values.iter_mut().zip(&other.values);
+        pairs.for_each(|(value, other)| *value += other);
+    }
+
+    /// Every value times a factor.
+    pub(super) fn times(mut self, factor: f64) -> Self {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
+    /// Every value to a power.
+    pub(super) fn power(&self, exponent: f64) -> Self {
+        let values = self.values.par_iter();
+        Self {
+            values: values.map(|&value| libm::pow(value, exponent)).collect(),
+            ..*self
+        }
     }
 
     /// The mean of blocks of `factor` x `factor` values; what is left over at the far borders is dropped.

@@ -1,6 +1,7 @@
 //! The table for a person.
 
 use super::table::{Row, Table, Verdicts};
+use crate::choice::report::Numbers;
 use crate::measure::accuracy::Errors;
 use crate::measure::bound::{Comparison, Limit};
 
@@ -44,6 +45,14 @@ fn print_row(row: &Row) {
     );
     println!("{:LEFT$} {}", "", numbers(&row.median));
     println!("{:>LEFT$} {}", "bias", numbers(&row.bias));
+    for (name, inside) in [
+        ("within 1 SD, %", &row.inside_1sd),
+        ("within 2 SD, %", &row.inside_2sd),
+    ] {
+        if let Some(inside) = inside {
+            println!("{name:>LEFT$} {}", percents(inside));
+        }
+    }
     if row.not_found > 0 {
         let (missing, frames) = (row.not_found, row.frames);
         println!(
@@ -90,6 +99,11 @@ fn numbers(e: &Errors) -> String {
         "{:7.3} {:7.3} {:7.2} {:8.3} {:8.3} {:8.3} {:9.3}",
         e.x_mm, e.y_mm, e.z_mm, e.z_rot_deg, e.x_rot_deg, e.y_rot_deg, e.geodesic_deg
     )
+}
+
+fn percents(inside: &Numbers) -> String {
+    let [x, y, z, z_rot, x_rot, y_rot] = inside.all().map(|part| 100.0 * part);
+    format!("{x:7.0} {y:7.0} {z:7.0} {z_rot:8.0} {x_rot:8.0} {y_rot:8.0}")
 }
 
 /// Limits and ratios in the columns of the table.

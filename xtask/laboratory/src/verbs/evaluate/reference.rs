@@ -61,6 +61,8 @@ impl Reference {
                 .iter()
                 .filter(|(found, known)| is_wrong_side(found, known, &self.planes))
                 .count(),
+            inside_1sd: None,
+            inside_2sd: None,
             verdicts: None,
             reasons: None,
             femur: None,

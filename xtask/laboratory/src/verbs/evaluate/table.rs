@@ -3,6 +3,7 @@
 use fluoropose::pose::Pose;
 use serde::Serialize;
 
+use crate::choice::report::Numbers;
 use crate::choice::{Decision, Reasons};
 use crate::measure::accuracy::{Errors, rms};
 use crate::measure::bound::Comparison;
@@ -37,6 +38,11 @@ pub struct Row {
     pub bias: Errors,
     /// Median absolute errors.
     pub median: Errors,
+    /// Of poses found here that say how sure they are: the part of frames in which each number lies within one standard
+    /// deviation of the reference's. 68 % would be right.
+    pub inside_1sd: Option<Numbers>,
+    /// The same within two. 95 % would be right.
+    pub inside_2sd: Option<Numbers>,
     /// Frames nearer to the reference's mirror image than to the reference.
     pub wrong_side: usize,
     /// Of poses found here: how far they are to be trusted.

@@ -13,32 +13,35 @@ const DEPTH: f64 = 3.0;
 const WIDER: [f64; 2] = [0.05, 0.15];
 
 /// Kinds of prompts, in the order of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Kind {
     /// A click where the implant is thickest.
     Deepest,
     /// A click anywhere inside.
     Anywhere,
     /// A rough box.
     Box,
+    /// A click at the middle of the model, where it truly is.
+    Centre,
 }
 
 impl Kind {
     /// All of them.
-    pub(super) const ALL: [Self; 3] = [Self::Deepest, Self::Anywhere, Self::Box];
+    pub const ALL: [Self; 4] = [Self::Deepest, Self::Anywhere, Self::Box, Self::Centre];
 
     /// The word for it in the table.
-    pub(super) fn word(self) -> &'static str {
+    pub fn word(self) -> &'static str {
         match self {
             Self::Deepest => "click in the middle",
             Self::Anywhere => "click anywhere inside",
             Self::Box => "rough box",
+            Self::Centre => "click at its centre",
         }
     }
 
-    /// A prompt of this kind for the implant of `mask`; `seed` tells random ones apart. `None`
-    /// for a mask too thin to click into.
-    pub(super) fn prompt(self, mask: &Mask<'_>, seed: u64) -> Option<Prompt> {
+    /// A prompt of this kind for the implant of `mask`, the middle of whose model is at `centre`, where that is known; `seed`
+    /// tells random ones apart. `None` for a mask too thin to click into.
+    pub fn prompt(self, mask: &Mask<'_>, centre: Option<Point>, seed: u64) -> Option<Prompt> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         match self {
             Self::Deepest => {
@@ -63,6 +66,7 @@ impl Kind {
                 let high = Point::new(columns.end as f64 + margin(), rows.end as f64 + margin());
                 Some(Prompt::Box(low, high))
             }
+            Self::Centre => centre.map(Prompt::Click),
         }
     }
 }
@@ -139,17 +143,17 @@ mod tests {
     fn clicks_lie_inside_and_boxes_hold_the_implant() {
         let plate = plate();
         let mask = plate.mask();
-        let Some(Prompt::Click(middle)) = Kind::Deepest.prompt(&mask, 0) else {
+        let Some(Prompt::Click(middle)) = Kind::Deepest.prompt(&mask, None, 0) else {
             panic!("a click")
         };
         assert_eq!(middle.row, 30.5);
         assert!((40.0..61.0).contains(&middle.column));
         for seed in 0..50 {
-            let Some(Prompt::Click(at)) = Kind::Anywhere.prompt(&mask, seed) else {
+            let Some(Prompt::Click(at)) = Kind::Anywhere.prompt(&mask, None, seed) else {
                 panic!("a click")
             };
             assert!((32.0..69.0).contains(&at.column) && (22.0..39.0).contains(&at.row));
-            let Some(Prompt::Box(low, high)) = Kind::Box.prompt(&mask, seed) else {
+            let Some(Prompt::Box(low, high)) = Kind::Box.prompt(&mask, None, seed) else {
                 panic!("a box")
             };
             assert!((30.0 - 6.15..=30.0 - 2.05).contains(&low.column));

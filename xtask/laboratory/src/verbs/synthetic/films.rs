@@ -1,0 +1,157 @@
+//! Grey films of the built-in implants: how far off their poses are, and whether that is told.
+
+mod draw;
+mod kinds;
+mod table;
+mod trial;
+
+use std::path::Path;
+
+use anyhow::Result;
+use fluoropose::camera::Camera;
+use fluoropose_phantom::implant::{self, Parameters, Triangles};
+use rayon::prelude::*;
+
+use crate::files::{owned, write_json};
+use crate::finding::{ViewOptions, build_library};
+use crate::progress::progress;
+use draw::{Film, Number, draw};
+pub use kinds::FilmKind;
+pub use table::FilmRow;
+use table::{print, print_heading, print_legend};
+pub use trial::FilmWay;
+use trial::{Bench, Outcome};
+
+/// Side of the square frames (pixels), focus to detector and pitch of its pixels (mm), distance of the libraries' views (mm).
+const FRAME: usize = 1024;
+const PRINCIPAL_DISTANCE: f64 = 1200.0;
+const PITCH: f64 = 0.373;
+const DISTANCE: f64 = 1080.0;
+const PARTS: [&str; 2] = ["femur", "tibia"];
+
+/// Options of `synthetic --films`.
+#[derive(clap::Args)]
+pub(super) struct FilmArgs {
+    /// Grey films of the built-in implants, of several kinds: both components from one click, and refined from the truth
+    #[arg(long)]
+    pub(super) films: bool,
+    /// With --films: films of each kind
+    #[arg(long, default_value_t = 25)]
+    count: usize,
+    /// With --films: only kinds whose name holds this
+    #[arg(long, value_name = "WORDS")]
+    only: Option<String>,
+}
+
+/// What is measured.
+#[derive(Clone, Copy, Debug)]
+pub struct Films<'f> {
+    /// The kinds of films.
+    pub kinds: &'f [FilmKind],
+    /// Films of each.
+    pub count: usize,
+    /// Seed of poses and noise: the same seed shows the same knees in every kind.
+    pub seed: u64,
+    /// How poses are come by.
+    pub ways: &'f [FilmWay],
+}
+
+/// Measures and prints.
+///
+/// # Errors
+/// Those of [`measure_films`].
+pub(super) fn run(args: &FilmArgs, seed: u64, json: Option<&Path>) -> Result<()> {
+    let mut kinds = FilmKind::all();
+    if let Some(words) = &args.only {
+        kinds.retain(|kind| kind.name.contains(words));
+    }
+    let what = Films {
+        kinds: &kinds,
+        count: args.count,
+        seed,
+        ways: &FilmWay::ALL,
+    };
+    print_heading();
+    let rows = measure_films(&what, print)?;
+    print_legend();
+    write_json(json, &rows)
+}
+
+/// Draws films of each kind and finds both components in them; `each` gets a row as soon as it is known.
+///
+/// # Errors
+/// Where a film cannot be drawn.
+pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<FilmRow>> {
+    let parameters = Parameters::default();
+    let implants = [implant::femur(&parameters)?, implant::tibia(&parameters)?];
+    let meshes = [owned(implants[0].clone())?, owned(implants[1].clone())?];
+    let models = [meshes[0].as_model(), meshes[1].as_model()];
+    let camera =
+        Camera::from_principal_distance(FRAME, FRAME, PRINCIPAL_DISTANCE, PITCH, [0.0; 2])?;
+    let library = |part: usize| {
+        let built = build_library(models[part], camera, &ViewOptions::default(), DISTANCE);
+        built.map(|built| built.bytes)
+    };
+    let libraries = match what.ways.contains(&FilmWay::Click) {
+        true => Some([library(0)?, library(1)?]),
+        false => None,
+    };
+    let mut rows = Vec::new();
+    for kind in what.kinds {
+        let films = films_of(kind, &implants, camera, what)?;
+        for &way in what.ways {
+            let outcomes = outcomes_of(&films, way, &|| {
+                Bench::open(libraries.as_ref(), models, camera)
+            })?;
+            for (part, name) in PARTS.into_iter().enumerate() {
+                let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
+                let row = FilmRow::of(&kind.name, [name, way.word()], &column);
+                each(&row);
+                rows.push(row);
+            }
+        }
+    }
+    Ok(rows)
+}
+
+/// The films of a kind: a study, as it were.
+fn films_of(
+    kind: &FilmKind,
+    implants: &[Triangles; 2],
+    camera: Camera,
+    what: &Films<'_>,
+) -> Result<Vec<Film>> {
+    let bar = progress(what.count, "films");
+    let film = |frame: usize| {
+        let number = Number {
+            seed: what.seed,
+            frame: frame as u64,
+        };
+        let film = draw(implants, camera, &kind.physics, &number);
+        bar.inc(1);
+        film
+    };
+    let films = (0..what.count).into_par_iter().map(film).collect();
+    bar.finish_and_clear();
+    films
+}
+
+/// What comes of each film, by component.
+fn outcomes_of<'b>(
+    films: &[Film],
+    way: FilmWay,
+    open: &(impl Fn() -> Result<Bench<'b>> + Sync),
+) -> Result<Vec<[Outcome; 2]>> {
+    let bar = progress(films.len(), "found");
+    let run = |bench: &mut Result<Bench<'b>>, film: &Film| match bench {
+        Ok(bench) => {
+            let outcome = bench.run(film, way);
+            bar.inc(1);
+            outcome
+        }
+        Err(error) => anyhow::bail!("{error:#}"),
+    };
+    let outcomes = films.par_iter().map_init(open, run).collect();
+    bar.finish_and_clear();
+    outcomes
+}

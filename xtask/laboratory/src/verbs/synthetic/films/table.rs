@@ -1,0 +1,149 @@
+//! Statistics of a kind of films, and the table.
+
+use serde::Serialize;
+
+use super::trial::{Found, Outcome};
+use crate::measure::accuracy::{Errors, mean, median_absolute, rms};
+use crate::verbs::synthetic::ranges::FAILURE_DEG;
+
+/// A kind of films, a component and the way to its poses.
+#[derive(Clone, Debug, Serialize)]
+pub struct FilmRow {
+    /// The kind of films, in words.
+    pub films: String,
+    /// `femur` or `tibia`.
+    pub component: &'static str,
+    /// `click` or `image`.
+    pub way: &'static str,
+    /// Films.
+    pub frames: usize,
+    /// Verdicts.
+    pub good: usize,
+    /// See `good`.
+    pub doubtful: usize,
+    /// Refused, or nothing found.
+    pub none: usize,
+    /// Of the poses that were not refused, those more than 4 degrees off: not in the errors below.
+    pub failures: usize,
+    /// Mean errors of the others, with their signs.
+    pub bias: Errors,
+    /// Root mean square errors of the others.
+    pub rms: Errors,
+    /// Root mean square errors of those called good, whatever they are off.
+    pub good_rms: Errors,
+    /// Median standard deviation of z that was told, mm.
+    pub told_z_mm: f64,
+    /// Poses more than three standard deviations off in depth or rotation, and called good.
+    pub wrong_but_good: usize,
+    /// Of the poses not more than 4 degrees off, the parts with the truth inside the regions of 68 and 95 %.
+    pub z_inside: [f64; 2],
+    /// The same of the rotation.
+    pub rotation_inside: [f64; 2],
+    /// Median time of a pose, ms.
+    pub median_ms: f64,
+}
+
+impl FilmRow {
+    pub(super) fn of(
+        films: &str,
+        [component, way]: [&'static str; 2],
+        outcomes: &[Outcome],
+    ) -> Self {
+        let count = |word: &str| outcomes.iter().filter(|one| one.verdict == word).count();
+        let all: Vec<&Found> = outcomes
+            .iter()
+            .filter_map(|one| one.found.as_ref())
+            .collect();
+        let right = |found: &&&Found| found.errors.geodesic_deg <= FAILURE_DEG;
+        let kept: Vec<&Found> = all.iter().filter(right).copied().collect();
+        let errors: Vec<Errors> = kept.iter().map(|found| found.errors).collect();
+        let good = outcomes.iter().filter(|one| one.verdict == "good");
+        let good: Vec<&Found> = good.filter_map(|one| one.found.as_ref()).collect();
+        let good_errors: Vec<Errors> = good.iter().map(|found| found.errors).collect();
+        let part = |inside: &dyn Fn(&Found) -> bool| {
+            kept.iter().filter(|found| inside(found)).count() as f64 / kept.len() as f64
+        };
+        let told: Vec<f64> = kept
+            .iter()
+            .filter_map(|found| Some(found.sd?.z_mm))
+            .collect();
+        let times: Vec<f64> = outcomes.iter().map(|one| one.ms).collect();
+        Self {
+            films: films.to_owned(),
+            component,
+            way,
+            frames: outcomes.len(),
+            good: count("good"),
+            doubtful: count("doubtful"),
+            none: count("none"),
+            failures: all.len() - kept.len(),
+            bias: Errors::summarise(&errors, mean),
+            rms: Errors::summarise(&errors, rms),
+            good_rms: Errors::summarise(&good_errors, rms),
+            told_z_mm: median_absolute(&told),
+            wrong_but_good: good.iter().filter(|found| found.wrong).count(),
+            z_inside: [0, 1].map(|k| part(&|found| found.z_inside[k])),
+            rotation_inside: [0, 1].map(|k| part(&|found| found.rotation_inside[k])),
+            median_ms: median_absolute(&times),
+        }
+    }
+}
+
+pub(super) fn print_heading() {
+    println!(
+        "{:<36} {:<5} {:<5} {:>6} {:>5} {:>5} {:>5} {:>6} | {:>7} {:>7} {:>7} {:>7} {:>7} | {:>6} {:>7} {:>7} {:>7} {:>7} {:>6}",
+        "films",
+        "part",
+        "way",
+        "frames",
+        "good",
+        "doubt",
+        "none",
+        ">4 deg",
+        "z bias",
+        "z RMS",
+        "z told",
+        "rot RMS",
+        "xy RMS",
+        "wrong*",
+        "z 68 %",
+        "z 95 %",
+        "r 68 %",
+        "r 95 %",
+        "ms"
+    );
+}
+
+pub(super) fn print(row: &FilmRow) {
+    let (bias, rms) = (&row.bias, &row.rms);
+    let percent = |part: f64| 100.0 * part;
+    println!(
+        "{:<36} {:<5} {:<5} {:>6} {:>5} {:>5} {:>5} {:>6} | {:7.2} {:7.2} {:7.2} {:7.3} {:7.3} | {:>6} {:7.0} {:7.0} {:7.0} {:7.0} {:6.0}",
+        row.films,
+        row.component,
+        row.way,
+        row.frames,
+        row.good,
+        row.doubtful,
+        row.none,
+        row.failures,
+        bias.z_mm,
+        rms.z_mm,
+        row.told_z_mm,
+        rms.geodesic_deg,
+        rms.x_mm.hypot(rms.y_mm),
+        row.wrong_but_good,
+        percent(row.z_inside[0]),
+        percent(row.z_inside[1]),
+        percent(row.rotation_inside[0]),
+        percent(row.rotation_inside[1]),
+        row.median_ms
+    );
+}
+
+pub(super) fn print_legend() {
+    println!(
+        "mm and degrees, of poses at most 4 degrees off; told: the median standard deviation of z; wrong*: more than 3 standard \
+deviations off in depth or rotation and called good; 68 and 95 %: percent of poses whose region holds the truth, of z and of the rotation."
+    );
+}
