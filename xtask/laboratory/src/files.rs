@@ -2,6 +2,7 @@
 
 mod calibration;
 mod distortion;
+mod film;
 mod frames;
 mod mask;
 mod model;
@@ -12,6 +13,7 @@ mod text;
 
 pub use calibration::{camera_for, read_calibration};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
+pub use film::Film;
 pub use frames::{Frames, grey};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{owned, read_model};

@@ -1,0 +1,130 @@
+//! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
+
+use anyhow::{Context, Result, ensure};
+use fluoropose::follow::frame_pose_at;
+use fluoropose::pose::Pose;
+
+use super::film::Run;
+use super::follow::{Anchor, Cell, follow};
+use super::part::Part;
+use super::search::{clicked, searched};
+use crate::files::read_poses;
+
+/// In so many frames at most a component is searched that nobody pointed at.
+const TRIES: usize = 8;
+/// Frames between those that are searched, at least.
+const SPACING: usize = 6;
+/// Shorter runs of frames without a pose are not searched.
+const RUN: usize = 8;
+
+/// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
+pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+    let mut anchors = Vec::new();
+    for fixed in run.request.fixed.iter().filter(|one| one.component == part.name()) {
+        let poses = read_poses(&fixed.file)?;
+        ensure!(
+            poses.len() == run.film.count(),
+            "{} has {} rows but the film {} frames",
+            fixed.file.display(),
+            poses.len(),
+            run.film.count()
+        );
+        for (frame, pose) in poses.iter().enumerate() {
+            if let Some(pose) = pose {
+                anchors.push(of_person(run, part, frame, pose)?);
+            }
+        }
+    }
+    for click in run.request.clicks.iter().filter(|one| one.component == part.name()) {
+        ensure!(
+            click.frame < run.film.count(),
+            "a click into frame {} of a film of {} frames",
+            click.frame + 1,
+            run.film.count()
+        );
+        if anchors.iter().any(|anchor: &Anchor| anchor.frame == click.frame) {
+            continue;
+        }
+        match clicked(run, part, click.frame, click.place)? {
+            Some(found) => anchors.push(Anchor {
+                frame: click.frame,
+                found,
+                fixed: false,
+            }),
+            None => run.say(&format!(
+                "{}: the click into frame {} leads to no pose",
+                part.name(),
+                click.frame + 1
+            )),
+        }
+    }
+    anchors.sort_by_key(|anchor| anchor.frame);
+    Ok(anchors)
+}
+
+fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {
+    let found = part.see(&run.film, frame, |subject, image, memory| {
+        frame_pose_at(subject, image, pose, None, memory)
+    })?;
+    Ok(Anchor {
+        frame,
+        found: found.with_context(|| format!("the pose of frame {}", frame + 1))?,
+        fixed: true,
+    })
+}
+
+/// Looks for a component in frames that were not reached, and follows it from where it is found.
+pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    let mut from = 0;
+    while let Some(gap) = unreached(cells, from) {
+        from = gap.end;
+        if gap.len() < RUN.min(cells.len()) {
+            continue;
+        }
+        for frame in spread(&gap) {
+            if let Some(found) = searched(run, part, frame)? {
+                let anchor = Anchor {
+                    frame,
+                    found,
+                    fixed: false,
+                };
+                follow(run, part, &[anchor], gap.clone(), cells)?;
+                // What is still not reached is searched too.
+                from = gap.start;
+                break;
+            }
+        }
+        let reached = |frame: usize| cells[frame].found().is_some();
+        if !gap.clone().any(reached) {
+            from = gap.end;
+        }
+    }
+    Ok(())
+}
+
+/// The next run of frames without a pose that has frames which were never looked at.
+fn unreached(cells: &[Cell], from: usize) -> Option<std::ops::Range<usize>> {
+    let never = (from..cells.len()).find(|&frame| cells[frame].looked.is_none())?;
+    let posed = |frame: &usize| cells[*frame].found().is_some();
+    let start = (from..never).rev().find(posed).map_or(from, |frame| frame + 1);
+    let end = (never..cells.len()).find(posed).unwrap_or(cells.len());
+    Some(start..end)
+}
+
+/// Frames of a run in the order in which they are searched: its middle first, then between those before.
+fn spread(gap: &std::ops::Range<usize>) -> Vec<usize> {
+    let mut frames: Vec<usize> = Vec::new();
+    let mut parts = 2;
+    while frames.len() < TRIES && parts <= 16 {
+        for k in (1..parts).step_by(2) {
+            let frame = gap.start + k * gap.len() / parts;
+            let near = |other: &usize| other.abs_diff(frame) < SPACING;
+            if frame < gap.end && !frames.iter().any(near) {
+                frames.push(frame);
+            }
+        }
+        parts *= 2;
+    }
+    frames.truncate(TRIES);
+    frames
+}
