@@ -12,7 +12,8 @@ use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, Stage};
 use super::step::Step;
-use super::view::{CameraView, Target};
+use super::view::{CameraView, Polarity, Target};
+use crate::image::display::DisplayCurve;
 use crate::image::mask::{MaskError, MaskMut, words_needed};
 use crate::math::Vector3;
 use crate::mesh::Model;
@@ -327,6 +328,9 @@ impl<'a> Problem<'a> {
 fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, range: f64) -> NormalReading {
     match target {
         Target::Silhouette(silhouette) => probe::crossing(silhouette, sample, range),
-        Target::Image(image) => edge::edge(image, sample, expected, range),
+        Target::Image(image) => {
+            let curve = DisplayCurve::new(0.0, image.polarity == Polarity::BrightImplant);
+            edge::edge(image, &curve, sample, expected, range)
+        }
     }
 }
