@@ -50,8 +50,8 @@ impl Default for PathLine {
     }
 }
 
-/// Working memory of [`measure`].
-#[derive(Debug)]
+/// Working memory of [`measure`]; by default none, for whoever has no film.
+#[derive(Debug, Default)]
 pub struct LineMemory<'m> {
     /// The lines: as many as there are samples of an outline, at most [`MOST_LINES`].
     pub lines: &'m mut [PathLine],

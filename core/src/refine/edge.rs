@@ -4,6 +4,7 @@
 use super::border::{BorderPixel, NormalReading};
 use super::view::ImageTarget;
 use crate::image::display::DisplayCurve;
+use crate::image::mask::Mask;
 use crate::image::profile::{intensity_across, steepest_rise};
 
 /// Weights of the readings along the tangent, one pixel apart: sixteenths.
@@ -26,20 +27,24 @@ pub(super) fn edge(
 
 /// Intensity at a distance from a place along a normal, averaged along the tangent. `None` where
 /// one of the pixels is unknown or beyond the frame.
-pub(super) fn reading(
+fn reading(
     image: &ImageTarget<'_>,
     curve: &DisplayCurve,
     place: [f64; 2],
     normal: [f64; 2],
     t: f64,
 ) -> Option<f64> {
-    let [column, row] = [0, 1].map(|axis| place[axis] + t * normal[axis]);
-    if let Some(unknown) = image.unknown
-        && column >= 0.0
-        && row >= 0.0
-        && unknown.get(column as usize, row as usize)
-    {
+    if !is_known(image, place, normal, t) {
         return None;
     }
     intensity_across(image.frame, curve, place, normal, &TANGENT, t)
+}
+
+/// Whether the pixel at a distance from a place along a normal says anything of the implant.
+pub(super) fn is_known(image: &ImageTarget<'_>, place: [f64; 2], normal: [f64; 2], t: f64) -> bool {
+    let [column, row] = [0, 1].map(|axis| place[axis] + t * normal[axis]);
+    let hidden = |unknown: &Mask<'_>| {
+        column >= 0.0 && row >= 0.0 && unknown.get(column as usize, row as usize)
+    };
+    !image.unknown.is_some_and(hidden)
 }
