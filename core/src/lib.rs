@@ -10,6 +10,7 @@
 //! | [`camera`] | calibration files | [`Camera`] |
 //! | [`mesh`] | vertices and triangles | [`Model`], its planes of symmetry |
 //! | [`render`] | a model and its pose | the mask of its silhouette |
+//! | [`film`] | a model and its pose, profiles of frames | where its edges seem to be on a film, constants of the film |
 //! | [`canonical`] | a mask | [`canonical::CanonicalForm`] |
 //! | [`library`] | a model | [`Library`]: its canonical silhouettes from many directions |
 //! | [`search`] | a canonical silhouette, libraries | the views that differ from it in the fewest pixels |
@@ -39,6 +40,8 @@ pub mod camera;
 pub mod mesh;
 
 pub mod render;
+
+pub mod film;
 
 pub mod canonical;
 

@@ -3,6 +3,8 @@
 
 use thiserror::Error;
 
+use super::display::DisplayCurve;
+
 /// A grey value: `u8` or `u16`.
 pub trait Pixel: Copy + Ord + Default + Into<u32> {
     /// The value nearest to `value`, clamped to what the type holds.
@@ -189,6 +191,9 @@ pub trait Grey {
     /// Grey value at continuous image coordinates, linear between the four nearest centres;
     /// `None` beyond the outermost centres.
     fn at(&self, column: f64, row: f64) -> Option<f64>;
+
+    /// The same of what a curve makes of each pixel: the mean of intensities is not the intensity of the mean grey value.
+    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64>;
 }
 
 impl<P: Pixel> Grey for Frame<'_, P> {
@@ -197,6 +202,20 @@ impl<P: Pixel> Grey for Frame<'_, P> {
     }
 
     fn at(&self, column: f64, row: f64) -> Option<f64> {
+        self.between(column, row, |grey| grey)
+    }
+
+    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64> {
+        if curve.is_straight() {
+            return Some(curve.upright(self.at(column, row)?));
+        }
+        self.between(column, row, |grey| curve.linear(grey))
+    }
+}
+
+impl<P: Pixel> Frame<'_, P> {
+    /// What is made of each pixel, linear between the four nearest centres.
+    fn between(&self, column: f64, row: f64, of: impl Fn(f64) -> f64) -> Option<f64> {
         let (column, row) = (column - 0.5, row - 0.5);
         let last = |side: usize| side as f64 - 1.0;
         // A NaN is in no range.
@@ -206,12 +225,12 @@ impl<P: Pixel> Grey for Frame<'_, P> {
         }
         let (left, above) = (column as usize, row as usize);
         let (right, down) = (column - left as f64, row - above as f64);
-        let grey = |column: usize, row: usize| {
+        let value = |column: usize, row: usize| {
             let value: u32 = self.nearest(column as isize, row as isize).into();
-            f64::from(value)
+            of(f64::from(value))
         };
-        let upper = grey(left, above) * (1.0 - right) + grey(left + 1, above) * right;
-        let lower = grey(left, above + 1) * (1.0 - right) + grey(left + 1, above + 1) * right;
+        let upper = value(left, above) * (1.0 - right) + value(left + 1, above) * right;
+        let lower = value(left, above + 1) * (1.0 - right) + value(left + 1, above + 1) * right;
         Some(upper * (1.0 - down) + lower * down)
     }
 }

@@ -164,6 +164,7 @@ impl Matcher {
                 frame,
                 unknown: Some(&unknown),
                 polarity,
+                film: None,
             };
             let fit = fitted(model, &start, CameraView::only(&camera, target), options)?;
             let bright = polarity == Polarity::BrightImplant;

@@ -5,6 +5,7 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
+use fluoropose::film::LineMemory;
 use fluoropose::finder::Component;
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::image::border::follow_border;
@@ -260,6 +261,7 @@ impl OneClick {
             drawn: &mut [],
             places: &mut [],
             border: &mut [],
+            film: LineMemory::default(),
         };
         let mut memory = self
             .buffers
@@ -288,6 +290,7 @@ impl OneClick {
                     frame,
                     unknown,
                     polarity,
+                    film: None,
                 };
                 matcher.deviations_on(&answer.refined, CameraView::only(camera, target))
             })

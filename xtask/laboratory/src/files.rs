@@ -19,5 +19,5 @@ pub use mask::{MaskBuffer, read_mask};
 pub use model::{owned, read_model};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
-pub use study::{Component, Study};
+pub use study::{Component, StatedFilm, Study};
 pub use text::{files_in, name_of, read, read_text, write_json, write_text};

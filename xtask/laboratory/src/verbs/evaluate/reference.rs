@@ -64,6 +64,7 @@ impl Reference {
             verdicts: None,
             reasons: None,
             femur: None,
+            film: None,
             from_reference: None,
             limits: None,
         })
