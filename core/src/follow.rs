@@ -18,7 +18,7 @@ mod trail;
 mod trust;
 
 pub use contrast::{Contrast, contrast};
-pub use frame_pose::{FramePose, Subject, frame_pose_at, mirrored_pose, refined_on_frame};
+pub use frame_pose::{FramePose, From, Subject, frame_pose_at, mirrored_pose, refined_on_frame};
 pub use look::{Looked, Missing, look};
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};

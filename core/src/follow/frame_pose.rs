@@ -9,7 +9,8 @@ use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, assess, fit_at, refine,
+    CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined, assess,
+    correct, fit_at, refine,
 };
 
 /// A component that is followed, the camera that sees it, and how poses are refined.
@@ -55,6 +56,16 @@ impl FramePose {
     }
 }
 
+/// From how far refinement comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum From {
+    /// Within some pixels: the edges that the film's model puts on the drawing are looked for at once, where it is known. On
+    /// the way over edges as they seem to be, a faint component may be caught by others.
+    Near,
+    /// From where refinement has to find the way.
+    Far,
+}
+
 /// The pose that refinement on the frame makes of a start. `step` is the usual step of grey values, where it is known.
 ///
 /// # Errors
@@ -62,12 +73,24 @@ impl FramePose {
 pub fn refined_on_frame(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
-    start: &Pose,
+    (start, from): (&Pose, From),
     step: Option<f64>,
     memory: &mut RefineMemory<'_>,
 ) -> Result<FramePose, RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
-    let refined = refine(subject.model, &views, start, subject.options, memory)?;
+    let (model, options) = (subject.model, subject.options);
+    let refined = match (image.film, from) {
+        (None, _) => refine(model, &views, start, options, memory)?,
+        (Some(_), From::Near) => correct(model, &views, &begun(start), options, memory)?,
+        (Some(_), From::Far) => {
+            let probe = RefineOptions {
+                effort: Effort::Probe,
+                ..options
+            };
+            let near = refine(model, &views, start, probe, memory)?;
+            correct(model, &views, &begun(&near.pose), options, memory)?
+        }
+    };
     let assessment = assess(subject.model, &views, &refined, memory)?;
     Ok(FramePose {
         pose: refined.pose,
@@ -76,6 +99,19 @@ pub fn refined_on_frame(
         misfit_px: sqrt(2.0 * refined.loss),
         contrast: contrast(subject, image, &refined.pose, step, memory)?,
     })
+}
+
+/// A pose from which the last stage of refinement begins.
+fn begun(pose: &Pose) -> Refined {
+    Refined {
+        pose: *pose,
+        offset_px: 0.0,
+        residual_px: 0.0,
+        robust_sigma_px: 0.0,
+        loss: 0.0,
+        renders: 0,
+        converged: false,
+    }
 }
 
 /// What the frame says of a pose as it is, such as one that a person gave.
@@ -111,7 +147,8 @@ pub fn mirrored_pose(
     let mut best: Option<FramePose> = None;
     for plane in subject.planes {
         let start = mirror_pose(&own.pose, plane);
-        let found = refined_on_frame(subject, image, &start, Some(own.contrast.step), memory);
+        let step = Some(own.contrast.step);
+        let found = refined_on_frame(subject, image, (&start, From::Far), step, memory);
         let Ok(found) = found else { continue };
         let apart = geodesic_deg(&found.pose.rotation, &own.pose.rotation) > SAME_DEG;
         if apart && best.is_none_or(|best| found.score() > best.score()) {

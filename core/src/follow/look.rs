@@ -1,6 +1,6 @@
 //! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
 
-use super::frame_pose::{FramePose, Subject, refined_on_frame};
+use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
 use super::motion::Expected;
 use super::near::near_poses;
 use super::trail::{Trail, Usual, apart};
@@ -82,14 +82,22 @@ impl Search<'_> {
             return self.nothing(Missing::Outside, known);
         }
         let start = &self.expected.pose;
-        let first = refined_on_frame(self.subject, self.image, start, Some(step), memory).ok();
-        if let Some(found) = first.filter(|found| self.is_ordinary(found)) {
-            return Looked {
-                found: Ok(found),
-                ordinary: true,
-                searched: false,
-                known: found.fit.known,
-            };
+        let mut first: Option<FramePose> = None;
+        for from in [From::Near, From::Far] {
+            let (subject, image) = (self.subject, self.image);
+            if from == From::Far && image.film.is_none() {
+                break;
+            }
+            let found = refined_on_frame(subject, image, (start, from), Some(step), memory).ok();
+            if let Some(found) = found.filter(|found| self.is_ordinary(found)) {
+                return Looked {
+                    found: Ok(found),
+                    ordinary: true,
+                    searched: false,
+                    known: found.fit.known,
+                };
+            }
+            first = better(first, found);
         }
         let best = self.around(first, missed, memory);
         match best.filter(|found| self.is_believed(found)) {
@@ -124,12 +132,8 @@ impl Search<'_> {
         let starts = near_poses(subject, image, &self.expected.pose, reach, step, memory);
         let mut best = first;
         for start in starts.unwrap_or_default().iter().take(REFINED) {
-            let Ok(found) = refined_on_frame(subject, image, start, Some(step), memory) else {
-                continue;
-            };
-            if best.is_none_or(|best| found.score() > best.score()) {
-                best = Some(found);
-            }
+            let from = (start, From::Far);
+            best = better(best, refined_on_frame(subject, image, from, Some(step), memory).ok());
         }
         best
     }
@@ -152,6 +156,14 @@ impl Search<'_> {
         found.misfit_px <= times * self.usual.misfit_px + more
             && found.contrast.strength >= part * self.usual.strength
             && found.fit.known >= LEAST_KNOWN
+    }
+}
+
+/// The one with the greater score.
+fn better(one: Option<FramePose>, other: Option<FramePose>) -> Option<FramePose> {
+    match (one, other) {
+        (Some(one), Some(other)) if other.score() <= one.score() => Some(one),
+        (one, other) => other.or(one),
     }
 }
 

@@ -137,7 +137,8 @@ impl<'a> Problem<'a> {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if step.size() < SETTLED * self.grain() {
+            let coarser = self.effort.coarser();
+            if step.size() < SETTLED * coarser * self.grain() {
                 break;
             }
             let mut next = *state;
@@ -156,7 +157,7 @@ impl<'a> Problem<'a> {
                 _ => {
                     damping *= 8.0;
                     seen.samples = None;
-                    if step.size() < GRAINED * self.grain() {
+                    if step.size() < GRAINED * coarser * self.grain() {
                         break;
                     }
                 }

@@ -1,6 +1,7 @@
 //! Verb `track`: both components followed through a film on its grey frames.
 
 mod anchors;
+mod constants;
 mod film;
 mod follow;
 mod journal;

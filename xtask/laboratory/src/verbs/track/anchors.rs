@@ -1,8 +1,9 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::frame_pose_at;
+use fluoropose::follow::{FramePose, From, Subject, frame_pose_at, near_poses, refined_on_frame};
 use fluoropose::pose::Pose;
+use fluoropose::refine::{ImageTarget, RefineMemory};
 
 use super::film::Run;
 use super::follow::{Anchor, Cell, follow};
@@ -14,11 +15,13 @@ use crate::files::read_poses;
 const TRIES: usize = 8;
 /// Frames between those that are searched, at least.
 const SPACING: usize = 6;
+/// How far around a pose is looked once the film's constants are known, pixels.
+const NEAR_PX: f64 = 12.0;
 /// Shorter runs of frames without a pose are not searched.
 const RUN: usize = 8;
 
 /// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
-pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
     let mut anchors = Vec::new();
     for fixed in run.request.fixed.iter().filter(|one| one.component == part.name()) {
         let poses = read_poses(&fixed.file)?;
@@ -71,6 +74,73 @@ fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Resul
         found: found.with_context(|| format!("the pose of frame {}", frame + 1))?,
         fixed: true,
     })
+}
+
+/// The frames that a component is followed from: those that a person gave, else one in which it is found.
+pub(super) fn begin(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+    let anchors = given(run, part)?;
+    if !anchors.is_empty() {
+        return Ok(anchors);
+    }
+    for frame in spread(&(0..run.film.count())) {
+        if let Some(found) = searched(run, part, frame)? {
+            run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
+            return Ok(vec![Anchor {
+                frame,
+                found,
+                fixed: false,
+            }]);
+        }
+    }
+    run.say(&format!(
+        "{}: no frame that was searched has edges all along its outline from any side; click into it, or fix a pose",
+        part.name()
+    ));
+    Ok(Vec::new())
+}
+
+/// The same frames looked at again, now that the film's constants are known: the best of what the pose and those near it
+/// lead to.
+pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Anchor>> {
+    let one = |anchor: &Anchor| -> Result<Anchor> {
+        if part.film().is_none() {
+            return Ok(*anchor);
+        }
+        let (frame, pose) = (anchor.frame, anchor.found.pose);
+        if anchor.fixed {
+            return of_person(run, part, frame, &pose);
+        }
+        let key = format!("again/{}/{}", part.number, anchor.mark());
+        let found: Option<FramePose> = run.journal.step(&key, || {
+            part.see(&run.film, frame, |subject, image, memory| {
+                nearest(subject, image, &anchor.found, memory)
+            })
+        })?;
+        Ok(Anchor {
+            found: found.unwrap_or(anchor.found),
+            ..*anchor
+        })
+    };
+    anchors.iter().map(one).collect()
+}
+
+/// The best of what a pose and those near it lead to.
+fn nearest(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    found: &FramePose,
+    memory: &mut RefineMemory<'_>,
+) -> Option<FramePose> {
+    let step = found.contrast.step;
+    let near = near_poses(subject, image, &found.pose, NEAR_PX, step, memory).unwrap_or_default();
+    let own = (&found.pose, From::Near);
+    let starts = near.iter().map(|pose| (pose, From::Far));
+    let poses = std::iter::once(own).chain(starts);
+    let refined: Vec<FramePose> = poses
+        .filter_map(|start| refined_on_frame(subject, image, start, Some(step), memory).ok())
+        .collect();
+    let best = refined.iter().max_by(|a, b| a.score().total_cmp(&b.score()));
+    best.copied()
 }
 
 /// Looks for a component in frames that were not reached, and follows it from where it is found.

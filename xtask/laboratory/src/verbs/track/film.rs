@@ -11,8 +11,9 @@ use fluoropose::refine::Polarity;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::anchors::{fill, given};
-use super::follow::{Cell, follow};
+use super::anchors::{again, begin, fill};
+use super::constants::learn_film;
+use super::follow::{Anchor, Cell, follow};
 use super::journal::Journal;
 use super::judge::{Judged, judge};
 use super::part::{Part, read_models};
@@ -131,18 +132,24 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
             Part::new(number, component, model, &calibration, camera, polarity)
         })
         .collect::<Result<_>>()?;
+    let anchors: Vec<Vec<Anchor>> = parts
+        .par_iter()
+        .map(|part| begin(&run, part))
+        .collect::<Result<_>>()?;
+    learn_film(&run, &parts, &anchors)?;
     let mut films: Vec<Vec<Cell>> = parts
         .par_iter()
-        .map(|part| of_part(&run, part))
+        .zip(&anchors)
+        .map(|(part, anchors)| of_part(&run, part, anchors))
         .collect::<Result<_>>()?;
     let margins = on_the_right_sides(&run, &parts, &mut films)?;
     finish(&run, &parts, &films, &margins)
 }
 
 /// A component followed by itself.
-fn of_part(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Cell>> {
+fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cell>> {
     let mut cells = vec![Cell::default(); run.film.count()];
-    let anchors = given(run, part)?;
+    let anchors = again(run, part, anchors)?;
     follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
     fill(run, part, &mut cells)?;
     Ok(cells)

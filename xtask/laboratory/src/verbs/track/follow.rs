@@ -29,7 +29,7 @@ pub(super) struct Anchor {
 
 impl Anchor {
     /// Tells it from all others: what follows from it is done again where it changes.
-    fn mark(&self) -> String {
+    pub(super) fn mark(&self) -> String {
         let mut hash = Sha256::new();
         for number in self.found.numbers() {
             hash.update(number.to_bits().to_le_bytes());
@@ -113,6 +113,28 @@ struct Walk<'w, 's> {
     looked: Vec<(usize, Looked)>,
 }
 
+/// What lies at most `far` frames beside an anchor, the anchor included: in the order of frames.
+pub(super) fn beside(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    anchor: &Anchor,
+    far: usize,
+) -> Result<Vec<(usize, Pose)>> {
+    let last = (anchor.frame + far).min(run.film.count() - 1);
+    let (before, after) = rayon::join(
+        || way(run, part, anchor, anchor.frame.saturating_sub(far)),
+        || way(run, part, anchor, last),
+    );
+    let mut found = vec![(anchor.frame, anchor.found.pose)];
+    for (frame, looked) in before?.looked.into_iter().chain(after?.looked) {
+        if let Ok(one) = looked.found {
+            found.push((frame, one.pose));
+        }
+    }
+    found.sort_by_key(|&(frame, _)| frame);
+    Ok(found)
+}
+
 fn way<'w, 's>(
     run: &'w Run<'s>,
     part: &'w Part<'s>,
@@ -143,7 +165,12 @@ impl Walk<'_, '_> {
             };
             let (frame, trail) = (self.at, &self.trail);
             let arrow = if self.forward { "f" } else { "b" };
-            let key = format!("look/{}/{}/{arrow}/{frame}", self.part.number, self.mark);
+            let key = format!(
+                "look/{}/{}/{}/{arrow}/{frame}",
+                self.part.number,
+                self.part.phase(),
+                self.mark
+            );
             let looked: Looked = self.run.journal.step(&key, || {
                 self.part.see(&self.run.film, frame, |subject, image, memory| {
                     look(subject, image, frame, trail, memory)

@@ -5,6 +5,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
@@ -31,6 +32,7 @@ pub(super) struct Part<'s> {
     pub(super) polarity: Polarity,
     calibration: &'s Calibration,
     library: OnceLock<Built>,
+    film: OnceLock<FilmModel>,
     buffers: Mutex<Vec<RefineBuffers>>,
 }
 
@@ -72,6 +74,7 @@ impl<'s> Part<'s> {
             polarity,
             calibration,
             library: OnceLock::new(),
+            film: OnceLock::new(),
             buffers: Mutex::default(),
         })
     }
@@ -82,6 +85,22 @@ impl<'s> Part<'s> {
 
     pub(super) fn role(&self) -> Option<Role> {
         self.component.role()
+    }
+
+    /// What the film makes of the component, once that is known.
+    pub(super) fn film(&self) -> Option<FilmModel> {
+        self.film.get().copied()
+    }
+
+    /// From now on edges are compared with those that the film makes of the component.
+    pub(super) fn set_film(&self, film: FilmModel) {
+        // It becomes known once.
+        let _ = self.film.set(film);
+    }
+
+    /// Tells steps with the film's constants from those without.
+    pub(super) fn phase(&self) -> &'static str {
+        if self.film.get().is_some() { "film" } else { "bare" }
     }
 
     /// Middle of the model's box.
@@ -126,13 +145,14 @@ impl<'s> Part<'s> {
             frame: &*grey,
             unknown: None,
             polarity: self.polarity,
+            film: self.film(),
         };
         let subject = Subject {
             model: &self.mesh,
             planes: &self.planes,
             camera: &self.camera,
             options: RefineOptions {
-                effort: Effort::Interactive,
+                effort: Effort::Film,
                 ..RefineOptions::default()
             },
         };

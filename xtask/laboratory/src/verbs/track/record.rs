@@ -1,5 +1,6 @@
 //! What was found in a frame as numbers, so that a file can keep it to the last bit.
 
+use fluoropose::film::{FilmConstants, FilmModel};
 use fluoropose::follow::{Contrast, FramePose, Looked, Missing};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -128,6 +129,41 @@ impl Record for Looked {
             searched: searched > 0.0,
             known,
         })
+    }
+}
+
+/// What a film makes of each component of a study.
+pub(super) struct Films(pub(super) Vec<FilmModel>);
+
+/// Numbers of a component.
+const OF_A_FILM: usize = 12;
+
+impl Record for Films {
+    fn numbers(&self) -> Vec<f64> {
+        let of = |film: &FilmModel| {
+            let mut numbers = vec![film.constants.curvature, film.constants.blur_px];
+            numbers.push(film.attenuation);
+            numbers.extend(film.covariance.iter().flatten());
+            numbers
+        };
+        self.0.iter().flat_map(of).collect()
+    }
+
+    fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        let of = |numbers: &[f64]| {
+            let mut reader = Reader(numbers);
+            let [curvature, blur_px, attenuation] = reader.some()?;
+            let covariance: [f64; 9] = reader.some()?;
+            Some(FilmModel {
+                constants: FilmConstants { curvature, blur_px },
+                attenuation,
+                covariance: std::array::from_fn(|row| {
+                    std::array::from_fn(|k| covariance[3 * row + k])
+                }),
+            })
+        };
+        let films: Option<Vec<FilmModel>> = numbers.chunks(OF_A_FILM).map(of).collect();
+        films.map(Self)
     }
 }
 

@@ -1,10 +1,10 @@
 //! A component looked for in a whole frame, or where a person clicked.
 
 use anyhow::Result;
-use fluoropose::follow::{FramePose, refined_on_frame};
+use fluoropose::follow::{FramePose, From, refined_on_frame};
 use fluoropose::image::contour::Point;
 use fluoropose::library::Library;
-use fluoropose_tracing::one_click::{Answer, Prompt};
+use fluoropose_tracing::one_click::{Answer, OneClick, Progress, Prompt};
 use fluoropose_tracing::seeds::{expected_size, seeds, seeds_needed};
 use fluoropose::finder::Component;
 
@@ -21,6 +21,12 @@ const LEAST_SCORE: f64 = 0.5;
 const LEAST_MET: f64 = 0.9;
 const MOST_PX: f64 = 1.5;
 const LEAST_KNOWN: f64 = 0.7;
+/// A place is left where its best answer has a smaller score than this before its surroundings are searched once more, and
+/// before poses around that answer are tried; how far the work is then.
+const WORTH: f64 = 0.2;
+const AGAIN: f64 = 0.575;
+const WORTH_MUCH: f64 = 0.45;
+const AROUND: f64 = 0.655;
 /// Better ones are not looked for beyond this score.
 const ENOUGH: f64 = 0.75;
 
@@ -32,24 +38,28 @@ pub(super) fn clicked(
     place: [f64; 2],
 ) -> Result<Option<FramePose>> {
     let [column, row] = place.map(f64::to_bits);
-    let key = format!("click/{}/{frame}/{column:x}/{row:x}", part.number);
+    let key = format!(
+        "click/{}/{}/{frame}/{column:x}/{row:x}",
+        part.number,
+        part.phase()
+    );
     run.journal.step(&key, || {
         let mut clicker = Clicker::open(part.library()?, part.model(), part.camera)?;
         let at = Point::new(place[0], place[1]);
-        let answers = answers(run, part, &mut clicker, frame, at)?;
+        let answers = answers(run, part, &mut clicker, frame, at, |_| true)?;
         best(run, part, frame, &answers)
     })
 }
 
 /// The pose of a component in a frame that nobody clicked into; `None` where none is good.
 pub(super) fn searched(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<Option<FramePose>> {
-    let key = format!("search/{}/{frame}", part.number);
+    let key = format!("search/{}/{}/{frame}", part.number, part.phase());
     run.journal.step(&key, || {
         let bytes = part.library()?;
         let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
         let mut found: Option<FramePose> = None;
         for at in places(run, part, bytes, frame)? {
-            let answers = answers(run, part, &mut clicker, frame, at)?;
+            let answers = answers(run, part, &mut clicker, frame, at, is_worth_it)?;
             let good = |answer: &&Answer| answer.score >= LEAST_SCORE;
             let answers: Vec<Answer> = answers.iter().filter(good).copied().collect();
             let Some(one) = best(run, part, frame, &answers)?.filter(is_good) else {
@@ -64,6 +74,16 @@ pub(super) fn searched(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<O
         }
         Ok(found)
     })
+}
+
+/// Whether a click at a place that nobody chose is worth going on with: most lead nowhere.
+fn is_worth_it(work: &OneClick) -> bool {
+    let best = work.answers().first().map_or(0.0, |best| best.score);
+    match work.progress() {
+        Progress::Poses(part) if part >= AROUND => best >= WORTH_MUCH,
+        Progress::Poses(part) if part >= AGAIN => best >= WORTH,
+        _ => true,
+    }
 }
 
 fn is_good(found: &FramePose) -> bool {
@@ -92,10 +112,12 @@ fn answers(
     clicker: &mut Clicker<'_>,
     frame: usize,
     at: Point,
+    go_on: fn(&OneClick) -> bool,
 ) -> Result<Vec<Answer>> {
     let decoded = run.film.frame(frame)?;
     let grey = grey(&decoded)?;
-    let clicked = clicker.click(&*grey, Prompt::Click(at), part.polarity);
+    let prompt = Prompt::Click(at);
+    let clicked = clicker.click_while(&*grey, prompt, part.polarity, go_on);
     // A click that leads nowhere has no answers.
     Ok(clicked.map_or(Vec::new(), |clicked| clicked.answers))
 }
@@ -110,7 +132,7 @@ fn best(
         let mut best: Option<FramePose> = None;
         for answer in answers.iter().take(ANSWERS) {
             let step = best.map(|best| best.contrast.step);
-            let start = &answer.refined.pose;
+            let start = (&answer.refined.pose, From::Far);
             let Ok(found) = refined_on_frame(subject, image, start, step, memory) else {
                 continue;
             };

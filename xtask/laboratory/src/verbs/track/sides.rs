@@ -123,7 +123,7 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>
             .numbers()
             .iter()
             .fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits());
-        let key = format!("mirror/{}/{frame}/{bits:x}", part.number);
+        let key = format!("mirror/{}/{}/{frame}/{bits:x}", part.number, part.phase());
         let mirrored = run.journal.step(&key, || {
             part.see(&run.film, frame, |subject, image, memory| {
                 mirrored_pose(subject, image, &own, memory)
