@@ -4,7 +4,8 @@ use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
 use super::motion::Expected;
 use super::near::near_poses;
 use super::trail::{Trail, Usual, apart};
-use crate::math::Vector3;
+use crate::finder::nearby::about;
+use crate::math::{Vector3, radians, scale};
 use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineMemory};
 
@@ -15,10 +16,15 @@ const ORDINARY: [f64; 3] = [1.35, 0.15, 0.85];
 const BELIEVED: [f64; 3] = [2.0, 0.3, 0.6];
 /// Least part of the outline that must be in the frame and not hidden.
 const LEAST_KNOWN: f64 = 0.5;
+/// Beside an expected pose the way is tried again from so far, degrees out of the plane and part of the distance.
+const BESIDE_DEG: f64 = 2.5;
+const BESIDE_PART: f64 = 0.015;
 /// How far around an expected pose is searched, pixels; and farther with each frame in which nothing was found.
 const REACH_PX: f64 = 24.0;
 const FARTHER_PX: f64 = 6.0;
 const FARTHEST_PX: f64 = 72.0;
+/// What it costs to be as far from what was expected as is still in the ordinary, in usual misfits.
+const OFF: f64 = 0.1;
 /// Of the poses around, so many are refined.
 const REFINED: usize = 4;
 
@@ -97,7 +103,7 @@ impl Search<'_> {
                     known: found.fit.known,
                 };
             }
-            first = better(first, found);
+            first = self.better(first, found);
         }
         let best = self.around(first, missed, memory);
         match best.filter(|found| self.is_believed(found)) {
@@ -127,15 +133,42 @@ impl Search<'_> {
         missed: usize,
         memory: &mut RefineMemory<'_>,
     ) -> Option<FramePose> {
-        let reach = (REACH_PX + FARTHER_PX * missed as f64).min(FARTHEST_PX);
+        let reach = self.reach_px(missed);
         let (subject, image, step) = (self.subject, self.image, self.usual.step);
         let starts = near_poses(subject, image, &self.expected.pose, reach, step, memory);
         let mut best = first;
+        for start in beside(&self.expected.pose, &self.middle) {
+            let from = (&start, From::Near);
+            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            best = self.better(best, found);
+        }
         for start in starts.unwrap_or_default().iter().take(REFINED) {
             let from = (start, From::Far);
-            best = better(best, refined_on_frame(subject, image, from, Some(step), memory).ok());
+            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            best = self.better(best, found);
         }
         best
+    }
+
+    /// How far around the expected pose is searched, pixels: as far as is in the ordinary, and farther where it was missed.
+    fn reach_px(&self, missed: usize) -> f64 {
+        let [fx, fy] = self.subject.camera.focal();
+        let depth = self.expected.pose.transform(&self.middle)[2].abs();
+        let ordinary = self.expected.shift_mm * fx.max(fy) / depth.max(1.0);
+        (ordinary.max(REACH_PX) + FARTHER_PX * missed as f64).min(FARTHEST_PX)
+    }
+
+    /// The one that is more as usual; of two alike, the one nearer to what was expected.
+    fn better(&self, one: Option<FramePose>, other: Option<FramePose>) -> Option<FramePose> {
+        let cost = |found: &FramePose| {
+            let [turn_deg, shift_mm] = apart(&self.expected.pose, &found.pose, &self.middle);
+            let off = turn_deg / self.expected.turn_deg + shift_mm / self.expected.shift_mm;
+            self.usual.cost(found) + OFF * off
+        };
+        match (one, other) {
+            (Some(one), Some(other)) if cost(&other) >= cost(&one) => Some(one),
+            (one, other) => other.or(one),
+        }
     }
 
     fn is_ordinary(&self, found: &FramePose) -> bool {
@@ -159,12 +192,19 @@ impl Search<'_> {
     }
 }
 
-/// The one with the greater score.
-fn better(one: Option<FramePose>, other: Option<FramePose>) -> Option<FramePose> {
-    match (one, other) {
-        (Some(one), Some(other)) if other.score() <= one.score() => Some(one),
-        (one, other) => other.or(one),
-    }
+/// Poses a little turned out of the image plane, and a little nearer and farther.
+fn beside(pose: &Pose, middle: &Vector3) -> [Pose; 6] {
+    let centre = pose.transform(middle);
+    let turned = |x: f64, y: f64| about(middle, pose, &[radians(x), radians(y), 0.0], [0.0; 3]);
+    let moved = |part: f64| about(middle, pose, &[0.0; 3], scale(&centre, part));
+    [
+        turned(BESIDE_DEG, 0.0),
+        turned(-BESIDE_DEG, 0.0),
+        turned(0.0, BESIDE_DEG),
+        turned(0.0, -BESIDE_DEG),
+        moved(BESIDE_PART),
+        moved(-BESIDE_PART),
+    ]
 }
 
 /// Part of the component's vertices whose image lies in the frame.

@@ -20,6 +20,11 @@ const DEPTH: f64 = 0.03;
 const GOES_ON: usize = 2;
 /// A trail is lost after so many frames without a pose.
 const PATIENCE: usize = 3;
+/// A misfit below this says nothing, pixels.
+const LEAST_MISFIT_PX: f64 = 0.1;
+/// What it costs to have no edges at all, in usual misfits, and the part that may be lacking for nothing.
+const LACKING: f64 = 8.0;
+const LACKING_FREE: f64 = 0.15;
 /// How fast what is usual follows what was seen.
 const LEARNING: f64 = 0.2;
 
@@ -43,6 +48,15 @@ impl Usual {
             step: pose.contrast.step,
             strength: pose.contrast.strength,
         }
+    }
+
+    /// How much worse a pose is than usual, the least for the best: by its misfit in usual ones, and by what it lacks of the
+    /// usual strength.
+    #[must_use]
+    pub fn cost(&self, pose: &FramePose) -> f64 {
+        let lacking = 1.0 - pose.contrast.strength / self.strength.max(f64::MIN_POSITIVE);
+        let misfit = pose.misfit_px / (self.misfit_px + LEAST_MISFIT_PX);
+        misfit + LACKING * (lacking - LACKING_FREE).max(0.0)
     }
 
     fn learn(&mut self, pose: &FramePose) {

@@ -28,6 +28,8 @@ pub struct FrameEvidence {
 pub struct TrustLimits {
     /// Most misfit, in usual ones of the film.
     pub misfit: f64,
+    /// A usual misfit below this counts as so much, pixels.
+    pub least_misfit_px: f64,
     /// Least strength of the edges, in usual ones of the film.
     pub strength: f64,
     /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
@@ -53,8 +55,9 @@ pub struct TrustLimits {
 impl TrustLimits {
     /// The usual ones.
     pub const USUAL: Self = Self {
-        misfit: 1.5,
-        strength: 0.8,
+        misfit: 1.8,
+        least_misfit_px: 0.2,
+        strength: 0.6,
         jump_deg: 1.5,
         jump_mm: 2.0,
         jump_times: 5.0,
@@ -251,7 +254,7 @@ fn judge(
     let part = found.contrast.strength / usual.strength.max(f64::MIN_POSITIVE);
     weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
     let px = found.misfit_px;
-    let times = px / usual.misfit_px.max(f64::MIN_POSITIVE);
+    let times = px / usual.misfit_px.max(limits.least_misfit_px);
     weigh(times / limits.misfit, Distrust::Apart(px, usual.misfit_px));
     let met = found.fit.met;
     weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));

@@ -1,7 +1,8 @@
 //! Places of a whole frame where one click may be worth trying, for who has no click to give: dark things of the right size.
 //!
-//! Each place is as dark, against what surrounds it, as its mean in a box differs from that in a larger one; the maxima
-//! over places and sizes come first. Sums over boxes are read from a table of sums (Crow, SIGGRAPH 1984).
+//! Metal is darker than what surrounds it in every direction, the border of a field or of a limb is not: the mean of a box is
+//! compared with those of boxes around it, and the direction with nearly the least difference counts. Sums over boxes are read
+//! from a table of sums (Crow, SIGGRAPH 1984).
 
 use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
@@ -14,15 +15,30 @@ use fluoropose::shortlist::keep;
 use heapless::Vec;
 
 /// Most places.
-pub const SEEDS: usize = 16;
+pub const SEEDS: usize = 10;
 
 /// The frame is read at so many places along its longer side.
 const CELLS: usize = 256;
-/// Half sides of the inner boxes, parts of the component's size, and of the outer ones, in inner ones.
-const INNER: [f64; 3] = [0.08, 0.15, 0.25];
-const OUTER: f64 = 2.5;
+/// Half sides of boxes, parts of the component's size, and where those around lie, the same.
+const INNER: [f64; 2] = [0.06, 0.12];
+const AROUND: [f64; 3] = [0.4, 0.7, 1.0];
+/// Directions to each of which there are boxes, clockwise.
+const DIRECTIONS: [[f64; 2]; 8] = [
+    [1.0, 0.0],
+    [0.7, 0.7],
+    [0.0, 1.0],
+    [-0.7, 0.7],
+    [-1.0, 0.0],
+    [-0.7, -0.7],
+    [0.0, -1.0],
+    [0.7, -0.7],
+];
+/// So many directions may be as dark: there the other component may be, or bone.
+const AS_DARK: usize = 2;
+/// Grey values that are as good as none.
+const DARK: f64 = 16.0;
 /// Places nearer to each other than this part of the component's size are one.
-const SAME: f64 = 0.25;
+const SAME: f64 = 0.4;
 
 /// Numbers that [`seeds`] borrows.
 #[must_use]
@@ -65,17 +81,13 @@ pub fn seeds(
     let apart = SAME * size_px;
     for part in INNER {
         let half = (part * size_px / cell).max(1.0) as usize;
-        let outer = (OUTER * part * size_px / cell) as usize + 1;
-        for row in (half..rows.saturating_sub(half)).step_by(half.max(1)) {
-            for column in (half..columns.saturating_sub(half)).step_by(half.max(1)) {
-                let inside = table.mean(column, row, half);
-                let darker = table.mean(column, row, outer) - inside;
-                let darker = match polarity {
-                    Polarity::DarkImplant => darker,
-                    Polarity::BrightImplant => -darker,
-                };
+        for row in (half..rows.saturating_sub(half)).step_by(half) {
+            for column in (half..columns.saturating_sub(half)).step_by(half) {
+                let darker = table.darker(column, row, half, size_px / cell, polarity);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
-                insert(&mut best, (darker, at), apart);
+                if darker > 0.0 {
+                    insert(&mut best, (darker, at), apart);
+                }
             }
         }
     }
@@ -113,6 +125,35 @@ impl<'m> Table<'m> {
             columns,
             rows,
         }
+    }
+
+    /// By how much a box is darker than those around it in nearly every direction, as a part of both.
+    fn darker(&self, column: usize, row: usize, half: usize, size: f64, polarity: Polarity) -> f64 {
+        let inside = self.mean(column, row, half);
+        let mut least: Vec<f64, 8> = Vec::new();
+        for [right, down] in DIRECTIONS {
+            let at = |part: f64| {
+                let (x, y) = (
+                    column as f64 + part * size * right,
+                    row as f64 + part * size * down,
+                );
+                let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
+                let seen = within(x, self.columns) && within(y, self.rows);
+                seen.then(|| {
+                    let outside = self.mean(x as usize, y as usize, half);
+                    let more = match polarity {
+                        Polarity::DarkImplant => outside - inside,
+                        Polarity::BrightImplant => inside - outside,
+                    };
+                    more / (outside + inside + DARK)
+                })
+            };
+            let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
+            // There is a place for each direction.
+            let _ = most.map(|most| least.push(most));
+        }
+        least.sort_unstable_by(f64::total_cmp);
+        least.get(AS_DARK).copied().unwrap_or(0.0)
     }
 
     /// The mean of a box of cells around one, as far as it lies in the frame.
@@ -173,8 +214,8 @@ mod tests {
         let polarity = Polarity::DarkImplant;
         let found = seeds(&frame, &camera, 50.0, polarity, &mut sums).expect("enough memory");
         for [x, y] in middles {
-            let near = |at: &Point| libm::hypot(at.column - x, at.row - y) < 10.0;
-            assert!(found[..2].iter().any(near), "{found:?}");
+            let near = |at: &Point| libm::hypot(at.column - x, at.row - y) < 14.0;
+            assert!(found[..4].iter().any(near), "{found:?}");
         }
         let few = seeds(&frame, &camera, 50.0, polarity, &mut sums[1..]);
         assert!(few.is_err());

@@ -12,7 +12,7 @@ use super::search::{clicked, searched};
 use crate::files::read_poses;
 
 /// In so many frames at most a component is searched that nobody pointed at.
-const TRIES: usize = 8;
+const TRIES: usize = 6;
 /// Frames between those that are searched, at least.
 const SPACING: usize = 6;
 /// How far around a pose is looked once the film's constants are known, pixels.
@@ -143,42 +143,41 @@ fn nearest(
     best.copied()
 }
 
-/// Looks for a component in frames that were not reached, and follows it from where it is found.
+/// Looks for a component in runs of frames in which it was not found, and follows it from where it is.
 pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    if cells.iter().all(|cell| cell.found().is_none()) {
+        // It was searched in vain.
+        return Ok(());
+    }
     let mut from = 0;
-    while let Some(gap) = unreached(cells, from) {
+    while let Some(gap) = missing(cells, from) {
         from = gap.end;
-        if gap.len() < RUN.min(cells.len()) {
+        if gap.len() < RUN {
             continue;
         }
         for frame in spread(&gap) {
-            if let Some(found) = searched(run, part, frame)? {
-                let anchor = Anchor {
-                    frame,
-                    found,
-                    fixed: false,
-                };
-                follow(run, part, &[anchor], gap.clone(), cells)?;
-                // What is still not reached is searched too.
-                from = gap.start;
-                break;
-            }
-        }
-        let reached = |frame: usize| cells[frame].found().is_some();
-        if !gap.clone().any(reached) {
-            from = gap.end;
+            let Some(found) = searched(run, part, frame)? else {
+                continue;
+            };
+            let anchor = Anchor {
+                frame,
+                found,
+                fixed: false,
+            };
+            follow(run, part, &[anchor], gap.clone(), cells)?;
+            // What is still missing is searched too.
+            from = gap.start;
+            break;
         }
     }
     Ok(())
 }
 
-/// The next run of frames without a pose that has frames which were never looked at.
-fn unreached(cells: &[Cell], from: usize) -> Option<std::ops::Range<usize>> {
-    let never = (from..cells.len()).find(|&frame| cells[frame].looked.is_none())?;
-    let posed = |frame: &usize| cells[*frame].found().is_some();
-    let start = (from..never).rev().find(posed).map_or(from, |frame| frame + 1);
-    let end = (never..cells.len()).find(posed).unwrap_or(cells.len());
-    Some(start..end)
+/// The next run of frames without a pose.
+fn missing(cells: &[Cell], from: usize) -> Option<std::ops::Range<usize>> {
+    let start = (from..cells.len()).find(|&frame| cells[frame].found().is_none())?;
+    let end = (start..cells.len()).find(|&frame| cells[frame].found().is_some());
+    Some(start..end.unwrap_or(cells.len()))
 }
 
 /// Frames of a run in the order in which they are searched: its middle first, then between those before.

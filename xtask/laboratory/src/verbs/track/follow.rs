@@ -10,7 +10,7 @@ use super::part::Part;
 use super::record::Record;
 
 /// A trail ends after so many frames without a pose: whole frames are searched from there on.
-const GIVE_UP: usize = 40;
+const GIVE_UP: usize = 12;
 /// Two ways have come to the same pose of a frame where they are nearer than this, degrees.
 const SAME_DEG: f64 = 1.0;
 /// The worse of two ways that differ is no rival where its score is below this part of the better one's.
