@@ -18,6 +18,10 @@ use crate::files::{Component, Film, Role, grey, read_model};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
+/// Distances of libraries where nobody tells it, in usual ones.
+const FARTHER: f64 = 1.3;
+const NEARER: f64 = 0.75;
+
 /// A component that is followed.
 pub(super) struct Part<'s> {
     /// Its number among those of the study.
@@ -31,7 +35,7 @@ pub(super) struct Part<'s> {
     pub(super) camera: Camera,
     pub(super) polarity: Polarity,
     calibration: &'s Calibration,
-    library: OnceLock<Built>,
+    libraries: [OnceLock<Built>; 2],
     film: OnceLock<FilmModel>,
     buffers: Mutex<Vec<RefineBuffers>>,
 }
@@ -73,7 +77,7 @@ impl<'s> Part<'s> {
             camera,
             polarity,
             calibration,
-            library: OnceLock::new(),
+            libraries: Default::default(),
             film: OnceLock::new(),
             buffers: Mutex::default(),
         })
@@ -112,20 +116,32 @@ impl<'s> Part<'s> {
         self.model.as_model()
     }
 
-    /// The library of all views, or of those that the study asks for; built when it is first wanted.
-    pub(super) fn library(&self) -> Result<&[u8]> {
-        if self.library.get().is_none() {
+    /// Distances of libraries, mm: one where the calibration or the study tells it, else two, each of which serves parts from
+    /// three quarters of it to a third more.
+    pub(super) fn distances(&self) -> Vec<f64> {
+        let told = self.component.distance_mm;
+        let usual = self.calibration.expected_distance();
+        match (told, self.calibration) {
+            (Some(told), _) => vec![told],
+            (None, Calibration::CameraMatrix { .. }) => vec![FARTHER * usual, NEARER * usual],
+            (None, _) => vec![usual],
+        }
+    }
+
+    /// The library for one of the distances, of all views or of those that the study asks for; built when it is first wanted.
+    pub(super) fn library(&self, number: usize, distance: f64) -> Result<&[u8]> {
+        let library = self.libraries.get(number).context("two libraries")?;
+        if library.get().is_none() {
             let views = ViewOptions {
                 nominal: self.component.nominal.map(Pair),
                 distance: self.component.distance_mm,
                 ..ViewOptions::default()
             };
-            let distance = views.distance_for(self.calibration);
             let built = build_library(self.model(), self.camera, &views, distance)?;
             // Whoever was first.
-            let _ = self.library.set(built);
+            let _ = library.set(built);
         }
-        let built = self.library.get().context("it was built")?;
+        let built = library.get().context("it was built")?;
         Ok(&built.bytes)
     }
 

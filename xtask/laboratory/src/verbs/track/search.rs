@@ -44,10 +44,17 @@ pub(super) fn clicked(
         part.phase()
     );
     run.journal.step(&key, || {
-        let mut clicker = Clicker::open(part.library()?, part.model(), part.camera)?;
         let at = Point::new(place[0], place[1]);
-        let answers = answers(run, part, &mut clicker, frame, at, |_| true)?;
-        best(run, part, frame, &answers)
+        let mut found: Option<FramePose> = None;
+        for (number, distance) in part.distances().into_iter().enumerate() {
+            let bytes = part.library(number, distance)?;
+            let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
+            let answers = answers(run, part, &mut clicker, frame, at, |_| true)?;
+            let one = best(run, part, frame, &answers)?;
+            let better = |one: &FramePose| found.is_none_or(|found| one.score() > found.score());
+            found = one.filter(better).or(found);
+        }
+        Ok(found)
     })
 }
 
@@ -55,25 +62,43 @@ pub(super) fn clicked(
 pub(super) fn searched(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<Option<FramePose>> {
     let key = format!("search/{}/{}/{frame}", part.number, part.phase());
     run.journal.step(&key, || {
-        let bytes = part.library()?;
-        let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
         let mut found: Option<FramePose> = None;
-        for at in places(run, part, bytes, frame)? {
-            let answers = answers(run, part, &mut clicker, frame, at, is_worth_it)?;
-            let good = |answer: &&Answer| answer.score >= LEAST_SCORE;
-            let answers: Vec<Answer> = answers.iter().filter(good).copied().collect();
-            let Some(one) = best(run, part, frame, &answers)?.filter(is_good) else {
-                continue;
-            };
-            if found.is_none_or(|found| one.score() > found.score()) {
-                found = Some(one);
-            }
-            if found.is_some_and(|found| found.score() >= ENOUGH) {
-                break;
-            }
+        for (number, distance) in part.distances().into_iter().enumerate() {
+            let bytes = part.library(number, distance)?;
+            found = found.or(search(run, part, bytes, frame)?);
         }
         Ok(found)
     })
+}
+
+fn search(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    bytes: &[u8],
+    frame: usize,
+) -> Result<Option<FramePose>> {
+    let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
+    let mut found: Option<FramePose> = None;
+    for at in places(run, part, bytes, frame)? {
+        let answers = answers(run, part, &mut clicker, frame, at, is_worth_it)?;
+        run.debug(|| {
+            let best = answers.first().map(|best| (best.score, best.support.fraction));
+            let (name, at) = (part.name(), [at.column, at.row]);
+            format!("{name} frame {}: {at:.0?}: {best:.2?}", frame + 1)
+        });
+        let good = |answer: &&Answer| answer.score >= LEAST_SCORE;
+        let answers: Vec<Answer> = answers.iter().filter(good).copied().collect();
+        let Some(one) = best(run, part, frame, &answers)?.filter(is_good) else {
+            continue;
+        };
+        if found.is_none_or(|found| one.score() > found.score()) {
+            found = Some(one);
+        }
+        if found.is_some_and(|found| found.score() >= ENOUGH) {
+            break;
+        }
+    }
+    Ok(found)
 }
 
 /// Whether a click at a place that nobody chose is worth going on with: most lead nowhere.
