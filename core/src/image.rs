@@ -2,6 +2,7 @@
 
 pub mod border;
 pub mod contour;
+pub mod display;
 pub mod frame;
 pub mod mask;
 pub mod moments;
@@ -9,3 +10,4 @@ pub mod profile;
 pub mod region;
 pub mod scan;
 pub mod silhouette;
+pub(crate) mod tiles;

@@ -10,12 +10,14 @@
 //! | [`camera`] | calibration files | [`Camera`] |
 //! | [`mesh`] | vertices and triangles | [`Model`], its planes of symmetry |
 //! | [`render`] | a model and its pose | the mask of its silhouette |
+//! | [`film`] | a model and its pose, profiles of frames | where its edges seem to be on a film, constants of the film |
 //! | [`canonical`] | a mask | [`canonical::CanonicalForm`] |
 //! | [`library`] | a model | [`Library`]: its canonical silhouettes from many directions |
 //! | [`search`] | a canonical silhouette, libraries | the views that differ from it in the fewest pixels |
 //! | [`mod@locate`] | a silhouette, whole or in part | first poses |
 //! | [`mod@refine`] | a first pose | [`Refined`], and how certain it is |
 //! | [`finder`] | a silhouette or a frame | all poses that explain it, the one chosen, why, and a verdict |
+//! | [`follow`] | a pose in one frame of a film | those in the frames beside it, and which of them to doubt |
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -39,6 +41,8 @@ pub mod mesh;
 
 pub mod render;
 
+pub mod film;
+
 pub mod canonical;
 
 pub mod library;
@@ -50,6 +54,8 @@ pub mod locate;
 pub mod refine;
 
 pub mod finder;
+
+pub mod follow;
 
 pub use camera::Camera;
 pub use camera::calibration::Calibration;

@@ -61,6 +61,8 @@ enum Verb {
     Identify(Words),
     /// Compare poses from a study's masks with its reference poses
     Evaluate(Words),
+    /// Follow the components of a study through its film
+    Track(Words),
     /// Measure one-click outlines on a study's grey frames against its masks
     Outline(Words),
     /// How well a pose can be known from a noisy outline (Cramer and Rao)
@@ -101,6 +103,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Synthetic(words) => laboratory::run("synthetic", &words),
         Verb::Identify(words) => laboratory::run("identify", &words),
         Verb::Evaluate(words) => laboratory::run("evaluate", &words),
+        Verb::Track(words) => laboratory::run("track", &words),
         Verb::Outline(words) => laboratory::run("outline", &words),
         Verb::Bound(words) => laboratory::run("bound", &words),
         Verb::Calibrate(words) => laboratory::run("calibrate", &words),
@@ -126,7 +129,7 @@ mod tests {
             .skip(1)
             .filter(|about| !about.contains("this machine"))
             .collect();
-        assert_eq!(its.len(), 11);
+        assert_eq!(its.len(), 12);
         for about in its {
             let told =
                 |verb: &clap::Command| verb.get_about().is_some_and(|a| a.to_string() == about);

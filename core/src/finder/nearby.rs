@@ -134,7 +134,7 @@ impl NearbySearch<'_> {
 }
 
 /// A pose rotated about a point of the model, then shifted; both in camera axes.
-pub(super) fn about(middle: &Vector3, pose: &Pose, turn: &Vector3, shift: Vector3) -> Pose {
+pub(crate) fn about(middle: &Vector3, pose: &Pose, turn: &Vector3, shift: Vector3) -> Pose {
     let rotation = multiply(&rotation_by(turn), &pose.rotation);
     let centre = add(&pose.transform(middle), &shift);
     Pose {

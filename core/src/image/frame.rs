@@ -3,21 +3,61 @@
 
 use thiserror::Error;
 
+use super::display::DisplayCurve;
+
 /// A grey value: `u8` or `u16`.
 pub trait Pixel: Copy + Ord + Default + Into<u32> {
     /// The value nearest to `value`, clamped to what the type holds.
     fn from_u32(value: u32) -> Self;
+
+    /// [`Grey::at`] of a frame of such pixels. A method of each type, so that it is compiled here, with the core's
+    /// optimisation, and not where a frame is made.
+    fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64>;
+
+    /// [`Grey::at_through`] of a frame of such pixels.
+    fn intensity_at(
+        frame: &Frame<'_, Self>,
+        column: f64,
+        row: f64,
+        curve: &DisplayCurve,
+    ) -> Option<f64>;
 }
 
 impl Pixel for u8 {
     fn from_u32(value: u32) -> Self {
         u8::try_from(value).unwrap_or(u8::MAX)
     }
+
+    fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
+        frame.between(column, row, |grey| grey)
+    }
+
+    fn intensity_at(
+        frame: &Frame<'_, Self>,
+        column: f64,
+        row: f64,
+        curve: &DisplayCurve,
+    ) -> Option<f64> {
+        frame.between(column, row, |grey| curve.linear(grey))
+    }
 }
 
 impl Pixel for u16 {
     fn from_u32(value: u32) -> Self {
         u16::try_from(value).unwrap_or(u16::MAX)
+    }
+
+    fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
+        frame.between(column, row, |grey| grey)
+    }
+
+    fn intensity_at(
+        frame: &Frame<'_, Self>,
+        column: f64,
+        row: f64,
+        curve: &DisplayCurve,
+    ) -> Option<f64> {
+        frame.between(column, row, |grey| curve.linear(grey))
     }
 }
 
@@ -189,6 +229,9 @@ pub trait Grey {
     /// Grey value at continuous image coordinates, linear between the four nearest centres;
     /// `None` beyond the outermost centres.
     fn at(&self, column: f64, row: f64) -> Option<f64>;
+
+    /// The same of what a curve makes of each pixel: the mean of intensities is not the intensity of the mean grey value.
+    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64>;
 }
 
 impl<P: Pixel> Grey for Frame<'_, P> {
@@ -197,21 +240,44 @@ impl<P: Pixel> Grey for Frame<'_, P> {
     }
 
     fn at(&self, column: f64, row: f64) -> Option<f64> {
+        P::grey_at(self, column, row)
+    }
+
+    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64> {
+        if curve.is_straight() {
+            return Some(curve.upright(self.at(column, row)?));
+        }
+        P::intensity_at(self, column, row, curve)
+    }
+}
+
+impl<P: Pixel> Frame<'_, P> {
+    /// What is made of each pixel, linear between the four nearest centres.
+    #[inline]
+    fn between(&self, column: f64, row: f64, of: impl Fn(f64) -> f64) -> Option<f64> {
         let (column, row) = (column - 0.5, row - 0.5);
         let last = |side: usize| side as f64 - 1.0;
         // A NaN is in no range.
-        if !(0.0..=last(self.width)).contains(&column) || !(0.0..=last(self.height)).contains(&row)
-        {
+        let inside = column >= 0.0
+            && row >= 0.0
+            && column <= last(self.width)
+            && row <= last(self.height);
+        if !inside {
             return None;
         }
         let (left, above) = (column as usize, row as usize);
         let (right, down) = (column - left as f64, row - above as f64);
-        let grey = |column: usize, row: usize| {
-            let value: u32 = self.nearest(column as isize, row as isize).into();
-            f64::from(value)
+        // Beyond the last pixel stands that pixel again; it counts for nothing there.
+        let next = usize::from(left + 1 < self.width);
+        let below = if above + 1 < self.height { self.stride } else { 0 };
+        let first = above * self.stride + left;
+        let value = |place: usize| {
+            let value: u32 = (*self.pixels.get(place)?).into();
+            Some(of(f64::from(value)))
         };
-        let upper = grey(left, above) * (1.0 - right) + grey(left + 1, above) * right;
-        let lower = grey(left, above + 1) * (1.0 - right) + grey(left + 1, above + 1) * right;
+        let upper = value(first)? * (1.0 - right) + value(first + next)? * right;
+        let first = first + below;
+        let lower = value(first)? * (1.0 - right) + value(first + next)? * right;
         Some(upper * (1.0 - down) + lower * down)
     }
 }

@@ -1,5 +1,6 @@
 //! Grey values along a line across an edge, and the filter that finds the edge in them.
 
+use crate::image::display::DisplayCurve;
 use crate::image::frame::Grey;
 use crate::math::exp;
 
@@ -15,14 +16,122 @@ pub fn grey_across(
     weights: &[f64],
     t: f64,
 ) -> Option<f64> {
-    let [right, down] = normal;
-    let (column, row) = (place[0] + t * right, place[1] + t * down);
     let mut sum = 0.0;
-    for (k, weight) in weights.iter().enumerate() {
-        let along = k as f64 - (weights.len() / 2) as f64;
-        sum += weight * frame.at(column - along * down, row + along * right)?;
+    for (weight, [column, row]) in across(place, normal, weights, t) {
+        sum += weight * frame.at(column, row)?;
     }
     Some(sum)
+}
+
+/// [`grey_across`] of what a display curve makes of each pixel.
+pub fn intensity_across(
+    frame: &(impl Grey + ?Sized),
+    curve: &DisplayCurve,
+    place: [f64; 2],
+    normal: [f64; 2],
+    weights: &[f64],
+    t: f64,
+) -> Option<f64> {
+    let mut sum = 0.0;
+    for (weight, [column, row]) in across(place, normal, weights, t) {
+        sum += weight * frame.at_through(column, row, curve)?;
+    }
+    Some(sum)
+}
+
+/// Places one pixel apart along the tangent at `t` along the normal, each with its weight.
+fn across(
+    place: [f64; 2],
+    [right, down]: [f64; 2],
+    weights: &[f64],
+    t: f64,
+) -> impl Iterator<Item = (f64, [f64; 2])> {
+    let (column, row) = (place[0] + t * right, place[1] + t * down);
+    let middle = (weights.len() / 2) as f64;
+    weights.iter().enumerate().map(move |(k, &weight)| {
+        let along = k as f64 - middle;
+        (weight, [column - along * down, row + along * right])
+    })
+}
+
+/// What a reading along a normal found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NormalReading {
+    /// The edge, at this distance in pixels along the outward normal; negative inwards.
+    At(f64),
+    /// No edge within the range.
+    Nothing,
+    /// What cannot be read, before any edge.
+    Unknown,
+}
+
+/// Distance between readings along a normal, pixels.
+const STEP: f64 = 0.5;
+/// Readings to each side at most: the longest range and the filter's reach.
+const REACH: usize = 32;
+/// Half width of the derivative's filter, readings.
+const HALF_FILTER: usize = 6;
+/// Width of the Gaussian whose derivative is taken, pixels.
+const BLUR: f64 = 1.0;
+
+/// How far beyond its range the filter of [`steepest_rise`] reads, pixels.
+pub const FILTER_REACH: f64 = STEP * HALF_FILTER as f64;
+
+/// Where a profile rises most steeply, to a part of a reading, at most `range` pixels from `expected`: it is differentiated by
+/// the derivative of a Gaussian (Canny, IEEE PAMI 8, 1986), and of its maxima of rising slope the one is taken that is greatest
+/// after a Gaussian prior on the distance. `reading` gives the profile, `None` where it is not known.
+///
+/// A frame and what is drawn of a model are read by this one procedure, so that what it does to a profile cancels.
+pub fn steepest_rise(
+    expected: f64,
+    range: f64,
+    mut reading: impl FnMut(f64) -> Option<f64>,
+) -> NormalReading {
+    let half = ((range / STEP) as usize).min(REACH - HALF_FILTER - 1);
+    let reach = half + HALF_FILTER;
+    let mut profile = [0.0; 2 * REACH + 1];
+    for (index, value) in profile.iter_mut().take(2 * reach + 1).enumerate() {
+        let t = expected + STEP * (index as f64 - reach as f64);
+        match reading(t) {
+            Some(read) => *value = read,
+            None => return NormalReading::Unknown,
+        }
+    }
+    let mut slopes = [0.0; 2 * REACH + 1];
+    differentiate(&profile, &mut slopes[..=2 * half]);
+    strongest(&slopes[..=2 * half], half, expected)
+}
+
+/// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides.
+fn differentiate(profile: &[f64], slopes: &mut [f64]) {
+    let (weights, norm) = gaussian_derivative::<{ HALF_FILTER + 1 }>(BLUR, STEP);
+    for (index, slope) in slopes.iter_mut().enumerate() {
+        let middle = index + HALF_FILTER;
+        let pairs =
+            (1..=HALF_FILTER).map(|k| weights[k] * (profile[middle + k] - profile[middle - k]));
+        *slope = pairs.sum::<f64>() / norm;
+    }
+}
+
+/// The maximum of rising slopes that is greatest after the prior, to a part of a reading by a
+/// parabola.
+fn strongest(slopes: &[f64], half: usize, expected: f64) -> NormalReading {
+    let sigma = STEP * half as f64 / 2.0;
+    let mut best = (0.0, NormalReading::Nothing);
+    for k in 1..slopes.len().saturating_sub(1) {
+        let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
+        if slope <= 0.0 || slope < before || slope <= after {
+            continue;
+        }
+        let t = STEP * (k as f64 - half as f64);
+        let score = slope * exp(-t * t / (2.0 * sigma * sigma));
+        if score > best.0 {
+            // Not flat: the slope is above the one after it.
+            let part = 0.5 * (before - after) / (before - 2.0 * slope + after);
+            best = (score, NormalReading::At(expected + t + STEP * part));
+        }
+    }
+    best.1
 }
 
 /// The derivative of a Gaussian (Canny, IEEE PAMI 8, 1986) of `width` pixels, for readings `step` pixels apart: its

@@ -1,16 +1,6 @@
 //! A sample of the model's outline, and what was found of the target's along its normal.
 
-/// What a reading along a normal found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum NormalReading {
-    /// The outline, at this distance in pixels along the outward normal from the middle of the
-    /// sample's pixel; negative inwards.
-    At(f64),
-    /// No outline within the range.
-    Nothing,
-    /// An unknown pixel, or the frame's border, before any outline.
-    Unknown,
-}
+pub(super) use crate::image::profile::NormalReading;
 
 /// A sample of the model's outline.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

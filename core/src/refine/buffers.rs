@@ -6,6 +6,8 @@ use super::border::BorderPixel;
 use super::memory::RefineMemory;
 use super::view::CameraView;
 use crate::camera::Camera;
+use crate::film::lines::heads_needed;
+use crate::film::{LineMemory, PathLine};
 use crate::image::mask::{Word, words_needed};
 use crate::memory::grow;
 use crate::mesh::Model;
@@ -13,6 +15,8 @@ use crate::render::{Projected, scratch_needed};
 
 /// Border pixels there is room for: the outline of an implant in a large frame has some thousands.
 const BORDER: usize = 16_384;
+/// Lines across an outline there is room for.
+const LINES: usize = 2048;
 
 /// Owns what a [`RefineMemory`] borrows.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +25,8 @@ pub struct RefineBuffers {
     drawn: Vec<Word>,
     places: Vec<u16>,
     border: Vec<BorderPixel>,
+    lines: Vec<PathLine>,
+    heads: Vec<u16>,
 }
 
 impl RefineBuffers {
@@ -44,6 +50,8 @@ impl RefineBuffers {
         grow(&mut self.drawn, words_needed(width, height));
         grow(&mut self.places, width * height);
         grow(&mut self.border, BORDER);
+        grow(&mut self.lines, LINES);
+        grow(&mut self.heads, heads_needed());
     }
 
     fn all(&mut self) -> RefineMemory<'_> {
@@ -52,6 +60,10 @@ impl RefineBuffers {
             drawn: &mut self.drawn,
             places: &mut self.places,
             border: &mut self.border,
+            film: LineMemory {
+                lines: &mut self.lines,
+                heads: &mut self.heads,
+            },
         }
     }
 }

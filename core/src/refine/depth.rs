@@ -7,11 +7,10 @@
 //! the surface meet at the contour, and the depth is the middle of all that covers the border pixel,
 //! so holes and mixed winding do not matter.
 
-use core::ops::Range;
-
 use super::border::BorderPixel;
 use super::outline::{Depth, DrawnModel};
 use crate::image::scan::pixel_box;
+use crate::image::tiles::Tiles;
 use crate::math::dot;
 use crate::render::{Projected, contour, for_each_span, project};
 
@@ -92,9 +91,12 @@ impl DrawnModel<'_> {
             // What was drawn has images: it is not reached.
             return;
         };
-        let tiles = Tiles::of(border);
+        let pixels = border
+            .iter()
+            .map(|pixel| [pixel.column, pixel.row].map(i32::from));
+        let tiles = Tiles::of(pixels, 0);
         let (width, height) = (self.drawn.width(), self.drawn.height());
-        let wanted = |corners| tiles.meet(pixel_box(corners));
+        let wanted = |corners| tiles.under(pixel_box(corners)).is_some();
         let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
             let cut = |column: i64| column.clamp(0, width as i64) as usize;
             let (from, to) = (cut(from), cut(to));
@@ -134,71 +136,6 @@ fn listed(
 ) -> Option<&mut BorderPixel> {
     let pixel = border.get_mut(usize::from(place))?;
     (pixel.is_at(column, row)).then_some(pixel)
-}
-
-/// Tiles of one side that cover all border pixels: most triangles meet none that has any.
-struct Tiles {
-    /// Of the first tile.
-    column: i32,
-    row: i32,
-    /// Binary logarithm of the side.
-    places: u32,
-    /// For each row of tiles, which have a border pixel.
-    marked: [u128; TILES],
-}
-
-const TILES: usize = u128::BITS as usize;
-
-impl Tiles {
-    fn of(border: &[BorderPixel]) -> Self {
-        let extent = |of: fn(&BorderPixel) -> u16| {
-            let least = border.iter().map(of).min().unwrap_or(0);
-            let most = border.iter().map(of).max().unwrap_or(0);
-            (i32::from(least), usize::from(most - least))
-        };
-        let (column, width) = extent(|pixel| pixel.column);
-        let (row, height) = extent(|pixel| pixel.row);
-        let mut tiles = Self {
-            column,
-            row,
-            places: (width.max(height) / TILES)
-                .checked_ilog2()
-                .map_or(0, |log| log + 1),
-            marked: [0; TILES],
-        };
-        for pixel in border {
-            let right = (i32::from(pixel.column) - column) >> tiles.places;
-            let down = (i32::from(pixel.row) - row) >> tiles.places;
-            tiles.marked[down as usize] |= 1 << right;
-        }
-        tiles
-    }
-
-    /// Whether a tile that has border pixels has some in a box of columns and rows.
-    fn meet(&self, [columns, rows]: [Range<i32>; 2]) -> bool {
-        if columns.is_empty() || rows.is_empty() {
-            return false;
-        }
-        let tile = |pixel: i32, first: i32| {
-            let tile = (pixel - first) >> self.places;
-            tile.clamp(-1, TILES as i32)
-        };
-        let (left, right) = (
-            tile(columns.start, self.column),
-            tile(columns.end - 1, self.column),
-        );
-        let (top, bottom) = (tile(rows.start, self.row), tile(rows.end - 1, self.row));
-        let last = TILES as i32 - 1;
-        if right < 0 || bottom < 0 || left > last || top > last {
-            return false;
-        }
-        let (left, right) = (left.max(0) as u32, right.min(last) as u32);
-        let wanted = (u128::MAX >> (TILES as u32 - 1 - (right - left))) << left;
-        let rows = self
-            .marked
-            .get(top.max(0) as usize..=bottom.min(last) as usize);
-        rows.unwrap_or_default().iter().any(|row| row & wanted != 0)
-    }
 }
 
 #[cfg(test)]

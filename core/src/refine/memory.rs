@@ -3,6 +3,7 @@
 use super::border::BorderPixel;
 use super::error::RefineError;
 use crate::camera::Camera;
+use crate::film::LineMemory;
 use crate::image::mask::{Word, words_needed};
 use crate::memory::check_length;
 use crate::render::Projected;
@@ -20,7 +21,13 @@ pub struct RefineMemory<'a> {
     /// 1024 x 1024 pixels. An outline that is longer at any pose on the way is refused: a part of it would not say where
     /// the model is. No more than 65 535 are used.
     pub border: &'a mut [BorderPixel],
+    /// For targets with a film model: one line for each [`FILM_EVERY`] border pixels, and
+    /// [`crate::film::lines::heads_needed`] heads of lists.
+    pub film: LineMemory<'a>,
 }
+
+/// One of this many border pixels is compared with what is drawn: frames are averaged over five pixels along an outline.
+pub const FILM_EVERY: usize = 5;
 
 pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
     let (width, height) = (camera.width(), camera.height());

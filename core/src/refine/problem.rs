@@ -1,12 +1,13 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
 use super::border::{BorderPixel, NormalReading, Residual};
+use super::drawn::DrawnEdges;
 use super::edge;
 use super::effort::Effort;
 use super::equations::Equations;
 use super::error::RefineError;
 use super::locks::{Hold, Locks};
-use super::memory::{RefineMemory, check_memory};
+use super::memory::{FILM_EVERY, RefineMemory, check_memory};
 use super::outline::{Depth, DrawnModel};
 use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
@@ -43,7 +44,7 @@ const WITHOUT_GRAIN: f64 = 0.02;
 
 /// What was seen at a pose.
 pub(super) struct Seen {
-    equations: Equations,
+    pub(super) equations: Equations,
     /// Number of its samples in memory; `None` after another pose was observed.
     samples: Option<usize>,
 }
@@ -88,7 +89,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The step that the equations ask for at a pose, and the change of the offset.
-    fn step(
+    pub(super) fn step(
         &self,
         equations: &Equations,
         damping: f64,
@@ -104,7 +105,7 @@ impl<'a> Problem<'a> {
         }
     }
 
-    fn apply(&self, step: &Step, pose: &Pose) -> Pose {
+    pub(super) fn apply(&self, step: &Step, pose: &Pose) -> Pose {
         match &self.hold {
             None => step.apply(pose, &self.middle),
             Some(hold) => hold.apply(step, pose, &self.middle),
@@ -136,7 +137,8 @@ impl<'a> Problem<'a> {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if step.size() < SETTLED * self.grain() {
+            let coarser = self.effort.coarser();
+            if step.size() < SETTLED * coarser * self.grain() {
                 break;
             }
             let mut next = *state;
@@ -155,7 +157,7 @@ impl<'a> Problem<'a> {
                 _ => {
                     damping *= 8.0;
                     seen.samples = None;
-                    if step.size() < GRAINED * self.grain() {
+                    if step.size() < GRAINED * coarser * self.grain() {
                         break;
                     }
                 }
@@ -220,7 +222,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Observes a pose, and counts the drawings.
-    fn look(
+    pub(super) fn look(
         &self,
         state: &mut Refined,
         pass: &Pass,
@@ -230,7 +232,7 @@ impl<'a> Problem<'a> {
         let mut equations = Equations::new();
         let mut samples = None;
         for view in self.views {
-            let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
+            let stage = pass.stage(&view.target);
             let (pose, offset) = (&state.pose, state.offset_px);
             samples =
                 Some(self.observe_view(view, pose, offset, &stage, memory, &mut equations)?);
@@ -250,7 +252,7 @@ impl<'a> Problem<'a> {
         else {
             return None;
         };
-        let stage = Stage::of(target, pass.index, pass.sigma_px);
+        let stage = pass.stage(target);
         let mut equations = Equations::new();
         for sample in memory.border.get(..before.samples?)? {
             equations.add_sample(sample, &stage);
@@ -296,19 +298,37 @@ impl<'a> Problem<'a> {
             pose: &pose,
             drawn: &drawn,
             depth: Depth::of(&view.target),
-            every: self.effort.every(),
+            every: if stage.drawn {
+                FILM_EVERY
+            } else {
+                self.effort.every()
+            },
         };
         let places = memory.places.get_mut(..width * height);
         let border =
             outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
+        let edges = DrawnEdges::of(
+            &outliner,
+            view,
+            stage,
+            border,
+            memory.projected,
+            &mut memory.film,
+        )?;
         let centre = pose.transform(&self.middle);
         let count = border.len();
-        for sample in border.iter_mut().filter(|sample| sample.is_on_surface()) {
+        for (number, sample) in border.iter_mut().enumerate() {
+            if !sample.is_on_surface() {
+                continue;
+            }
             let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE)
             else {
                 continue;
             };
-            let found = find(&view.target, sample, own + offset, stage.range);
+            let NormalReading::At(own) = edges.at(number, own) else {
+                continue;
+            };
+            let found = find(&view.target, sample, own + offset, stage);
             sample.residual = Residual::of(found, own + offset);
             if let Residual::Px(_) = sample.residual {
                 let normal = sample.normal.map(f64::from);
@@ -323,10 +343,18 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Where a target's outline crosses the normal of a sample, or where the frame has an edge.
-fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, range: f64) -> NormalReading {
+/// Where a target's outline crosses the normal of a sample, or where the frame has an edge. What no film is drawn for is read
+/// as it is displayed.
+fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, stage: &Stage) -> NormalReading {
     match target {
-        Target::Silhouette(silhouette) => probe::crossing(silhouette, sample, range),
-        Target::Image(image) => edge::edge(image, sample, expected, range),
+        Target::Silhouette(silhouette) => probe::crossing(silhouette, sample, stage.range),
+        Target::Image(image) => {
+            let curve = if stage.drawn {
+                image.curve()
+            } else {
+                image.display()
+            };
+            edge::edge(image, &curve, sample, expected, stage.range)
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! All stages, one after the other.
 
+use super::effort::Effort;
 use super::error::RefineError;
 use super::memory::RefineMemory;
 use super::options::RefineOptions;
@@ -50,11 +51,15 @@ pub fn refine_traced(
         pass = Pass {
             index,
             sigma_px: state.robust_sigma_px,
-            free: false,
+            ..Pass::default()
         };
         seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
     }
     problem.polish(&pass, &mut state, seen, memory, trace)?;
+    if problem.has_film() && options.effort != Effort::Probe {
+        pass.drawn = true;
+        problem.correct(&pass, &mut state, memory, trace)?;
+    }
     if options.edge_offset {
         pass.free = true;
         let mut with_offset = state;
@@ -64,6 +69,34 @@ pub fn refine_traced(
             return Ok(with_offset);
         }
         state.renders = with_offset.renders;
+    }
+    Ok(state)
+}
+
+/// Brings a pose that was refined on frames whose film was not known to where its edges are put by the films of `views`: what
+/// [`refine`] does at its end where it is known from the beginning.
+///
+/// # Errors
+/// [`RefineError`].
+pub fn correct(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    refined: &Refined,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Refined, RefineError> {
+    let mut problem = Problem::new(model, views, memory)?;
+    problem.hold(options.locks, &refined.pose);
+    problem.effort = options.effort;
+    let mut state = *refined;
+    if problem.has_film() {
+        let pass = Pass {
+            index: STAGES - 1,
+            sigma_px: refined.robust_sigma_px,
+            drawn: true,
+            ..Pass::default()
+        };
+        problem.correct(&pass, &mut state, memory, &mut |_| ())?;
     }
     Ok(state)
 }

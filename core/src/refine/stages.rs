@@ -12,6 +12,8 @@ pub(super) struct Stage {
     /// Largest distance between the outlines, pixels.
     pub(super) range: f64,
     pub(super) loss: Loss,
+    /// Whether edges are compared with those that the film's model puts on the drawing.
+    pub(super) drawn: bool,
 }
 
 /// Undamped steps after the last stage at most.
@@ -27,7 +29,11 @@ impl Stage {
     /// The stage number `index` for a target; `sigma_px` is the robust standard deviation of the
     /// residuals of the stage before, pixels.
     pub(super) fn of(target: &Target<'_>, index: usize, sigma_px: f64) -> Self {
-        let stage = |range, loss| Self { range, loss };
+        let stage = |range, loss| Self {
+            range,
+            loss,
+            drawn: false,
+        };
         match (target, index) {
             (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
             (Target::Silhouette(_), 1) => stage(16.0, Loss::Cauchy(2.5)),
@@ -52,4 +58,16 @@ pub(super) struct Pass {
     pub(super) sigma_px: f64,
     /// Whether the offset is estimated.
     pub(super) free: bool,
+    /// Whether edges are compared with those that the film's model puts on the drawing, where there is one.
+    pub(super) drawn: bool,
+}
+
+impl Pass {
+    /// How a target is looked at.
+    pub(super) fn stage(&self, target: &Target<'_>) -> Stage {
+        Stage {
+            drawn: self.drawn && target.film().is_some(),
+            ..Stage::of(target, self.index, self.sigma_px)
+        }
+    }
 }

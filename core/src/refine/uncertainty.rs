@@ -16,7 +16,7 @@ use super::loss::Loss;
 use super::memory::RefineMemory;
 use super::problem::Problem;
 use super::result::Refined;
-use super::stages::{Pass, STAGES, Stage};
+use super::stages::{Pass, STAGES};
 use super::view::CameraView;
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -99,11 +99,12 @@ fn observe(
     let pass = Pass {
         index: STAGES - 1,
         sigma_px: refined.robust_sigma_px,
-        free: false,
+        drawn: true,
+        ..Pass::default()
     };
     let mut sums = FitSums::default();
     for view in views {
-        let stage = Stage::of(&view.target, pass.index, pass.sigma_px);
+        let stage = pass.stage(&view.target);
         let (pose, offset) = (&refined.pose, refined.offset_px);
         let mut equations = Equations::new();
         let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;

@@ -1,6 +1,8 @@
 //! What refinement is given: cameras, where they stand, and what they saw.
 
 use crate::camera::Camera;
+use crate::film::FilmModel;
+use crate::image::display::DisplayCurve;
 use crate::image::frame::Grey;
 use crate::image::mask::Mask;
 use crate::image::silhouette::Silhouette;
@@ -40,6 +42,14 @@ pub enum Target<'a> {
 }
 
 impl Target<'_> {
+    /// What the film makes of the implant, where that is known.
+    pub(super) fn film(&self) -> Option<&FilmModel> {
+        match self {
+            Self::Silhouette(_) => None,
+            Self::Image(image) => image.film.as_ref(),
+        }
+    }
+
     /// Columns and rows.
     pub(super) fn size(&self) -> (usize, usize) {
         match self {
@@ -86,6 +96,25 @@ pub struct ImageTarget<'a> {
     pub unknown: Option<&'a Mask<'a>>,
     /// Which side of an edge the implant is on.
     pub polarity: Polarity,
+    /// What the film makes of the implant, where its constants are known: edges are then where physics puts them, and depth
+    /// has no bias. Without it they are taken to be on the outline, and the uncertainty is as wide as that is wrong.
+    pub film: Option<FilmModel>,
+}
+
+impl ImageTarget<'_> {
+    /// The curve that shows the frame as it is displayed, metal dark.
+    pub(super) fn display(&self) -> DisplayCurve {
+        DisplayCurve::new(0.0, self.polarity == Polarity::BrightImplant)
+    }
+
+    /// The curve by which intensities are read, where the film is known.
+    pub(super) fn curve(&self) -> DisplayCurve {
+        let inverted = self.polarity == Polarity::BrightImplant;
+        match self.film {
+            Some(film) => film.curve(inverted),
+            None => self.display(),
+        }
+    }
 }
 
 impl core::fmt::Debug for ImageTarget<'_> {
@@ -93,6 +122,7 @@ impl core::fmt::Debug for ImageTarget<'_> {
         f.debug_struct("ImageTarget")
             .field("size", &self.frame.size())
             .field("polarity", &self.polarity)
+            .field("film", &self.film)
             .finish_non_exhaustive()
     }
 }

@@ -10,3 +10,4 @@ mod parity;
 mod partial;
 mod sides;
 mod symmetry;
+mod track;

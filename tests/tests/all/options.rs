@@ -1,5 +1,6 @@
 //! Refinement with its options: numbers that are locked stay, and the others do what they can; swiftness costs little.
 
+use fluoropose::film::LineMemory;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -68,6 +69,7 @@ fn refined_in(
         drawn: &mut vec![0; words_needed(width, height)],
         places: &mut vec![0; width * height],
         border: &mut vec![BorderPixel::default(); border],
+        film: LineMemory::default(),
     };
     let view = CameraView::only(&camera, &mask);
     refine(&mesh, &[view], &Pose::from(start), options, &mut memory)

@@ -255,6 +255,7 @@ fn on_frame<T>(
             frame,
             unknown: Some(&unknown),
             polarity,
+            film: None,
         };
         let bright = polarity == Polarity::BrightImplant;
         with(model, CameraView::only(&camera, target), bright)

@@ -5,6 +5,7 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
+use fluoropose::film::LineMemory;
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::finder::{Component, Verdict};
 use fluoropose::image::border::follow_border;
@@ -271,6 +272,7 @@ impl OneClick {
             drawn: &mut [],
             places: &mut [],
             border: &mut [],
+            film: LineMemory::default(),
         };
         let mut memory = self
             .buffers
@@ -299,6 +301,7 @@ impl OneClick {
                     frame,
                     unknown,
                     polarity,
+                    film: None,
                 };
                 matcher.assess_on(&answer.refined, CameraView::only(camera, target))
             })

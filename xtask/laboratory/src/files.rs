@@ -2,6 +2,7 @@
 
 mod calibration;
 mod distortion;
+mod film;
 mod frames;
 mod mask;
 mod model;
@@ -12,10 +13,11 @@ mod text;
 
 pub use calibration::{camera_for, read_calibration};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
+pub use film::Film;
 pub use frames::{Frames, grey};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{owned, read_model};
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
-pub use study::{Component, Study};
+pub use study::{Component, StatedFilm, Study};
 pub use text::{files_in, name_of, read, read_text, write_json, write_text};

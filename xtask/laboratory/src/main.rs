@@ -25,6 +25,8 @@ enum Verb {
     Identify(verbs::identify::Args),
     /// Compare poses from a study's masks with its reference poses
     Evaluate(verbs::evaluate::Args),
+    /// Follow the components of a study through its film
+    Track(verbs::track::Args),
     /// Measure one-click outlines on a study's grey frames against its masks
     Outline(verbs::outline::Args),
     /// How well a pose can be known from a noisy outline (Cramer and Rao)
@@ -58,6 +60,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Synthetic(args) => verbs::synthetic::run(args),
         Verb::Identify(args) => verbs::identify::run(args),
         Verb::Evaluate(args) => verbs::evaluate::run(args),
+        Verb::Track(args) => verbs::track::run(args),
         Verb::Outline(args) => verbs::outline::run(args),
         Verb::Bound(args) => verbs::bound::run(args),
         Verb::Calibrate(args) => verbs::calibrate::run(args),

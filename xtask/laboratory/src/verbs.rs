@@ -11,4 +11,5 @@ pub mod library;
 pub mod outline;
 pub mod pose;
 pub mod synthetic;
+pub mod track;
 pub mod undistort;

@@ -3,6 +3,7 @@
 use super::flooding::links_needed;
 use super::statistics::STATISTICS;
 use fluoropose::camera::Camera;
+use fluoropose::film::LineMemory;
 use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::memory::{TooLittleMemory, first};
@@ -80,6 +81,10 @@ impl OneClickMemory<'_> {
                 drawn: &mut *self.refine.drawn,
                 places: &mut *self.refine.places,
                 border: &mut *self.refine.border,
+                film: LineMemory {
+                    lines: &mut *self.refine.film.lines,
+                    heads: &mut *self.refine.film.heads,
+                },
             },
         })
     }

@@ -1,6 +1,7 @@
 use super::*;
 use fluoropose::camera::Camera;
 use fluoropose::canonical::CanonicalSpec;
+use fluoropose::film::LineMemory;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Frame;
@@ -206,6 +207,7 @@ impl Bench {
                 drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
                 places: &mut std::vec![0; SIDE * SIDE],
                 border: &mut std::vec![BorderPixel::default(); 4096],
+                film: LineMemory::default(),
             },
         };
         let step = |work: &mut OneClick, memory: &mut OneClickMemory<'_>| {

@@ -22,11 +22,24 @@ pub struct Study {
     pub calibration: PathBuf,
     /// Folder of frames; their names' order is their order in time.
     pub frames: Option<PathBuf>,
+    /// Constants of the film, where a person states them; the components state their attenuation.
+    pub film: Option<StatedFilm>,
     /// The components.
     #[serde(rename = "component", default)]
     pub components: Vec<Component>,
     #[serde(flatten)]
     others: BTreeMap<String, toml::Value>,
+}
+
+/// Constants of a film that a person states: none of them is estimated.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StatedFilm {
+    /// Curvature of the display, one divided by grey values: 0 is linear, 1 / g logarithmic with g grey values for each factor
+    /// of e.
+    pub curvature: f64,
+    /// Standard deviation of the blur, pixels.
+    pub blur_px: f64,
 }
 
 /// One implanted component of a study.
@@ -48,6 +61,8 @@ pub struct Component {
     pub nominal: Option<[f64; 2]>,
     /// Distance from the focus, mm, where it is known.
     pub distance_mm: Option<f64>,
+    /// Attenuation of its metal, per mm, where the film is stated.
+    pub attenuation: Option<f64>,
     /// Folders of masks by source; a row of the table each.
     #[serde(default)]
     pub masks: BTreeMap<String, PathBuf>,

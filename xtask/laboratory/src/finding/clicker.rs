@@ -70,6 +70,20 @@ impl<'l> Clicker<'l> {
         prompt: Prompt,
         polarity: Polarity,
     ) -> Result<Clicked, OneClickError> {
+        self.click_while(frame, prompt, polarity, |_| true)
+    }
+
+    /// The same, given up where `go_on` says so of the work so far.
+    ///
+    /// # Errors
+    /// Those of [`Self::click`].
+    pub fn click_while(
+        &mut self,
+        frame: &dyn Grey,
+        prompt: Prompt,
+        polarity: Polarity,
+        go_on: impl Fn(&OneClick) -> bool,
+    ) -> Result<Clicked, OneClickError> {
         let begin = Instant::now();
         let observation = Observation {
             frame,
@@ -92,7 +106,7 @@ impl<'l> Clicker<'l> {
             let step = Instant::now();
             let more = work.step(&observation, Some(&component), &mut memory)?;
             longest = longest.max(step.elapsed());
-            if !more {
+            if !more || !go_on(&work) {
                 break;
             }
         }

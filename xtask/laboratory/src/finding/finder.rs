@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
+use fluoropose::film::FilmModel;
 use fluoropose::finder::nearby::{WIDE_DEG, nearby};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{
@@ -68,7 +69,11 @@ impl EdgeOptions {
 ///
 /// # Errors
 /// Where there is no frame.
-fn image<'a>(seen: &Seen<'a>, edges: EdgeOptions) -> Result<ImageTarget<'a>> {
+pub(super) fn image<'a>(
+    seen: &Seen<'a>,
+    edges: EdgeOptions,
+    film: Option<FilmModel>,
+) -> Result<ImageTarget<'a>> {
     let frame = seen
         .frame
         .context("the method image needs the grey frames, not only masks")?;
@@ -76,6 +81,7 @@ fn image<'a>(seen: &Seen<'a>, edges: EdgeOptions) -> Result<ImageTarget<'a>> {
         frame,
         unknown: seen.silhouette.unknown(),
         polarity: edges.polarity(),
+        film,
     })
 }
 
@@ -133,7 +139,7 @@ impl<'l> Finder<'l> {
         let goal = match self.method {
             Method::Library => Goal::Library,
             Method::Refined => Goal::Outline,
-            Method::Image => Goal::Image(image(seen, self.edges)?),
+            Method::Image => Goal::Image(image(seen, self.edges, None)?),
         };
         let options = self.options();
         let component = Component {
@@ -199,21 +205,5 @@ impl<'l> Finder<'l> {
         let (model, camera) = (&self.model, &self.camera);
         let mut memory = self.buffers.refine().borrow(model, camera);
         nearby(model, camera, silhouette, start, WIDE_DEG, &mut memory).to_vec()
-    }
-
-    /// Brings poses onto the edges of the frame; best first.
-    ///
-    /// # Errors
-    /// Where there is no frame, and where none can be refined.
-    pub fn refine_on_image(
-        &mut self,
-        seen: &Seen<'_>,
-        starts: &[Pose],
-    ) -> Result<Vec<RefinedRival>> {
-        let view = CameraView::only(&self.camera, image(seen, self.edges)?);
-        let options = self.options();
-        let model = &self.model;
-        let mut memory = self.buffers.refine().borrow(model, &self.camera);
-        Ok(refine_rivals(model, &[view], starts, &[], options, &mut memory)?.to_vec())
     }
 }

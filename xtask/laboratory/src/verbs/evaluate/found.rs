@@ -1,16 +1,19 @@
 //! Poses of a study's components in all of their sources.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose::film::{FilmEstimate, FilmModel};
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::library::ViewGrid;
 use fluoropose::locate::Located;
 use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::refine::RefineBuffers;
 use rayon::prelude::*;
 
 use super::reference::{Reference, in_front};
@@ -18,10 +21,11 @@ use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::{
-    Built, Finder, FrameFound, Method, ViewOptions, axes_of, build_library, find_poses, first_poses,
+    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, build_library, correct_poses,
+    estimate_film, find_poses, first_poses, refine_on_frame, stated_model,
 };
 use crate::measure::accuracy::median_absolute;
-use crate::sequence::{Folders, Sequence, Source};
+use crate::sequence::{Folders, Seen, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 
 /// Perspective changes views little where the distance changes by this part.
@@ -47,6 +51,12 @@ pub(super) struct Found {
     pub(super) femur: Option<String>,
     /// Of the method `image`: where refinement comes to from the reference pose.
     pub(super) from_reference: Option<Vec<Option<Pose>>>,
+    /// What the film makes of the component, where its constants are known.
+    pub(super) film: Option<FilmModel>,
+    /// The same in words, of the method `image`.
+    pub(super) film_words: Option<String>,
+    /// Masks and frames.
+    files: Source,
     /// Pixels of each mask that say nothing.
     pub(super) hidden: Vec<Option<MaskBuffer>>,
 }
@@ -80,6 +90,9 @@ pub(super) fn find_parts<'s>(
     // On a core each.
     let components = study.components.par_iter();
     let mut parts: Vec<Part<'s>> = components.map(find).collect::<Result<_>>()?;
+    if request.method == Method::Image {
+        by_film(&mut parts, study, request)?;
+    }
     let is = |role: Role| move |part: &Part<'_>| part.component.role() == Some(role);
     let mut femurs: Vec<(String, Vec<Option<Pose>>)> = Vec::new();
     for part in parts.iter_mut().filter(|part| !is(Role::Tibia)(part)) {
@@ -132,6 +145,14 @@ impl Found {
 }
 
 impl<'s> Part<'s> {
+    fn filmed<'f>(&'f self, sequence: &'f Sequence<'f>, request: &Request<'_>) -> Filmed<'f> {
+        Filmed {
+            model: self.model.as_model(),
+            sequence,
+            edges: request.edges,
+        }
+    }
+
     fn find(
         component: &'s Component,
         frames: Option<&Path>,
@@ -152,9 +173,7 @@ impl<'s> Part<'s> {
                 frames: frames.filter(|_| request.method == Method::Image),
             };
             let source = Source::read(&folders, calibration)?;
-            let sequence = source.disturbed(&request.disturbance)?;
-            let built = part.prepare(calibration, &sequence, request)?;
-            let found = part.find_source(name, &sequence, &built, request)?;
+            let found = part.find_source(name, source, calibration, request)?;
             part.found.push(found);
         }
         Ok(part)
@@ -234,35 +253,38 @@ impl<'s> Part<'s> {
 
     fn find_source(
         &self,
-        source: &str,
-        sequence: &Sequence<'_>,
-        built: &Built,
+        name: &str,
+        files: Source,
+        calibration: &Calibration,
         request: &Request<'_>,
     ) -> Result<Found> {
+        let sequence = files.disturbed(&request.disturbance)?;
+        let built = self.prepare(calibration, &sequence, request)?;
         let count = sequence.masks().len();
         if let Some(reference) = &self.reference
             && reference.poses.len() != count
         {
             bail!(
-                "{source}: {count} masks but {} reference poses; both must be of the same frames",
+                "{name}: {count} masks but {} reference poses; both must be of the same frames",
                 reference.poses.len()
             );
         }
-        let mut finder = self.finder(built, sequence, request.method, request)?;
-        let reference = self.reference.as_ref();
-        let reference = reference.filter(|_| request.method == Method::Image);
+        let finder = self.finder(&built, &sequence, request.method, request)?;
+        let frames = find_poses(&finder, &sequence);
+        let masks = sequence.masks();
+        let hidden = masks.map(|(_, mask)| mask.hidden.clone()).collect();
+        drop(sequence);
         Ok(Found {
-            source: source.to_owned(),
-            camera: sequence.camera(),
-            frames: find_poses(&finder, sequence),
+            source: name.to_owned(),
+            camera: files.camera,
+            frames,
             decisions: Vec::new(),
             femur: None,
-            from_reference: reference
-                .map(|reference| from_reference(&mut finder, sequence, reference)),
-            hidden: sequence
-                .masks()
-                .map(|(_, mask)| mask.hidden.clone())
-                .collect(),
+            from_reference: None,
+            film: None,
+            film_words: None,
+            files,
+            hidden,
         })
     }
 }
@@ -281,14 +303,14 @@ fn is_within_the_window(first: &[Located]) -> bool {
 /// Where refinement on the grey frame comes to from the reference poses; of several answers, as a
 /// mirrored one, the nearest to the reference.
 fn from_reference(
-    finder: &mut Finder<'_>,
-    sequence: &Sequence<'_>,
+    part: &Filmed<'_>,
     reference: &Reference,
+    film: Option<FilmModel>,
 ) -> Vec<Option<Pose>> {
-    let known = reference.poses.iter().enumerate();
-    let refine = |(frame, pose): (usize, &Option<Pose>)| {
+    let refine = |buffers: &mut RefineBuffers, (frame, pose): (usize, &Option<Pose>)| {
         let start = in_front(&(*pose)?);
-        let found = sequence.look(frame, |seen| finder.refine_on_image(seen, &[start]));
+        let look = |seen: &Seen<'_>| refine_on_frame(part, seen, &start, film, buffers);
+        let found = part.sequence.look(frame, look);
         let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &start.rotation);
         let poses = found.map(|found| {
             let poses = found.iter().map(|rival| rival.refined.pose);
@@ -299,5 +321,118 @@ fn from_reference(
             None
         })
     };
-    known.map(refine).collect()
+    let known = reference.poses.par_iter().enumerate();
+    known.map_init(RefineBuffers::default, refine).collect()
+}
+
+/// Rounds of estimating the film from poses and correcting these by it.
+const ROUNDS: usize = 2;
+
+/// Estimates the film of each source from the frames of all components, unless the study states it, and corrects their poses.
+fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Result<()> {
+    let names: BTreeSet<String> = parts
+        .iter()
+        .flat_map(|part| part.found.iter().map(|found| found.source.clone()))
+        .collect();
+    for name in names {
+        let mut shared: Vec<(&Part<'_>, Found)> = Vec::new();
+        let mut owners = Vec::new();
+        for (number, part) in parts.iter_mut().enumerate() {
+            if let Some(at) = part.found.iter().position(|found| found.source == name) {
+                owners.push((number, at, part.found.remove(at)));
+            }
+        }
+        let mut found = Vec::new();
+        for (number, at, one) in owners {
+            shared.push((&parts[number], one));
+            found.push((number, at));
+        }
+        source_by_film(&mut shared, study, request)?;
+        let done: Vec<Found> = shared.into_iter().map(|(_, found)| found).collect();
+        for ((number, at), one) in found.into_iter().zip(done) {
+            parts[number].found.insert(at, one);
+        }
+    }
+    Ok(())
+}
+
+/// The same of one source.
+fn source_by_film(
+    shared: &mut [(&Part<'_>, Found)],
+    study: &Study,
+    request: &Request<'_>,
+) -> Result<()> {
+    for round in 0..ROUNDS {
+        let (films, words) = film_of(shared, study, request)?;
+        for (number, (part, found)) in shared.iter_mut().enumerate() {
+            (found.film, found.film_words) = (films[number], Some(words.clone()));
+            let sequence = found.files.disturbed(&request.disturbance)?;
+            let filmed = part.filmed(&sequence, request);
+            if let Some(film) = found.film {
+                correct_poses(&filmed, &mut found.frames, film);
+            }
+            if round + 1 == ROUNDS
+                && let Some(reference) = &part.reference
+            {
+                found.from_reference = Some(from_reference(&filmed, reference, found.film));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What the film makes of each component, and that in words.
+fn film_of(
+    shared: &[(&Part<'_>, Found)],
+    study: &Study,
+    request: &Request<'_>,
+) -> Result<(Vec<Option<FilmModel>>, String)> {
+    if let Some(fixed) = study.film {
+        let of = |(part, _): &(&Part<'_>, Found)| {
+            let attenuation = part.component.attenuation;
+            attenuation.map(|attenuation| stated_model(fixed, attenuation))
+        };
+        return Ok((
+            shared.iter().map(of).collect(),
+            "stated by the study".to_owned(),
+        ));
+    }
+    let sequences = shared
+        .iter()
+        .map(|(_, found)| found.files.disturbed(&request.disturbance));
+    let sequences = sequences.collect::<Result<Vec<_>>>()?;
+    let filmed: Vec<_> = shared
+        .iter()
+        .zip(&sequences)
+        .map(|((part, found), sequence)| (part.filmed(sequence, request), &found.frames[..]))
+        .collect();
+    Ok(match estimate_film(&filmed) {
+        Some(film) => {
+            let models = (0..shared.len()).map(|component| Some(film.model(component)));
+            (models.collect(), describe(&film, shared))
+        }
+        None => (vec![None; shared.len()], "not told by these frames: edges are taken to lie on the outline, and the uncertainty is wide".to_owned()),
+    })
+}
+
+fn describe(film: &FilmEstimate, shared: &[(&Part<'_>, Found)]) -> String {
+    let mut words = film.to_string();
+    for (number, (part, _)) in shared.iter().enumerate() {
+        let sd = film.covariance[2 + number][2 + number].sqrt();
+        let attenuation = film.attenuation[number];
+        words += &format!(
+            ", {} {attenuation:.2} a mm (±{:.0} %)",
+            part.component.name,
+            100.0 * sd
+        );
+    }
+    words
+        + &format!(
+            "; curvature {:.4} ±{:.4}, blur ±{:.0} %, {} profiles, {:.1} grey values unexplained",
+            film.constants.curvature,
+            film.covariance[0][0].sqrt(),
+            100.0 * film.covariance[1][1].sqrt(),
+            film.profiles,
+            film.residual
+        )
 }

@@ -87,6 +87,9 @@ fn print_row(row: &Row) {
         });
         println!("{:>LEFT$} {reasons}{known}", "chosen by");
     }
+    if let Some(film) = &row.film {
+        println!("{:>LEFT$} {film}", "film");
+    }
     if let Some(start) = &row.from_reference {
         let frames = format!("from the reference's start, {} frames", start.frames);
         println!("{frames:>LEFT$} {}", numbers(&start.rms));

@@ -66,6 +66,7 @@ impl Reference {
             verdicts: None,
             reasons: None,
             femur: None,
+            film: None,
             from_reference: None,
             limits: None,
         })

@@ -52,6 +52,8 @@ pub struct Row {
     pub reasons: Option<Reasons>,
     /// Source of the femoral poses that were known when these were chosen.
     pub femur: Option<String>,
+    /// Of the method `image`: what is known of the film, in words.
+    pub film: Option<String>,
     /// Of the method `image`: how much the start matters.
     pub from_reference: Option<StartDifference>,
     /// Of poses found here: the limits at the reference poses, and the root mean square errors

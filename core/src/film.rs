@@ -1,0 +1,20 @@
+//! What a film shows of a component: intensity behind metal, blurred, and where its edge seems to be.
+//!
+//! The steepest place of an edge on a film is not the outline: metal is thin near a rounded edge and darkens late, and a
+//! logarithmic display puts the steepest place of a blurred edge on its dark side. Both are the same for the film and for the
+//! model as drawn, so refinement compares where the edge seems to be in either.
+//!
+//! - [`lines`]: the path of X-rays through a mesh along lines across its outline.
+//! - [`model`]: constants of a film, and the profile and the edge that they make of paths.
+//! - [`profile`], [`estimate`]: profiles read from frames, and the constants that explain them.
+
+pub mod estimate;
+mod fit;
+pub mod lines;
+pub mod model;
+pub mod profile;
+
+pub use estimate::{FilmEstimate, estimate};
+pub use lines::{LineMemory, PathLine};
+pub use model::{FilmConstants, FilmModel};
+pub use profile::FilmProfile;

@@ -1,0 +1,286 @@
+//! The path of X-rays through a mesh, along lines across its outline.
+//!
+//! A ray enters metal where it meets a triangle that faces the focus and leaves it by one that does not, so its path is the
+//! signed sum of the distances to them. Only places on some hundred lines of twenty pixels are asked for. A triangle is cut by
+//! each line that passes through it; both triangles beside an edge are cut at the same place, so a place between them is
+//! counted once. The reciprocal of the depth is linear on the image of a triangle, however steeply that is seen.
+
+use crate::camera::Camera;
+use crate::image::scan::FixedPoint;
+use crate::image::tiles::{TILES, Tiles};
+use crate::math::{dot, sqrt};
+use crate::memory::{TooLittleMemory, first};
+use crate::mesh::Model;
+use crate::pose::Pose;
+use crate::render::{Projected, RenderError, project};
+
+/// Distance between places on a line, pixels.
+pub const STEP: f64 = 0.25;
+/// The first place: this far inside the line's origin, pixels.
+pub const INNER: f64 = 12.0;
+/// Places on a line; the last is 8 pixels outside.
+pub const POINTS: usize = 81;
+/// Tiles have sides of eight pixels at least: a line has places in no more than [`SPANNED`] of them.
+const LEAST_PLACES: u32 = 3;
+const SPANNED: usize = 8;
+/// Head of an empty list.
+const NONE: u16 = u16::MAX;
+/// Most lines: each has [`SPANNED`] numbers.
+pub const MOST_LINES: usize = NONE as usize / SPANNED;
+
+/// A line across an outline, and the path of the rays to places on it through the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathLine {
+    /// Continuous image coordinates of the origin, and the unit direction outwards.
+    origin: [f64; 2],
+    direction: [f64; 2],
+    /// mm.
+    paths: [f32; POINTS],
+    /// Surfaces left minus surfaces entered; zero where the surface is closed.
+    open: [i8; POINTS],
+    /// The next line in each tile that this one has places in, as [`SPANNED`] times its number and which of its tiles it is.
+    next: [u16; SPANNED],
+    /// The triangle that was added last, from 1.
+    last: u32,
+}
+
+impl Default for PathLine {
+    fn default() -> Self {
+        Self::at([0.0; 2], [1.0, 0.0])
+    }
+}
+
+/// Working memory of [`measure`]; by default none, for whoever has no film.
+#[derive(Debug, Default)]
+pub struct LineMemory<'m> {
+    /// The lines: as many as there are samples of an outline, at most [`MOST_LINES`].
+    pub lines: &'m mut [PathLine],
+    /// [`heads_needed`] numbers.
+    pub heads: &'m mut [u16],
+}
+
+/// Numbers that [`measure`] needs as working memory.
+#[must_use]
+pub const fn heads_needed() -> usize {
+    TILES * TILES
+}
+
+impl PathLine {
+    /// A line from an origin in a direction of unit length, without paths.
+    #[must_use]
+    pub fn at(origin: [f64; 2], direction: [f64; 2]) -> Self {
+        Self {
+            origin,
+            direction,
+            paths: [0.0; POINTS],
+            open: [0; POINTS],
+            next: [NONE; SPANNED],
+            last: 0,
+        }
+    }
+
+    /// The path through the part at each place, mm. `None` where the surface is not closed under the line.
+    #[must_use]
+    pub fn paths(&self) -> Option<&[f32; POINTS]> {
+        self.open
+            .iter()
+            .all(|&open| open == 0)
+            .then_some(&self.paths)
+    }
+
+    fn pixel(&self, point: usize) -> [i32; 2] {
+        let along = STEP * point as f64 - INNER;
+        [0, 1].map(|axis| floor(self.origin[axis] + along * self.direction[axis]))
+    }
+
+    /// Across and along the line, pixels.
+    fn coordinates(&self, [column, row]: [f32; 2]) -> [f64; 2] {
+        let [right, down] = self.direction;
+        let (x, y) = (
+            f64::from(column) - self.origin[0],
+            f64::from(row) - self.origin[1],
+        );
+        [x * down - y * right, x * right + y * down]
+    }
+
+    /// Adds the depth of a triangle to the places inside it. `nearness` is the reciprocal of its corners' depths.
+    fn add(&mut self, corners: [[f32; 2]; 3], nearness: impl Fn() -> [f64; 3], side: &Side) {
+        let at = corners.map(|corner| self.coordinates(corner));
+        let [a, b, c] = at.map(|[across, _]| across > 0.0);
+        if a == b && b == c {
+            return;
+        }
+        let nearness = nearness();
+        let mut ends = [[0.0; 2]; 2];
+        let mut found = 0;
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            if (at[from][0] > 0.0) != (at[to][0] > 0.0)
+                && let Some(end) = ends.get_mut(found)
+            {
+                // From the corner on this side to that beyond, whichever triangle asks.
+                let (near, far) = if at[from][0] > 0.0 {
+                    (to, from)
+                } else {
+                    (from, to)
+                };
+                let part = at[near][0] / (at[near][0] - at[far][0]);
+                let between = |a: f64, b: f64| a + part * (b - a);
+                *end = [
+                    between(at[near][1], at[far][1]),
+                    between(nearness[near], nearness[far]),
+                ];
+                found += 1;
+            }
+        }
+        if ends[0][0] > ends[1][0] {
+            ends.swap(0, 1);
+        }
+        self.add_between(ends, side);
+    }
+
+    fn add_between(&mut self, [[from, near], [to, far]]: [[f64; 2]; 2], side: &Side) {
+        let [start, end] = [from, to].map(|along| {
+            let place = (along + INNER) / STEP;
+            let whole = place.clamp(0.0, POINTS as f64) as usize;
+            whole + usize::from((whole as f64) < place)
+        });
+        let per_px = if to > from {
+            (far - near) / (to - from)
+        } else {
+            0.0
+        };
+        for point in start..end.min(POINTS) {
+            let along = STEP * point as f64 - INNER;
+            let depth = 1.0 / (near + (along - from) * per_px);
+            self.paths[point] += (f64::from(side.sign) * (depth - side.middle)) as f32;
+            self.open[point] = self.open[point].wrapping_add(side.sign);
+        }
+    }
+}
+
+/// How a triangle counts.
+struct Side {
+    /// 1 where rays leave the part by it.
+    sign: i8,
+    /// Depths are counted from here, so that where the surface has a hole the sum stays small, mm.
+    middle: f64,
+}
+
+/// Writes the path through `model` at `pose` to each line; `scratch` is the working memory of [`crate::render::render`].
+///
+/// The surface may be any, of any winding: where it does not close, a line says so.
+///
+/// # Errors
+/// [`RenderError`] where a vertex has no image, or memory is too short.
+pub fn measure(
+    model: &Model<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    scratch: &mut [Projected],
+    lines: &mut [PathLine],
+    heads: &mut [u16],
+) -> Result<(), RenderError> {
+    let heads = first("heads of lists", heads_needed(), heads)?;
+    if lines.len() > MOST_LINES {
+        return Err(TooLittleMemory {
+            what: "numbers of lines",
+            needed: lines.len(),
+            given: MOST_LINES,
+        }
+        .into());
+    }
+    let images = project(model.mesh(), camera, pose, scratch)?;
+    let tiles = enter(lines, heads);
+    let middle = -pose.transform(&model.centre())[2];
+    let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
+    for (number, triangle) in model.triangles().iter().enumerate() {
+        let corners = triangle.map(image);
+        let Some([columns, rows]) = tiles.under(whole_box(corners)) else {
+            continue;
+        };
+        let sign = FixedPoint::doubled_area(corners).signum() as i8;
+        if sign == 0 {
+            continue;
+        }
+        let side = Side { sign, middle };
+        let nearness = || triangle.map(|vertex| nearness_of(model, pose, vertex));
+        let places = corners.map(Projected::place);
+        for row in rows {
+            for column in columns.clone() {
+                let mut node = heads[row * TILES + column];
+                while let Some(line) = lines.get_mut(usize::from(node) / SPANNED) {
+                    node = line.next[usize::from(node) % SPANNED];
+                    if line.last != number as u32 + 1 {
+                        line.last = number as u32 + 1;
+                        line.add(places, nearness, &side);
+                    }
+                }
+            }
+        }
+    }
+    close(lines, camera);
+    Ok(())
+}
+
+/// Enters each line in the lists of the tiles that it has places in.
+fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
+    let pixels = lines
+        .iter()
+        .flat_map(|line| (0..POINTS).map(|point| line.pixel(point)));
+    let tiles = Tiles::of(pixels, LEAST_PLACES);
+    heads.fill(NONE);
+    for (number, line) in lines.iter_mut().enumerate() {
+        *line = PathLine::at(line.origin, line.direction);
+        let (mut entered, mut before) = (0, None);
+        for point in 0..POINTS {
+            let tile = tiles.tile(line.pixel(point));
+            if before == Some(tile) || entered == SPANNED {
+                continue;
+            }
+            before = Some(tile);
+            let head = &mut heads[tile[1] * TILES + tile[0]];
+            line.next[entered] = *head;
+            *head = (number * SPANNED + entered) as u16;
+            entered += 1;
+        }
+    }
+    tiles
+}
+
+/// The pixels that a triangle has any part in, and those that rounding may put a place of it into.
+fn whole_box(corners: [Projected; 3]) -> [core::ops::Range<i32>; 2] {
+    let places = corners.map(Projected::place);
+    [0, 1].map(|axis| {
+        let [a, b, c] = places.map(|place| place[axis]);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        floor(f64::from(low) - 0.001)..floor(f64::from(high) + 0.001) + 1
+    })
+}
+
+/// The whole number below, of what is no farther out than coordinates may be.
+fn floor(x: f64) -> i32 {
+    const BEYOND: i32 = 1 << 20;
+    (x + f64::from(BEYOND)) as i32 - BEYOND
+}
+
+fn nearness_of(model: &Model<'_>, pose: &Pose, vertex: u32) -> f64 {
+    let vertex = model.vertices().get(vertex as usize);
+    let vertex = vertex.copied().unwrap_or_default().map(f64::from);
+    -1.0 / (dot(&pose.rotation[2], &vertex) + pose.translation[2])
+}
+
+/// Turns sums of depths into lengths along the rays.
+fn close(lines: &mut [PathLine], camera: &Camera) {
+    let ([fx, fy], [cx, cy]) = (camera.focal(), camera.principal_point());
+    for line in lines {
+        let (x, y) = ((line.origin[0] - cx) / fx, (line.origin[1] - cy) / fy);
+        let slant = sqrt(1.0 + x * x + y * y) as f32;
+        // Of a surface that is inside out sums are negative.
+        for path in &mut line.paths {
+            *path = path.abs() * slant;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,240 @@
+//! Constants of a film, and the edge that they make of paths through metal.
+
+use super::lines::{INNER, POINTS, STEP};
+use crate::image::display::DisplayCurve;
+use crate::image::profile::{FILTER_REACH, NormalReading, steepest_rise};
+use crate::math::exp;
+
+/// What is the same for all frames of a study and all components in them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmConstants {
+    /// Of the display, one divided by grey values; see [`DisplayCurve`].
+    pub curvature: f64,
+    /// Standard deviation of everything that blurs: focal spot, detector, pixels, motion. Pixels.
+    pub blur_px: f64,
+}
+
+/// Numbers of a [`FilmModel`] that have an uncertainty: curvature, blur, attenuation.
+pub const CONSTANTS: usize = 3;
+
+/// What a film makes of one component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmModel {
+    /// Those of the film.
+    pub constants: FilmConstants,
+    /// Attenuation of the component's metal for thin layers, per mm.
+    pub attenuation: f64,
+    /// Covariance of curvature, the logarithm of the blur and that of the attenuation.
+    pub covariance: [[f64; CONSTANTS]; CONSTANTS],
+}
+
+impl FilmModel {
+    /// Constants that are taken as they are.
+    #[must_use]
+    pub fn certain(constants: FilmConstants, attenuation: f64) -> Self {
+        Self {
+            constants,
+            attenuation,
+            covariance: [[0.0; CONSTANTS]; CONSTANTS],
+        }
+    }
+
+    /// The curve by which frames are read; `inverted` where metal is bright.
+    #[must_use]
+    pub fn curve(&self, inverted: bool) -> DisplayCurve {
+        DisplayCurve::new(self.constants.curvature, inverted)
+    }
+
+    /// One of the numbers that have an uncertainty changed by a little, in the units of [`Self::covariance`].
+    pub(crate) fn changed(mut self, number: usize, by: f64) -> Self {
+        match number {
+            0 => self.constants.curvature += by,
+            1 => self.constants.blur_px *= exp(by),
+            _ => self.attenuation *= exp(by),
+        }
+        self
+    }
+
+    /// Where the edge of a line seems to be on the film, pixels from the line's origin outwards; `expected` is where the
+    /// outline itself is, at most [`DRAWN_RANGE`] farther. [`NormalReading::Unknown`] where the surface is not closed.
+    #[must_use]
+    pub fn edge(&self, paths: Option<&[f32; POINTS]>, expected: f64) -> NormalReading {
+        let Some(paths) = paths else {
+            return NormalReading::Unknown;
+        };
+        let drawn = blurred(
+            &transmission(paths, self.attenuation),
+            self.constants.blur_px,
+        );
+        steepest_rise(expected, DRAWN_RANGE, |t| Some(f64::from(at(&drawn, t))))
+    }
+}
+
+/// How far from an outline its edge may seem to be, pixels.
+pub const DRAWN_RANGE: f64 = 3.0;
+
+// What the filter reads of a line lies on it, or beyond its ends where nothing changes.
+const _: () = assert!(DRAWN_RANGE + FILTER_REACH < INNER);
+
+/// Parts of intensity that pass, one for each place of a line.
+pub(crate) type Drawn = [f32; POINTS];
+
+/// Beam hardening: metal takes the soft part of the beam first, so that thicker layers attenuate less for each mm,
+/// `(1 + v mu L)^(-1 / v)` with this `v`; 0 would be one energy alone, `exp(-mu L)`.
+const HARDENING: f32 = 0.25;
+
+/// What passes through metal of this attenuation, per mm.
+pub(crate) fn transmission(paths: &[f32; POINTS], attenuation: f64) -> Drawn {
+    paths.map(|path| {
+        let thin = 1.0 + HARDENING * attenuation as f32 * path;
+        1.0 / (thin * thin * thin * thin)
+    })
+}
+
+/// Blur is taken to be within these, pixels: a pixel's own width is 0.3.
+pub(crate) const LEAST_BLUR: f64 = 0.3;
+pub(crate) const MOST_BLUR: f64 = 3.0;
+
+/// Convolved with a Gaussian of this width, pixels; both ends are continued.
+pub(crate) fn blurred(drawn: &Drawn, blur_px: f64) -> Drawn {
+    const MOST: usize = 40;
+    let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
+    let reach = ((3.2 * width) as usize + 1).min(MOST);
+    let mut weights = [0.0; MOST + 1];
+    let mut sum = 0.0;
+    for (k, weight) in weights.iter_mut().take(reach + 1).enumerate() {
+        let part = k as f32 / width;
+        *weight = exp(f64::from(-0.5 * part * part)) as f32;
+        sum += if k == 0 { *weight } else { 2.0 * *weight };
+    }
+    // Where nothing changes nothing is done: outside of the part everything passes.
+    let last = POINTS - 1;
+    let mut blurred = *drawn;
+    for (k, out) in blurred.iter_mut().enumerate() {
+        let ends = [k.saturating_sub(reach), (k + reach).min(last)];
+        if drawn[ends[0]..=ends[1]].iter().all(|&x| x == drawn[k]) {
+            continue;
+        }
+        let mut total = weights[0] * drawn[k];
+        for (j, weight) in weights.iter().enumerate().take(reach + 1).skip(1) {
+            total += weight * (drawn[k.saturating_sub(j)] + drawn[(k + j).min(last)]);
+        }
+        *out = total / sum;
+    }
+    blurred
+}
+
+/// Between places of a line, linear; beyond its ends as there.
+pub(crate) fn at(drawn: &Drawn, along: f64) -> f32 {
+    let place = ((along + INNER) / STEP).clamp(0.0, (POINTS - 1) as f64) as f32;
+    let low = (place as usize).min(POINTS - 2);
+    let part = place - low as f32;
+    drawn[low] + part * (drawn[low + 1] - drawn[low])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A half space of this depth, from the origin inwards.
+    fn slab(depth: f32) -> [f32; POINTS] {
+        core::array::from_fn(|k| {
+            if (k as f64) * STEP < INNER {
+                depth
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// The end of a rounded rim of this radius, pixels, in mm a third of that each; the rim ends this far outside.
+    fn rim(radius: f64, end: f64) -> [f32; POINTS] {
+        core::array::from_fn(|k| {
+            let inside = end + INNER - STEP * k as f64;
+            let off = (radius - inside).clamp(0.0, radius);
+            (2.0 * libm::sqrt(radius * radius - off * off) / 3.0) as f32
+        })
+    }
+
+    fn edge(paths: &[f32; POINTS], blur_px: f64, attenuation: f64) -> f64 {
+        let constants = FilmConstants {
+            curvature: 0.0,
+            blur_px,
+        };
+        let model = FilmModel::certain(constants, attenuation);
+        match model.edge(Some(paths), 0.0) {
+            NormalReading::At(edge) => edge,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_slab_is_its_edge_whatever_the_blur() {
+        for blur_px in [0.4, 0.7, 1.3, 2.0] {
+            // Between the last place inside and the first outside.
+            let found = edge(&slab(8.0), blur_px, 0.4) + STEP / 2.0;
+            assert!(found.abs() < 0.02, "{found} {blur_px}");
+        }
+    }
+
+    #[test]
+    fn the_edge_of_a_rounded_rim_lies_inside_and_more_so_of_thin_metal() {
+        // A rim may end anywhere between two places of a line.
+        let ends = [0.0, 0.05, 0.1, 0.15, 0.2].map(|end| end - 0.1);
+        let [thin, thick] = [0.1, 1.5].map(|attenuation| {
+            let found = ends.map(|end| edge(&rim(9.0, end), 0.8, attenuation) - end);
+            found.iter().sum::<f64>() / 5.0
+        });
+        assert!(thin < thick && thick < -0.1, "{thin} {thick}");
+        for (found, attenuation) in [(thin, 0.1), (thick, 1.5)] {
+            let wanted = steepest(9.0, 0.8, attenuation);
+            assert!((found - wanted).abs() < 0.02, "{found} {wanted}");
+        }
+    }
+
+    /// Oracle: the steepest place of a rim's profile, a hundred places to the pixel, blurred by film and filter at once.
+    fn steepest(radius: f64, blur_px: f64, attenuation: f64) -> f64 {
+        let passed = |along: f64| {
+            let off = (radius + along).clamp(0.0, radius);
+            let path = 2.0 * libm::sqrt(radius * radius - off * off) / 3.0;
+            libm::pow(1.0 + 0.25 * attenuation * path, -4.0)
+        };
+        let variance = blur_px * blur_px + 1.0;
+        let slope = |at: f64| -> f64 {
+            let kernel = |off: f64| off * libm::exp(-off * off / (2.0 * variance));
+            (-600..=600)
+                .map(|k| f64::from(k) / 100.0)
+                .map(|off| kernel(off) * passed(at + off))
+                .sum()
+        };
+        let places = (-300..=100).map(|k| f64::from(k) / 100.0);
+        places
+            .max_by(|a, b| slope(*a).total_cmp(&slope(*b)))
+            .expect("some")
+    }
+
+    #[test]
+    fn blur_keeps_the_sum_and_has_the_width_asked_for() {
+        let mut drawn = [1.0; POINTS];
+        drawn[40] = 2.0;
+        let blurred = blurred(&drawn, 1.3);
+        let (mut sum, mut spread) = (0.0, 0.0);
+        for (k, &x) in blurred.iter().enumerate() {
+            let off = STEP * (k as f64 - 40.0);
+            sum += f64::from(x - 1.0);
+            spread += f64::from(x - 1.0) * off * off;
+        }
+        assert!((sum - 1.0).abs() < 1e-4, "{sum}");
+        assert!((spread / sum - 1.69).abs() < 0.05, "{spread}");
+    }
+
+    #[test]
+    fn an_open_surface_has_no_edge() {
+        let constants = FilmConstants {
+            curvature: 0.0,
+            blur_px: 1.0,
+        };
+        let model = FilmModel::certain(constants, 0.3);
+        assert_eq!(model.edge(None, 0.0), NormalReading::Unknown);
+    }
+}

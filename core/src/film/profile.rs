@@ -1,0 +1,79 @@
+//! A profile read from a frame across a component's outline, with the paths behind it: what the constants of a film are
+//! estimated from.
+
+use super::lines::POINTS;
+
+/// Distance between readings, pixels; the first is this far inside the outline.
+pub(crate) const READING_STEP: f64 = 0.5;
+pub(crate) const FIRST_READING: f64 = -6.0;
+/// Readings of a profile: to 5 pixels outside.
+pub const READINGS: usize = 23;
+
+/// A profile across a component's outline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmProfile {
+    /// Number of the component, below [`super::estimate::MOST_COMPONENTS`].
+    pub component: u8,
+    /// Number of the frame.
+    pub frame: u16,
+    /// Grey values of a picture that is not inverted, each the mean of the pixels that were read for it, and their variance:
+    /// through a display that is not linear the mean of intensities is another.
+    pub(crate) mean: [f32; READINGS],
+    pub(crate) variance: [f32; READINGS],
+    /// Paths through the component along the same line, mm.
+    pub(crate) paths: [f32; POINTS],
+    /// Where the outline lies on the line, pixels from its origin.
+    pub(crate) outline: f32,
+    /// How far the film's profile lies beyond the drawn one, pixels, as it was found last.
+    pub(crate) shift: f32,
+    /// Whether it is believed, as it was decided last.
+    pub(crate) used: bool,
+}
+
+impl Default for FilmProfile {
+    fn default() -> Self {
+        Self {
+            component: 0,
+            frame: 0,
+            mean: [0.0; READINGS],
+            variance: [0.0; READINGS],
+            paths: [0.0; POINTS],
+            outline: 0.0,
+            shift: 0.0,
+            used: true,
+        }
+    }
+}
+
+impl FilmProfile {
+    /// A profile of the readings that `reading` gives: mean and variance of the pixels read at a distance from the line's
+    /// origin, `outline` being where the component's outline lies. `None` where one of them is not known.
+    pub(crate) fn read(
+        paths: &[f32; POINTS],
+        outline: f64,
+        mut reading: impl FnMut(f64) -> Option<[f64; 2]>,
+    ) -> Option<Self> {
+        let mut profile = Self {
+            paths: *paths,
+            outline: outline as f32,
+            ..Self::default()
+        };
+        for k in 0..READINGS {
+            let [mean, variance] = reading(outline + Self::along(k))?;
+            profile.mean[k] = mean as f32;
+            profile.variance[k] = variance as f32;
+        }
+        Some(profile)
+    }
+
+    /// Distance of a reading from the outline, pixels.
+    pub(crate) fn along(reading: usize) -> f64 {
+        FIRST_READING + READING_STEP * reading as f64
+    }
+
+    /// How much brighter it is outside than inside, grey values.
+    pub(crate) fn contrast(&self) -> f32 {
+        let mean = |readings: &[f32]| readings.iter().sum::<f32>() / readings.len() as f32;
+        mean(&self.mean[READINGS - 4..]) - mean(&self.mean[..4])
+    }
+}

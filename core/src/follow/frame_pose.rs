@@ -1,0 +1,159 @@
+//! A pose in a frame, with what the frame says of it.
+
+use super::contrast::{Contrast, contrast};
+use crate::camera::Camera;
+use crate::math::sqrt;
+use crate::mesh::Model;
+use crate::mesh::mirror::mirror_pose;
+use crate::mesh::symmetry::SymmetryPlane;
+use crate::pose::covariance::PoseCovariance;
+use crate::pose::{Pose, geodesic_deg};
+use crate::refine::{
+    CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined, assess,
+    correct, fit_at, refine,
+};
+
+/// A component that is followed, the camera that sees it, and how poses are refined.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'s> {
+    /// The model.
+    pub model: &'s Model<'s>,
+    /// Its planes of near-symmetry.
+    pub planes: &'s [SymmetryPlane],
+    /// The camera.
+    pub camera: &'s Camera,
+    /// How poses are refined.
+    pub options: RefineOptions,
+}
+
+/// A pose in a frame, with what the frame says of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FramePose {
+    /// `camera_from_model`.
+    pub pose: Pose,
+    /// How sure the pose is; `None` where the outline does not determine it, or a person gave it.
+    pub covariance: Option<PoseCovariance>,
+    /// How well the model's outline is met by edges.
+    pub fit: Fit,
+    /// What remains between outline and edges: the root of twice the robust loss, pixels.
+    pub misfit_px: f64,
+    /// How much darker it is inside than outside.
+    pub contrast: Contrast,
+}
+
+/// Loss of an outline without any edge near it, square pixels: of the last stage on a frame, Tukey's with 2.5 px.
+const WORST_PX2: f64 = 2.5 * 2.5 / 6.0;
+
+/// Mirror images nearer to their pose than this are the same pose, degrees.
+const SAME_DEG: f64 = 1.0;
+
+impl FramePose {
+    /// By what poses of a frame are compared, the greatest first: strength of the edges, multiplied by how near they lie.
+    #[must_use]
+    pub fn score(&self) -> f64 {
+        let loss = self.misfit_px * self.misfit_px / 2.0;
+        self.contrast.strength * (1.0 - (loss / WORST_PX2).clamp(0.0, 1.0))
+    }
+}
+
+/// From how far refinement comes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum From {
+    /// Within some pixels: the edges that the film's model puts on the drawing are looked for at once, where it is known. On
+    /// the way over edges as they seem to be, a faint component may be caught by others.
+    Near,
+    /// From where refinement has to find the way.
+    Far,
+}
+
+/// The pose that refinement on the frame makes of a start. `step` is the usual step of grey values, where it is known.
+///
+/// # Errors
+/// Those of [`refine`].
+pub fn refined_on_frame(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    (start, from): (&Pose, From),
+    step: Option<f64>,
+    memory: &mut RefineMemory<'_>,
+) -> Result<FramePose, RefineError> {
+    let views = [CameraView::only(subject.camera, *image)];
+    let (model, options) = (subject.model, subject.options);
+    let refined = match (image.film, from) {
+        (None, _) => refine(model, &views, start, options, memory)?,
+        (Some(_), From::Near) => correct(model, &views, &begun(start), options, memory)?,
+        (Some(_), From::Far) => {
+            let probe = RefineOptions {
+                effort: Effort::Probe,
+                ..options
+            };
+            let near = refine(model, &views, start, probe, memory)?;
+            correct(model, &views, &begun(&near.pose), options, memory)?
+        }
+    };
+    let assessment = assess(subject.model, &views, &refined, memory)?;
+    Ok(FramePose {
+        pose: refined.pose,
+        covariance: assessment.covariance,
+        fit: assessment.fit,
+        misfit_px: sqrt(2.0 * refined.loss),
+        contrast: contrast(subject, image, &refined.pose, step, memory)?,
+    })
+}
+
+/// A pose from which the last stage of refinement begins.
+fn begun(pose: &Pose) -> Refined {
+    Refined {
+        pose: *pose,
+        offset_px: 0.0,
+        residual_px: 0.0,
+        robust_sigma_px: 0.0,
+        loss: 0.0,
+        renders: 0,
+        converged: false,
+    }
+}
+
+/// What the frame says of a pose as it is, such as one that a person gave.
+///
+/// # Errors
+/// [`RefineError`] where the model cannot be drawn at the pose.
+pub fn frame_pose_at(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    pose: &Pose,
+    step: Option<f64>,
+    memory: &mut RefineMemory<'_>,
+) -> Result<FramePose, RefineError> {
+    let views = [CameraView::only(subject.camera, *image)];
+    let fit = fit_at(subject.model, &views, pose, memory)?;
+    Ok(FramePose {
+        pose: *pose,
+        covariance: None,
+        fit,
+        misfit_px: fit.misfit_px,
+        contrast: contrast(subject, image, pose, step, memory)?,
+    })
+}
+
+/// The best of the poses that the mirror images of a pose lead to; `None` where they lead back to it or nowhere.
+#[must_use]
+pub fn mirrored_pose(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    own: &FramePose,
+    memory: &mut RefineMemory<'_>,
+) -> Option<FramePose> {
+    let mut best: Option<FramePose> = None;
+    for plane in subject.planes {
+        let start = mirror_pose(&own.pose, plane);
+        let step = Some(own.contrast.step);
+        let found = refined_on_frame(subject, image, (&start, From::Far), step, memory);
+        let Ok(found) = found else { continue };
+        let apart = geodesic_deg(&found.pose.rotation, &own.pose.rotation) > SAME_DEG;
+        if apart && best.is_none_or(|best| found.score() > best.score()) {
+            best = Some(found);
+        }
+    }
+    best
+}

@@ -1,0 +1,226 @@
+//! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
+
+use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
+use super::motion::Expected;
+use super::near::near_poses;
+use super::trail::{Trail, Usual, apart};
+use crate::finder::nearby::about;
+use crate::math::{Vector3, radians, scale};
+use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineMemory};
+
+/// Ordinary poses have at most this many times the usual misfit and so many pixels more, and at least this part of the
+/// usual strength.
+const ORDINARY: [f64; 3] = [1.35, 0.15, 0.85];
+/// Poses that are believed at all, the same.
+const BELIEVED: [f64; 3] = [2.0, 0.3, 0.6];
+/// Least part of the outline that must be in the frame and not hidden.
+const LEAST_KNOWN: f64 = 0.5;
+/// Beside an expected pose the way is tried again from so far, degrees out of the plane and part of the distance.
+const BESIDE_DEG: f64 = 2.5;
+const BESIDE_PART: f64 = 0.015;
+/// How far around an expected pose is searched, pixels; and farther with each frame in which nothing was found.
+const REACH_PX: f64 = 24.0;
+const FARTHER_PX: f64 = 6.0;
+const FARTHEST_PX: f64 = 72.0;
+/// What it costs to be as far from what was expected as is still in the ordinary, in usual misfits.
+const OFF: f64 = 0.1;
+/// Of the poses around, so many are refined.
+const REFINED: usize = 4;
+
+/// Why a frame has no pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// Too little of the outline lies in the frame where the component is expected.
+    Outside,
+    /// Where it is expected, and around there, are no edges of it.
+    Hidden,
+}
+
+/// What came of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Looked {
+    /// The pose, or why there is none.
+    pub found: Result<FramePose, Missing>,
+    /// Whether it is where it was expected and looks as usual.
+    pub ordinary: bool,
+    /// Whether poses around the expected one were searched.
+    pub searched: bool,
+    /// The part of the outline that lies in the frame, at the pose or where it is expected.
+    pub known: f64,
+}
+
+/// Looks at a frame for the component that came along a trail; [`Trail::take`] takes the answer.
+#[must_use]
+pub fn look(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    frame: usize,
+    trail: &Trail,
+    memory: &mut RefineMemory<'_>,
+) -> Looked {
+    let middle = subject.model.bounds().centre;
+    let expected = trail.expect(frame, &middle);
+    let usual = trail.usual();
+    let search = Search {
+        subject,
+        image,
+        expected,
+        usual,
+        middle,
+    };
+    search.run(trail.missed(), memory)
+}
+
+struct Search<'s> {
+    subject: &'s Subject<'s>,
+    image: &'s ImageTarget<'s>,
+    expected: Expected,
+    usual: &'s Usual,
+    middle: Vector3,
+}
+
+impl Search<'_> {
+    fn run(&self, missed: usize, memory: &mut RefineMemory<'_>) -> Looked {
+        let step = self.usual.step;
+        let known = in_frame(self.subject, &self.expected.pose);
+        if known < LEAST_KNOWN {
+            return self.nothing(Missing::Outside, known);
+        }
+        let start = &self.expected.pose;
+        let mut first: Option<FramePose> = None;
+        for from in [From::Near, From::Far] {
+            let (subject, image) = (self.subject, self.image);
+            if from == From::Far && image.film.is_none() {
+                break;
+            }
+            let found = refined_on_frame(subject, image, (start, from), Some(step), memory).ok();
+            if let Some(found) = found.filter(|found| self.is_ordinary(found)) {
+                return Looked {
+                    found: Ok(found),
+                    ordinary: true,
+                    searched: false,
+                    known: found.fit.known,
+                };
+            }
+            first = self.better(first, found);
+        }
+        let best = self.around(first, missed, memory);
+        match best.filter(|found| self.is_believed(found)) {
+            Some(found) => Looked {
+                found: Ok(found),
+                ordinary: self.is_ordinary(&found),
+                searched: true,
+                known: found.fit.known,
+            },
+            None => self.nothing(Missing::Hidden, known),
+        }
+    }
+
+    fn nothing(&self, why: Missing, known: f64) -> Looked {
+        Looked {
+            found: Err(why),
+            ordinary: false,
+            searched: why == Missing::Hidden,
+            known,
+        }
+    }
+
+    /// The best of what refinement found and of what poses around the expected one lead to.
+    fn around(
+        &self,
+        first: Option<FramePose>,
+        missed: usize,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let reach = self.reach_px(missed);
+        let (subject, image, step) = (self.subject, self.image, self.usual.step);
+        let starts = near_poses(subject, image, &self.expected.pose, reach, step, memory);
+        let mut best = first;
+        for start in beside(&self.expected.pose, &self.middle) {
+            let from = (&start, From::Near);
+            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            best = self.better(best, found);
+        }
+        for start in starts.unwrap_or_default().iter().take(REFINED) {
+            let from = (start, From::Far);
+            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            best = self.better(best, found);
+        }
+        best
+    }
+
+    /// How far around the expected pose is searched, pixels: as far as is in the ordinary, and farther where it was missed.
+    fn reach_px(&self, missed: usize) -> f64 {
+        let [fx, fy] = self.subject.camera.focal();
+        let depth = self.expected.pose.transform(&self.middle)[2].abs();
+        let ordinary = self.expected.shift_mm * fx.max(fy) / depth.max(1.0);
+        (ordinary.max(REACH_PX) + FARTHER_PX * missed as f64).min(FARTHEST_PX)
+    }
+
+    /// The one that is more as usual; of two alike, the one nearer to what was expected.
+    fn better(&self, one: Option<FramePose>, other: Option<FramePose>) -> Option<FramePose> {
+        let cost = |found: &FramePose| {
+            let [turn_deg, shift_mm] = apart(&self.expected.pose, &found.pose, &self.middle);
+            let off = turn_deg / self.expected.turn_deg + shift_mm / self.expected.shift_mm;
+            self.usual.cost(found) + OFF * off
+        };
+        match (one, other) {
+            (Some(one), Some(other)) if cost(&other) >= cost(&one) => Some(one),
+            (one, other) => other.or(one),
+        }
+    }
+
+    fn is_ordinary(&self, found: &FramePose) -> bool {
+        let [turn_deg, shift_mm] = apart(&self.expected.pose, &found.pose, &self.middle);
+        let depth = |pose: &Pose| pose.transform(&self.middle)[2];
+        let deeper = (depth(&found.pose) - depth(&self.expected.pose)).abs();
+        let near = turn_deg <= self.expected.turn_deg
+            && shift_mm <= self.expected.shift_mm
+            && deeper <= self.expected.depth_mm;
+        near && self.fits(found, ORDINARY)
+    }
+
+    fn is_believed(&self, found: &FramePose) -> bool {
+        self.fits(found, BELIEVED)
+    }
+
+    fn fits(&self, found: &FramePose, [times, more, part]: [f64; 3]) -> bool {
+        found.misfit_px <= times * self.usual.misfit_px + more
+            && found.contrast.strength >= part * self.usual.strength
+            && found.fit.known >= LEAST_KNOWN
+    }
+}
+
+/// Poses a little turned out of the image plane, and a little nearer and farther.
+fn beside(pose: &Pose, middle: &Vector3) -> [Pose; 6] {
+    let centre = pose.transform(middle);
+    let turned = |x: f64, y: f64| about(middle, pose, &[radians(x), radians(y), 0.0], [0.0; 3]);
+    let moved = |part: f64| about(middle, pose, &[0.0; 3], scale(&centre, part));
+    [
+        turned(BESIDE_DEG, 0.0),
+        turned(-BESIDE_DEG, 0.0),
+        turned(0.0, BESIDE_DEG),
+        turned(0.0, -BESIDE_DEG),
+        moved(BESIDE_PART),
+        moved(-BESIDE_PART),
+    ]
+}
+
+/// Part of the component's vertices whose image lies in the frame.
+fn in_frame(subject: &Subject<'_>, pose: &Pose) -> f64 {
+    let (vertices, camera) = (subject.model.vertices(), subject.camera);
+    let every = (vertices.len() / 256).max(1);
+    let (mut inside, mut all) = (0usize, 0usize);
+    for vertex in vertices.iter().step_by(every) {
+        all += 1;
+        let Some(place) = camera.project(&pose.transform(&vertex.map(f64::from))) else {
+            continue;
+        };
+        let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
+        inside += usize::from(
+            within(place.column, camera.width()) && within(place.row, camera.height()),
+        );
+    }
+    inside as f64 / all.max(1) as f64
+}

@@ -1,0 +1,198 @@
+//! Which of two mirrored ways through a film is the right one.
+//!
+//! A trail stays on its side of the mirror as long as both sides are apart, so the evidence of all frames between two
+//! such meetings adds up: residuals where they decide, the coronal tilt against the other component where that is known.
+//! The sides of all frames are chosen together by dynamic programming.
+
+use crate::finder::choice::{DECISIVE_RATIO, TILT_MARGIN_DEG};
+use crate::math::ln;
+
+/// What a frame says of a pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideFigures {
+    /// What remains between outline and edges, pixels.
+    pub misfit_px: f64,
+    /// Coronal tilt against the other component, degrees, where that is known.
+    pub tilt_deg: Option<f64>,
+}
+
+/// What a frame says of a pose and of its mirror image.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideEvidence {
+    /// Number of the frame.
+    pub frame: usize,
+    /// Of the pose on the trail.
+    pub own: SideFigures,
+    /// Of its mirror image.
+    pub mirrored: SideFigures,
+    /// Turn between the two, degrees.
+    pub apart_deg: f64,
+}
+
+/// Which of the two is the right one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Side {
+    /// The pose on the trail.
+    #[default]
+    Own,
+    /// Its mirror image.
+    Mirrored,
+}
+
+/// What was chosen for a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SideStep {
+    /// The side.
+    pub side: Side,
+    /// By how much the other side costs more: 1 is what a frame says that decides by itself.
+    pub margin: f64,
+    costs: [f64; 2],
+    rest: [f64; 2],
+    from: [u8; 2],
+}
+
+/// Both sides are one where they are nearer to each other than this, degrees: a trail may go over there.
+const ONE_DEG: f64 = 4.0;
+/// What it costs to go over from one side to the other, where they meet and elsewhere.
+const GO_OVER: [f64; 2] = [0.5, 4.0];
+/// What residuals say that decide nothing by themselves.
+const HINT: f64 = 0.25;
+/// The most that one frame says.
+const MOST: f64 = 2.0;
+
+impl SideEvidence {
+    /// What the frame says for the pose on the trail, and against it where it is negative.
+    fn for_own(&self) -> f64 {
+        if self.apart_deg < ONE_DEG {
+            return 0.0;
+        }
+        let ratio = self.mirrored.misfit_px / self.own.misfit_px;
+        let residual = ln(ratio.clamp(0.1, 10.0)) / ln(DECISIVE_RATIO);
+        if residual.abs() >= 1.0 {
+            return residual.clamp(-MOST, MOST);
+        }
+        let tilt = match (self.own.tilt_deg, self.mirrored.tilt_deg) {
+            (Some(own), Some(mirrored)) => (mirrored.abs() - own.abs()) / TILT_MARGIN_DEG,
+            _ => 0.0,
+        };
+        tilt.clamp(-1.0, 1.0) + HINT * residual
+    }
+}
+
+/// Chooses a side for each frame of a trail that was looked at from both; they come in the order of their frames.
+/// Frames without a step are left out where `steps` are fewer.
+pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
+    let count = evidence.len().min(steps.len());
+    let (evidence, steps) = (&evidence[..count], &mut steps[..count]);
+    for at in 0..count {
+        let own = evidence[at].for_own();
+        let cost = [(-own).max(0.0), own.max(0.0)];
+        steps[at] = SideStep::default();
+        for side in 0..2 {
+            let led = at.checked_sub(1).map(|last| {
+                let ways = [0, 1].map(|from| {
+                    steps[last].costs[from] + go_over(&evidence[last], &evidence[at], from, side)
+                });
+                u8::from(ways[1] < ways[0])
+            });
+            let led_cost = match (led, at.checked_sub(1)) {
+                (Some(from), Some(last)) => {
+                    let from = usize::from(from);
+                    steps[last].costs[from] + go_over(&evidence[last], &evidence[at], from, side)
+                }
+                _ => 0.0,
+            };
+            steps[at].from[side] = led.unwrap_or(side as u8);
+            steps[at].costs[side] = led_cost + cost[side];
+        }
+    }
+    for at in (0..count).rev() {
+        if at + 1 < count {
+            let next = steps[at + 1];
+            let own = evidence[at + 1].for_own();
+            let cost = [(-own).max(0.0), own.max(0.0)];
+            steps[at].rest = [0, 1].map(|side| {
+                let way = |to: usize| {
+                    next.rest[to] + cost[to] + go_over(&evidence[at], &evidence[at + 1], side, to)
+                };
+                way(0).min(way(1))
+            });
+        }
+        let whole = [0, 1].map(|side| steps[at].costs[side] + steps[at].rest[side]);
+        let mirrored = whole[1] < whole[0];
+        steps[at].side = if mirrored { Side::Mirrored } else { Side::Own };
+        steps[at].margin = (whole[0] - whole[1]).abs();
+    }
+}
+
+fn go_over(a: &SideEvidence, b: &SideEvidence, from: usize, to: usize) -> f64 {
+    let [meeting, apart] = GO_OVER;
+    match from == to {
+        true => 0.0,
+        false if a.apart_deg.min(b.apart_deg) < ONE_DEG => meeting,
+        false => apart,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    fn seen(frame: usize, ratio: f64, tilts: Option<[f64; 2]>, apart_deg: f64) -> SideEvidence {
+        let figures = |misfit_px: f64, k: usize| SideFigures {
+            misfit_px,
+            tilt_deg: tilts.map(|tilts| tilts[k]),
+        };
+        SideEvidence {
+            frame,
+            own: figures(1.0, 0),
+            mirrored: figures(ratio, 1),
+            apart_deg,
+        }
+    }
+
+    fn chosen(evidence: &[SideEvidence]) -> Vec<(Side, f64)> {
+        let mut steps = vec![SideStep::default(); evidence.len()];
+        choose_sides(evidence, &mut steps);
+        steps.iter().map(|step| (step.side, step.margin)).collect()
+    }
+
+    #[test]
+    fn one_frame_that_errs_does_not_turn_a_film() {
+        let film: Vec<_> = (0..9)
+            .map(|frame| {
+                let tilts = if frame == 4 { [6.0, 1.0] } else { [1.0, 6.0] };
+                seen(frame, 1.0, Some(tilts), 12.0)
+            })
+            .collect();
+        for (side, margin) in chosen(&film) {
+            assert_eq!(side, Side::Own);
+            assert!(margin >= 4.0, "{margin}");
+        }
+    }
+
+    #[test]
+    fn where_both_sides_meet_the_trail_may_have_gone_over() {
+        let film: Vec<_> = (0..9)
+            .map(|frame| match frame {
+                0..4 => seen(frame, 1.0, Some([1.0, 6.0]), 12.0),
+                4 => seen(frame, 1.0, Some([2.0, 2.5]), 1.0),
+                _ => seen(frame, 1.0, Some([6.0, 1.0]), 12.0),
+            })
+            .collect();
+        let sides: Vec<Side> = chosen(&film).iter().map(|step| step.0).collect();
+        assert_eq!(sides[..4], [Side::Own; 4]);
+        assert_eq!(sides[5..], [Side::Mirrored; 4]);
+    }
+
+    #[test]
+    fn residuals_alike_and_no_other_component_leave_it_open() {
+        let film: Vec<_> = (0..4).map(|frame| seen(frame, 1.02, None, 12.0)).collect();
+        for (_, margin) in chosen(&film) {
+            assert!(margin < 0.5, "{margin}");
+        }
+        assert!(chosen(&[]).is_empty());
+    }
+}

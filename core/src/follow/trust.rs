@@ -1,0 +1,284 @@
+//! How far each frame of a film is to be trusted, in one word with its reason.
+
+use core::fmt;
+
+use super::frame_pose::FramePose;
+use super::motion::between;
+use super::trail::apart;
+use crate::math::Vector3;
+use crate::pose::Pose;
+
+/// What is known of a component in one frame when a film is judged.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FrameEvidence {
+    /// The pose; none where none was found.
+    pub found: Option<FramePose>,
+    /// By how much the mirror image is less likely over the film; `None` where there is no other side.
+    pub side_margin: Option<f64>,
+    /// What another way to this frame, from the other end, came to.
+    pub other_way: Option<Pose>,
+    /// The other component's distance from the camera, at the middle of its box, mm.
+    pub other_depth_mm: Option<f64>,
+    /// Whether a person gave the pose.
+    pub fixed: bool,
+}
+
+/// Limits of trust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrustLimits {
+    /// Most misfit, in usual ones of the film.
+    pub misfit: f64,
+    /// A usual misfit below this counts as so much, pixels.
+    pub least_misfit_px: f64,
+    /// Least strength of the edges, in usual ones of the film.
+    pub strength: f64,
+    /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
+    pub jump_deg: f64,
+    /// The same along the image plane, mm.
+    pub jump_mm: f64,
+    /// Both in usual ones of the film.
+    pub jump_times: f64,
+    /// Least margin between the sides of the mirror.
+    pub side: f64,
+    /// Largest standard deviation of the rotation, degrees.
+    pub sd_deg: f64,
+    /// Farthest from the other component along the view, against what is usual in the film, mm.
+    pub depth_mm: f64,
+    /// Two ways to one frame may differ by this much, degrees.
+    pub ways_deg: f64,
+    /// Least part of the outline that is met.
+    pub met: f64,
+    /// Least part of the outline that is known.
+    pub known: f64,
+}
+
+impl TrustLimits {
+    /// The usual ones.
+    pub const USUAL: Self = Self {
+        misfit: 1.8,
+        least_misfit_px: 0.2,
+        strength: 0.6,
+        jump_deg: 1.5,
+        jump_mm: 2.0,
+        jump_times: 5.0,
+        side: 1.0,
+        sd_deg: 1.5,
+        depth_mm: 40.0,
+        ways_deg: 1.5,
+        met: 0.85,
+        known: 0.6,
+    };
+}
+
+/// Why a pose is to be looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Distrust {
+    /// Its mirror image is as likely.
+    Side,
+    /// The ways from both ends lead to different poses: degrees.
+    Ways(f64),
+    /// It lies off the way between the frames on both sides: degrees, mm.
+    Jump(f64, f64),
+    /// The edges are fainter than elsewhere in the film: part of the usual strength.
+    Faint(f64),
+    /// The edges lie farther off than elsewhere: pixels, and the usual.
+    Apart(f64, f64),
+    /// Only this part of the outline is met by edges.
+    Unmet(f64),
+    /// Only this part of the outline is in the frame.
+    Cut(f64),
+    /// The outline does not determine the pose: standard deviation of the rotation, degrees.
+    Undetermined(f64),
+    /// Both components cannot lie so far apart along the view: mm against what is usual in the film.
+    Depths(f64),
+}
+
+impl Distrust {
+    /// The word for it in tables.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Side => "ambiguous",
+            Self::Ways(_) => "two ways",
+            Self::Jump(..) => "jump",
+            Self::Faint(_) => "faint",
+            Self::Apart(..) | Self::Unmet(_) => "residual",
+            Self::Cut(_) => "cut off",
+            Self::Undetermined(_) => "undetermined",
+            Self::Depths(_) => "depths",
+        }
+    }
+}
+
+impl fmt::Display for Distrust {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Side => f.write_str("its mirror image is as likely"),
+            Self::Ways(deg) => write!(
+                f,
+                "the ways from both ends of the film come to poses {deg:.1} degrees apart"
+            ),
+            Self::Jump(deg, mm) => write!(
+                f,
+                "it lies {deg:.1} degrees and {mm:.1} mm off the way between the frames beside it"
+            ),
+            Self::Faint(part) => {
+                let percent = 100.0 * part;
+                write!(f, "its edges have {percent:.0} % of the strength that is usual in this film")
+            }
+            Self::Apart(px, usual_px) => write!(
+                f,
+                "the edges lie {px:.2} px off the outline, where {usual_px:.2} px is usual in this film"
+            ),
+            Self::Unmet(part) => {
+                let percent = 100.0 * part;
+                write!(f, "only {percent:.0} % of the outline is met by edges")
+            }
+            Self::Cut(part) => {
+                let percent = 100.0 * part;
+                write!(f, "only {percent:.0} % of the outline is in the frame and not hidden")
+            }
+            Self::Undetermined(deg) => write!(
+                f,
+                "the outline leaves {deg:.1} degrees of the rotation open (standard deviation)"
+            ),
+            Self::Depths(mm) => write!(
+                f,
+                "it lies {mm:.0} mm farther from the other component along the view than is usual in this film"
+            ),
+        }
+    }
+}
+
+/// How far the pose of a frame is to be trusted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Trust {
+    /// Why it is to be looked at; none where it may be trusted, or where there is no pose.
+    pub distrust: Option<Distrust>,
+    /// How bad it is: above 1 it is doubtful, and the worst have the most.
+    pub badness: f64,
+}
+
+/// What is usual in a film.
+struct Usual {
+    misfit_px: f64,
+    strength: f64,
+    jump: [f64; 2],
+    depth_mm: f64,
+}
+
+/// Judges each frame of a film by what is usual in it and by the frames beside it; `middle` is the model's. `sorted` is
+/// working memory of as many numbers as there are frames. Frames for which there is no place in `trusts` are left out.
+pub fn judge_film(
+    film: &[FrameEvidence],
+    limits: &TrustLimits,
+    middle: &Vector3,
+    sorted: &mut [f64],
+    trusts: &mut [Trust],
+) {
+    let usual = Usual {
+        misfit_px: median(film.iter().filter_map(misfit), sorted),
+        strength: median(film.iter().filter_map(strength), sorted),
+        jump: [0, 1].map(|k| {
+            let jumps = (0..film.len()).filter_map(|at| Some(jump(film, at, middle)?[k]));
+            median(jumps, sorted)
+        }),
+        depth_mm: median(film.iter().filter_map(|one| deeper(one, middle)), sorted),
+    };
+    for (at, trust) in trusts.iter_mut().enumerate().take(film.len()) {
+        *trust = judge(film, at, limits, middle, &usual);
+    }
+}
+
+fn misfit(one: &FrameEvidence) -> Option<f64> {
+    one.found.map(|found| found.misfit_px)
+}
+
+fn strength(one: &FrameEvidence) -> Option<f64> {
+    one.found.map(|found| found.contrast.strength)
+}
+
+/// How much farther from the camera than the other component, mm.
+fn deeper(one: &FrameEvidence, middle: &Vector3) -> Option<f64> {
+    Some(-one.found?.pose.transform(middle)[2] - one.other_depth_mm?)
+}
+
+/// How far a pose lies off the way between the found ones on both sides, at most two frames away.
+fn jump(film: &[FrameEvidence], at: usize, middle: &Vector3) -> Option<[f64; 2]> {
+    let own = film.get(at)?.found?.pose;
+    let found = |at: usize| Some(film.get(at)?.found?.pose);
+    let (before, after) = (at.checked_sub(1).and_then(found), found(at + 1));
+    let led = match (before, after) {
+        (Some(before), Some(after)) => between(&before, &after, 0.5, middle),
+        _ => return None,
+    };
+    Some(apart(&led, &own, middle))
+}
+
+fn judge(
+    film: &[FrameEvidence],
+    at: usize,
+    limits: &TrustLimits,
+    middle: &Vector3,
+    usual: &Usual,
+) -> Trust {
+    let Some((one, found)) = film.get(at).and_then(|one| Some((one, one.found?))) else {
+        return Trust::default();
+    };
+    if one.fixed {
+        return Trust::default();
+    }
+    let mut worst = Trust::default();
+    let mut weigh = |badness: f64, distrust: Distrust| {
+        if badness > worst.badness {
+            worst.badness = badness;
+            worst.distrust = (badness > 1.0).then_some(distrust);
+        }
+    };
+    if let Some(margin) = one.side_margin {
+        let open = if margin < limits.side { 2.0 - margin } else { 0.0 };
+        weigh(open, Distrust::Side);
+    }
+    if let Some(other) = &one.other_way {
+        let [deg, _] = apart(other, &found.pose, middle);
+        weigh(deg / limits.ways_deg, Distrust::Ways(deg));
+    }
+    if let Some([deg, mm]) = jump(film, at, middle) {
+        let most = |least: f64, usual: f64| least.max(limits.jump_times * usual);
+        let jumps = [
+            deg / most(limits.jump_deg, usual.jump[0]),
+            mm / most(limits.jump_mm, usual.jump[1]),
+        ];
+        weigh(jumps[0].max(jumps[1]), Distrust::Jump(deg, mm));
+    }
+    let part = found.contrast.strength / usual.strength.max(f64::MIN_POSITIVE);
+    weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
+    let px = found.misfit_px;
+    let times = px / usual.misfit_px.max(limits.least_misfit_px);
+    weigh(times / limits.misfit, Distrust::Apart(px, usual.misfit_px));
+    let met = found.fit.met;
+    weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
+    let known = found.fit.known;
+    weigh(limits.known / known.max(0.01), Distrust::Cut(known));
+    if let Some(covariance) = &found.covariance {
+        let deg = covariance.rotation_deg();
+        weigh(deg / limits.sd_deg, Distrust::Undetermined(deg));
+    }
+    if let Some(mm) = deeper(one, middle) {
+        let off = mm - usual.depth_mm;
+        weigh(off.abs() / limits.depth_mm, Distrust::Depths(off));
+    }
+    worst
+}
+
+/// The median of some numbers; 0 without any.
+fn median(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
+    let mut count = 0;
+    for (place, value) in sorted.iter_mut().zip(values) {
+        *place = value;
+        count += 1;
+    }
+    let sorted = &mut sorted[..count];
+    sorted.sort_unstable_by(f64::total_cmp);
+    sorted.get(count / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,223 @@
+//! Places of a whole frame where one click may be worth trying, for who has no click to give: dark things of the right size.
+//!
+//! Metal is darker than what surrounds it in every direction, the border of a field or of a limb is not: the mean of a box is
+//! compared with those of boxes around it, and the direction with nearly the least difference counts. Sums over boxes are read
+//! from a table of sums (Crow, SIGGRAPH 1984).
+
+use fluoropose::camera::Camera;
+use fluoropose::finder::Component;
+use fluoropose::image::contour::Point;
+use fluoropose::image::frame::Grey;
+use fluoropose::math::sqrt;
+use fluoropose::memory::{TooLittleMemory, first};
+use fluoropose::refine::Polarity;
+use fluoropose::shortlist::keep;
+use heapless::Vec;
+
+/// Most places.
+pub const SEEDS: usize = 10;
+
+/// The frame is read at so many places along its longer side.
+const CELLS: usize = 256;
+/// Half sides of boxes, parts of the component's size, and where those around lie, the same.
+const INNER: [f64; 2] = [0.06, 0.12];
+const AROUND: [f64; 3] = [0.4, 0.7, 1.0];
+/// Directions to each of which there are boxes, clockwise.
+const DIRECTIONS: [[f64; 2]; 8] = [
+    [1.0, 0.0],
+    [0.7, 0.7],
+    [0.0, 1.0],
+    [-0.7, 0.7],
+    [-1.0, 0.0],
+    [-0.7, -0.7],
+    [0.0, -1.0],
+    [0.7, -0.7],
+];
+/// So many directions may be as dark: there the other component may be, or bone.
+const AS_DARK: usize = 2;
+/// Grey values that are as good as none.
+const DARK: f64 = 16.0;
+/// Places nearer to each other than this part of the component's size are one.
+const SAME: f64 = 0.4;
+
+/// Numbers that [`seeds`] borrows.
+#[must_use]
+pub fn seeds_needed(camera: &Camera) -> usize {
+    let (columns, rows, _) = cells(camera);
+    (columns + 1) * (rows + 1)
+}
+
+/// Square root of the mean area of a component's silhouettes in frames of a camera, at the library's distance, pixels.
+#[must_use]
+pub fn expected_size(component: &Component<'_>, camera: &Camera) -> f64 {
+    let info = component.library.info();
+    let [fx, fy] = camera.focal();
+    let unit = fx * fy / (info.focal * info.focal);
+    let views = component.library.views();
+    let every = (views / 256).max(1);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for view in (0..views).step_by(every) {
+        sum += f64::from(component.library.record(view).area) * unit;
+        count += 1.0;
+    }
+    sqrt(sum / count)
+}
+
+/// Places of a frame where something as large as `size_px` is set off from its surroundings, the darkest first.
+///
+/// # Errors
+/// [`TooLittleMemory`] where `sums` are fewer than [`seeds_needed`].
+pub fn seeds(
+    frame: &dyn Grey,
+    camera: &Camera,
+    size_px: f64,
+    polarity: Polarity,
+    sums: &mut [f64],
+) -> Result<Vec<Point, SEEDS>, TooLittleMemory> {
+    let (columns, rows, cell) = cells(camera);
+    let sums = first("sums", seeds_needed(camera), sums)?;
+    let table = Table::of(frame, (columns, rows), cell, sums);
+    let mut best: Vec<(f64, Point), SEEDS> = Vec::new();
+    let apart = SAME * size_px;
+    for part in INNER {
+        let half = (part * size_px / cell).max(1.0) as usize;
+        for row in (half..rows.saturating_sub(half)).step_by(half) {
+            for column in (half..columns.saturating_sub(half)).step_by(half) {
+                let darker = table.darker(column, row, half, size_px / cell, polarity);
+                let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
+                if darker > 0.0 {
+                    insert(&mut best, (darker, at), apart);
+                }
+            }
+        }
+    }
+    Ok(best.iter().map(|&(_, at)| at).collect())
+}
+
+/// Columns and rows of cells, and the side of each in pixels.
+fn cells(camera: &Camera) -> (usize, usize, f64) {
+    let (width, height) = (camera.width() as f64, camera.height() as f64);
+    let cell = (width.max(height) / CELLS as f64).max(1.0);
+    ((width / cell) as usize, (height / cell) as usize, cell)
+}
+
+/// Sums of grey values over all cells above and to the left of each corner.
+struct Table<'m> {
+    sums: &'m [f64],
+    columns: usize,
+    rows: usize,
+}
+
+impl<'m> Table<'m> {
+    fn of(frame: &dyn Grey, (columns, rows): (usize, usize), cell: f64, sums: &'m mut [f64]) -> Self {
+        let width = columns + 1;
+        sums[..width].fill(0.0);
+        for row in 0..rows {
+            let mut line = 0.0;
+            sums[(row + 1) * width] = 0.0;
+            for column in 0..columns {
+                line += grey(frame, column as f64 * cell, row as f64 * cell, cell);
+                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
+            }
+        }
+        Self {
+            sums,
+            columns,
+            rows,
+        }
+    }
+
+    /// By how much a box is darker than those around it in nearly every direction, as a part of both.
+    fn darker(&self, column: usize, row: usize, half: usize, size: f64, polarity: Polarity) -> f64 {
+        let inside = self.mean(column, row, half);
+        let mut least: Vec<f64, 8> = Vec::new();
+        for [right, down] in DIRECTIONS {
+            let at = |part: f64| {
+                let (x, y) = (
+                    column as f64 + part * size * right,
+                    row as f64 + part * size * down,
+                );
+                let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
+                let seen = within(x, self.columns) && within(y, self.rows);
+                seen.then(|| {
+                    let outside = self.mean(x as usize, y as usize, half);
+                    let more = match polarity {
+                        Polarity::DarkImplant => outside - inside,
+                        Polarity::BrightImplant => inside - outside,
+                    };
+                    more / (outside + inside + DARK)
+                })
+            };
+            let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
+            // There is a place for each direction.
+            let _ = most.map(|most| least.push(most));
+        }
+        least.sort_unstable_by(f64::total_cmp);
+        least.get(AS_DARK).copied().unwrap_or(0.0)
+    }
+
+    /// The mean of a box of cells around one, as far as it lies in the frame.
+    fn mean(&self, column: usize, row: usize, half: usize) -> f64 {
+        let (left, right) = (column.saturating_sub(half), (column + half + 1).min(self.columns));
+        let (top, bottom) = (row.saturating_sub(half), (row + half + 1).min(self.rows));
+        let at = |column: usize, row: usize| self.sums[row * (self.columns + 1) + column];
+        let sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
+        sum / ((right - left) * (bottom - top)).max(1) as f64
+    }
+}
+
+/// The mean of four readings in a cell.
+fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> f64 {
+    let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
+    let (width, height) = frame.size();
+    let read = |(right, down): (f64, f64)| {
+        let column = (left + right * cell).clamp(0.5, width as f64 - 0.5);
+        let row = (top + down * cell).clamp(0.5, height as f64 - 0.5);
+        frame.at(column, row).unwrap_or(0.0)
+    };
+    places.map(read).iter().sum::<f64>() / 4.0
+}
+
+/// Keeps the darkest of places that are one.
+fn insert(best: &mut Vec<(f64, Point), SEEDS>, (darker, at): (f64, Point), apart: f64) {
+    let same = |other: &(f64, Point)| {
+        let (right, down) = (other.1.column - at.column, other.1.row - at.row);
+        right * right + down * down < apart * apart
+    };
+    if best.iter().any(|other| same(other) && other.0 >= darker) {
+        return;
+    }
+    best.retain(|other| !same(other));
+    keep(best, (darker, at), |&(darker, _)| -darker);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose::image::frame::Frame;
+
+    #[test]
+    fn discs_of_the_right_size_come_first_and_shading_does_not_matter() {
+        const SIDE: usize = 256;
+        let middles = [[60.0, 70.0], [180.0, 150.0]];
+        let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
+            .map(|k| {
+                let (column, row) = ((k % SIDE) as f64, (k / SIDE) as f64);
+                let near = |[x, y]: [f64; 2]| libm::hypot(column - x, row - y) < 14.0;
+                let shade = 120.0 + 0.4 * column;
+                (if middles.into_iter().any(near) { shade - 60.0 } else { shade }) as u8
+            })
+            .collect();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+        let camera = Camera::new(SIDE, SIDE, [900.0; 2], [128.0; 2]).expect("valid");
+        let mut sums = std::vec![0.0; seeds_needed(&camera)];
+        let polarity = Polarity::DarkImplant;
+        let found = seeds(&frame, &camera, 50.0, polarity, &mut sums).expect("enough memory");
+        for [x, y] in middles {
+            let near = |at: &Point| libm::hypot(at.column - x, at.row - y) < 14.0;
+            assert!(found[..4].iter().any(near), "{found:?}");
+        }
+        let few = seeds(&frame, &camera, 50.0, polarity, &mut sums[1..]);
+        assert!(few.is_err());
+    }
+}

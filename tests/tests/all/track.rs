@@ -1,0 +1,185 @@
+//! A short film followed from poses that a person fixed, stopped, and gone on with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use fluoropose::camera::Camera;
+use fluoropose::follow::State;
+use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose_laboratory::files::write_poses;
+use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
+use fluoropose_phantom::film::motion::deep_knee_bend;
+use fluoropose_phantom::implant::{Side, Triangles};
+use fluoropose_phantom::picture::write_grey;
+use fluoropose_phantom::stl;
+use fluoropose_tests::{femur, surface, tibia};
+
+const SIDE: usize = 512;
+const FRAMES: usize = 6;
+const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.746\n";
+const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
+[[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
+
+/// A film in a folder of its own, and its truth.
+struct Short {
+    folder: PathBuf,
+    truth: [Vec<EulerPose>; 2],
+}
+
+impl Drop for Short {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// Two components of different darkness, drawn four times as finely as they are seen, and a little noise.
+fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
+    const FINE: usize = 4;
+    let side = SIDE * FINE;
+    let pitch = 0.746 / FINE as f64;
+    let camera = Camera::from_principal_distance(side, side, 1200.0, pitch, [0.0, 0.0]);
+    let camera = camera.expect("valid");
+    let mut grey = vec![200.0; SIDE * SIDE];
+    for (part, pose, darker) in parts {
+        let model = surface(part.clone());
+        let mut words = vec![0; words_needed(side, side)];
+        let mut mask = MaskMut::new(&mut words, side, side).expect("fits");
+        let mut scratch = vec![Projected::default(); scratch_needed(&model.as_model())];
+        render(&model.as_model(), &camera, &pose.into(), &mut scratch, &mut mask).expect("in front");
+        let mask = mask.into_mask();
+        for (at, grey) in grey.iter_mut().enumerate() {
+            let (column, row) = (at % SIDE * FINE, at / SIDE * FINE);
+            let inside = (0..FINE * FINE)
+                .filter(|k| mask.get(column + k % FINE, row + k / FINE))
+                .count();
+            *grey -= darker * inside as f64 / (FINE * FINE) as f64;
+        }
+    }
+    let mut seed = number as u64 + 1;
+    let mut noise = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 40) as f64 / f64::from(1u32 << 24) - 0.5
+    };
+    grey.iter().map(|grey| (grey + 6.0 * noise()) as u8).collect()
+}
+
+fn short(name: &str) -> Short {
+    let folder = std::env::temp_dir().join(format!("fluoropose-track-{name}-{}", std::process::id()));
+    fs::create_dir_all(folder.join("frames")).expect("a folder");
+    let (thigh, tray) = (femur(), tibia());
+    let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
+    for (number, position) in film.iter().take(FRAMES).enumerate() {
+        let parts = [(&thigh, position.femur, 120.0), (&tray, position.tibia, 70.0)];
+        let path = folder.join("frames").join(format!("{number:02}.png"));
+        write_grey(&path, (SIDE, SIDE), &frame(parts, number)).expect("a frame");
+    }
+    for (part, name) in [(&thigh, "femur.stl"), (&tray, "tibia.stl")] {
+        stl::write_file(part, &folder.join(name)).expect("a model");
+    }
+    fs::write(folder.join("calibration.txt"), CALIBRATION).expect("a calibration");
+    fs::write(folder.join("study.toml"), STUDY).expect("a study");
+    let truth = |of: fn(usize, &[fluoropose_phantom::film::motion::Position]) -> EulerPose| {
+        (0..FRAMES).map(|number| of(number, &film)).collect()
+    };
+    Short {
+        truth: [
+            truth(|number, film| film[number].femur),
+            truth(|number, film| film[number].tibia),
+        ],
+        folder,
+    }
+}
+
+impl Short {
+    /// Follows from the frames in which the poses are fixed.
+    fn track(&self, out: &str, fixed: &[usize]) -> anyhow::Result<Vec<Tracked>> {
+        let names = ["femur", "tibia"];
+        let files = names.iter().zip(&self.truth).map(|(name, truth)| {
+            let file = self.folder.join(format!("fixed-{out}-{name}.jts"));
+            let rows: Vec<Option<EulerPose>> = truth
+                .iter()
+                .enumerate()
+                .map(|(frame, pose)| fixed.contains(&frame).then_some(*pose))
+                .collect();
+            write_poses(&file, &rows)?;
+            format!("{name}={}", file.display()).parse()
+        });
+        track(&Request {
+            study: self.folder.join("study.toml"),
+            out: self.folder.join(out),
+            clicks: Vec::new(),
+            fixed: files.collect::<anyhow::Result<_>>()?,
+            bright_implant: false,
+            interpolate: 0,
+            anew: false,
+            quiet: true,
+        })
+    }
+
+    fn bytes(&self, out: &str) -> Vec<Vec<u8>> {
+        let read = |name: &str| fs::read(self.folder.join(out).join(name)).expect("written");
+        ["femur.jts", "tibia.jts", "track.csv"].map(read).to_vec()
+    }
+
+    fn journal(&self, out: &str) -> PathBuf {
+        self.folder.join(out).join("journal.txt")
+    }
+
+    fn lines(&self, out: &str) -> usize {
+        let text = fs::read_to_string(self.journal(out)).expect("written");
+        text.lines().count()
+    }
+}
+
+fn copy(from: &Path, to: &Path, bytes: usize) {
+    let whole = fs::read(from).expect("written");
+    fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+    fs::write(to, &whole[..bytes.min(whole.len())]).expect("a copy");
+}
+
+#[test]
+fn a_short_film_is_followed_from_one_frame_and_the_same_where_it_was_stopped() {
+    let film = short("resumed");
+    let whole = film.track("whole", &[0]).expect("a film");
+    for (tracked, truth) in whole.iter().zip(&film.truth) {
+        for (row, truth) in tracked.rows.iter().zip(truth) {
+            let pose = Pose::from(row.pose.expect("every frame is visible"));
+            let turn = geodesic_deg(&pose.rotation, &Pose::from(*truth).rotation);
+            let state = if row.frame == 1 { State::Fixed } else { State::Followed };
+            let what = (tracked.component.as_str(), row.frame, turn, &row.because);
+            assert!(turn < 2.0 && row.state == state, "{what:?}");
+        }
+    }
+    // Stopped twice, once in the middle of a line.
+    let length = fs::metadata(film.journal("whole")).expect("written").len() as usize;
+    for (out, bytes) in [("early", length / 5), ("late", 4 * length / 5)] {
+        copy(&film.journal("whole"), &film.journal(out), bytes);
+        film.track(out, &[0]).expect("it goes on");
+        assert!(film.bytes(out) == film.bytes("whole"), "stopped {out}");
+    }
+    let done = film.lines("whole");
+    film.track("whole", &[0]).expect("nothing is left to do");
+    assert_eq!(film.lines("whole"), done);
+}
+
+#[test]
+fn fixed_poses_stay_and_other_inputs_are_not_mixed() {
+    let film = short("fixed");
+    let all = film.track("all", &[0, 1, 2, 3, 4, 5]).expect("a film");
+    for (tracked, truth) in all.iter().zip(&film.truth) {
+        for (row, truth) in tracked.rows.iter().zip(truth) {
+            let given = Pose::from(*truth);
+            let pose = Pose::from(row.pose.expect("fixed"));
+            assert_eq!(row.state, State::Fixed);
+            assert!(geodesic_deg(&pose.rotation, &given.rotation) < 1e-6);
+            assert_eq!(pose.translation, given.translation);
+        }
+    }
+    // Another frame of the same name.
+    fs::copy(film.folder.join("frames/00.png"), film.folder.join("frames/03.png")).expect("a copy");
+    let mixed = film.track("all", &[0]).err().expect("refused").to_string();
+    assert!(mixed.contains("other frames"), "{mixed}");
+}

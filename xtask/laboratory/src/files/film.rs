@@ -1,0 +1,148 @@
+//! A film whose frames are read when they are looked at, however many there are.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use anyhow::{Context, Result, anyhow, bail};
+use fluoropose_decode::{FrameFile, GreyFrame};
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use super::text::{files_in, name_of, read};
+
+/// Decoded frames that are kept: both components look at the same frames at about the same time, from two ends.
+const KEPT: usize = 8;
+
+/// A frame as it is decoded once for all who look at it.
+type Slot = Arc<OnceLock<Result<Arc<GreyFrame>, String>>>;
+
+/// The frames of a folder in the order of their files' names. A file may hold several, as DICOM and TIFF do: the last of
+/// such files is kept in memory, and nothing else but a few decoded frames.
+pub struct Film {
+    paths: Vec<PathBuf>,
+    /// Of each frame, its file, its number in it, and the number of frames in it.
+    places: Vec<(usize, usize, usize)>,
+    size: (usize, usize),
+    digest: [u8; 32],
+    decoded: Mutex<VecDeque<(usize, Slot)>>,
+    opened: Mutex<Option<(usize, Arc<FrameFile<'static>>)>>,
+}
+
+/// What is known of a file before its frames are looked at.
+struct Listed {
+    count: usize,
+    digest: [u8; 32],
+}
+
+impl Film {
+    /// Lists the frames of a folder. Every file is read once, for its digest and its number of frames.
+    ///
+    /// # Errors
+    /// For a folder or a file that cannot be read.
+    pub fn read(folder: &Path) -> Result<Self> {
+        let paths = files_in(folder)?;
+        let listed: Vec<Listed> = paths.par_iter().map(list).collect::<Result<_>>()?;
+        let mut whole = Sha256::new();
+        let mut places = Vec::new();
+        for (file, listed) in listed.iter().enumerate() {
+            whole.update(listed.digest);
+            places.extend((0..listed.count).map(|index| (file, index, listed.count)));
+        }
+        let mut film = Self {
+            paths,
+            places,
+            size: (0, 0),
+            digest: whole.finalize().into(),
+            decoded: Mutex::default(),
+            opened: Mutex::default(),
+        };
+        let first = film.frame(0)?;
+        film.size = (first.width as usize, first.height as usize);
+        for note in &first.notes {
+            eprintln!("{}: {note}", folder.display());
+        }
+        Ok(film)
+    }
+
+    /// Number of frames.
+    pub fn count(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Columns and rows of each frame.
+    pub fn size(&self) -> (usize, usize) {
+        self.size
+    }
+
+    /// SHA-256 of the files' digests, in their order.
+    pub fn digest(&self) -> [u8; 32] {
+        self.digest
+    }
+
+    /// A frame, from 0.
+    ///
+    /// # Errors
+    /// Those of the decoder, with the file's name; for a frame that is not there, and one of another size.
+    pub fn frame(&self, frame: usize) -> Result<Arc<GreyFrame>> {
+        let slot = self.slot(frame);
+        let decoded = slot.get_or_init(|| self.decode(frame).map_err(|error| format!("{error:#}")));
+        decoded.clone().map_err(|error| anyhow!(error))
+    }
+
+    fn slot(&self, frame: usize) -> Slot {
+        let mut decoded = self.decoded.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, slot)) = decoded.iter().find(|(kept, _)| *kept == frame) {
+            return slot.clone();
+        }
+        if decoded.len() == KEPT {
+            decoded.pop_front();
+        }
+        let slot = Slot::default();
+        decoded.push_back((frame, slot.clone()));
+        slot
+    }
+
+    fn decode(&self, frame: usize) -> Result<Arc<GreyFrame>> {
+        let &(file, index, count) = self.places.get(frame).context("there is no such frame")?;
+        let decoded = match count {
+            1 => open(&self.paths[file])?.frame(0)?,
+            _ => self.opened(file)?.frame(index)?,
+        };
+        let found = (decoded.width as usize, decoded.height as usize);
+        if self.size != (0, 0) && found != self.size {
+            bail!(
+                "frame {} is {} x {} pixels but the first is {} x {}",
+                frame + 1,
+                found.0,
+                found.1,
+                self.size.0,
+                self.size.1
+            );
+        }
+        Ok(Arc::new(decoded))
+    }
+
+    fn opened(&self, file: usize) -> Result<Arc<FrameFile<'static>>> {
+        let mut opened = self.opened.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((kept, found)) = opened.as_ref()
+            && *kept == file
+        {
+            return Ok(found.clone());
+        }
+        let found = Arc::new(open(&self.paths[file])?);
+        *opened = Some((file, found.clone()));
+        Ok(found)
+    }
+}
+
+fn open(path: &Path) -> Result<FrameFile<'static>> {
+    Ok(FrameFile::open(read(path)?, &name_of(path))?)
+}
+
+fn list(path: &PathBuf) -> Result<Listed> {
+    let bytes = read(path)?;
+    let digest = Sha256::digest(&bytes).into();
+    let count = FrameFile::open(bytes, &name_of(path))?.count();
+    Ok(Listed { count, digest })
+}

@@ -1,0 +1,82 @@
+//! Verb `track`: both components followed through a film on its grey frames.
+
+mod anchors;
+mod constants;
+mod film;
+mod follow;
+mod journal;
+mod judge;
+mod part;
+mod record;
+mod request;
+mod search;
+mod sides;
+mod table;
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+
+pub use film::{Tracked, track};
+pub use request::{Click, FixedPoses, Request};
+pub use table::Row;
+
+/// Options of `track`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Poses that are known in some frames are followed to both ends of the film on its grey frames: those of --fixed, which \
+never change, and those that a click leads to. A component without either is looked for in whole frames.\n\n\
+Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv (frame, component, state, verdict, reason, the six \
+numbers and one standard deviation of each), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
+and after other clicks or fixed poses only what lies between them is done again.\n\n\
+States: fixed (a person gave the pose), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
+(looked for and not there) and unsolved (never reached).\n\n\
+Examples:\n  cargo xtask track --study study.toml --out tracked\n  \
+cargo xtask track --study study.toml --out tracked --click femur:1:512,400 --click tibia:1:500,640\n  \
+cargo xtask track --study study.toml --out tracked --fixed femur=checked.jts"
+)]
+pub struct Args {
+    /// Study file; it needs the key frames
+    #[arg(long)]
+    study: PathBuf,
+    /// Folder for what is found
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// A place inside a component in a frame, from 1; pixels
+    #[arg(long, value_name = "COMPONENT:FRAME:COLUMN,ROW")]
+    click: Vec<Click>,
+    /// Poses that a person fixed: a row a frame, NaN where it did not
+    #[arg(long, value_name = "COMPONENT=FILE")]
+    fixed: Vec<FixedPoses>,
+    /// The implant is brighter than what surrounds it, as on a radiograph's film
+    #[arg(long)]
+    bright_implant: bool,
+    /// Fill gaps of at most so many frames between followed ones
+    #[arg(long, value_name = "FRAMES", default_value_t = 0)]
+    interpolate: usize,
+    /// Begin anew, whatever the folder holds
+    #[arg(long)]
+    anew: bool,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that are missing, unreadable or do not belong together.
+pub fn run(args: Args) -> Result<()> {
+    let request = Request {
+        study: args.study,
+        out: args.out,
+        clicks: args.click,
+        fixed: args.fixed,
+        bright_implant: args.bright_implant,
+        interpolate: args.interpolate,
+        anew: args.anew,
+        quiet: false,
+    };
+    let tracked = track(&request)?;
+    for part in &tracked {
+        println!("{part}");
+    }
+    Ok(())
+}

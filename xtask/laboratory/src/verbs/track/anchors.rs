@@ -1,0 +1,199 @@
+//! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
+
+use anyhow::{Context, Result, ensure};
+use fluoropose::follow::{FramePose, From, Subject, frame_pose_at, near_poses, refined_on_frame};
+use fluoropose::pose::Pose;
+use fluoropose::refine::{ImageTarget, RefineMemory};
+
+use super::film::Run;
+use super::follow::{Anchor, Cell, follow};
+use super::part::Part;
+use super::search::{clicked, searched};
+use crate::files::read_poses;
+
+/// In so many frames at most a component is searched that nobody pointed at.
+const TRIES: usize = 6;
+/// Frames between those that are searched, at least.
+const SPACING: usize = 6;
+/// How far around a pose is looked once the film's constants are known, pixels.
+const NEAR_PX: f64 = 12.0;
+/// Shorter runs of frames without a pose are not searched.
+const RUN: usize = 8;
+
+/// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
+fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+    let mut anchors = Vec::new();
+    for fixed in run.request.fixed.iter().filter(|one| one.component == part.name()) {
+        let poses = read_poses(&fixed.file)?;
+        ensure!(
+            poses.len() == run.film.count(),
+            "{} has {} rows but the film {} frames",
+            fixed.file.display(),
+            poses.len(),
+            run.film.count()
+        );
+        for (frame, pose) in poses.iter().enumerate() {
+            if let Some(pose) = pose {
+                anchors.push(of_person(run, part, frame, pose)?);
+            }
+        }
+    }
+    for click in run.request.clicks.iter().filter(|one| one.component == part.name()) {
+        ensure!(
+            click.frame < run.film.count(),
+            "a click into frame {} of a film of {} frames",
+            click.frame + 1,
+            run.film.count()
+        );
+        if anchors.iter().any(|anchor: &Anchor| anchor.frame == click.frame) {
+            continue;
+        }
+        match clicked(run, part, click.frame, click.place)? {
+            Some(found) => anchors.push(Anchor {
+                frame: click.frame,
+                found,
+                fixed: false,
+            }),
+            None => run.say(&format!(
+                "{}: the click into frame {} leads to no pose",
+                part.name(),
+                click.frame + 1
+            )),
+        }
+    }
+    anchors.sort_by_key(|anchor| anchor.frame);
+    Ok(anchors)
+}
+
+fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {
+    let found = part.see(&run.film, frame, |subject, image, memory| {
+        frame_pose_at(subject, image, pose, None, memory)
+    })?;
+    Ok(Anchor {
+        frame,
+        found: found.with_context(|| format!("the pose of frame {}", frame + 1))?,
+        fixed: true,
+    })
+}
+
+/// The frames that a component is followed from: those that a person gave, else one in which it is found.
+pub(super) fn begin(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+    let anchors = given(run, part)?;
+    if !anchors.is_empty() {
+        return Ok(anchors);
+    }
+    for frame in spread(&(0..run.film.count())) {
+        if let Some(found) = searched(run, part, frame)? {
+            run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
+            return Ok(vec![Anchor {
+                frame,
+                found,
+                fixed: false,
+            }]);
+        }
+    }
+    run.say(&format!(
+        "{}: no frame that was searched has edges all along its outline from any side; click into it, or fix a pose",
+        part.name()
+    ));
+    Ok(Vec::new())
+}
+
+/// The same frames looked at again, now that the film's constants are known: the best of what the pose and those near it
+/// lead to.
+pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Anchor>> {
+    let one = |anchor: &Anchor| -> Result<Anchor> {
+        if part.film().is_none() {
+            return Ok(*anchor);
+        }
+        let (frame, pose) = (anchor.frame, anchor.found.pose);
+        if anchor.fixed {
+            return of_person(run, part, frame, &pose);
+        }
+        let key = format!("again/{}/{}", part.number, anchor.mark());
+        let found: Option<FramePose> = run.journal.step(&key, || {
+            part.see(&run.film, frame, |subject, image, memory| {
+                nearest(subject, image, &anchor.found, memory)
+            })
+        })?;
+        Ok(Anchor {
+            found: found.unwrap_or(anchor.found),
+            ..*anchor
+        })
+    };
+    anchors.iter().map(one).collect()
+}
+
+/// The best of what a pose and those near it lead to.
+fn nearest(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    found: &FramePose,
+    memory: &mut RefineMemory<'_>,
+) -> Option<FramePose> {
+    let step = found.contrast.step;
+    let near = near_poses(subject, image, &found.pose, NEAR_PX, step, memory).unwrap_or_default();
+    let own = (&found.pose, From::Near);
+    let starts = near.iter().map(|pose| (pose, From::Far));
+    let poses = std::iter::once(own).chain(starts);
+    let refined: Vec<FramePose> = poses
+        .filter_map(|start| refined_on_frame(subject, image, start, Some(step), memory).ok())
+        .collect();
+    let best = refined.iter().max_by(|a, b| a.score().total_cmp(&b.score()));
+    best.copied()
+}
+
+/// Looks for a component in runs of frames in which it was not found, and follows it from where it is.
+pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    if cells.iter().all(|cell| cell.found().is_none()) {
+        // It was searched in vain.
+        return Ok(());
+    }
+    let mut from = 0;
+    while let Some(gap) = missing(cells, from) {
+        from = gap.end;
+        if gap.len() < RUN {
+            continue;
+        }
+        for frame in spread(&gap) {
+            let Some(found) = searched(run, part, frame)? else {
+                continue;
+            };
+            let anchor = Anchor {
+                frame,
+                found,
+                fixed: false,
+            };
+            follow(run, part, &[anchor], gap.clone(), cells)?;
+            // What is still missing is searched too.
+            from = gap.start;
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The next run of frames without a pose.
+fn missing(cells: &[Cell], from: usize) -> Option<std::ops::Range<usize>> {
+    let start = (from..cells.len()).find(|&frame| cells[frame].found().is_none())?;
+    let end = (start..cells.len()).find(|&frame| cells[frame].found().is_some());
+    Some(start..end.unwrap_or(cells.len()))
+}
+
+/// Frames of a run in the order in which they are searched: its middle first, then between those before.
+fn spread(gap: &std::ops::Range<usize>) -> Vec<usize> {
+    let mut frames: Vec<usize> = Vec::new();
+    let mut parts = 2;
+    while frames.len() < TRIES && parts <= 16 {
+        for k in (1..parts).step_by(2) {
+            let frame = gap.start + k * gap.len() / parts;
+            let near = |other: &usize| other.abs_diff(frame) < SPACING;
+            if frame < gap.end && !frames.iter().any(near) {
+                frames.push(frame);
+            }
+        }
+        parts *= 2;
+    }
+    frames.truncate(TRIES);
+    frames
+}

@@ -1,0 +1,53 @@
+//! The constants of the film, from the first frames in which components are known.
+
+use anyhow::Result;
+use fluoropose::film::estimate::MOST_COMPONENTS;
+use fluoropose::film::{FilmProfile, estimate};
+use fluoropose::refine::film_profiles;
+
+use super::film::Run;
+use super::follow::{Anchor, beside};
+use super::part::Part;
+use super::record::Films;
+
+/// Anchors of a component that are looked at, and frames to each side of them.
+const ANCHORS: usize = 3;
+const BESIDE: usize = 6;
+/// Profiles of each frame and component.
+const PROFILES: usize = 96;
+
+/// Estimates the constants from the anchors and the frames beside them, and tells the parts. They are estimated once for a
+/// folder, so that a correction of one frame does not change all others.
+pub(super) fn learn_film(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    anchors: &[Vec<Anchor>],
+) -> Result<()> {
+    let films = run.journal.step("film", || {
+        let mut profiles = Vec::new();
+        for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
+            for anchor in anchors[number].iter().take(ANCHORS) {
+                for (frame, pose) in beside(run, part, anchor, BESIDE)? {
+                    let names = (number as u8, frame as u16);
+                    let mut read = vec![FilmProfile::default(); PROFILES];
+                    let count = part.see(&run.film, frame, |subject, image, memory| {
+                        let (model, camera) = (subject.model, subject.camera);
+                        film_profiles(model, camera, &pose, image, names, memory, &mut read)
+                    })?;
+                    profiles.extend_from_slice(&read[..count.unwrap_or(0)]);
+                }
+            }
+        }
+        let found = estimate(&mut profiles, parts.len().min(MOST_COMPONENTS));
+        if let Some(found) = &found {
+            run.say(&format!("film: {found}"));
+        }
+        let models = |number: usize| found.as_ref().map(|found| found.model(number));
+        let films: Option<Vec<_>> = (0..parts.len()).map(models).collect();
+        Ok(Films(films.unwrap_or_default()))
+    })?;
+    for (part, film) in parts.iter().zip(films.0) {
+        part.set_film(film);
+    }
+    Ok(())
+}

@@ -1,0 +1,226 @@
+//! All components of a film, from what is given to the files.
+
+use std::fmt;
+use std::fs;
+use std::sync::Mutex;
+
+use anyhow::{Context, Result, ensure};
+use fluoropose::follow::{Looked, State};
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::Polarity;
+use rayon::prelude::*;
+use sha2::{Digest, Sha256};
+
+use super::anchors::{again, begin, fill};
+use super::constants::learn_film;
+use super::follow::{Anchor, Cell, follow};
+use super::journal::Journal;
+use super::judge::{Judged, judge};
+use super::part::{Part, read_models};
+use super::request::Request;
+use super::sides::{Margins, settle};
+use super::table::{HEADING, Row};
+use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
+
+/// A component of a film that was followed.
+pub struct Tracked {
+    /// The component's name.
+    pub component: String,
+    /// A row for each frame.
+    pub rows: Vec<Row>,
+}
+
+impl fmt::Display for Tracked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} frames", self.component, self.rows.len())?;
+        for state in State::ALL {
+            let count = self.rows.iter().filter(|row| row.state == state).count();
+            if count > 0 {
+                write!(f, ", {} {count}", state.word())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What all parts of a run share.
+pub(super) struct Run<'r> {
+    pub(super) request: &'r Request,
+    pub(super) film: &'r Film,
+    pub(super) journal: Journal,
+    saying: Mutex<()>,
+}
+
+impl Run<'_> {
+    /// Says something on standard error.
+    pub(super) fn say(&self, text: &str) {
+        if !self.request.quiet {
+            let _one = self.saying.lock();
+            eprintln!("{text}");
+        }
+    }
+
+    pub(super) fn debug(&self, text: impl FnOnce() -> String) {
+        if std::env::var_os("FLUOROPOSE_TRACK_DEBUG").is_some() {
+            self.say(&text());
+        }
+    }
+
+    /// Tells the progress by frame.
+    pub(super) fn tell(&self, part: &Part<'_>, frame: usize, looked: &Looked) {
+        if self.request.quiet {
+            return;
+        }
+        let what = match &looked.found {
+            Ok(found) => format!(
+                "{:.2} px, edges {:.2}{}",
+                found.misfit_px,
+                found.contrast.strength,
+                if looked.searched { ", searched" } else { "" }
+            ),
+            Err(why) => format!("{why:?}").to_lowercase(),
+        };
+        self.say(&format!("{} frame {}: {what}", part.name(), frame + 1));
+    }
+}
+
+/// Follows the components of a study through its film.
+///
+/// # Errors
+/// For files that are missing, unreadable or do not belong together.
+pub fn track(request: &Request) -> Result<Vec<Tracked>> {
+    let study = Study::read(&request.study)?;
+    for name in request.components() {
+        let known = study.components.iter().any(|one| one.name == name);
+        ensure!(known, "the study has no component {name}");
+    }
+    let calibration = read_calibration(&study.calibration)?;
+    let frames = study.frames.as_deref();
+    let film = Film::read(frames.context("the study has no key 'frames'")?)?;
+    let (width, height) = film.size();
+    let camera = calibration.camera(width, height)?;
+    let models = read_models(&study.components)?;
+    fs::create_dir_all(&request.out)
+        .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
+    let mut inputs = Sha256::new();
+    inputs.update(film.digest());
+    inputs.update(read(&study.calibration)?);
+    for (model, component) in models.iter().zip(&study.components) {
+        inputs.update(model.as_model().digest());
+        inputs.update(format!("{:?}{:?}", component.nominal, component.distance_mm));
+    }
+    inputs.update([u8::from(request.bright_implant)]);
+    let digest: [u8; 32] = inputs.finalize().into();
+    let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let journal = request.out.join("journal.txt");
+    let run = Run {
+        request,
+        film: &film,
+        journal: Journal::open(&journal, &digest, request.anew)?,
+        saying: Mutex::default(),
+    };
+    let polarity = match request.bright_implant {
+        true => Polarity::BrightImplant,
+        false => Polarity::DarkImplant,
+    };
+    let parts: Vec<Part<'_>> = study
+        .components
+        .iter()
+        .zip(&models)
+        .enumerate()
+        .map(|(number, (component, model))| {
+            Part::new(number, component, model, &calibration, camera, polarity)
+        })
+        .collect::<Result<_>>()?;
+    let anchors: Vec<Vec<Anchor>> = parts
+        .par_iter()
+        .map(|part| begin(&run, part))
+        .collect::<Result<_>>()?;
+    learn_film(&run, &parts, &anchors)?;
+    let mut films: Vec<Vec<Cell>> = parts
+        .par_iter()
+        .zip(&anchors)
+        .map(|(part, anchors)| of_part(&run, part, anchors))
+        .collect::<Result<_>>()?;
+    let margins = on_the_right_sides(&run, &parts, &mut films)?;
+    finish(&run, &parts, &films, &margins)
+}
+
+/// A component followed by itself.
+fn of_part(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Result<Vec<Cell>> {
+    let mut cells = vec![Cell::default(); run.film.count()];
+    let anchors = again(run, part, anchors)?;
+    follow(run, part, &anchors, 0..cells.len(), &mut cells)?;
+    fill(run, part, &mut cells)?;
+    Ok(cells)
+}
+
+/// Femurs and others first, then tibiae with the femur known.
+fn on_the_right_sides(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    films: &mut [Vec<Cell>],
+) -> Result<Vec<Margins>> {
+    let mut margins = vec![Margins::new(); parts.len()];
+    let is_tibia = |part: &Part<'_>| part.role() == Some(Role::Tibia);
+    for (number, part) in parts.iter().enumerate().filter(|(_, part)| !is_tibia(part)) {
+        margins[number] = settle(run, part, None, &mut films[number])?;
+    }
+    let femur = parts.iter().position(|part| part.role() == Some(Role::Femur));
+    let femurs: Option<Vec<Option<Pose>>> = femur.and_then(|number| {
+        let axes = parts[number].axes?;
+        let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&axes));
+        Some(films[number].iter().map(pose).collect())
+    });
+    for (number, part) in parts.iter().enumerate().filter(|(_, part)| is_tibia(part)) {
+        margins[number] = settle(run, part, femurs.as_deref(), &mut films[number])?;
+    }
+    Ok(margins)
+}
+
+/// Judges, and writes the files.
+fn finish(
+    run: &Run<'_>,
+    parts: &[Part<'_>],
+    films: &[Vec<Cell>],
+    margins: &[Margins],
+) -> Result<Vec<Tracked>> {
+    let out = &run.request.out;
+    let mut tracked = Vec::new();
+    for (number, part) in parts.iter().enumerate() {
+        let other = (0..parts.len()).find(|&other| {
+            let role = |number: usize| parts[number].role();
+            role(number).is_some_and(|own| role(other) == Some(own.other()))
+        });
+        let depths = other.map_or(Vec::new(), |other| depths(&parts[other], &films[other]));
+        let (cells, interpolate) = (&films[number], run.request.interpolate);
+        let judged = judge(part, cells, &margins[number], &depths, interpolate);
+        let poses: Vec<Option<EulerPose>> = judged
+            .iter()
+            .map(|one: &Judged| one.pose.map(EulerPose::from))
+            .collect();
+        write_poses(&out.join(format!("{}.jts", part.name())), &poses)?;
+        let middle = part.middle();
+        let rows = cells.iter().zip(&judged).enumerate();
+        let row = |(frame, (cell, judged))| Row::of(frame, cell, judged, &middle);
+        tracked.push(Tracked {
+            component: part.name().to_owned(),
+            rows: rows.map(row).collect(),
+        });
+    }
+    let mut text = String::from(HEADING);
+    for frame in 0..run.film.count() {
+        for part in &tracked {
+            part.rows[frame].write(&part.component, &mut text);
+        }
+    }
+    write_text(&out.join("track.csv"), &text)?;
+    Ok(tracked)
+}
+
+/// How far a component is from the camera in each frame, mm.
+fn depths(part: &Part<'_>, cells: &[Cell]) -> Vec<Option<f64>> {
+    let middle = part.middle();
+    let depth = |cell: &Cell| cell.found().map(|found| -found.pose.transform(&middle)[2]);
+    cells.iter().map(depth).collect()
+}

@@ -1,0 +1,92 @@
+//! What was done so far, written after every step: a run that was stopped goes on from there.
+//!
+//! A line a step: its key, and what came of it as the bits of numbers. A key names all that a step depends on, so that a
+//! step is done again only where that has changed, and the order of lines does not matter.
+
+use std::collections::HashMap;
+use std::fmt::Write as _;
+use std::fs::{File, OpenOptions};
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+use anyhow::{Context, Result, bail};
+
+use super::record::Record;
+
+/// First word of the file, with the version of what steps do: another version's steps are of no use.
+const HEADING: &str = "fluoropose-track-1";
+
+/// What was done so far.
+pub(super) struct Journal {
+    done: HashMap<String, Vec<f64>>,
+    file: Mutex<File>,
+}
+
+impl Journal {
+    /// Opens the journal of a folder, or begins one. `inputs` is the digest of frames, models and calibration.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or written, or is of other inputs.
+    pub(super) fn open(path: &Path, inputs: &str, anew: bool) -> Result<Self> {
+        let heading = format!("{HEADING} {inputs}\n");
+        let named = || format!("cannot write {}", path.display());
+        let text = match anew {
+            true => String::new(),
+            false => std::fs::read_to_string(path).unwrap_or_default(),
+        };
+        // What was cut off while it was written is done again.
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        let text = &text[..whole];
+        if !text.is_empty() && !text.starts_with(&heading) {
+            bail!(
+                "{} is of other frames, models or settings: choose another folder, or begin anew with --anew",
+                path.display()
+            );
+        }
+        let done = text.lines().skip(1).filter_map(parse).collect();
+        let mut file = OpenOptions::new()
+            .create(true)
+            .truncate(false)
+            .write(true)
+            .open(path)
+            .with_context(named)?;
+        file.set_len(whole as u64).with_context(named)?;
+        std::io::Seek::seek(&mut file, std::io::SeekFrom::End(0)).with_context(named)?;
+        if text.is_empty() {
+            file.write_all(heading.as_bytes()).with_context(named)?;
+        }
+        Ok(Self {
+            done,
+            file: Mutex::new(file),
+        })
+    }
+
+    /// What came of a step: as it was written down, or by doing it now.
+    ///
+    /// # Errors
+    /// Those of the step, and where the file cannot be written.
+    pub(super) fn step<R: Record>(&self, key: &str, work: impl FnOnce() -> Result<R>) -> Result<R> {
+        if let Some(found) = self.done.get(key).and_then(|done| R::from_numbers(done)) {
+            return Ok(found);
+        }
+        let found = work()?;
+        let mut line = String::from(key);
+        for number in found.numbers() {
+            write!(line, " {:x}", number.to_bits())?;
+        }
+        line.push('\n');
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(line.as_bytes())
+            .context("cannot write the journal")?;
+        Ok(found)
+    }
+}
+
+fn parse(line: &str) -> Option<(String, Vec<f64>)> {
+    let mut words = line.split(' ');
+    let key = words.next()?;
+    let number = |word: &str| u64::from_str_radix(word, 16).ok().map(f64::from_bits);
+    let numbers: Option<Vec<f64>> = words.map(number).collect();
+    Some((key.to_owned(), numbers?))
+}

@@ -1,0 +1,188 @@
+//! A component that is followed, with what belongs to it and the memory to look at frames.
+
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use anyhow::{Context, Result};
+use fluoropose::camera::Camera;
+use fluoropose::camera::calibration::Calibration;
+use fluoropose::film::FilmModel;
+use fluoropose::follow::Subject;
+use fluoropose::math::Vector3;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::mesh::{Model, OwnedModel};
+use fluoropose::mesh::anatomy::field_axes;
+use fluoropose::pose::Pose;
+use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions};
+
+use crate::files::{Component, Film, Role, grey, read_model};
+use crate::finding::{Built, ViewOptions, axes_of, build_library};
+use crate::options::Pair;
+
+/// Distances of libraries where nobody tells it, in usual ones.
+const FARTHER: f64 = 1.3;
+const NEARER: f64 = 0.75;
+
+/// A component that is followed.
+pub(super) struct Part<'s> {
+    /// Its number among those of the study.
+    pub(super) number: usize,
+    pub(super) component: &'s Component,
+    model: &'s OwnedModel,
+    mesh: Model<'s>,
+    pub(super) planes: Vec<SymmetryPlane>,
+    /// The rotation from the field's axes to the model's, where the shape tells it.
+    pub(super) axes: Option<Pose>,
+    pub(super) camera: Camera,
+    pub(super) polarity: Polarity,
+    calibration: &'s Calibration,
+    libraries: [OnceLock<Built>; 2],
+    film: OnceLock<FilmModel>,
+    buffers: Mutex<Vec<RefineBuffers>>,
+}
+
+/// Reads the models of components.
+///
+/// # Errors
+/// Names the file.
+pub(super) fn read_models(components: &[Component]) -> Result<Vec<OwnedModel>> {
+    components.iter().map(|one| read_model(&one.model)).collect()
+}
+
+impl<'s> Part<'s> {
+    pub(super) fn new(
+        number: usize,
+        component: &'s Component,
+        model: &'s OwnedModel,
+        calibration: &'s Calibration,
+        camera: Camera,
+        polarity: Polarity,
+    ) -> Result<Self> {
+        let mesh = model.as_model();
+        let planes = symmetry_planes(mesh.mesh()).to_vec();
+        let axes = match component.role() {
+            Some(role) => {
+                let told = axes_of(&mesh, role, component.axes.as_deref())?;
+                let unsigned = || field_axes(mesh.mesh(), &planes, role.component());
+                told.map(|axes| axes.model_from_field).or_else(unsigned)
+            }
+            None => None,
+        };
+        Ok(Self {
+            number,
+            component,
+            model,
+            mesh,
+            planes,
+            axes,
+            camera,
+            polarity,
+            calibration,
+            libraries: Default::default(),
+            film: OnceLock::new(),
+            buffers: Mutex::default(),
+        })
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.component.name
+    }
+
+    pub(super) fn role(&self) -> Option<Role> {
+        self.component.role()
+    }
+
+    /// What the film makes of the component, once that is known.
+    pub(super) fn film(&self) -> Option<FilmModel> {
+        self.film.get().copied()
+    }
+
+    /// From now on edges are compared with those that the film makes of the component.
+    pub(super) fn set_film(&self, film: FilmModel) {
+        // It becomes known once.
+        let _ = self.film.set(film);
+    }
+
+    /// Tells steps with the film's constants from those without.
+    pub(super) fn phase(&self) -> &'static str {
+        if self.film.get().is_some() { "film" } else { "bare" }
+    }
+
+    /// Middle of the model's box.
+    pub(super) fn middle(&self) -> Vector3 {
+        self.mesh.bounds().centre
+    }
+
+    pub(super) fn model(&self) -> Model<'s> {
+        self.model.as_model()
+    }
+
+    /// Distances of libraries, mm: one where the calibration or the study tells it, else two, each of which serves parts from
+    /// three quarters of it to a third more.
+    pub(super) fn distances(&self) -> Vec<f64> {
+        let told = self.component.distance_mm;
+        let usual = self.calibration.expected_distance();
+        match (told, self.calibration) {
+            (Some(told), _) => vec![told],
+            (None, Calibration::CameraMatrix { .. }) => vec![FARTHER * usual, NEARER * usual],
+            (None, _) => vec![usual],
+        }
+    }
+
+    /// The library for one of the distances, of all views or of those that the study asks for; built when it is first wanted.
+    pub(super) fn library(&self, number: usize, distance: f64) -> Result<&[u8]> {
+        let library = self.libraries.get(number).context("two libraries")?;
+        if library.get().is_none() {
+            let views = ViewOptions {
+                nominal: self.component.nominal.map(Pair),
+                distance: self.component.distance_mm,
+                ..ViewOptions::default()
+            };
+            let built = build_library(self.model(), self.camera, &views, distance)?;
+            // Whoever was first.
+            let _ = library.set(built);
+        }
+        let built = library.get().context("it was built")?;
+        Ok(&built.bytes)
+    }
+
+    /// Calls `work` with a frame of the film, and with memory that is used again.
+    ///
+    /// # Errors
+    /// For a frame that cannot be read, and those of `work`.
+    pub(super) fn see<T>(
+        &self,
+        film: &Film,
+        frame: usize,
+        work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>) -> T,
+    ) -> Result<T> {
+        let decoded = film.frame(frame)?;
+        let grey = grey(&decoded)?;
+        let image = ImageTarget {
+            frame: &*grey,
+            unknown: None,
+            polarity: self.polarity,
+            film: self.film(),
+        };
+        let subject = Subject {
+            model: &self.mesh,
+            planes: &self.planes,
+            camera: &self.camera,
+            options: RefineOptions {
+                effort: Effort::Film,
+                ..RefineOptions::default()
+            },
+        };
+        let mut buffers = self.take();
+        let answer = work(&subject, &image, &mut buffers.borrow(&self.mesh, &self.camera));
+        self.locked().push(buffers);
+        Ok(answer)
+    }
+
+    fn take(&self) -> RefineBuffers {
+        self.locked().pop().unwrap_or_default()
+    }
+
+    fn locked(&self) -> std::sync::MutexGuard<'_, Vec<RefineBuffers>> {
+        self.buffers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

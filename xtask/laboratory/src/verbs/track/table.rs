@@ -1,0 +1,89 @@
+//! `track.csv`: a row for each frame and component.
+
+use std::fmt::Write as _;
+
+use fluoropose::follow::State;
+use fluoropose::math::Vector3;
+use fluoropose::pose::covariance::Deviations;
+use fluoropose::pose::EulerPose;
+
+use super::follow::Cell;
+use super::judge::Judged;
+
+/// A frame of a component.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Number of the frame, from 1.
+    pub frame: usize,
+    /// What is known of it.
+    pub state: State,
+    /// The pose.
+    pub pose: Option<EulerPose>,
+    /// One standard deviation of each number.
+    pub sd: Option<Deviations>,
+    /// What remains between outline and edges, pixels.
+    pub misfit_px: Option<f64>,
+    /// How bad it is: above 1 it is doubtful.
+    pub badness: f64,
+    /// Why, in a sentence.
+    pub because: String,
+}
+
+/// First line of the table.
+pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
+sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness\n";
+
+impl Row {
+    pub(super) fn of(frame: usize, cell: &Cell, judged: &Judged, middle: &Vector3) -> Self {
+        let found = cell.found().filter(|_| !cell.fixed);
+        let sd = found.and_then(|found| Some(found.covariance?.deviations(&found.pose, middle)));
+        Self {
+            frame: frame + 1,
+            state: judged.state,
+            pose: judged.pose.map(EulerPose::from),
+            sd,
+            misfit_px: cell.found().map(|found| found.misfit_px),
+            badness: judged.badness,
+            because: judged.because.clone(),
+        }
+    }
+
+    /// The word for how far the pose is to be trusted.
+    pub fn verdict(&self) -> &'static str {
+        match self.state {
+            State::Fixed | State::Followed => "good",
+            State::Doubtful | State::Interpolated => "doubtful",
+            State::Untrackable | State::Unsolved => "none",
+        }
+    }
+
+    pub(super) fn write(&self, component: &str, out: &mut String) {
+        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
+        let mut cells = vec![
+            self.frame.to_string(),
+            quoted(component),
+            self.state.word().to_owned(),
+            self.verdict().to_owned(),
+            quoted(&self.because),
+        ];
+        let pose = self.pose.map(|pose| {
+            let turns = [pose.z_rot_deg, pose.x_rot_deg, pose.y_rot_deg];
+            ([pose.x_mm, pose.y_mm, pose.z_mm], turns)
+        });
+        let sd = self.sd.map(|sd| {
+            let turns = [sd.z_rot_deg, sd.x_rot_deg, sd.y_rot_deg];
+            ([sd.x_mm, sd.y_mm, sd.z_mm], turns)
+        });
+        for six in [pose, sd] {
+            for k in 0..6 {
+                let at = |(places, turns): ([f64; 3], [f64; 3])| if k < 3 { places[k] } else { turns[k - 3] };
+                cells.push(number(six.map(at)));
+            }
+        }
+        cells.push(number(self.misfit_px));
+        cells.push(number(self.pose.map(|_| self.badness)));
+        // A string takes everything.
+        let _ = writeln!(out, "{}", cells.join(","));
+    }
+}
