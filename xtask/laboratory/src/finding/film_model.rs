@@ -3,8 +3,8 @@
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmProfile, estimate};
-use fluoropose::finder::correct_candidates;
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
+use fluoropose::finder::{correct_candidates, onto_image};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions, film_profiles};
@@ -96,8 +96,48 @@ impl Filmed<'_> {
     }
 }
 
-/// Corrects all poses of all frames by the film's model of the component. A frame that cannot be corrected stays as it is, and
-/// says so on standard error.
+/// Brings the poses that outlines led to onto the edges of the frames, by the film's model of the component where there is one.
+/// A frame that leads nowhere has no candidates, and says why.
+pub fn bring_onto_frames(
+    part: &Filmed<'_>,
+    outlines: &[FrameFound],
+    film: Option<FilmModel>,
+) -> Vec<FrameFound> {
+    let camera = part.sequence.camera();
+    let bring = |buffers: &mut RefineBuffers, (frame, outline): (usize, &FrameFound)| {
+        let mut found = outline.clone();
+        if outline.candidates.is_empty() {
+            return found;
+        }
+        let brought = part.sequence.look(frame, |seen| {
+            let image = image(seen, part.edges, film)?;
+            let mut memory = buffers.borrow(&part.model, &camera);
+            let (model, options) = (&part.model, part.options());
+            let outline = &outline.candidates;
+            Ok(onto_image(
+                model,
+                &camera,
+                image,
+                outline,
+                options,
+                &mut memory,
+            )?)
+        });
+        match brought {
+            Ok(candidates) => found.candidates = candidates.to_vec(),
+            Err(error) => {
+                found.candidates.clear();
+                found.failure = Some(format!("{error:#}"));
+            }
+        }
+        found
+    };
+    let frames = outlines.par_iter().enumerate();
+    frames.map_init(RefineBuffers::default, bring).collect()
+}
+
+/// Corrects all poses of all frames by the film's model of the component, which has become better known. A frame that cannot
+/// be corrected stays as it is, and says so on standard error.
 pub fn correct_poses(part: &Filmed<'_>, found: &mut [FrameFound], film: FilmModel) {
     let camera = part.sequence.camera();
     let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {

@@ -21,8 +21,9 @@ use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::{
-    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, build_library, correct_poses,
-    estimate_film, find_poses, first_poses, refine_on_frame, stated_model,
+    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
+    build_library, correct_poses, estimate_film, find_poses, first_poses, refine_on_frame,
+    stated_model,
 };
 use crate::measure::accuracy::median_absolute;
 use crate::sequence::{Folders, Seen, Sequence, Source};
@@ -269,7 +270,12 @@ impl<'s> Part<'s> {
                 reference.poses.len()
             );
         }
-        let finder = self.finder(&built, &sequence, request.method, request)?;
+        // Outlines first: they tell the film, and with it poses are brought onto the frames.
+        let method = match request.method {
+            Method::Image => Method::Refined,
+            method => method,
+        };
+        let finder = self.finder(&built, &sequence, method, request)?;
         let frames = find_poses(&finder, &sequence);
         let masks = sequence.masks();
         let hidden = masks.map(|(_, mask)| mask.hidden.clone()).collect();
@@ -368,8 +374,10 @@ fn source_by_film(
             (found.film, found.film_words) = (films[number], Some(words.clone()));
             let sequence = found.files.disturbed(&request.disturbance)?;
             let filmed = part.filmed(&sequence, request);
-            if let Some(film) = found.film {
-                correct_poses(&filmed, &mut found.frames, film);
+            match found.film {
+                Some(film) if round > 0 => correct_poses(&filmed, &mut found.frames, film),
+                None if round > 0 => {}
+                _ => found.frames = bring_onto_frames(&filmed, &found.frames, found.film),
             }
             if round + 1 == ROUNDS
                 && let Some(reference) = &part.reference
