@@ -22,7 +22,7 @@ mod verdict;
 pub use buffers::FinderBuffers;
 pub use candidate::{CANDIDATES, Candidate};
 pub use component::Component;
-pub use corrected::correct_candidates;
+pub use corrected::{correct_candidates, onto_image};
 pub use error::FindError;
 pub use find::{Found, Goal, find};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};

@@ -17,6 +17,7 @@ mod correct;
 mod depth;
 mod drawn;
 mod edge;
+mod edge_bias;
 mod effort;
 mod equations;
 mod error;

@@ -26,8 +26,9 @@ const BLUR: usize = 1;
 type Vector = [f64; UNKNOWNS];
 type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
 
-/// Curvatures to start from, for each contrast.
-const STARTS: [f64; 4] = [0.0, 1.0, 2.5, 4.5];
+/// Curvatures to start from, for each contrast, and logarithms of attenuations.
+const STARTS: [f64; 8] = [-0.3, 0.3, 0.9, 1.5, 2.2, 3.0, 4.0, 5.5];
+const ATTENUATIONS: [f64; 2] = [-1.8, -0.4];
 /// What is expected of logarithms before anything was read, and its standard deviation: wide, for what data do not tell, as
 /// the attenuation of metal that lets nothing pass.
 const EXPECTED_BLUR: [f64; 2] = [-0.1, 0.8];
@@ -234,23 +235,25 @@ impl Fit<'_> {
         }
     }
 
-    /// The best of several starts, on some of the profiles.
+    /// The best of several curvatures and attenuations, on some of the profiles; between curvatures by a parabola.
     fn from_starts(&mut self) -> Option<Vector> {
         self.every = (self.profiles.len() / FEW).max(1);
-        let mut best: Option<(f64, Vector)> = None;
+        self.hold = true;
+        let mut tried: Vec<(f64, Vector), { STARTS.len() }> = Vec::new();
         for curvature in STARTS {
-            let mut at = [EXPECTED_ATTENUATION[0]; UNKNOWNS];
-            (at[CURVATURE], at[BLUR]) = (curvature, EXPECTED_BLUR[0]);
-            self.find_shifts(&at);
-            let cost = self.improve(&mut at, 7);
-            if let Some(cost) = cost
-                && best.is_none_or(|(least, _)| cost < least)
-            {
-                best = Some((cost, at));
-            }
+            let from = ATTENUATIONS.iter().filter_map(|&attenuation| {
+                let mut at = [attenuation; UNKNOWNS];
+                (at[CURVATURE], at[BLUR]) = (curvature, EXPECTED_BLUR[0]);
+                self.find_shifts(&at);
+                let cost = self.improve(&mut at, 8)?;
+                Some((cost, at))
+            });
+            let best = from.min_by(|a, b| a.0.total_cmp(&b.0));
+            // There is room.
+            let _ = best.map(|best| tried.push(best));
         }
-        self.every = 1;
-        let (_, at) = best?;
+        (self.every, self.hold) = (1, false);
+        let (_, at) = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         self.find_shifts(&at);
         Some(at)
     }

@@ -1,8 +1,8 @@
 //! How well constants explain one profile.
 //!
 //! `J(D)(s) = A + B E(s - d) + C (s - d) E(s - d)`, with the film's intensity on the left and the drawn profile on the right.
-//! `A`, `B` and `C` are linear and eliminated; the shift `d` is found by Gauss and Newton. Residuals are brought back to grey
-//! values, in which a film's noise is about the same everywhere.
+//! `A`, `B` and `C` are linear and eliminated; the shift `d` is found by Gauss and Newton. Residuals are weighed by the
+//! noise of counted quanta and brought back to grey values on the average, so that curvatures can be compared.
 
 use super::model::{Drawn, at};
 use super::profile::{FilmProfile, READINGS};
@@ -15,11 +15,13 @@ pub(super) type Residuals = [f32; READINGS];
 /// Largest shift, pixels.
 const MOST_SHIFT: f64 = 3.0;
 /// Steps of the shift from where it was last.
-const STEPS: usize = 3;
+const STEPS: usize = 6;
+/// The shift is found to this, pixels: derivatives of what remains are taken by differences.
+const EXACT: f64 = 2e-4;
 /// Half the distance over which the drawn profile is differentiated, pixels.
 const NEAR: f64 = 0.125;
 
-/// What a display curve makes of a profile: intensities, and grey values for each of them.
+/// What a display curve makes of a profile: intensities, and what differences of them weigh.
 pub(super) struct Developed {
     intensity: Residuals,
     weight: Residuals,
@@ -33,6 +35,7 @@ impl Developed {
             intensity: [0.0; READINGS],
             weight: [1.0; READINGS],
         };
+        let mut sum = 0.0;
         let readings = profile.mean.iter().zip(&profile.variance);
         for (k, (&mean, &variance)) in readings.enumerate() {
             let grey = f64::from(mean - brightest);
@@ -40,12 +43,20 @@ impl Developed {
                 developed.intensity[k] = grey as f32;
                 continue;
             }
-            let shown = exp_quick(curvature * grey);
+            // Half of the exponent, because quanta are counted: noise grows with the root of the intensity.
+            let root = exp_quick(0.5 * curvature * grey);
             // The mean of the exponential of what is spread like this.
             let more = 1.0 + curvature * curvature * f64::from(variance) / 2.0;
-            developed.intensity[k] = ((shown * more - 1.0) / curvature) as f32;
-            developed.weight[k] = (1.0 / shown) as f32;
+            developed.intensity[k] = ((root * root * more - 1.0) / curvature) as f32;
+            developed.weight[k] = (1.0 / root) as f32;
+            sum += grey;
         }
+        // In grey values on the average, so that curvatures can be compared.
+        let scale = exp_quick(-0.5 * curvature * sum / READINGS as f64) as f32;
+        developed
+            .weight
+            .iter_mut()
+            .for_each(|weight| *weight *= scale);
         developed
     }
 }
@@ -80,7 +91,7 @@ pub(super) fn explain(
             best = Some(trial.explained);
         }
         let next = (shift + trial.step.clamp(-0.6, 0.6)).clamp(-MOST_SHIFT, MOST_SHIFT);
-        if (next - shift).abs() < 0.01 {
+        if (next - shift).abs() < EXACT {
             break;
         }
         shift = next;

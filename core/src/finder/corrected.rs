@@ -1,14 +1,75 @@
-//! Candidates of a frame brought to where its film puts the edges, once its constants are known.
+//! Candidates of a frame brought onto its grey values, and to where its film puts the edges once its constants are known.
 
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
+use super::rivals::{RefinedRival, SAME_DEG, refine_rivals};
 use crate::camera::Camera;
+use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
+use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, assess, correct,
 };
 use crate::shortlist::keep;
+
+/// Refined poses of an outline that are brought onto the grey frame: the best of them.
+const ON_IMAGE: usize = 3;
+
+/// Brings the best poses that an outline led to onto the edges of a frame; best first.
+///
+/// # Errors
+/// [`RefineError`] where none can be brought there.
+pub fn onto_image(
+    model: &Model<'_>,
+    camera: &Camera,
+    image: ImageTarget<'_>,
+    outline: &[Candidate],
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Vec<Candidate, CANDIDATES>, RefineError> {
+    let starts = outline.iter().take(ON_IMAGE).map(|found| found.pose);
+    let starts: Vec<Pose, ON_IMAGE> = starts.collect();
+    let view = CameraView::only(camera, image);
+    // Their mirror images are among them.
+    let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
+    let mut candidates = Vec::new();
+    let located = |found: &RefinedRival| outline.get(found.start)?.located;
+    add_assessed(model, &view, &refined, located, memory, &mut candidates)?;
+    Ok(candidates)
+}
+
+/// Adds refined poses with what led to them, how sure they are and how well they fit, each pose once.
+pub(super) fn add_assessed(
+    model: &Model<'_>,
+    view: &CameraView<'_>,
+    refined: &[RefinedRival],
+    located: impl Fn(&RefinedRival) -> Option<Reranked>,
+    memory: &mut RefineMemory<'_>,
+    candidates: &mut Vec<Candidate, CANDIDATES>,
+) -> Result<(), RefineError> {
+    for found in refined.iter().take(CANDIDATES) {
+        let same = |other: &Candidate| {
+            let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
+            turn < SAME_DEG
+        };
+        // Each was refined from one of them.
+        let Some(located) = located(found).filter(|_| !candidates.iter().any(same)) else {
+            continue;
+        };
+        let assessment = assess(model, &[*view], &found.refined, memory)?;
+        let candidate = Candidate {
+            pose: found.refined.pose,
+            start: found.from,
+            located: Some(located),
+            refined: Some(found.refined),
+            covariance: assessment.covariance,
+            fit: assessment.fit,
+        };
+        keep(candidates, candidate, Candidate::misfit);
+    }
+    Ok(())
+}
 
 /// Corrects the refined poses among the candidates of a frame by the film of `image`; best first again. One that cannot be
 /// corrected is dropped while another can.

@@ -5,20 +5,18 @@ use heapless::Vec;
 use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{ChoiceContext, choose};
 use super::component::Component;
+use super::corrected::{add_assessed, onto_image};
 use super::error::FindError;
 use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, SAME_DEG, STARTS, refine_rivals, worth_refining};
+use super::rivals::{RefinedRival, STARTS, refine_rivals, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
-use crate::pose::{Pose, geodesic_deg};
-use crate::refine::{CameraView, ImageTarget, RefineOptions, assess, fit_at};
+use crate::pose::Pose;
+use crate::refine::{CameraView, ImageTarget, RefineOptions, fit_at};
 use crate::shortlist::keep;
-
-/// Refined poses of an outline that are brought onto the grey frame: the best of them.
-const ON_IMAGE: usize = 3;
 
 /// How far poses are brought.
 #[derive(Clone, Copy, Debug)]
@@ -159,20 +157,9 @@ impl Way<'_, '_> {
         image: ImageTarget<'_>,
     ) -> Result<Candidates, FindError> {
         let outline = self.on_outline(first)?;
-        let starts: Vec<Pose, ON_IMAGE> = outline
-            .iter()
-            .take(ON_IMAGE)
-            .map(|found| found.pose)
-            .collect();
-        let view = CameraView::only(self.camera, image);
-        let (model, options) = (self.component.model, self.options);
+        let (model, camera, options) = (self.component.model, self.camera, self.options);
         let memory = &mut self.memory.refine;
-        // Their mirror images are among them.
-        let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
-        let mut candidates = Vec::new();
-        let located = |found: &RefinedRival| outline.get(found.start)?.located;
-        self.add(&view, &refined, located, &mut candidates)?;
-        Ok(candidates)
+        Ok(onto_image(model, camera, image, &outline, options, memory)?)
     }
 
     fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
@@ -191,38 +178,8 @@ impl Way<'_, '_> {
         let memory = &mut self.memory.refine;
         let refined = refine_rivals(model, &[view], &starts, planes, self.options, memory)?;
         let located = |found: &RefinedRival| worth.get(found.start).copied();
-        self.add(&view, &refined, located, candidates)
-    }
-
-    /// Adds refined poses with what led to them, how sure they are and how well they fit, each pose once.
-    fn add(
-        &mut self,
-        view: &CameraView<'_>,
-        refined: &[RefinedRival],
-        located: impl Fn(&RefinedRival) -> Option<Reranked>,
-        candidates: &mut Candidates,
-    ) -> Result<(), FindError> {
-        for found in refined.iter().take(CANDIDATES) {
-            let same = |other: &Candidate| {
-                let turn = geodesic_deg(&other.pose.rotation, &found.refined.pose.rotation);
-                turn < SAME_DEG
-            };
-            // Each was refined from one of them.
-            let Some(located) = located(found).filter(|_| !candidates.iter().any(same)) else {
-                continue;
-            };
-            let (model, memory) = (self.component.model, &mut self.memory.refine);
-            let assessment = assess(model, &[*view], &found.refined, memory)?;
-            let candidate = Candidate {
-                pose: found.refined.pose,
-                start: found.from,
-                located: Some(located),
-                refined: Some(found.refined),
-                covariance: assessment.covariance,
-                fit: assessment.fit,
-            };
-            keep(candidates, candidate, Candidate::misfit);
-        }
-        Ok(())
+        Ok(add_assessed(
+            model, &view, &refined, located, memory, candidates,
+        )?)
     }
 }

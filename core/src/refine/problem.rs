@@ -214,7 +214,8 @@ impl<'a> Problem<'a> {
     /// How coarse the loss is, against that of silhouettes.
     fn grain(&self) -> f64 {
         let silhouette = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
-        if self.views.iter().all(silhouette) {
+        // What is known of a film is no finer.
+        if self.has_film() || self.views.iter().all(silhouette) {
             1.0
         } else {
             WITHOUT_GRAIN

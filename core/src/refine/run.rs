@@ -45,19 +45,24 @@ pub fn refine_traced(
     problem.hold(options.locks, start);
     problem.effort = options.effort;
     let mut state = Refined::at(*start);
-    let mut pass = Pass::default();
+    let drawn = problem.has_film();
+    let mut pass = Pass {
+        drawn,
+        ..Pass::default()
+    };
     let mut seen = problem.run(&pass, &mut state, None, memory, trace)?;
     for index in 1..STAGES {
         pass = Pass {
             index,
             sigma_px: state.robust_sigma_px,
+            drawn,
             ..Pass::default()
         };
         seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
     }
-    problem.polish(&pass, &mut state, seen, memory, trace)?;
-    if problem.has_film() && options.effort != Effort::Probe {
-        pass.drawn = true;
+    if !drawn {
+        problem.polish(&pass, &mut state, seen, memory, trace)?;
+    } else if options.effort != Effort::Probe {
         problem.correct(&pass, &mut state, memory, trace)?;
     }
     if options.edge_offset {

@@ -9,6 +9,7 @@
 //! the residuals themselves.
 
 use super::border::BorderPixel;
+use super::edge_bias::EdgeBias;
 use super::equations::Equations;
 use super::error::RefineError;
 use super::fit::{Fit, FitSums};
@@ -16,8 +17,9 @@ use super::loss::Loss;
 use super::memory::RefineMemory;
 use super::problem::Problem;
 use super::result::Refined;
-use super::stages::{Pass, STAGES};
+use super::stages::{Pass, STAGES, Stage};
 use super::view::CameraView;
+use crate::film::PathLine;
 use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
@@ -45,8 +47,9 @@ pub struct Assessment {
     /// six dimensions (squared radius 12.59) holds the truth in 95 % of cases: the few independent
     /// stretches of an outline determine their own variance poorly, which the width allows for.
     ///
-    /// It knows of random errors that vary along the outline. What shifts the whole outline alike (a
-    /// trace that is everywhere too wide, a wrong calibration) leaves no residual and is not in it.
+    /// It knows of random errors that vary along the outline and, on grey frames, of what is not known of the film
+    /// ([`super::ImageTarget::film`]). What else shifts the whole outline alike (a trace that is everywhere too wide, a wrong
+    /// calibration) leaves no residual and is not in it.
     /// `None` where the outline does not determine the pose.
     pub covariance: Option<PoseCovariance>,
     /// How well the model's outline is met by what was seen.
@@ -63,12 +66,20 @@ pub fn assess(
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Assessment, RefineError> {
-    let mut sums = Sums::default();
-    let fit = observe(model, views, refined, memory, |border, loss| {
-        sums.add(border, loss, 6.0 / views.len() as f64);
-    })?;
+    let (mut sums, mut bias) = (Sums::default(), EdgeBias::default());
+    let fit = observe(
+        model,
+        views,
+        refined,
+        memory,
+        |view, stage, border, lines| {
+            sums.add(border, stage.loss, 6.0 / views.len() as f64);
+            bias.add(view, stage, border, lines);
+        },
+    )?;
+    let covariance = sums.covariance();
     Ok(Assessment {
-        covariance: sums.covariance(),
+        covariance: covariance.map(|covariance| bias.widen(covariance)),
         fit,
     })
 }
@@ -84,7 +95,7 @@ pub fn fit_at(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Fit, RefineError> {
     let unrefined = Refined::at(*pose);
-    observe(model, views, &unrefined, memory, |_, _| ())
+    observe(model, views, &unrefined, memory, |_, _, _, _| ())
 }
 
 /// Looks at the outline at a pose as the last stage of refinement does; `each` gets the samples of every view.
@@ -93,7 +104,7 @@ fn observe(
     views: &[CameraView<'_>],
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
-    mut each: impl FnMut(&[BorderPixel], Loss),
+    mut each: impl FnMut(&CameraView<'_>, &Stage, &[BorderPixel], &[PathLine]),
 ) -> Result<Fit, RefineError> {
     let problem = Problem::new(model, views, memory)?;
     let pass = Pass {
@@ -109,7 +120,8 @@ fn observe(
         let mut equations = Equations::new();
         let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
         let border = memory.border.get(..count).unwrap_or_default();
-        each(border, stage.loss);
+        let lines = memory.film.lines.get(..count).unwrap_or_default();
+        each(view, &stage, border, lines);
         sums.add_samples(border, stage.range);
         sums.add_areas(&view.target, memory.drawn)?;
     }

@@ -159,6 +159,7 @@ impl OneClick {
                         camera,
                         polarity,
                         excluded,
+                        film: None,
                     };
                     work.step(&observation, Some(component), &mut memory)
                         .map_err(sentence)
@@ -285,6 +286,7 @@ impl OneClick {
                     camera,
                     polarity,
                     excluded,
+                    film: None,
                 };
                 with(&mut work, &observation, &mut memory)
             })

@@ -15,7 +15,7 @@ pub use axes::axes_of;
 pub use build::{Built, build_library};
 pub use clicker::{Clicked, Clicker};
 pub use film::{FrameFound, find_poses, first_poses};
-pub use film_model::{Filmed, correct_poses, estimate_film, refine_on_frame, stated_model};
+pub use film_model::{Filmed, KnownFilm, bring_onto_frames, stated_model};
 pub use finder::{EdgeOptions, Finder, Method};
 pub use refiner::Refiner;
 pub use views::ViewOptions;

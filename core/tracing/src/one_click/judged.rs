@@ -26,6 +26,7 @@ pub fn candidates(
         frame: observation.frame,
         unknown: observation.excluded,
         polarity: observation.polarity,
+        film: observation.film,
     };
     let view = CameraView::only(observation.camera, target);
     let rivals = answers.iter().filter(|answer| answer.score >= least);

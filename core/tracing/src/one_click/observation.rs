@@ -1,6 +1,7 @@
 //! The frame that is searched, and the component that is searched in it.
 
 use fluoropose::camera::Camera;
+use fluoropose::film::FilmModel;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::refine::Polarity;
@@ -16,6 +17,8 @@ pub struct Observation<'a> {
     pub polarity: Polarity,
     /// Pixels that belong to something else, such as another component that is outlined already.
     pub excluded: Option<&'a Mask<'a>>,
+    /// What the film makes of the component, where its constants are known.
+    pub film: Option<FilmModel>,
 }
 
 impl core::fmt::Debug for Observation<'_> {

@@ -150,7 +150,7 @@ impl PoseScorer<'_> {
             frame: self.observation.frame,
             unknown: self.observation.excluded,
             polarity: self.observation.polarity,
-            film: None,
+            film: self.observation.film,
         };
         let view = CameraView::only(self.observation.camera, target);
         let (model, options) = (self.component.model, RefineOptions::default());

@@ -178,6 +178,7 @@ impl Bench {
             camera: &camera,
             polarity,
             excluded: None,
+            film: None,
         };
         let component = Component {
             library: &library,

@@ -90,6 +90,7 @@ impl<'l> Clicker<'l> {
             camera: &self.camera,
             polarity,
             excluded: None,
+            film: None,
         };
         let component = Component {
             library: &self.library,

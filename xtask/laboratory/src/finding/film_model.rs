@@ -3,8 +3,8 @@
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmProfile, estimate};
-use fluoropose::finder::correct_candidates;
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
+use fluoropose::finder::{correct_candidates, onto_image};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions, film_profiles};
@@ -20,15 +20,91 @@ const PROFILES: usize = 96;
 /// Profiles of all frames together, at most.
 const ALL: usize = 6000;
 
-/// One component in the frames of a sequence.
-#[derive(Clone, Copy)]
+/// Rounds of estimating the film from poses and correcting these by it.
+const ROUNDS: usize = 2;
+
+/// One component in the frames of a sequence, and what was found there.
 pub struct Filmed<'f> {
+    /// What it is called.
+    pub name: &'f str,
     /// Its model.
     pub model: Model<'f>,
     /// The frames.
-    pub sequence: &'f Sequence<'f>,
+    pub sequence: Sequence<'f>,
     /// How edges are looked for.
     pub edges: EdgeOptions,
+    /// Poses that the outlines led to, and then those on the frames.
+    pub found: &'f mut Vec<FrameFound>,
+}
+
+/// What is known of the film that some components are on.
+pub struct KnownFilm {
+    /// What it makes of each component.
+    pub models: Vec<Option<FilmModel>>,
+    /// The same in words.
+    pub words: String,
+}
+
+/// Brings poses that outlines led to onto the grey frames. What the film makes of each component is estimated from the frames
+/// themselves, unless it is stated.
+pub fn bring_onto_frames(
+    parts: &mut [Filmed<'_>],
+    stated: Option<&[Option<FilmModel>]>,
+) -> KnownFilm {
+    let mut known = film_of(parts, stated);
+    for (part, film) in parts.iter_mut().zip(&known.models) {
+        *part.found = part.brought(*film);
+    }
+    for _ in 1..ROUNDS {
+        if stated.is_some() {
+            break;
+        }
+        known = film_of(parts, stated);
+        for (part, film) in parts.iter_mut().zip(&known.models) {
+            if let Some(film) = film {
+                part.correct(*film);
+            }
+        }
+    }
+    known
+}
+
+fn film_of(parts: &[Filmed<'_>], stated: Option<&[Option<FilmModel>]>) -> KnownFilm {
+    if let Some(models) = stated {
+        return KnownFilm {
+            models: models.to_vec(),
+            words: "stated".to_owned(),
+        };
+    }
+    match estimate_film(parts) {
+        Some(film) => KnownFilm {
+            models: (0..parts.len()).map(|part| Some(film.model(part))).collect(),
+            words: words(&film, parts),
+        },
+        None => KnownFilm {
+            models: vec![None; parts.len()],
+            words: "not told by these frames: edges are taken to lie on the outline, and z is uncertain by millimetres".to_owned(),
+        },
+    }
+}
+
+/// The constants of a film and how sure they are.
+fn words(film: &FilmEstimate, parts: &[Filmed<'_>]) -> String {
+    let sure = |number: usize| film.covariance[number][number].sqrt();
+    let metal = parts.iter().enumerate().map(|(number, part)| {
+        let (name, attenuation) = (part.name, film.attenuation[number]);
+        let percent = 100.0 * sure(2 + number);
+        format!(", {name} {attenuation:.2} a mm ±{percent:.0} %")
+    });
+    let metal: String = metal.collect();
+    let FilmConstants { curvature, .. } = film.constants;
+    format!(
+        "{film} ±{:.0} %{metal}; curvature {curvature:.4} ±{:.4} a grey value, {} profiles, {:.1} grey values unexplained",
+        100.0 * sure(1),
+        sure(0),
+        film.profiles,
+        film.residual
+    )
 }
 
 /// What a film that a person stated makes of a component of this attenuation, per mm.
@@ -41,12 +117,12 @@ pub fn stated_model(film: StatedFilm, attenuation: f64) -> FilmModel {
 }
 
 /// Estimates the constants of a film from the best poses of its components; `None` where they do not tell.
-pub fn estimate_film(parts: &[(Filmed<'_>, &[FrameFound])]) -> Option<FilmEstimate> {
+fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
     let parts = &parts[..parts.len().min(MOST_COMPONENTS)];
-    let frames: usize = parts.iter().map(|(_, found)| found.len()).sum();
+    let frames: usize = parts.iter().map(|part| part.found.len()).sum();
     let each = (ALL / frames.max(1)).clamp(12, PROFILES);
     let mut profiles = Vec::new();
-    for (component, (part, found)) in parts.iter().enumerate() {
+    for (component, part) in parts.iter().enumerate() {
         let read = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
             let Some(best) = found.candidates.first() else {
                 return Vec::new();
@@ -55,7 +131,7 @@ pub fn estimate_film(parts: &[(Filmed<'_>, &[FrameFound])]) -> Option<FilmEstima
             let look = |seen: &Seen<'_>| part.profiles(seen, &best.pose, names, each, buffers);
             part.sequence.look(frame, look).unwrap_or_default()
         };
-        let frames = found.par_iter().enumerate();
+        let frames = part.found.par_iter().enumerate();
         let read: Vec<Vec<FilmProfile>> = frames.map_init(RefineBuffers::default, read).collect();
         profiles.extend(read.into_iter().flatten());
     }
@@ -94,52 +170,89 @@ impl Filmed<'_> {
             ..RefineOptions::default()
         }
     }
-}
 
-/// Corrects all poses of all frames by the film's model of the component. A frame that cannot be corrected stays as it is, and
-/// says so on standard error.
-pub fn correct_poses(part: &Filmed<'_>, found: &mut [FrameFound], film: FilmModel) {
-    let camera = part.sequence.camera();
-    let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
-        if found.candidates.is_empty() {
-            return;
-        }
-        let corrected = part.sequence.look(frame, |seen| {
-            let image = image(seen, part.edges, Some(film))?;
-            let mut memory = buffers.borrow(&part.model, &camera);
-            let candidates = &found.candidates;
-            Ok(correct_candidates(
-                &part.model,
-                &camera,
-                image,
-                candidates,
-                part.options(),
-                &mut memory,
-            )?)
-        });
-        match corrected {
-            Ok(corrected) => found.candidates = corrected.to_vec(),
-            Err(error) => eprintln!("frame {} is not corrected: {error:#}", frame + 1),
-        }
-    };
-    let frames = found.par_iter_mut().enumerate();
-    frames.for_each_init(RefineBuffers::default, correct);
-}
+    /// The poses of outlines brought onto the edges of the frames, by the film's model where there is one. A frame that leads
+    /// nowhere has no candidates, and says why.
+    fn brought(&self, film: Option<FilmModel>) -> Vec<FrameFound> {
+        let camera = self.sequence.camera();
+        let bring = |buffers: &mut RefineBuffers, (frame, outline): (usize, &FrameFound)| {
+            let mut found = outline.clone();
+            if outline.candidates.is_empty() {
+                return found;
+            }
+            let brought = self.sequence.look(frame, |seen| {
+                let image = image(seen, self.edges, film)?;
+                let mut memory = buffers.borrow(&self.model, &camera);
+                let (model, options) = (&self.model, self.options());
+                let outline = &outline.candidates;
+                Ok(onto_image(
+                    model,
+                    &camera,
+                    image,
+                    outline,
+                    options,
+                    &mut memory,
+                )?)
+            });
+            match brought {
+                Ok(candidates) => found.candidates = candidates.to_vec(),
+                Err(error) => {
+                    found.candidates.clear();
+                    found.failure = Some(format!("{error:#}"));
+                }
+            }
+            found
+        };
+        let frames = self.found.par_iter().enumerate();
+        frames.map_init(RefineBuffers::default, bring).collect()
+    }
 
-/// Brings a pose onto the edges of a frame, by the film's model where there is one; best first.
-///
-/// # Errors
-/// Where there is no frame, and where the pose cannot be refined.
-pub fn refine_on_frame(
-    part: &Filmed<'_>,
-    seen: &Seen<'_>,
-    start: &Pose,
-    film: Option<FilmModel>,
-    buffers: &mut RefineBuffers,
-) -> Result<Vec<RefinedRival>> {
-    let camera = part.sequence.camera();
-    let view = CameraView::only(&camera, image(seen, part.edges, film)?);
-    let mut memory = buffers.borrow(&part.model, &camera);
-    let (model, options) = (&part.model, part.options());
-    Ok(refine_rivals(model, &[view], &[*start], &[], options, &mut memory)?.to_vec())
+    /// Corrects all poses by the film's model, which has become better known. A frame that cannot be corrected stays as it is,
+    /// and says so on standard error.
+    fn correct(&mut self, film: FilmModel) {
+        let (camera, options) = (self.sequence.camera(), self.options());
+        let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
+        let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
+            if found.candidates.is_empty() {
+                return;
+            }
+            let corrected = sequence.look(frame, |seen| {
+                let image = image(seen, edges, Some(film))?;
+                let mut memory = buffers.borrow(model, &camera);
+                let candidates = &found.candidates;
+                Ok(correct_candidates(
+                    model,
+                    &camera,
+                    image,
+                    candidates,
+                    options,
+                    &mut memory,
+                )?)
+            });
+            match corrected {
+                Ok(corrected) => found.candidates = corrected.to_vec(),
+                Err(error) => eprintln!("frame {} is not corrected: {error:#}", frame + 1),
+            }
+        };
+        let frames = self.found.par_iter_mut().enumerate();
+        frames.for_each_init(RefineBuffers::default, correct);
+    }
+
+    /// Brings a pose onto the edges of a frame, by the film's model where there is one; best first.
+    ///
+    /// # Errors
+    /// Where there is no frame, and where the pose cannot be refined.
+    pub fn refine(
+        &self,
+        seen: &Seen<'_>,
+        start: &Pose,
+        film: Option<FilmModel>,
+        buffers: &mut RefineBuffers,
+    ) -> Result<Vec<RefinedRival>> {
+        let camera = self.sequence.camera();
+        let view = CameraView::only(&camera, image(seen, self.edges, film)?);
+        let mut memory = buffers.borrow(&self.model, &camera);
+        let (model, options) = (&self.model, self.options());
+        Ok(refine_rivals(model, &[view], &[*start], &[], options, &mut memory)?.to_vec())
+    }
 }

@@ -138,7 +138,7 @@ impl Part<'_> {
         row.verdicts = Some(Verdicts::of(&found.decisions));
         row.reasons = Some(Reasons::of(&found.decisions));
         row.femur.clone_from(&found.femur);
-        row.film.clone_from(&found.film_words);
+        row.film.clone_from(&found.film);
         let starts = found.from_reference.as_deref();
         row.from_reference = starts.map(|starts| StartDifference::of(&poses, starts));
         let noise = Noise::of(&request.disturbance, 1);

@@ -15,7 +15,9 @@ use crate::choice::report::{Numbers, check_path, report, why, write_report};
 
 use crate::files::{Role, name_of, read, read_calibration, read_model, read_poses, write_poses};
 
-use crate::finding::{EdgeOptions, Finder, FrameFound, Method, axes_of, find_poses};
+use crate::finding::{
+    EdgeOptions, Filmed, Finder, FrameFound, Method, axes_of, bring_onto_frames, find_poses,
+};
 
 use crate::noise::DisturbanceOptions;
 
@@ -101,11 +103,28 @@ pub fn run(args: Args) -> Result<()> {
     };
     let source = Source::read(&folders, &calibration)?;
     let counterparts = counterparts(&args, source.masks.len())?;
-    let finder = Finder::open(&bytes, mesh, source.camera, args.method)
+    let onto_frames = args.method == Method::Image;
+    // Outlines first: they tell the film.
+    let method = if onto_frames {
+        Method::Refined
+    } else {
+        args.method
+    };
+    let finder = Finder::open(&bytes, mesh, source.camera, method)
         .with_context(|| args.library.display().to_string())?
         .with_edges(args.edges);
     let sequence = source.disturbed(&args.disturbance)?;
-    let found = find_poses(&finder, &sequence);
+    let mut found = find_poses(&finder, &sequence);
+    if onto_frames {
+        let filmed = Filmed {
+            name: "metal",
+            model: mesh,
+            sequence,
+            edges: args.edges,
+            found: &mut found,
+        };
+        println!("film: {}", bring_onto_frames(&mut [filmed], None).words);
+    }
     let decisions = decide(&found, &counterparts, &own_axes(&args, &mesh)?)?;
     let middle = mesh.bounds().centre;
     for (frame, decision) in found.iter().zip(&decisions) {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
-use fluoropose::film::{FilmEstimate, FilmModel};
+use fluoropose::film::FilmModel;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::library::ViewGrid;
 use fluoropose::locate::Located;
@@ -21,8 +21,8 @@ use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::{
-    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, build_library, correct_poses,
-    estimate_film, find_poses, first_poses, refine_on_frame, stated_model,
+    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
+    build_library, find_poses, first_poses, stated_model,
 };
 use crate::measure::accuracy::median_absolute;
 use crate::sequence::{Folders, Seen, Sequence, Source};
@@ -51,10 +51,8 @@ pub(super) struct Found {
     pub(super) femur: Option<String>,
     /// Of the method `image`: where refinement comes to from the reference pose.
     pub(super) from_reference: Option<Vec<Option<Pose>>>,
-    /// What the film makes of the component, where its constants are known.
-    pub(super) film: Option<FilmModel>,
-    /// The same in words, of the method `image`.
-    pub(super) film_words: Option<String>,
+    /// Of the method `image`: what is known of the film, in words.
+    pub(super) film: Option<String>,
     /// Masks and frames.
     files: Source,
     /// Pixels of each mask that say nothing.
@@ -145,14 +143,6 @@ impl Found {
 }
 
 impl<'s> Part<'s> {
-    fn filmed<'f>(&'f self, sequence: &'f Sequence<'f>, request: &Request<'_>) -> Filmed<'f> {
-        Filmed {
-            model: self.model.as_model(),
-            sequence,
-            edges: request.edges,
-        }
-    }
-
     fn find(
         component: &'s Component,
         frames: Option<&Path>,
@@ -269,7 +259,12 @@ impl<'s> Part<'s> {
                 reference.poses.len()
             );
         }
-        let finder = self.finder(&built, &sequence, request.method, request)?;
+        // Outlines first: they tell the film, and with it poses are brought onto the frames.
+        let method = match request.method {
+            Method::Image => Method::Refined,
+            method => method,
+        };
+        let finder = self.finder(&built, &sequence, method, request)?;
         let frames = find_poses(&finder, &sequence);
         let masks = sequence.masks();
         let hidden = masks.map(|(_, mask)| mask.hidden.clone()).collect();
@@ -282,7 +277,6 @@ impl<'s> Part<'s> {
             femur: None,
             from_reference: None,
             film: None,
-            film_words: None,
             files,
             hidden,
         })
@@ -309,7 +303,7 @@ fn from_reference(
 ) -> Vec<Option<Pose>> {
     let refine = |buffers: &mut RefineBuffers, (frame, pose): (usize, &Option<Pose>)| {
         let start = in_front(&(*pose)?);
-        let look = |seen: &Seen<'_>| refine_on_frame(part, seen, &start, film, buffers);
+        let look = |seen: &Seen<'_>| part.refine(seen, &start, film, buffers);
         let found = part.sequence.look(frame, look);
         let turn = |pose: &Pose| geodesic_deg(&pose.rotation, &start.rotation);
         let poses = found.map(|found| {
@@ -325,114 +319,49 @@ fn from_reference(
     known.map_init(RefineBuffers::default, refine).collect()
 }
 
-/// Rounds of estimating the film from poses and correcting these by it.
-const ROUNDS: usize = 2;
-
-/// Estimates the film of each source from the frames of all components, unless the study states it, and corrects their poses.
+/// Brings the poses of each source onto the grey frames, by what these tell of the film.
 fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Result<()> {
-    let names: BTreeSet<String> = parts
-        .iter()
-        .flat_map(|part| part.found.iter().map(|found| found.source.clone()))
-        .collect();
+    let sources = parts.iter().flat_map(|part| &part.found);
+    let names: BTreeSet<String> = sources.map(|found| found.source.clone()).collect();
     for name in names {
-        let mut shared: Vec<(&Part<'_>, Found)> = Vec::new();
-        let mut owners = Vec::new();
-        for (number, part) in parts.iter_mut().enumerate() {
-            if let Some(at) = part.found.iter().position(|found| found.source == name) {
-                owners.push((number, at, part.found.remove(at)));
-            }
+        let mut filmed = Vec::new();
+        let mut rest = Vec::new();
+        for part in &mut *parts {
+            let Part {
+                component,
+                model,
+                reference,
+                found,
+            } = part;
+            let Some(found) = found.iter_mut().find(|found| found.source == name) else {
+                continue;
+            };
+            filmed.push(Filmed {
+                name: &component.name,
+                model: model.as_model(),
+                sequence: found.files.disturbed(&request.disturbance)?,
+                edges: request.edges,
+                found: &mut found.frames,
+            });
+            let stated = study.film.zip(component.attenuation);
+            let stated = stated.map(|(film, attenuation)| stated_model(film, attenuation));
+            rest.push((
+                stated,
+                reference,
+                &mut found.film,
+                &mut found.from_reference,
+            ));
         }
-        let mut found = Vec::new();
-        for (number, at, one) in owners {
-            shared.push((&parts[number], one));
-            found.push((number, at));
-        }
-        source_by_film(&mut shared, study, request)?;
-        let done: Vec<Found> = shared.into_iter().map(|(_, found)| found).collect();
-        for ((number, at), one) in found.into_iter().zip(done) {
-            parts[number].found.insert(at, one);
-        }
-    }
-    Ok(())
-}
-
-/// The same of one source.
-fn source_by_film(
-    shared: &mut [(&Part<'_>, Found)],
-    study: &Study,
-    request: &Request<'_>,
-) -> Result<()> {
-    for round in 0..ROUNDS {
-        let (films, words) = film_of(shared, study, request)?;
-        for (number, (part, found)) in shared.iter_mut().enumerate() {
-            (found.film, found.film_words) = (films[number], Some(words.clone()));
-            let sequence = found.files.disturbed(&request.disturbance)?;
-            let filmed = part.filmed(&sequence, request);
-            if let Some(film) = found.film {
-                correct_poses(&filmed, &mut found.frames, film);
-            }
-            if round + 1 == ROUNDS
-                && let Some(reference) = &part.reference
-            {
-                found.from_reference = Some(from_reference(&filmed, reference, found.film));
-            }
+        let stated: Vec<_> = rest.iter().map(|(stated, ..)| *stated).collect();
+        let known = bring_onto_frames(&mut filmed, study.film.map(|_| &stated[..]));
+        for ((part, (_, reference, film, starts)), model) in
+            filmed.iter().zip(rest).zip(&known.models)
+        {
+            *film = Some(known.words.clone());
+            *starts = reference
+                .as_ref()
+                .map(|reference| from_reference(part, reference, *model));
         }
     }
     Ok(())
-}
-
-/// What the film makes of each component, and that in words.
-fn film_of(
-    shared: &[(&Part<'_>, Found)],
-    study: &Study,
-    request: &Request<'_>,
-) -> Result<(Vec<Option<FilmModel>>, String)> {
-    if let Some(fixed) = study.film {
-        let of = |(part, _): &(&Part<'_>, Found)| {
-            let attenuation = part.component.attenuation;
-            attenuation.map(|attenuation| stated_model(fixed, attenuation))
-        };
-        return Ok((
-            shared.iter().map(of).collect(),
-            "stated by the study".to_owned(),
-        ));
-    }
-    let sequences = shared
-        .iter()
-        .map(|(_, found)| found.files.disturbed(&request.disturbance));
-    let sequences = sequences.collect::<Result<Vec<_>>>()?;
-    let filmed: Vec<_> = shared
-        .iter()
-        .zip(&sequences)
-        .map(|((part, found), sequence)| (part.filmed(sequence, request), &found.frames[..]))
-        .collect();
-    Ok(match estimate_film(&filmed) {
-        Some(film) => {
-            let models = (0..shared.len()).map(|component| Some(film.model(component)));
-            (models.collect(), describe(&film, shared))
-        }
-        None => (vec![None; shared.len()], "not told by these frames: edges are taken to lie on the outline, and the uncertainty is wide".to_owned()),
-    })
-}
-
-fn describe(film: &FilmEstimate, shared: &[(&Part<'_>, Found)]) -> String {
-    let mut words = film.to_string();
-    for (number, (part, _)) in shared.iter().enumerate() {
-        let sd = film.covariance[2 + number][2 + number].sqrt();
-        let attenuation = film.attenuation[number];
-        words += &format!(
-            ", {} {attenuation:.2} a mm (±{:.0} %)",
-            part.component.name,
-            100.0 * sd
-        );
-    }
-    words
-        + &format!(
-            "; curvature {:.4} ±{:.4}, blur ±{:.0} %, {} profiles, {:.1} grey values unexplained",
-            film.constants.curvature,
-            film.covariance[0][0].sqrt(),
-            100.0 * film.covariance[1][1].sqrt(),
-            film.profiles,
-            film.residual
-        )
 }
