@@ -48,6 +48,9 @@ const CLOSE_DEG: f64 = 1.0;
 const BACK_DEG: f64 = 0.1;
 const ALIKE: f64 = 1.25;
 
+/// See [`blurred_deg`]: degrees for each pixel of noise.
+const NOISE_DEG: f64 = 2.5;
+
 /// After a quick look a pose may still be the best where its loss is at most this many times the least, or this many times
 /// so many square pixels; and two lead to the same where they are nearer than this, degrees.
 const LOOKED_WORSE: f64 = 4.0;
@@ -163,11 +166,7 @@ impl RivalRefinement<'_, '_> {
     /// Where the starts lead, each pose once, and only those that may be the best; a start that a quick look leads nowhere
     /// is kept as it is.
     fn look_at(&mut self, starts: &[Pose]) -> Vec<(usize, Pose), STARTS> {
-        let options = RefineOptions {
-            effort: Effort::Probe,
-            edge_offset: false,
-            ..self.options
-        };
+        let options = self.quick();
         let mut seen: Vec<(usize, Pose, f64), STARTS> = Vec::new();
         for (start, pose) in starts.iter().enumerate() {
             let probed = refine(self.model, self.views, pose, options, self.memory);
@@ -205,11 +204,36 @@ impl RivalRefinement<'_, '_> {
                     .views
                     .iter()
                     .all(|view| is_near(self.model, view, &mirrored, &refined.pose, self.memory));
-                if near {
+                if near && self.leads_elsewhere(&mirrored) {
                     // A mirror image that leads nowhere is no rival.
                     let _ = self.refine(&mirrored, start, true);
                 }
             }
+        }
+    }
+
+    /// Whether a quick look finds that a pose leads to what may fit as well as the best, and was not found before.
+    fn leads_elsewhere(&mut self, start: &Pose) -> bool {
+        let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
+            return true;
+        };
+        let Ok(looked) = refine(self.model, self.views, start, self.quick(), self.memory) else {
+            return false;
+        };
+        let known = |RefinedRival { refined, .. }: &RefinedRival| {
+            let apart = geodesic_deg(&refined.pose.rotation, &looked.pose.rotation);
+            apart < blurred_deg(refined) && looked.loss > refined.loss / ALIKE
+        };
+        let limit = LOOKED_WORSE * best.refined.loss.max(LOOKED_PX2);
+        looked.loss <= limit && !self.answers.iter().any(known)
+    }
+
+    /// How a quick look is taken.
+    fn quick(&self) -> RefineOptions {
+        RefineOptions {
+            effort: Effort::Probe,
+            edge_offset: false,
+            ..self.options
         }
     }
 
@@ -223,10 +247,11 @@ impl RivalRefinement<'_, '_> {
             return;
         }
         let middle = self.model.bounds().centre;
+        let back = blurred_deg(&best.refined).max(BACK_DEG);
         for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
             let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
             let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
-            if let Some(found) = self.probe(&start, &best.refined) {
+            if let Some(found) = self.probe(&start, &best.refined, back) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
             }
@@ -249,24 +274,25 @@ impl RivalRefinement<'_, '_> {
         let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
         let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(apart) {
-            if let Some(found) = self.probe(start, &best.refined) {
+            if let Some(found) = self.probe(start, &best.refined, BACK_DEG) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
             }
         }
     }
 
-    /// The pose that a start leads to, unless it is the best pose again or a worse one, as most are.
-    fn probe(&mut self, start: &Pose, best: &Refined) -> Option<Pose> {
-        let options = RefineOptions {
-            effort: Effort::Probe,
-            edge_offset: false,
-            ..self.options
-        };
+    /// The pose that a start leads to, unless that is the best pose again, to within `back_deg`, or a worse one, as most are.
+    fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Option<Pose> {
+        let options = self.quick();
         let found = refine(self.model, self.views, start, options, self.memory).ok()?;
         let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
-        (apart > BACK_DEG && found.loss < ALIKE * best.loss).then_some(found.pose)
+        (apart > back_deg && found.loss < ALIKE * best.loss).then_some(found.pose)
     }
+}
+
+/// How far apart a quick look may leave what is one minimum, degrees.
+fn blurred_deg(refined: &Refined) -> f64 {
+    (NOISE_DEG * refined.robust_sigma_px).min(LOOKED_SAME_DEG)
 }
 
 /// Whether most of an outline fits exactly and a part does not at all, which noise does not cause; or whether an outline

@@ -11,7 +11,7 @@ use super::memory::{FILM_EVERY, RefineMemory, check_memory};
 use super::outline::{Depth, DrawnModel};
 use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
-use super::stages::{POLISHING, Pass, Stage};
+use super::stages::{POLISHING, Pass, STAGES, Stage};
 use super::step::Step;
 use super::view::{CameraView, Target};
 use crate::image::mask::{MaskError, MaskMut, words_needed};
@@ -39,6 +39,12 @@ pub(super) struct Problem<'a> {
 /// the end 150 femurs and tibias came out alike within 3 % after more than twice as many drawings.
 const SETTLED: f64 = 0.05;
 const GRAINED: f64 = 0.1;
+/// Standard deviation of the residuals from which an outline counts as noisy, pixels; [`Problem::coarseness`] is at most
+/// the second.
+const NOISE_PX: f64 = 0.1;
+const COARSEST: f64 = 20.0;
+/// A stage that is not the last ends where a step lowers the loss by less than this part: the next goes on from there.
+const WORTH_GOING_ON: f64 = 0.02;
 /// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
 const WITHOUT_GRAIN: f64 = 0.02;
 
@@ -148,9 +154,13 @@ impl<'a> Problem<'a> {
             state.renders = next.renders;
             match tried {
                 Ok(there) if there.equations.loss() < seen.equations.loss() => {
+                    let gained = 1.0 - there.equations.loss() / seen.equations.loss();
                     (*state, seen) = (next, there);
                     damping = (damping * 0.2).max(1e-9);
                     trace(&seen.equations.iterate(pass, state));
+                    if gained < WORTH_GOING_ON && pass.index + 1 < STAGES && self.is_outline() {
+                        break;
+                    }
                 }
                 // No step leads round it, and to stop short of it would pass for an answer.
                 Err(error @ RefineError::Memory(_)) => return Err(error),
@@ -182,7 +192,7 @@ impl<'a> Problem<'a> {
         let Some(small) = self.effort.polished() else {
             return Ok(());
         };
-        let small = small * self.grain();
+        let small = small * self.coarseness(state);
         let (mut next, mut seen) = (*state, seen);
         let (mut fraction, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
@@ -211,15 +221,29 @@ impl<'a> Problem<'a> {
         Ok(())
     }
 
+    /// How many times longer than on an outline without noise the last step may be: noise leaves the pose as many times
+    /// less certain.
+    fn coarseness(&self, state: &Refined) -> f64 {
+        match self.is_outline() {
+            true => (state.robust_sigma_px / NOISE_PX).clamp(1.0, COARSEST),
+            false => self.grain(),
+        }
+    }
+
     /// How coarse the loss is, against that of silhouettes.
     fn grain(&self) -> f64 {
-        let silhouette = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
         // What is known of a film is no finer.
-        if self.has_film() || self.views.iter().all(silhouette) {
+        if self.has_film() || self.is_outline() {
             1.0
         } else {
             WITHOUT_GRAIN
         }
+    }
+
+    /// Whether all that was seen are silhouettes.
+    fn is_outline(&self) -> bool {
+        let silhouette = |view: &CameraView<'_>| matches!(view.target, Target::Silhouette(_));
+        self.views.iter().all(silhouette)
     }
 
     /// Observes a pose, and counts the drawings.
