@@ -148,6 +148,7 @@ impl<'b> Bench<'b> {
             frame,
             unknown: None,
             polarity: Polarity::DarkImplant,
+            film: None,
         };
         let view = CameraView::only(&self.camera, target);
         let (truth, refiner) = (film.truth[part], &mut self.refiners[part]);
