@@ -5,6 +5,7 @@ import type { Axes } from '../document/types';
 import { AXIS_WORDS, type AxisWord, directionsOf, fromTheRight, viewpointOf, wordOf } from '../geometry/axes';
 import { rotationOf } from '../geometry/pose_motion';
 import { axesSentence, namedArrows } from '../results/axes_words';
+import { facingByFilm, type Facing } from '../results/facing';
 import { type ComponentName, titleOf } from '../terms/component';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
@@ -26,19 +27,33 @@ export function AxesSection({ state, component }: { state: State; component: Com
       <h3>{words.heading}</h3>
       <p class="sheet-text">{sentence}</p>
       {mesh && axes && <AxesPicture component={component} axes={axes} mesh={mesh} side={doc.side} sentence={sentence} />}
-      {axes?.told === 'not the front' && (
-        <div class="sheet-buttons" role="group" aria-label={words.question}>
-          <span class="sheet-text">{words.question}</span>
-          <button type="button" class="button primary" onClick={() => say(withFront(axes, 'as shown'))}>
-            {words.asShown}
-          </button>
-          <button type="button" class="button" onClick={() => say(withFront(axes, 'the other way'))}>
-            {words.otherWay}
-          </button>
-        </div>
-      )}
+      {axes?.told === 'not the front' && <FrontQuestion facing={facingByFilm(doc, component)} other={OTHER[component]} onAnswer={(front) => say(withFront(axes, front))} />}
       <StatedAxes key={JSON.stringify(axes)} axes={axes} onSay={say} canReset={model !== null && axes !== null && axes.from !== 'shape'} />
     </section>
+  );
+}
+
+const OTHER = { femur: 'tibia', tibia: 'femur' } as const satisfies Record<ComponentName, ComponentName>;
+
+interface FrontQuestionProps {
+  readonly facing: Facing | null;
+  readonly other: ComponentName;
+  readonly onAnswer: (front: Facing['front']) => void;
+}
+
+/** Asked of a person; where the film knows an answer, that is said, and not taken by itself. */
+function FrontQuestion({ facing, other, onAnswer }: FrontQuestionProps) {
+  const words = texts.axes;
+  return (
+    <div class="sheet-buttons" role="group" aria-label={words.question}>
+      <span class="sheet-text">{words.question}</span>
+      {(['as shown', 'the other way'] as const).map((front) => (
+        <button key={front} type="button" class={facing?.front === front ? 'button primary' : 'button'} onClick={() => onAnswer(front)}>
+          {words.fronts[front]}
+        </button>
+      ))}
+      {facing && <p class="sheet-text quiet">{words.film(facing.front, facing.frames, texts.component[other])}</p>}
+    </div>
   );
 }
 

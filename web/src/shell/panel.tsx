@@ -1,6 +1,6 @@
 import { currentCell, currentFrame, type State } from '../document/store';
 import { type Cell, cellOf, chosenCandidate } from '../document/types';
-import { COMPONENT_NAMES, titleOf } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { isOutdated, missingForPose } from '../results/missing';
 import { useApp } from '../commands/app';
 import { Display } from './display';
@@ -19,7 +19,6 @@ export function Panel({ state }: { state: State }) {
   const { actions, services } = useApp();
   const { component } = state.ui;
   const cell = currentCell(state);
-  const frame = currentFrame(state);
   const { reference } = state.history.present;
   const posed = chosenCandidate(cell) !== null;
   // Poses of a file or by hand have neither rivals nor a score.
@@ -62,17 +61,20 @@ export function Panel({ state }: { state: State }) {
       </div>
     </aside>
   );
+}
 
-  /** Scores of a closed outline, or models with a pose. */
-  function isPictured(state: State, cell: Cell): boolean {
-    const shown = COMPONENT_NAMES.map((name) => cellOf(state.history.present, frame?.id, name));
-    return cell.outline?.closed === true || shown.some((one) => chosenCandidate(one) !== null);
-  }
+/** Scores of a closed outline, or models with a pose. */
+function isPictured(state: State, cell: Cell): boolean {
+  return cell.outline?.closed === true || COMPONENT_NAMES.some((name) => chosenCandidate(cellHere(state, name)) !== null);
+}
 
-  function dotOf(state: State, name: (typeof COMPONENT_NAMES)[number]): string {
-    const { outline, result } = cellOf(state.history.present, frame?.id, name);
-    if (result?.kind === 'failed') return 'failed';
-    if (result) return 'posed';
-    return outline ? 'traced' : 'none';
-  }
+function dotOf(state: State, name: ComponentName): string {
+  const { outline, result } = cellHere(state, name);
+  if (result?.kind === 'failed') return 'failed';
+  if (result) return 'posed';
+  return outline ? 'traced' : 'none';
+}
+
+function cellHere(state: State, component: ComponentName): Cell {
+  return cellOf(state.history.present, currentFrame(state)?.id, component);
 }

@@ -18,8 +18,9 @@ export const axes = {
   finding: 'They are being found from its shape.',
   assumed: 'Without its model the file’s own are taken: x anterior, y superior, z right. Its model tells others, or say them here.',
   question: 'Which way is the front?',
-  asShown: 'As shown',
-  otherWay: 'The other way',
+  fronts: { 'as shown': 'As shown', 'the other way': 'The other way' },
+  film: (front: 'as shown' | 'the other way', frames: number, other: string) =>
+    `In ${frames === 1 ? 'the frame' : `all ${frames} frames`} with both poses it faces as the ${other} does if the front is ${front}.`,
   anterior: 'Anterior',
   superior: 'Superior',
   third: (word: string) => `to the patient’s right: ${word}`,

@@ -1,9 +1,12 @@
 import { describe, expect, it } from 'vitest';
 import { knownAxes, setAxes, withAxes, withFront } from '../../src/document/axes';
-import { setModel, setSide } from '../../src/document/commands';
+import { addFrames, setModel, setSide } from '../../src/document/commands';
+import { bare, takeHandFit } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
 import type { Axes } from '../../src/document/types';
 import { directionsFromWords, wordsOf, type Directions } from '../../src/geometry/axes';
+import type { PoseNumbers } from '../../src/geometry/pose_numbers';
+import { facingByFilm } from '../../src/results/facing';
 import { jointMotion, motionNeeds } from '../../src/results/motion';
 import { axesInWords, axesSentence, namedArrows } from '../../src/results/axes_words';
 
@@ -78,5 +81,39 @@ describe('the joint’s motion', () => {
     expect(knownAxes(both(null, null).components.femur)).toEqual(axes('x y z').directions);
     expect(axesSentence(null, 'femur', 'left', false)).toMatch(/^Without its model the file’s own are taken/);
     expect(jointMotion(both(axes('x y z'), axes('x y z', 'not the front')), () => { throw new Error('not asked'); })).toEqual([]);
+  });
+});
+
+describe('the front by the film', () => {
+  const pose = (yRot: number): PoseNumbers => ({ x: 0, y: 0, z: -1000, zRot: 10, xRot: 3, yRot });
+  const verdict = (word: 'good' | 'doubtful') => ({ word, because: 'a test says so' });
+
+  /** Frames in which the tibia is rotated about its upright by so much against the femur. */
+  const film = (turns: readonly number[], word: 'good' | 'doubtful' = 'good') => {
+    const store = new Store();
+    const ids = turns.map((_, index) => `f${index}`);
+    store.perform(addFrames(ids.map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 10, height: 10 }))));
+    store.amend((doc) => withAxes(withAxes(doc, 'femur', axes('x y z')), 'tibia', axes('x y z', 'not the front')));
+    turns.forEach((turn, index) => {
+      for (const [component, yRot] of [['femur', 5], ['tibia', 5 + turn]] as const) {
+        const place = { frameId: ids[index]!, component };
+        store.perform(takeHandFit(place, { candidate: bare(pose(yRot)), reason: '', verdict: verdict(component === 'tibia' ? word : 'good') }));
+      }
+    });
+    return store.doc;
+  };
+
+  it.each([
+    [[10, -15], { front: 'as shown', frames: 2 }],
+    [[170, 195, 180], { front: 'the other way', frames: 3 }],
+    [[10, 175], null],
+    [[], null],
+  ] as const)('of tibiae that are rotated by %j', (turns, facing) => {
+    expect(facingByFilm(film(turns), 'tibia')).toEqual(facing);
+  });
+
+  it('is not told by doubtful poses, nor where the shape tells it', () => {
+    expect(facingByFilm(film([10], 'doubtful'), 'tibia')).toBeNull();
+    expect(facingByFilm(film([10]), 'femur')).toBeNull();
   });
 });

@@ -52,10 +52,7 @@ fn content_decides_whatever_the_name() {
             b"{\"kind\":\"fluoropose-distortion\",\"version\":1}".to_vec(),
             Kind::Distortion,
         ),
-        (
-            b"name = \"a\"\r\n[[component]]\r\nname = \"femur\"\n".to_vec(),
-            Kind::Study,
-        ),
+        (b"side = 1\r\n[[component]]\r\n".to_vec(), Kind::Study),
         (b"\x1A\x45\xDF\xA3webm".to_vec(), Kind::Video),
         (b"\0\0\0\x20ftypisom\0\0".to_vec(), Kind::Video),
         (b"RIFF\0\0\0\0AVI LIST".to_vec(), Kind::Video),

@@ -71,17 +71,17 @@ function nameSprite(name: string, height: number): Sprite {
   return sprite;
 }
 
-/** Cosine between an arrow and the line of sight from which its name is left out. */
+/** Cosine between an arrow and where the eye looks from which its name is left out. */
 const AT_THE_EYE = 0.94;
 
 export function hideNamesTowards(group: Group, eye: Camera): void {
-  const sight = eye.getWorldDirection(new Vector3());
+  const gaze = eye.getWorldDirection(new Vector3());
   const [middle, tip] = [new Vector3(), new Vector3()];
   for (const part of group.children) {
     if (!(part instanceof Sprite)) continue;
     middle.fromArray(group.userData['middle'] as Vector).applyMatrix4(group.matrix);
     tip.copy(part.position).applyMatrix4(group.matrix);
-    part.visible = Math.abs(tip.sub(middle).normalize().dot(sight)) < AT_THE_EYE;
+    part.visible = Math.abs(tip.sub(middle).normalize().dot(gaze)) < AT_THE_EYE;
   }
 }
 
