@@ -97,3 +97,16 @@ async function tabThrough(page) {
   }
   return reached;
 }
+
+pageTest('a narrow window', async (page, t) => {
+  await panel.openDemonstration(page);
+  for (const width of [1024, 700]) {
+    await step(page, t, `${width} px: nothing lies on what is to be pressed`, async () => {
+      await page.setViewportSize({ width, height: 700 });
+      for (const name of [/^Calibration: /, /^Femur: /, /^Tibia: /, 'Open files', 'Save session', 'Keys and mouse', 'Next frame', 'Log']) {
+        await page.getByRole('button', { name, exact: true }).first().click({ trial: true, timeout: 5000 });
+      }
+      await screenshot(page, `narrow ${width}`);
+    });
+  }
+});

@@ -63,9 +63,10 @@ export function Panel({ state }: { state: State }) {
   );
 }
 
-/** Scores of a closed outline, or models with a pose. */
+/** Scores of a closed outline that may have a pose, or models with one. */
 function isPictured(state: State, cell: Cell): boolean {
-  return cell.outline?.closed === true || COMPONENT_NAMES.some((name) => chosenCandidate(cellHere(state, name)) !== null);
+  const isScored = cell.outline?.closed === true && cell.result?.kind !== 'failed';
+  return isScored || COMPONENT_NAMES.some((name) => chosenCandidate(cellHere(state, name)) !== null);
 }
 
 function dotOf(state: State, name: ComponentName): string {

@@ -27,8 +27,8 @@ export function TopBar({ state }: { state: State }) {
       <div class="bar-buttons">
         <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
         <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
-        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
-          <Icon name="open" /> {texts.top.open}
+        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
+          <Icon name="open" /> <span class="word">{texts.top.open}</span>
         </button>
         <button
           type="button"
@@ -39,7 +39,7 @@ export function TopBar({ state }: { state: State }) {
           aria-expanded={state.ui.popover === 'session'}
           onClick={() => toggle(services.store, 'session')}
         >
-          <Icon name="save" /> {texts.top.save}
+          <Icon name="save" /> <span class="word">{texts.top.save}</span>
         </button>
         <SavedState state={state} />
         {state.ui.update ? (
