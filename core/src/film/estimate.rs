@@ -108,7 +108,7 @@ impl fmt::Display for FilmEstimate {
                 f.write_str("film taken to be linear, because its frames do not tell")?;
             }
             (_, bent) if bent < 0.5 => f.write_str("nearly linear film")?,
-            (_, bent) if bent < 1.5 => f.write_str("film between linear and logarithmic")?,
+            (_, bent) if bent < 1.0 => f.write_str("film between linear and logarithmic")?,
             _ => write!(
                 f,
                 "logarithmic film, {:.0} grey values for a factor of e",
@@ -510,3 +510,6 @@ impl Sums {
 fn product(a: &Residuals, b: &Residuals) -> f64 {
     f64::from(a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>())
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,145 @@
+use super::*;
+use crate::film::lines::{INNER, POINTS, STEP};
+use crate::film::profile::READINGS;
+use std::vec::Vec;
+
+/// Path through a plate of this thickness, mm, with a rounded rim, `inside` pixels from its end; a pixel is 0.34 mm.
+fn path(thickness: f64, inside: f64) -> f64 {
+    let radius = thickness / 2.0;
+    let off = (radius - 0.34 * inside).clamp(0.0, radius);
+    2.0 * libm::sqrt(radius * radius - off * off)
+}
+
+/// Oracle: intensity behind a rim, twenty places to the pixel.
+struct Rim {
+    thickness: f64,
+    attenuation: f64,
+    blur_px: f64,
+}
+
+impl Rim {
+    fn intensity(&self, along: f64) -> f64 {
+        let passed = |along: f64| {
+            let path = path(self.thickness, -along);
+            libm::pow(1.0 + 0.25 * self.attenuation * path, -4.0)
+        };
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for k in -120..=120 {
+            let off = f64::from(k) / 20.0;
+            let weight = libm::exp(-off * off / (2.0 * self.blur_px * self.blur_px));
+            sum += weight * passed(along + off);
+            weights += weight;
+        }
+        // Scattered light, and tissue that is not the same everywhere.
+        0.08 + (0.7 + 0.01 * along) * sum / weights
+    }
+}
+
+/// Profiles of rims of many thicknesses, shown as a display does; where each lies is off by up to a pixel.
+fn profiles(component: u8, attenuation: f64, shown: impl Fn(f64) -> f64) -> Vec<FilmProfile> {
+    let one = |number: usize| {
+        let thickness = 2.0 + 0.17 * (number % 60) as f64;
+        let rim = Rim {
+            thickness,
+            attenuation,
+            blur_px: 1.1,
+        };
+        let off = ((number * 7) % 20) as f64 / 10.0 - 1.0;
+        let grey = |k: usize| shown(rim.intensity(FilmProfile::along(k) - off)) as f32;
+        let mut mean = [0.0; READINGS];
+        mean.iter_mut()
+            .enumerate()
+            .for_each(|(k, mean)| *mean = grey(k));
+        FilmProfile {
+            component,
+            frame: (number / 30) as u16,
+            mean,
+            paths: core::array::from_fn(|k: usize| path(thickness, INNER - STEP * k as f64) as f32),
+            ..FilmProfile::default()
+        }
+    };
+    const _: () = assert!(POINTS == 81);
+    (0..120).map(one).collect()
+}
+
+fn logarithmic(intensity: f64) -> f64 {
+    214.0 + 38.0 * libm::log(intensity)
+}
+
+fn linear(intensity: f64) -> f64 {
+    250.0 * intensity
+}
+
+fn both(first: fn(f64) -> f64, second: fn(f64) -> f64) -> Option<FilmEstimate> {
+    let mut all = profiles(0, 0.7, first);
+    all.extend(profiles(1, 0.2, second));
+    estimate(&mut all, 2)
+}
+
+#[test]
+fn the_constants_of_a_logarithmic_film_are_found() {
+    let film = both(logarithmic, logarithmic).expect("told");
+    let FilmConstants { curvature, blur_px } = film.constants;
+    assert_eq!(film.display, DisplayKnowledge::Told);
+    assert!((38.0 * curvature - 1.0).abs() < 0.15, "{curvature}");
+    assert!((blur_px / 1.1 - 1.0).abs() < 0.08, "{blur_px}");
+    for (found, wanted) in film.attenuation.iter().zip([0.7, 0.2]) {
+        assert!((found / wanted - 1.0).abs() < 0.25, "{found} for {wanted}");
+    }
+    assert!(
+        std::format!("{film}").starts_with("logarithmic film"),
+        "{film}"
+    );
+}
+
+#[test]
+fn the_constants_of_a_linear_film_are_found() {
+    let film = both(linear, linear).expect("told");
+    let FilmConstants { curvature, blur_px } = film.constants;
+    assert!(curvature.abs() < 0.001, "{curvature}");
+    assert!((blur_px / 1.1 - 1.0).abs() < 0.05, "{blur_px}");
+    assert_eq!(std::format!("{film}"), "nearly linear film, blur 1.1 px");
+}
+
+#[test]
+fn components_that_contradict_each_other_leave_the_display_untold() {
+    let film = both(linear, logarithmic).expect("something is told");
+    if film.display == DisplayKnowledge::Told {
+        // Between both: then it must not be curved much.
+        assert!(
+            film.constants.curvature * film.contrast < DOUBTED,
+            "{film:?}"
+        );
+    } else {
+        assert_eq!(film.constants.curvature, 0.0);
+    }
+    // And what is not told is uncertain.
+    let sure = both(logarithmic, logarithmic).expect("told");
+    assert!(
+        film.display == DisplayKnowledge::Told || film.covariance[0][0] > sure.covariance[0][0]
+    );
+}
+
+#[test]
+fn nothing_is_told_by_frames_without_metal_or_by_few_profiles() {
+    let mut flat = profiles(0, 0.7, |_| 90.0);
+    assert_eq!(estimate(&mut flat, 1), None);
+    let mut bright = profiles(0, 0.7, |intensity| 250.0 - linear(intensity));
+    assert_eq!(estimate(&mut bright, 1), None);
+    let mut few = profiles(0, 0.7, linear);
+    assert_eq!(estimate(&mut few[..20], 1), None);
+}
+
+#[test]
+fn a_frame_whose_pose_is_wrong_is_left_out() {
+    let mut all = profiles(0, 0.7, linear);
+    all.extend(profiles(1, 0.2, linear));
+    // Paths that are not those of the profiles.
+    for profile in all.iter_mut().filter(|p| p.component == 1 && p.frame == 2) {
+        profile.paths = core::array::from_fn(|k| if k % 8 < 4 { 9.0 } else { 0.0 });
+    }
+    let film = estimate(&mut all, 2).expect("told");
+    assert!(film.constants.curvature.abs() < 0.001, "{film:?}");
+    let out = all.iter().filter(|profile| !profile.used);
+    assert!(out.clone().count() >= 30 && out.clone().any(|p| p.component == 1 && p.frame == 2));
+}
