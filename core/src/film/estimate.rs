@@ -107,8 +107,8 @@ impl fmt::Display for FilmEstimate {
             (DisplayKnowledge::Untold, _) => {
                 f.write_str("film taken to be linear, because its frames do not tell")?;
             }
-            (_, bent) if bent < 0.5 => f.write_str("nearly linear film")?,
-            (_, bent) if bent < 1.0 => f.write_str("film between linear and logarithmic")?,
+            (_, curved) if curved < 0.5 => f.write_str("nearly linear film")?,
+            (_, curved) if curved < 1.0 => f.write_str("film between linear and logarithmic")?,
             _ => write!(
                 f,
                 "logarithmic film, {:.0} grey values for a factor of e",
@@ -133,7 +133,7 @@ pub fn estimate(profiles: &mut [FilmProfile], components: usize) -> Option<FilmE
         every: 1,
         hold: false,
     };
-    let mut at = fit.from_starts()?;
+    let mut at = fit.begin()?;
     fit.improve(&mut at, 8)?;
     if fit.leave_out_costly(&at) {
         fit.improve(&mut at, 6)?;
@@ -236,7 +236,7 @@ impl Fit<'_> {
     }
 
     /// The best of several curvatures and attenuations, on some of the profiles; between curvatures by a parabola.
-    fn from_starts(&mut self) -> Option<Vector> {
+    fn begin(&mut self) -> Option<Vector> {
         self.every = (self.profiles.len() / FEW).max(1);
         self.hold = true;
         let mut tried: Vec<(f64, Vector), { STARTS.len() }> = Vec::new();
@@ -363,10 +363,10 @@ impl Fit<'_> {
 
     /// Adds what is expected of the unknowns before anything is read.
     fn expect(&self, at: &Vector, sums: &mut Sums) {
-        for k in 0..UNKNOWNS {
+        for (k, value) in at.iter().enumerate() {
             if let Some([mean, deviation]) = Self::expected(k) {
                 let weight = 1.0 / (deviation * deviation);
-                let off = at[k] - mean;
+                let off = value - mean;
                 sums.normal[k][k] += weight;
                 sums.spread[k][k] += weight;
                 sums.right[k] -= weight * off;
@@ -374,12 +374,10 @@ impl Fit<'_> {
             }
         }
         if self.hold {
-            (0..UNKNOWNS).for_each(|k| {
-                sums.normal[k][CURVATURE] = 0.0;
-                sums.normal[CURVATURE][k] = 0.0;
-                sums.spread[k][CURVATURE] = 0.0;
-                sums.spread[CURVATURE][k] = 0.0;
-            });
+            for matrix in [&mut sums.normal, &mut sums.spread] {
+                matrix[CURVATURE] = [0.0; UNKNOWNS];
+                matrix.iter_mut().for_each(|row| row[CURVATURE] = 0.0);
+            }
             sums.right[CURVATURE] = 0.0;
             sums.normal[CURVATURE][CURVATURE] = 1.0;
         } else {
