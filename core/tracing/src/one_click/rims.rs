@@ -14,7 +14,9 @@ use super::state::OneClick;
 use super::support::second_slope;
 use fluoropose::finder::Component;
 use fluoropose::image::mask::{Mask, MaskMut, words_needed};
-use fluoropose::refine::{CameraView, OutlineSample, RefineOptions, outline_samples, refine};
+use fluoropose::refine::{
+    CameraView, OutlineSample, RefineOptions, Refined, outline_samples, refine,
+};
 
 /// A second edge lies at least so far beyond an outline, pixels: nearer it is the first one's own blur.
 const APART: f64 = 3.0;
@@ -31,6 +33,8 @@ const KEPT: f64 = 0.9;
 /// From this part of the outer rim on edges it takes the inner one's place; from the other on, both are open.
 const TAKEN: f64 = 0.75;
 const OPEN: f64 = 0.4;
+/// The loss of a pose that nothing tells from another, as a multiple of the other's.
+const LITTLE_WORSE: f64 = 1.2;
 /// How far from the outer outline its edge may lie, pixels.
 const CLOSE: f64 = 1.5;
 
@@ -93,20 +97,28 @@ impl OneClick {
             return Ok(Beyond::Nothing);
         };
         let scorer = self.scorer(observation, component);
-        let Some(outer) = scorer.onto_frame(&onto.pose, memory)? else {
+        let outer = scorer.onto_frame(&onto.pose, memory)?;
+        let other = |outer: &Answer| {
+            let same = SAME_ANSWER.holds(&outer.refined.pose, &inner.refined.pose, model);
+            !same && outer.support.fraction >= KEPT * inner.support.fraction
+        };
+        let (held, outer) = match outer.filter(other) {
+            Some(outer) => (true, Some(outer)),
+            // The edges of the inner rim, which are stronger, pull the outline back where the wall is thin.
+            None => (false, scorer.answer(unsettled(onto, inner), start, memory)?),
+        };
+        let Some(outer) = outer.filter(other) else {
             return Ok(Beyond::Nothing);
         };
-        let same = SAME_ANSWER.holds(&outer.refined.pose, &inner.refined.pose, model);
-        if same || outer.support.fraction < KEPT * inner.support.fraction {
-            return Ok(Beyond::Nothing);
-        }
         let outer = Answer {
             start: *start,
             mirrored: inner.mirrored,
+            // It explains what the inner one does, and more.
+            score: outer.score.max(inner.score),
             ..outer
         };
         Ok(match self.on_rim(&outer, observation, component, memory)? {
-            Some(part) if part >= TAKEN => Beyond::Taken(outer),
+            Some(part) if part >= TAKEN && held => Beyond::Taken(outer),
             Some(part) if part >= OPEN => Beyond::Open(outer),
             _ => Beyond::Nothing,
         })
@@ -207,6 +219,15 @@ impl OneClick {
         )?;
         let enough: bool = rim >= WORTH * all;
         Ok(enough.then(|| on_edges / f64::max(rim, f64::MIN_POSITIVE)))
+    }
+}
+
+/// A pose on the outer rim that the frame's edges do not hold: it counts as little worse than the inner one, so that nothing
+/// decides between them.
+fn unsettled(onto: Refined, inner: &Answer) -> Refined {
+    Refined {
+        loss: LITTLE_WORSE * inner.refined.loss,
+        ..onto
     }
 }
 

@@ -14,7 +14,7 @@ use fluoropose::image::mask::{Mask, words_needed};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::locate::locate;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, refine};
+use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, Refined, refine};
 
 /// Number of poses that are located for a region.
 const MINIMA: usize = 3;
@@ -155,10 +155,23 @@ impl PoseScorer<'_> {
         let view = CameraView::only(self.observation.camera, target);
         let (model, options) = (self.component.model, RefineOptions::default());
         let refined = refine(model, &[view], pose, options, &mut memory.refine);
-        let Some(refined) = refined.ok().filter(|found| self.is_possible(&found.pose)) else {
+        match refined {
+            Ok(refined) => self.answer(refined, pose, memory),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Scores a refined pose; `None` where it is not possible.
+    pub(super) fn answer(
+        &self,
+        refined: Refined,
+        from: &Pose,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<Option<Answer>, OneClickError> {
+        if !self.is_possible(&refined.pose) {
             return Ok(None);
-        };
-        let how = (CLOSE, self.slope);
+        }
+        let (model, how) = (self.component.model, (CLOSE, self.slope));
         let Ok(support) = support(
             self.observation,
             model,
@@ -172,7 +185,7 @@ impl PoseScorer<'_> {
         let off = (refined.loss / WORST).clamp(0.0, 1.0);
         Ok(Some(Answer {
             refined,
-            start: *pose,
+            start: *from,
             support,
             mirrored: false,
             score: self.prompt.agreement(&drawn) * support.strength * (1.0 - off),

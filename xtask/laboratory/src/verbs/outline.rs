@@ -1,13 +1,13 @@
 //! Verb `outline`: one-click outlines on a study's grey frames, against its masks.
 
+mod known;
 mod picture;
 
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
-use fluoropose::finder::choice::{ChoiceContext, choose};
-use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
+use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
@@ -28,6 +28,7 @@ use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 use crate::options::Pair;
 
 use crate::sequence::{Folders, Source};
+use known::Known;
 
 /// Options of `outline`.
 #[derive(clap::Args)]
@@ -52,6 +53,9 @@ pub struct Args {
     /// The implant is brighter than what surrounds it
     #[arg(long)]
     bright_implant: bool,
+    /// The femoral component's reference poses are known: of a tibia
+    #[arg(long)]
+    femur_known: bool,
     /// Only this kind of prompt
     #[arg(long, value_enum)]
     prompt: Option<Kind>,
@@ -153,6 +157,10 @@ pub fn run(args: Args) -> Result<()> {
     let distance = views.distance_for(&calibration);
     let library = build_library(mesh, source.camera, &views, distance)?;
     let mut trial = Trial {
+        known: match args.femur_known {
+            true => Known::femurs(&study, component)?,
+            false => Known::default(),
+        },
         clicker: Clicker::open(&library.bytes, mesh, source.camera)?,
         references: references(component)?,
         source: &source,
@@ -177,6 +185,7 @@ fn references(component: &Component) -> Result<Vec<Option<Pose>>> {
 }
 
 struct Trial<'t> {
+    known: Known,
     clicker: Clicker<'t>,
     references: Vec<Option<Pose>>,
     source: &'t Source,
@@ -258,7 +267,10 @@ impl Trial<'_> {
                 reference.as_ref(),
             )?;
         }
-        let (chosen, verdict) = chosen(&clicked.candidates).context("there is no candidate")?;
+        let (chosen, verdict) = self
+            .known
+            .chosen(&clicked.candidates, frame)
+            .context("there is no candidate")?;
         let best = &chosen.pose;
         let drawn = draw(&self.mesh, &self.source.camera, best)?;
         if let Some(folder) = &self.args.pictures {
@@ -315,13 +327,6 @@ impl Trial<'_> {
         }
         Ok(())
     }
-}
-
-/// The pose that the finder chooses, and how far it is to be trusted.
-fn chosen(candidates: &[Candidate]) -> Option<(Candidate, Verdict)> {
-    let choice = choose(&contenders(candidates), &ChoiceContext::default())?;
-    let verdict = judge(candidates, &choice, &Limits::USUAL)?;
-    Some((*candidates.get(choice.index)?, verdict))
 }
 
 /// The silhouette of a pose.
