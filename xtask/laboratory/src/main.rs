@@ -20,7 +20,7 @@ enum Verb {
     /// Find one pose in the masks of two calibrated cameras
     Biplane(verbs::biplane::Args),
     /// Measure accuracy on random known poses (the protocol of Walker et al. 1996)
-    Synthetic(verbs::synthetic::Args),
+    Synthetic(Box<verbs::synthetic::Args>),
     /// Tell which implant of a catalogue each mask of a folder is of
     Identify(verbs::identify::Args),
     /// Compare poses from a study's masks with its reference poses
@@ -57,7 +57,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Library(args) => verbs::library::run(args),
         Verb::Pose(args) => verbs::pose::run(args),
         Verb::Biplane(args) => verbs::biplane::run(args),
-        Verb::Synthetic(args) => verbs::synthetic::run(args),
+        Verb::Synthetic(args) => verbs::synthetic::run(*args),
         Verb::Identify(args) => verbs::identify::run(args),
         Verb::Evaluate(args) => verbs::evaluate::run(args),
         Verb::Track(args) => verbs::track::run(args),
