@@ -26,6 +26,8 @@ const BEYOND: f64 = 0.12;
 const STEP: f64 = 0.5;
 /// A rim is thin and its edge faint: it counts from this fraction of the slope of an edge of metal.
 const FAINT: f64 = 0.12;
+/// Between the edges the slope falls to this fraction of the second one's at most.
+const VALLEY: f64 = 0.6;
 /// The least part of an outline that has a second edge for an outer rim to be looked for.
 const WORTH: f64 = 0.08;
 /// The outer pose must keep this part of the edges that the inner one lies on.
@@ -162,24 +164,30 @@ impl OneClick {
         Ok(moved_length / f64::max(length, f64::MIN_POSITIVE))
     }
 
-    /// How far beyond a sample its second edge lies, pixels.
+    /// How far beyond a sample its second edge lies, pixels: the strongest slope that falls off towards the first edge, so that
+    /// the foot of a blurred first edge is none.
     fn second_edge(
         &self,
         observation: &Observation<'_>,
         sample: &OutlineSample,
         reach: f64,
     ) -> Option<f64> {
-        let least = FAINT * self.slope;
-        let steps = ((reach - APART) / STEP) as usize;
-        let at = |k: usize| APART + STEP * k as f64;
-        let slopes = (0..=steps).filter_map(|k| {
-            let slope = second_slope(observation, sample, at(k))?;
-            (slope >= least).then_some((at(k), slope))
-        });
-        let best = slopes.max_by(|a, b| a.1.total_cmp(&b.1));
+        let slope = |k: usize| second_slope(observation, sample, STEP * k as f64);
+        let (mut best, mut valley) = (None, f64::INFINITY);
+        let (mut before, mut here) = (slope(0)?, slope(1)?);
         // Still rising at the end, it is something farther away.
+        for k in 1..(reach / STEP) as usize {
+            let after = slope(k + 1)?;
+            let (place, is_peak) = (STEP * k as f64, here > before && here >= after);
+            let stands_out = here >= FAINT * self.slope && here * VALLEY >= valley;
+            let is_better = best.is_none_or(|(_, other)| here > other);
+            if place >= APART && is_peak && stands_out && is_better {
+                best = Some((place, here));
+            }
+            valley = valley.min(here);
+            (before, here) = (here, after);
+        }
         best.map(|(place, _)| place)
-            .filter(|place| place + STEP < reach)
     }
 
     /// The part of an outer outline, where it lies outside of the inner silhouette, that lies on edges; `None` where hardly
@@ -209,16 +217,22 @@ impl OneClick {
                     return;
                 }
                 rim += sample.length;
-                let steps = (CLOSE / STEP) as i32;
-                let near = (-steps..=steps)
-                    .filter_map(|k| second_slope(observation, sample, STEP * f64::from(k)));
-                if near.fold(0.0, f64::max) >= FAINT * self.slope {
+                if self.is_on_edge(observation, sample) {
                     on_edges += sample.length;
                 }
             },
         )?;
         let enough: bool = rim >= WORTH * all;
         Ok(enough.then(|| on_edges / f64::max(rim, f64::MIN_POSITIVE)))
+    }
+
+    /// Whether a sample lies on an edge of its own, not on the foot of one farther in.
+    fn is_on_edge(&self, observation: &Observation<'_>, sample: &OutlineSample) -> bool {
+        let steps = (CLOSE / STEP) as i32;
+        let slope = |k: i32| second_slope(observation, sample, STEP * f64::from(k));
+        let near = (-steps..=steps).filter_map(|k| Some((k, slope(k)?)));
+        let best = near.max_by(|a, b| a.1.total_cmp(&b.1));
+        best.is_some_and(|(k, slope)| k > -steps && slope >= FAINT * self.slope)
     }
 }
 
