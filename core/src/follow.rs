@@ -12,6 +12,7 @@ mod frame_pose;
 mod look;
 mod motion;
 mod near;
+mod settle;
 mod sides;
 mod state;
 mod trail;
@@ -22,6 +23,7 @@ pub use frame_pose::{FramePose, From, Subject, frame_pose_at, mirrored_pose, ref
 pub use look::{Looked, Missing, look};
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
+pub use settle::settled;
 pub use sides::{Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use trail::{Trail, Usual};

@@ -18,11 +18,7 @@ const PROFILES: usize = 96;
 
 /// Estimates the constants from the anchors and the frames beside them, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
-pub(super) fn learn_film(
-    run: &Run<'_>,
-    parts: &[Part<'_>],
-    anchors: &[Vec<Anchor>],
-) -> Result<()> {
+pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Anchor>]) -> Result<()> {
     let films = run.journal.step("film", || {
         let mut profiles = Vec::new();
         for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {

@@ -107,7 +107,10 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     inputs.update(read(&study.calibration)?);
     for (model, component) in models.iter().zip(&study.components) {
         inputs.update(model.as_model().digest());
-        inputs.update(format!("{:?}{:?}", component.nominal, component.distance_mm));
+        inputs.update(format!(
+            "{:?}{:?}",
+            component.nominal, component.distance_mm
+        ));
     }
     inputs.update([u8::from(request.bright_implant)]);
     let digest: [u8; 32] = inputs.finalize().into();
@@ -166,7 +169,9 @@ fn on_the_right_sides(
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| !is_tibia(part)) {
         margins[number] = settle(run, part, None, &mut films[number])?;
     }
-    let femur = parts.iter().position(|part| part.role() == Some(Role::Femur));
+    let femur = parts
+        .iter()
+        .position(|part| part.role() == Some(Role::Femur));
     let femurs: Option<Vec<Option<Pose>>> = femur.and_then(|number| {
         let axes = parts[number].axes?;
         let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&axes));

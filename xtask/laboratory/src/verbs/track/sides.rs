@@ -140,11 +140,7 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>
     Ok(samples.into_iter().flatten().collect())
 }
 
-fn evidence(
-    part: &Part<'_>,
-    sample: &Sample,
-    femurs: Option<&[Option<Pose>]>,
-) -> SideEvidence {
+fn evidence(part: &Part<'_>, sample: &Sample, femurs: Option<&[Option<Pose>]>) -> SideEvidence {
     let femur = femurs.and_then(|femurs| femurs.get(sample.frame).copied().flatten());
     let tilt = |pose: &Pose| {
         let (femur, axes) = (femur?, part.axes?);
