@@ -5,7 +5,7 @@
 
 use heapless::Vec;
 
-use super::frame_pose::Subject;
+use super::subject::Subject;
 use crate::image::profile::grey_across;
 use crate::pose::Pose;
 use crate::refine::{

@@ -1,30 +1,15 @@
 //! A pose in a frame, with what the frame says of it.
 
 use super::contrast::{Contrast, contrast};
-use crate::camera::Camera;
+use super::subject::Subject;
 use crate::math::sqrt;
-use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
-use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
     assess, correct, fit_at, refine,
 };
-
-/// A component that is followed, the camera that sees it, and how poses are refined.
-#[derive(Clone, Copy, Debug)]
-pub struct Subject<'s> {
-    /// The model.
-    pub model: &'s Model<'s>,
-    /// Its planes of near-symmetry.
-    pub planes: &'s [SymmetryPlane],
-    /// The camera.
-    pub camera: &'s Camera,
-    /// How poses are refined.
-    pub options: RefineOptions,
-}
 
 /// A pose in a frame, with what the frame says of it.
 #[derive(Clone, Copy, Debug, PartialEq)]

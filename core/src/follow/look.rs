@@ -1,8 +1,9 @@
 //! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
 
-use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_on_frame};
 use super::motion::Expected;
 use super::near::near_poses;
+use super::subject::Subject;
 use super::trail::{Trail, Usual, apart};
 use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, scale};

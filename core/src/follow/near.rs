@@ -3,7 +3,7 @@
 
 use heapless::Vec;
 
-use super::frame_pose::Subject;
+use super::subject::Subject;
 use crate::finder::nearby::about;
 use crate::image::profile::grey_across;
 use crate::math::{norm, radians, scale, sin_cos};

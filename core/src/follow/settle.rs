@@ -1,9 +1,10 @@
 //! A pose that was found without knowing the film, settled with its constants: the best of what it and those around it lead
 //! to.
 
-use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_on_frame};
 use super::look::beside;
 use super::near::near_poses;
+use super::subject::Subject;
 use super::trail::Usual;
 use crate::refine::{ImageTarget, RefineMemory};
 

@@ -4,9 +4,9 @@ use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{FramePose, frame_pose_at, settled};
 use fluoropose::pose::Pose;
 
-use super::film::Run;
 use super::follow::{Anchor, Cell, follow};
 use super::part::Part;
+use super::run::Run;
 use super::search::{clicked, searched};
 use crate::files::read_poses;
 
@@ -76,7 +76,7 @@ fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
 }
 
 fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {
-    let found = part.see(&run.film, frame, |subject, image, memory| {
+    let found = part.see(run.film, frame, |subject, image, memory| {
         frame_pose_at(subject, image, pose, memory)
     })?;
     Ok(Anchor {
@@ -122,7 +122,7 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         }
         let key = format!("again/{}/{}", part.number, anchor.mark());
         let found: Option<FramePose> = run.journal.step(&key, || {
-            part.see(&run.film, frame, |subject, image, memory| {
+            part.see(run.film, frame, |subject, image, memory| {
                 Some(settled(subject, image, &anchor.found, memory))
             })
         })?;

@@ -5,10 +5,10 @@ use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmProfile, estimate};
 use fluoropose::refine::film_profiles;
 
-use super::film::Run;
 use super::follow::{Anchor, beside};
 use super::part::Part;
 use super::record::Films;
+use super::run::Run;
 
 /// Anchors of a component that are looked at, and frames to each side of them.
 const ANCHORS: usize = 3;
@@ -26,7 +26,7 @@ pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Ancho
                 for (frame, pose) in beside(run, part, anchor, BESIDE)? {
                     let names = (number as u8, frame as u16);
                     let mut read = vec![FilmProfile::default(); PROFILES];
-                    let count = part.see(&run.film, frame, |subject, image, memory| {
+                    let count = part.see(run.film, frame, |subject, image, memory| {
                         let (model, camera) = (subject.model, subject.camera);
                         film_profiles(model, camera, &pose, image, names, memory, &mut read)
                     })?;

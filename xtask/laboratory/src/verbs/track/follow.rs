@@ -5,9 +5,9 @@ use fluoropose::follow::{FramePose, Looked, Trail, look};
 use fluoropose::pose::{Pose, geodesic_deg};
 use sha2::{Digest, Sha256};
 
-use super::film::Run;
 use super::part::Part;
 use super::record::Record;
+use super::run::Run;
 
 /// A trail ends after so many frames without a pose: whole frames are searched from there on.
 const GIVE_UP: usize = 12;
@@ -178,7 +178,7 @@ impl Walk<'_, '_> {
             );
             let looked: Looked = self.run.journal.step(&key, || {
                 self.part
-                    .see(&self.run.film, frame, |subject, image, memory| {
+                    .see(self.run.film, frame, |subject, image, memory| {
                         look(subject, image, frame, trail, memory)
                     })
             })?;

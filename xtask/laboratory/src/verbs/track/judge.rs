@@ -97,12 +97,11 @@ fn fill_gaps(part: &Part<'_>, judged: &mut [Judged], longest: usize) {
             && trusted(&judged[at])
             && trusted(&judged[end])
         {
-            for k in at + 1..end {
-                let fraction = (k - at) as f64 / (end - at) as f64;
-                judged[k].pose = Some(between(&from, &to, fraction, &part.middle()));
-                judged[k].state = State::Interpolated;
-                judged[k].because =
-                    format!("taken from the frames on both sides; {}", judged[k].because);
+            for (k, one) in judged[at + 1..end].iter_mut().enumerate() {
+                let fraction = (k + 1) as f64 / (end - at) as f64;
+                one.pose = Some(between(&from, &to, fraction, &part.middle()));
+                one.state = State::Interpolated;
+                one.because = format!("taken from the frames on both sides; {}", one.because);
             }
         }
         at = end;

@@ -8,8 +8,8 @@ use fluoropose::library::Library;
 use fluoropose_tracing::one_click::{Answer, OneClick, Progress, Prompt};
 use fluoropose_tracing::seeds::{expected_size, seeds, seeds_needed};
 
-use super::film::Run;
 use super::part::Part;
+use super::run::Run;
 use crate::files::grey;
 use crate::finding::Clicker;
 
@@ -150,7 +150,7 @@ fn best(
     frame: usize,
     answers: &[Answer],
 ) -> Result<Option<FramePose>> {
-    part.see(&run.film, frame, |subject, image, memory| {
+    part.see(run.film, frame, |subject, image, memory| {
         let mut best: Option<FramePose> = None;
         for answer in answers.iter().take(ANSWERS) {
             let start = (&answer.refined.pose, From::Far);
