@@ -5,7 +5,7 @@
 
 use heapless::Vec;
 
-use super::frame_pose::Subject;
+use super::subject::Subject;
 use crate::image::profile::grey_across;
 use crate::pose::Pose;
 use crate::refine::{
@@ -16,7 +16,7 @@ use crate::refine::{
 const READINGS: [f64; 3] = [2.0, 3.0, 4.0];
 /// Samples that are kept of an outline; of a longer one every second, every fourth and so on.
 const SAMPLES: usize = 512;
-/// The step that counts as a full one is exceeded along this part of the outline.
+/// A full step is exceeded along this part of the outline: where another leg passes, all steps are smaller.
 const FULL: f64 = 0.25;
 
 /// The step of grey values along an outline.
@@ -24,15 +24,14 @@ const FULL: f64 = 0.25;
 pub struct Contrast {
     /// Step that is exceeded along a quarter of the outline, grey values, positive where metal is inside.
     pub step: f64,
-    /// Mean of the steps, each divided by the usual one and cut to 0..1: 0 where nothing lies on an edge of metal, 1 where
+    /// Mean of the steps, each divided by that one and cut to 0..1: 0 where nothing lies on an edge of metal, 1 where
     /// everything lies on a full one.
     pub strength: f64,
     /// Part of the outline of which the frame says anything.
     pub known: f64,
 }
 
-/// Measures the step along the outline of the model at a pose. `usual` is the step of a full edge; without it, that of the
-/// outline itself.
+/// Measures the step along the outline of the model at a pose.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn at the pose.
@@ -40,7 +39,6 @@ pub fn contrast(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     pose: &Pose,
-    usual: Option<f64>,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Contrast, RefineError> {
     let mut steps: Vec<f64, SAMPLES> = Vec::new();
@@ -65,7 +63,7 @@ pub fn contrast(
     steps.sort_unstable_by(f64::total_cmp);
     let at = ((1.0 - FULL) * steps.len() as f64) as usize;
     let step = steps.get(at).copied().unwrap_or(0.0);
-    let full = usual.unwrap_or(step).max(f64::MIN_POSITIVE);
+    let full = step.max(f64::MIN_POSITIVE);
     let sum: f64 = steps.iter().map(|step| (step / full).clamp(0.0, 1.0)).sum();
     Ok(Contrast {
         step,

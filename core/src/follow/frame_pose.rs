@@ -1,30 +1,15 @@
 //! A pose in a frame, with what the frame says of it.
 
 use super::contrast::{Contrast, contrast};
-use crate::camera::Camera;
+use super::subject::Subject;
 use crate::math::sqrt;
-use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
-use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined, assess,
-    correct, fit_at, refine,
+    CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
+    assess, correct, fit_at, refine,
 };
-
-/// A component that is followed, the camera that sees it, and how poses are refined.
-#[derive(Clone, Copy, Debug)]
-pub struct Subject<'s> {
-    /// The model.
-    pub model: &'s Model<'s>,
-    /// Its planes of near-symmetry.
-    pub planes: &'s [SymmetryPlane],
-    /// The camera.
-    pub camera: &'s Camera,
-    /// How poses are refined.
-    pub options: RefineOptions,
-}
 
 /// A pose in a frame, with what the frame says of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,7 +51,7 @@ pub enum From {
     Far,
 }
 
-/// The pose that refinement on the frame makes of a start. `step` is the usual step of grey values, where it is known.
+/// The pose that refinement on the frame makes of a start.
 ///
 /// # Errors
 /// Those of [`refine`].
@@ -74,7 +59,6 @@ pub fn refined_on_frame(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     (start, from): (&Pose, From),
-    step: Option<f64>,
     memory: &mut RefineMemory<'_>,
 ) -> Result<FramePose, RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
@@ -97,7 +81,7 @@ pub fn refined_on_frame(
         covariance: assessment.covariance,
         fit: assessment.fit,
         misfit_px: sqrt(2.0 * refined.loss),
-        contrast: contrast(subject, image, &refined.pose, step, memory)?,
+        contrast: contrast(subject, image, &refined.pose, memory)?,
     })
 }
 
@@ -122,7 +106,6 @@ pub fn frame_pose_at(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
     pose: &Pose,
-    step: Option<f64>,
     memory: &mut RefineMemory<'_>,
 ) -> Result<FramePose, RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
@@ -132,7 +115,7 @@ pub fn frame_pose_at(
         covariance: None,
         fit,
         misfit_px: fit.misfit_px,
-        contrast: contrast(subject, image, pose, step, memory)?,
+        contrast: contrast(subject, image, pose, memory)?,
     })
 }
 
@@ -147,8 +130,7 @@ pub fn mirrored_pose(
     let mut best: Option<FramePose> = None;
     for plane in subject.planes {
         let start = mirror_pose(&own.pose, plane);
-        let step = Some(own.contrast.step);
-        let found = refined_on_frame(subject, image, (&start, From::Far), step, memory);
+        let found = refined_on_frame(subject, image, (&start, From::Far), memory);
         let Ok(found) = found else { continue };
         let apart = geodesic_deg(&found.pose.rotation, &own.pose.rotation) > SAME_DEG;
         if apart && best.is_none_or(|best| found.score() > best.score()) {

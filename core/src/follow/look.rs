@@ -1,8 +1,9 @@
 //! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
 
-use super::frame_pose::{FramePose, From, Subject, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_on_frame};
 use super::motion::Expected;
 use super::near::near_poses;
+use super::subject::Subject;
 use super::trail::{Trail, Usual, apart};
 use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, scale};
@@ -14,6 +15,8 @@ use crate::refine::{ImageTarget, RefineMemory};
 const ORDINARY: [f64; 3] = [1.35, 0.15, 0.85];
 /// Poses that are believed at all, the same.
 const BELIEVED: [f64; 3] = [2.0, 0.3, 0.6];
+/// Least step of grey values, in usual ones: less is noise, or another thing.
+const LEAST_STEP: f64 = 0.1;
 /// Least part of the outline that must be in the frame and not hidden.
 const LEAST_KNOWN: f64 = 0.5;
 /// Beside an expected pose the way is tried again from so far, degrees out of the plane and part of the distance.
@@ -82,7 +85,6 @@ struct Search<'s> {
 
 impl Search<'_> {
     fn run(&self, missed: usize, memory: &mut RefineMemory<'_>) -> Looked {
-        let step = self.usual.step;
         let known = in_frame(self.subject, &self.expected.pose);
         if known < LEAST_KNOWN {
             return self.nothing(Missing::Outside, known);
@@ -94,7 +96,7 @@ impl Search<'_> {
             if from == From::Far && image.film.is_none() {
                 break;
             }
-            let found = refined_on_frame(subject, image, (start, from), Some(step), memory).ok();
+            let found = refined_on_frame(subject, image, (start, from), memory).ok();
             if let Some(found) = found.filter(|found| self.is_ordinary(found)) {
                 return Looked {
                     found: Ok(found),
@@ -137,14 +139,14 @@ impl Search<'_> {
         let (subject, image, step) = (self.subject, self.image, self.usual.step);
         let starts = near_poses(subject, image, &self.expected.pose, reach, step, memory);
         let mut best = first;
-        for start in beside(&self.expected.pose, &self.middle) {
+        for start in beside(&self.expected.pose, &self.middle, BESIDE_PART) {
             let from = (&start, From::Near);
-            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            let found = refined_on_frame(subject, image, from, memory).ok();
             best = self.better(best, found);
         }
         for start in starts.unwrap_or_default().iter().take(REFINED) {
             let from = (start, From::Far);
-            let found = refined_on_frame(subject, image, from, Some(step), memory).ok();
+            let found = refined_on_frame(subject, image, from, memory).ok();
             best = self.better(best, found);
         }
         best
@@ -188,12 +190,13 @@ impl Search<'_> {
     fn fits(&self, found: &FramePose, [times, more, part]: [f64; 3]) -> bool {
         found.misfit_px <= times * self.usual.misfit_px + more
             && found.contrast.strength >= part * self.usual.strength
+            && found.contrast.step >= LEAST_STEP * self.usual.step
             && found.fit.known >= LEAST_KNOWN
     }
 }
 
 /// Poses a little turned out of the image plane, and a little nearer and farther.
-fn beside(pose: &Pose, middle: &Vector3) -> [Pose; 6] {
+pub(super) fn beside(pose: &Pose, middle: &Vector3, part: f64) -> [Pose; 6] {
     let centre = pose.transform(middle);
     let turned = |x: f64, y: f64| about(middle, pose, &[radians(x), radians(y), 0.0], [0.0; 3]);
     let moved = |part: f64| about(middle, pose, &[0.0; 3], scale(&centre, part));
@@ -202,8 +205,8 @@ fn beside(pose: &Pose, middle: &Vector3) -> [Pose; 6] {
         turned(-BESIDE_DEG, 0.0),
         turned(0.0, BESIDE_DEG),
         turned(0.0, -BESIDE_DEG),
-        moved(BESIDE_PART),
-        moved(-BESIDE_PART),
+        moved(part),
+        moved(-part),
     ]
 }
 
@@ -218,9 +221,8 @@ fn in_frame(subject: &Subject<'_>, pose: &Pose) -> f64 {
             continue;
         };
         let within = |at: f64, side: usize| (0.0..side as f64).contains(&at);
-        inside += usize::from(
-            within(place.column, camera.width()) && within(place.row, camera.height()),
-        );
+        inside +=
+            usize::from(within(place.column, camera.width()) && within(place.row, camera.height()));
     }
     inside as f64 / all.max(1) as f64
 }

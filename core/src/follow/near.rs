@@ -3,12 +3,14 @@
 
 use heapless::Vec;
 
-use super::frame_pose::Subject;
+use super::subject::Subject;
 use crate::finder::nearby::about;
 use crate::image::profile::grey_across;
 use crate::math::{norm, radians, scale, sin_cos};
 use crate::pose::Pose;
-use crate::refine::{ImageTarget, OutlineSample, Polarity, RefineError, RefineMemory, outline_samples};
+use crate::refine::{
+    ImageTarget, OutlineSample, Polarity, RefineError, RefineMemory, outline_samples,
+};
 use crate::shortlist::keep;
 
 /// Most poses that are kept.
@@ -71,7 +73,10 @@ pub fn near_poses(
             sliding.slide([x, y], reach_px, &mut best);
         }
     }
-    Ok(best.iter().map(|place| place.pose(subject, expected)).collect())
+    Ok(best
+        .iter()
+        .map(|place| place.pose(subject, expected))
+        .collect())
 }
 
 impl Place {
@@ -85,7 +90,12 @@ impl Place {
         let [fx, fy] = subject.camera.focal();
         let [right, down] = self.shift;
         let depth = -centre[2];
-        about(&middle, &pose, &turn, [right * depth / fx, -down * depth / fy, 0.0])
+        about(
+            &middle,
+            &pose,
+            &turn,
+            [right * depth / fx, -down * depth / fy, 0.0],
+        )
     }
 }
 
@@ -147,12 +157,22 @@ impl Sliding<'_> {
     fn slide(&self, out: [f64; 2], reach_px: f64, best: &mut Vec<Place, NEAR>) {
         let steps = (reach_px / STEP_PX) as i32;
         for turns in -TURNS..=TURNS {
-            let turned = self.outline.turned(radians(IN_PLANE_DEG * f64::from(turns)));
+            let turned = self
+                .outline
+                .turned(radians(IN_PLANE_DEG * f64::from(turns)));
             for down in -steps..=steps {
                 for right in -steps..=steps {
                     let shift = [right, down].map(|k| STEP_PX * f64::from(k));
                     if let Some(score) = self.score(&turned, shift) {
-                        insert(best, Place { score, out, turns, shift });
+                        insert(
+                            best,
+                            Place {
+                                score,
+                                out,
+                                turns,
+                                shift,
+                            },
+                        );
                     }
                 }
             }
@@ -187,7 +207,10 @@ fn insert(best: &mut Vec<Place, NEAR>, place: Place) {
         let turned = (other.turns - place.turns).abs() < SAME_TURNS;
         near(0) && near(1) && turned && other.out == place.out
     };
-    if best.iter().any(|other| same(other) && other.score >= place.score) {
+    if best
+        .iter()
+        .any(|other| same(other) && other.score >= place.score)
+    {
         return;
     }
     best.retain(|other| !same(other));

@@ -46,9 +46,8 @@ pub struct SideStep {
     pub side: Side,
     /// By how much the other side costs more: 1 is what a frame says that decides by itself.
     pub margin: f64,
+    /// Least cost of the frames so far that ends on either side.
     costs: [f64; 2],
-    rest: [f64; 2],
-    from: [u8; 2],
 }
 
 /// Both sides are one where they are nearer to each other than this, degrees: a trail may go over there.
@@ -77,60 +76,54 @@ impl SideEvidence {
         };
         tilt.clamp(-1.0, 1.0) + HINT * residual
     }
+
+    /// What either side costs.
+    fn costs(&self) -> [f64; 2] {
+        let own = self.for_own();
+        [(-own).max(0.0), own.max(0.0)]
+    }
+
+    /// What it costs to go over to the other side on the way to the next frame.
+    fn to(&self, next: &Self) -> f64 {
+        let [meeting, apart] = GO_OVER;
+        match self.apart_deg.min(next.apart_deg) < ONE_DEG {
+            true => meeting,
+            false => apart,
+        }
+    }
 }
 
 /// Chooses a side for each frame of a trail that was looked at from both; they come in the order of their frames.
-/// Frames without a step are left out where `steps` are fewer.
+/// Frames for which there is no step are left out.
 pub fn choose_sides(evidence: &[SideEvidence], steps: &mut [SideStep]) {
     let count = evidence.len().min(steps.len());
     let (evidence, steps) = (&evidence[..count], &mut steps[..count]);
     for at in 0..count {
-        let own = evidence[at].for_own();
-        let cost = [(-own).max(0.0), own.max(0.0)];
-        steps[at] = SideStep::default();
-        for side in 0..2 {
-            let led = at.checked_sub(1).map(|last| {
-                let ways = [0, 1].map(|from| {
-                    steps[last].costs[from] + go_over(&evidence[last], &evidence[at], from, side)
-                });
-                u8::from(ways[1] < ways[0])
-            });
-            let led_cost = match (led, at.checked_sub(1)) {
-                (Some(from), Some(last)) => {
-                    let from = usize::from(from);
-                    steps[last].costs[from] + go_over(&evidence[last], &evidence[at], from, side)
-                }
-                _ => 0.0,
-            };
-            steps[at].from[side] = led.unwrap_or(side as u8);
-            steps[at].costs[side] = led_cost + cost[side];
-        }
+        let own = evidence[at].costs();
+        let led = at.checked_sub(1).map(|last| {
+            let (before, go_over) = (steps[last].costs, evidence[last].to(&evidence[at]));
+            [0, 1].map(|to: usize| before[to].min(before[1 - to] + go_over))
+        });
+        let led = led.unwrap_or_default();
+        steps[at] = SideStep {
+            costs: [0, 1].map(|side: usize| led[side] + own[side]),
+            ..SideStep::default()
+        };
     }
+    let mut rest = [0.0; 2];
     for at in (0..count).rev() {
-        if at + 1 < count {
-            let next = steps[at + 1];
-            let own = evidence[at + 1].for_own();
-            let cost = [(-own).max(0.0), own.max(0.0)];
-            steps[at].rest = [0, 1].map(|side| {
-                let way = |to: usize| {
-                    next.rest[to] + cost[to] + go_over(&evidence[at], &evidence[at + 1], side, to)
-                };
-                way(0).min(way(1))
-            });
+        if let Some(next) = evidence.get(at + 1) {
+            let (own, go_over) = (next.costs(), evidence[at].to(next));
+            let from = [0, 1].map(|side: usize| rest[side] + own[side]);
+            rest = [0, 1].map(|side: usize| from[side].min(from[1 - side] + go_over));
         }
-        let whole = [0, 1].map(|side| steps[at].costs[side] + steps[at].rest[side]);
-        let mirrored = whole[1] < whole[0];
-        steps[at].side = if mirrored { Side::Mirrored } else { Side::Own };
-        steps[at].margin = (whole[0] - whole[1]).abs();
-    }
-}
-
-fn go_over(a: &SideEvidence, b: &SideEvidence, from: usize, to: usize) -> f64 {
-    let [meeting, apart] = GO_OVER;
-    match from == to {
-        true => 0.0,
-        false if a.apart_deg.min(b.apart_deg) < ONE_DEG => meeting,
-        false => apart,
+        let step = &mut steps[at];
+        let [own, mirrored] = [0, 1].map(|side: usize| step.costs[side] + rest[side]);
+        step.side = match mirrored < own {
+            true => Side::Mirrored,
+            false => Side::Own,
+        };
+        step.margin = (own - mirrored).abs();
     }
 }
 

@@ -126,13 +126,23 @@ impl Trail {
         let mut errors: heapless::Vec<f64, ERRORS> =
             self.errors.iter().map(|error| error[which]).collect();
         errors.sort_unstable_by(f64::total_cmp);
-        let first = if self.before.is_none() { FIRST[which] } else { 0.0 };
+        let first = if self.before.is_none() {
+            FIRST[which]
+        } else {
+            0.0
+        };
         let median = errors.get(errors.len() / 2).copied().unwrap_or(0.0);
         (TIMES * median).max(LEAST[which]).max(first) * away.max(1) as f64
     }
 
     /// Takes what was found in a frame, `None` where nothing was. `ordinary` tells whether what is usual may learn from it.
-    pub fn take(&mut self, frame: usize, found: Option<&FramePose>, ordinary: bool, middle: &Vector3) {
+    pub fn take(
+        &mut self,
+        frame: usize,
+        found: Option<&FramePose>,
+        ordinary: bool,
+        middle: &Vector3,
+    ) {
         let Some(found) = found else {
             self.missed += 1;
             return;
@@ -142,7 +152,9 @@ impl Trail {
             self.errors.pop_front();
         }
         // There is room.
-        let _ = self.errors.push_back(apart(&expected.pose, &found.pose, middle));
+        let _ = self
+            .errors
+            .push_back(apart(&expected.pose, &found.pose, middle));
         // A long gap tells nothing of the motion beside it.
         let near = frame.abs_diff(self.last.frame) <= PATIENCE;
         self.before = near.then_some(self.last);

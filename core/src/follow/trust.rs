@@ -124,7 +124,10 @@ impl fmt::Display for Distrust {
             ),
             Self::Faint(part) => {
                 let percent = 100.0 * part;
-                write!(f, "its edges have {percent:.0} % of the strength that is usual in this film")
+                write!(
+                    f,
+                    "its edges have {percent:.0} % of the strength that is usual in this film"
+                )
             }
             Self::Apart(px, usual_px) => write!(
                 f,
@@ -136,7 +139,10 @@ impl fmt::Display for Distrust {
             }
             Self::Cut(part) => {
                 let percent = 100.0 * part;
-                write!(f, "only {percent:.0} % of the outline is in the frame and not hidden")
+                write!(
+                    f,
+                    "only {percent:.0} % of the outline is in the frame and not hidden"
+                )
             }
             Self::Undetermined(deg) => write!(
                 f,
@@ -236,7 +242,11 @@ fn judge(
         }
     };
     if let Some(margin) = one.side_margin {
-        let open = if margin < limits.side { 2.0 - margin } else { 0.0 };
+        let open = if margin < limits.side {
+            2.0 - margin
+        } else {
+            0.0
+        };
         weigh(open, Distrust::Side);
     }
     if let Some(other) = &one.other_way {

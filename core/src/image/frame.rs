@@ -258,10 +258,8 @@ impl<P: Pixel> Frame<'_, P> {
         let (column, row) = (column - 0.5, row - 0.5);
         let last = |side: usize| side as f64 - 1.0;
         // A NaN is in no range.
-        let inside = column >= 0.0
-            && row >= 0.0
-            && column <= last(self.width)
-            && row <= last(self.height);
+        let inside =
+            column >= 0.0 && row >= 0.0 && column <= last(self.width) && row <= last(self.height);
         if !inside {
             return None;
         }
@@ -269,7 +267,11 @@ impl<P: Pixel> Frame<'_, P> {
         let (right, down) = (column - left as f64, row - above as f64);
         // Beyond the last pixel stands that pixel again; it counts for nothing there.
         let next = usize::from(left + 1 < self.width);
-        let below = if above + 1 < self.height { self.stride } else { 0 };
+        let below = if above + 1 < self.height {
+            self.stride
+        } else {
+            0
+        };
         let first = above * self.stride + left;
         let value = |place: usize| {
             let value: u32 = (*self.pixels.get(place)?).into();

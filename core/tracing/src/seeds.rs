@@ -109,7 +109,12 @@ struct Table<'m> {
 }
 
 impl<'m> Table<'m> {
-    fn of(frame: &dyn Grey, (columns, rows): (usize, usize), cell: f64, sums: &'m mut [f64]) -> Self {
+    fn of(
+        frame: &dyn Grey,
+        (columns, rows): (usize, usize),
+        cell: f64,
+        sums: &'m mut [f64],
+    ) -> Self {
         let width = columns + 1;
         sums[..width].fill(0.0);
         for row in 0..rows {
@@ -149,8 +154,8 @@ impl<'m> Table<'m> {
                 })
             };
             let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
-            // There is a place for each direction.
-            let _ = most.map(|most| least.push(most));
+            // There is a place for each direction. Where the frame ends it may be as dark.
+            let _ = least.push(most.unwrap_or(0.0));
         }
         least.sort_unstable_by(f64::total_cmp);
         least.get(AS_DARK).copied().unwrap_or(0.0)
@@ -158,7 +163,10 @@ impl<'m> Table<'m> {
 
     /// The mean of a box of cells around one, as far as it lies in the frame.
     fn mean(&self, column: usize, row: usize, half: usize) -> f64 {
-        let (left, right) = (column.saturating_sub(half), (column + half + 1).min(self.columns));
+        let (left, right) = (
+            column.saturating_sub(half),
+            (column + half + 1).min(self.columns),
+        );
         let (top, bottom) = (row.saturating_sub(half), (row + half + 1).min(self.rows));
         let at = |column: usize, row: usize| self.sums[row * (self.columns + 1) + column];
         let sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
@@ -205,7 +213,11 @@ mod tests {
                 let (column, row) = ((k % SIDE) as f64, (k / SIDE) as f64);
                 let near = |[x, y]: [f64; 2]| libm::hypot(column - x, row - y) < 14.0;
                 let shade = 120.0 + 0.4 * column;
-                (if middles.into_iter().any(near) { shade - 60.0 } else { shade }) as u8
+                (if middles.into_iter().any(near) {
+                    shade - 60.0
+                } else {
+                    shade
+                }) as u8
             })
             .collect();
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");

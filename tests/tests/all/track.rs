@@ -48,7 +48,14 @@ fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
         let mut words = vec![0; words_needed(side, side)];
         let mut mask = MaskMut::new(&mut words, side, side).expect("fits");
         let mut scratch = vec![Projected::default(); scratch_needed(&model.as_model())];
-        render(&model.as_model(), &camera, &pose.into(), &mut scratch, &mut mask).expect("in front");
+        render(
+            &model.as_model(),
+            &camera,
+            &pose.into(),
+            &mut scratch,
+            &mut mask,
+        )
+        .expect("in front");
         let mask = mask.into_mask();
         for (at, grey) in grey.iter_mut().enumerate() {
             let (column, row) = (at % SIDE * FINE, at / SIDE * FINE);
@@ -63,16 +70,22 @@ fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (seed >> 40) as f64 / f64::from(1u32 << 24) - 0.5
     };
-    grey.iter().map(|grey| (grey + 6.0 * noise()) as u8).collect()
+    grey.iter()
+        .map(|grey| (grey + 6.0 * noise()) as u8)
+        .collect()
 }
 
 fn short(name: &str) -> Short {
-    let folder = std::env::temp_dir().join(format!("fluoropose-track-{name}-{}", std::process::id()));
+    let folder =
+        std::env::temp_dir().join(format!("fluoropose-track-{name}-{}", std::process::id()));
     fs::create_dir_all(folder.join("frames")).expect("a folder");
     let (thigh, tray) = (femur(), tibia());
     let film = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
     for (number, position) in film.iter().take(FRAMES).enumerate() {
-        let parts = [(&thigh, position.femur, 120.0), (&tray, position.tibia, 70.0)];
+        let parts = [
+            (&thigh, position.femur, 120.0),
+            (&tray, position.tibia, 70.0),
+        ];
         let path = folder.join("frames").join(format!("{number:02}.png"));
         write_grey(&path, (SIDE, SIDE), &frame(parts, number)).expect("a frame");
     }
@@ -148,7 +161,11 @@ fn a_short_film_is_followed_from_one_frame_and_the_same_where_it_was_stopped() {
         for (row, truth) in tracked.rows.iter().zip(truth) {
             let pose = Pose::from(row.pose.expect("every frame is visible"));
             let turn = geodesic_deg(&pose.rotation, &Pose::from(*truth).rotation);
-            let state = if row.frame == 1 { State::Fixed } else { State::Followed };
+            let state = if row.frame == 1 {
+                State::Fixed
+            } else {
+                State::Followed
+            };
             let what = (tracked.component.as_str(), row.frame, turn, &row.because);
             assert!(turn < 2.0 && row.state == state, "{what:?}");
         }
@@ -179,7 +196,11 @@ fn fixed_poses_stay_and_other_inputs_are_not_mixed() {
         }
     }
     // Another frame of the same name.
-    fs::copy(film.folder.join("frames/00.png"), film.folder.join("frames/03.png")).expect("a copy");
+    fs::copy(
+        film.folder.join("frames/00.png"),
+        film.folder.join("frames/03.png"),
+    )
+    .expect("a copy");
     let mixed = film.track("all", &[0]).err().expect("refused").to_string();
     assert!(mixed.contains("other frames"), "{mixed}");
 }

@@ -42,7 +42,10 @@ impl Film {
     /// For a folder or a file that cannot be read.
     pub fn read(folder: &Path) -> Result<Self> {
         let paths = files_in(folder)?;
-        let listed: Vec<Listed> = paths.par_iter().map(list).collect::<Result<_>>()?;
+        let listed: Vec<Listed> = paths
+            .par_iter()
+            .map(|path| list(path))
+            .collect::<Result<_>>()?;
         let mut whole = Sha256::new();
         let mut places = Vec::new();
         for (file, listed) in listed.iter().enumerate() {
@@ -140,7 +143,7 @@ fn open(path: &Path) -> Result<FrameFile<'static>> {
     Ok(FrameFile::open(read(path)?, &name_of(path))?)
 }
 
-fn list(path: &PathBuf) -> Result<Listed> {
+fn list(path: &Path) -> Result<Listed> {
     let bytes = read(path)?;
     let digest = Sha256::digest(&bytes).into();
     let count = FrameFile::open(bytes, &name_of(path))?.count();

@@ -9,6 +9,7 @@ mod judge;
 mod part;
 mod record;
 mod request;
+mod run;
 mod search;
 mod sides;
 mod table;

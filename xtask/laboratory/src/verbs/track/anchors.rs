@@ -1,29 +1,31 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{FramePose, From, Subject, frame_pose_at, near_poses, refined_on_frame};
+use fluoropose::follow::{FramePose, frame_pose_at, settled};
 use fluoropose::pose::Pose;
-use fluoropose::refine::{ImageTarget, RefineMemory};
 
-use super::film::Run;
 use super::follow::{Anchor, Cell, follow};
 use super::part::Part;
+use super::run::Run;
 use super::search::{clicked, searched};
 use crate::files::read_poses;
 
 /// In so many frames at most a component is searched that nobody pointed at.
-const TRIES: usize = 6;
+const TRIES: usize = 3;
 /// Frames between those that are searched, at least.
 const SPACING: usize = 6;
-/// How far around a pose is looked once the film's constants are known, pixels.
-const NEAR_PX: f64 = 12.0;
 /// Shorter runs of frames without a pose are not searched.
 const RUN: usize = 8;
 
 /// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
 fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
     let mut anchors = Vec::new();
-    for fixed in run.request.fixed.iter().filter(|one| one.component == part.name()) {
+    for fixed in run
+        .request
+        .fixed
+        .iter()
+        .filter(|one| one.component == part.name())
+    {
         let poses = read_poses(&fixed.file)?;
         ensure!(
             poses.len() == run.film.count(),
@@ -38,14 +40,22 @@ fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
             }
         }
     }
-    for click in run.request.clicks.iter().filter(|one| one.component == part.name()) {
+    for click in run
+        .request
+        .clicks
+        .iter()
+        .filter(|one| one.component == part.name())
+    {
         ensure!(
             click.frame < run.film.count(),
             "a click into frame {} of a film of {} frames",
             click.frame + 1,
             run.film.count()
         );
-        if anchors.iter().any(|anchor: &Anchor| anchor.frame == click.frame) {
+        if anchors
+            .iter()
+            .any(|anchor: &Anchor| anchor.frame == click.frame)
+        {
             continue;
         }
         match clicked(run, part, click.frame, click.place)? {
@@ -66,8 +76,8 @@ fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
 }
 
 fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {
-    let found = part.see(&run.film, frame, |subject, image, memory| {
-        frame_pose_at(subject, image, pose, None, memory)
+    let found = part.see(run.film, frame, |subject, image, memory| {
+        frame_pose_at(subject, image, pose, memory)
     })?;
     Ok(Anchor {
         frame,
@@ -112,8 +122,8 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         }
         let key = format!("again/{}/{}", part.number, anchor.mark());
         let found: Option<FramePose> = run.journal.step(&key, || {
-            part.see(&run.film, frame, |subject, image, memory| {
-                nearest(subject, image, &anchor.found, memory)
+            part.see(run.film, frame, |subject, image, memory| {
+                Some(settled(subject, image, &anchor.found, memory))
             })
         })?;
         Ok(Anchor {
@@ -122,25 +132,6 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         })
     };
     anchors.iter().map(one).collect()
-}
-
-/// The best of what a pose and those near it lead to.
-fn nearest(
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    found: &FramePose,
-    memory: &mut RefineMemory<'_>,
-) -> Option<FramePose> {
-    let step = found.contrast.step;
-    let near = near_poses(subject, image, &found.pose, NEAR_PX, step, memory).unwrap_or_default();
-    let own = (&found.pose, From::Near);
-    let starts = near.iter().map(|pose| (pose, From::Far));
-    let poses = std::iter::once(own).chain(starts);
-    let refined: Vec<FramePose> = poses
-        .filter_map(|start| refined_on_frame(subject, image, start, Some(step), memory).ok())
-        .collect();
-    let best = refined.iter().max_by(|a, b| a.score().total_cmp(&b.score()));
-    best.copied()
 }
 
 /// Looks for a component in runs of frames in which it was not found, and follows it from where it is.

@@ -5,10 +5,10 @@ use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmProfile, estimate};
 use fluoropose::refine::film_profiles;
 
-use super::film::Run;
 use super::follow::{Anchor, beside};
 use super::part::Part;
 use super::record::Films;
+use super::run::Run;
 
 /// Anchors of a component that are looked at, and frames to each side of them.
 const ANCHORS: usize = 3;
@@ -18,11 +18,7 @@ const PROFILES: usize = 96;
 
 /// Estimates the constants from the anchors and the frames beside them, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
-pub(super) fn learn_film(
-    run: &Run<'_>,
-    parts: &[Part<'_>],
-    anchors: &[Vec<Anchor>],
-) -> Result<()> {
+pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Anchor>]) -> Result<()> {
     let films = run.journal.step("film", || {
         let mut profiles = Vec::new();
         for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
@@ -30,7 +26,7 @@ pub(super) fn learn_film(
                 for (frame, pose) in beside(run, part, anchor, BESIDE)? {
                     let names = (number as u8, frame as u16);
                     let mut read = vec![FilmProfile::default(); PROFILES];
-                    let count = part.see(&run.film, frame, |subject, image, memory| {
+                    let count = part.see(run.film, frame, |subject, image, memory| {
                         let (model, camera) = (subject.model, subject.camera);
                         film_profiles(model, camera, &pose, image, names, memory, &mut read)
                     })?;

@@ -2,10 +2,9 @@
 
 use std::fmt;
 use std::fs;
-use std::sync::Mutex;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Looked, State};
+use fluoropose::follow::State;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
 use rayon::prelude::*;
@@ -18,6 +17,7 @@ use super::journal::Journal;
 use super::judge::{Judged, judge};
 use super::part::{Part, read_models};
 use super::request::Request;
+use super::run::Run;
 use super::sides::{Margins, settle};
 use super::table::{HEADING, Row};
 use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
@@ -40,47 +40,6 @@ impl fmt::Display for Tracked {
             }
         }
         Ok(())
-    }
-}
-
-/// What all parts of a run share.
-pub(super) struct Run<'r> {
-    pub(super) request: &'r Request,
-    pub(super) film: &'r Film,
-    pub(super) journal: Journal,
-    saying: Mutex<()>,
-}
-
-impl Run<'_> {
-    /// Says something on standard error.
-    pub(super) fn say(&self, text: &str) {
-        if !self.request.quiet {
-            let _one = self.saying.lock();
-            eprintln!("{text}");
-        }
-    }
-
-    pub(super) fn debug(&self, text: impl FnOnce() -> String) {
-        if std::env::var_os("FLUOROPOSE_TRACK_DEBUG").is_some() {
-            self.say(&text());
-        }
-    }
-
-    /// Tells the progress by frame.
-    pub(super) fn tell(&self, part: &Part<'_>, frame: usize, looked: &Looked) {
-        if self.request.quiet {
-            return;
-        }
-        let what = match &looked.found {
-            Ok(found) => format!(
-                "{:.2} px, edges {:.2}{}",
-                found.misfit_px,
-                found.contrast.strength,
-                if looked.searched { ", searched" } else { "" }
-            ),
-            Err(why) => format!("{why:?}").to_lowercase(),
-        };
-        self.say(&format!("{} frame {}: {what}", part.name(), frame + 1));
     }
 }
 
@@ -107,7 +66,10 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     inputs.update(read(&study.calibration)?);
     for (model, component) in models.iter().zip(&study.components) {
         inputs.update(model.as_model().digest());
-        inputs.update(format!("{:?}{:?}", component.nominal, component.distance_mm));
+        inputs.update(format!(
+            "{:?}{:?}",
+            component.nominal, component.distance_mm
+        ));
     }
     inputs.update([u8::from(request.bright_implant)]);
     let digest: [u8; 32] = inputs.finalize().into();
@@ -117,7 +79,7 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         request,
         film: &film,
         journal: Journal::open(&journal, &digest, request.anew)?,
-        saying: Mutex::default(),
+        saying: std::sync::Mutex::default(),
     };
     let polarity = match request.bright_implant {
         true => Polarity::BrightImplant,
@@ -166,7 +128,9 @@ fn on_the_right_sides(
     for (number, part) in parts.iter().enumerate().filter(|(_, part)| !is_tibia(part)) {
         margins[number] = settle(run, part, None, &mut films[number])?;
     }
-    let femur = parts.iter().position(|part| part.role() == Some(Role::Femur));
+    let femur = parts
+        .iter()
+        .position(|part| part.role() == Some(Role::Femur));
     let femurs: Option<Vec<Option<Pose>>> = femur.and_then(|number| {
         let axes = parts[number].axes?;
         let pose = |cell: &Cell| cell.found().map(|found| found.pose.compose(&axes));

@@ -5,9 +5,9 @@ use fluoropose::follow::{FramePose, Looked, Trail, look};
 use fluoropose::pose::{Pose, geodesic_deg};
 use sha2::{Digest, Sha256};
 
-use super::film::Run;
 use super::part::Part;
 use super::record::Record;
+use super::run::Run;
 
 /// A trail ends after so many frames without a pose: whole frames are searched from there on.
 const GIVE_UP: usize = 12;
@@ -35,7 +35,10 @@ impl Anchor {
             hash.update(number.to_bits().to_le_bytes());
         }
         let digest: [u8; 32] = hash.finalize().into();
-        let short: String = digest[..8].iter().map(|byte| format!("{byte:02x}")).collect();
+        let short: String = digest[..8]
+            .iter()
+            .map(|byte| format!("{byte:02x}"))
+            .collect();
         format!("{}-{short}", self.frame)
     }
 }
@@ -91,7 +94,9 @@ pub(super) fn follow(
     };
     let between = || -> Result<Vec<Vec<(usize, Cell)>>> {
         let pairs = anchors.windows(2);
-        pairs.map(|pair| span(run, part, &pair[0], &pair[1])).collect()
+        pairs
+            .map(|pair| span(run, part, &pair[0], &pair[1]))
+            .collect()
     };
     let ((before, after), between) = rayon::join(ends, between);
     let alone = [before?, after?].into_iter().flat_map(Walk::cells);
@@ -172,9 +177,10 @@ impl Walk<'_, '_> {
                 self.mark
             );
             let looked: Looked = self.run.journal.step(&key, || {
-                self.part.see(&self.run.film, frame, |subject, image, memory| {
-                    look(subject, image, frame, trail, memory)
-                })
+                self.part
+                    .see(self.run.film, frame, |subject, image, memory| {
+                        look(subject, image, frame, trail, memory)
+                    })
             })?;
             self.trail
                 .take(frame, looked.found.as_ref().ok(), looked.ordinary, &middle);
@@ -242,7 +248,10 @@ fn cut(ways: &[[Option<Looked>; 2]]) -> Vec<Cell> {
         found.map_or(0.0, FramePose::score)
     };
     let pose = |k: usize, which: usize| ways[k][which]?.found.ok().map(|found| found.pose);
-    let jump = |at: usize| match (pose(at.saturating_sub(1), 0), pose(at.min(ways.len() - 1), 1)) {
+    let jump = |at: usize| match (
+        pose(at.saturating_sub(1), 0),
+        pose(at.min(ways.len() - 1), 1),
+    ) {
         (Some(one), Some(other)) => JUMP * geodesic_deg(&one.rotation, &other.rotation),
         _ => 0.0,
     };
@@ -261,7 +270,9 @@ fn cut(ways: &[[Option<Looked>; 2]]) -> Vec<Cell> {
         Cell {
             looked: ways[k][which].or(ways[k][1 - which]),
             fixed: false,
-            other_way: other.filter(|(other, own)| rival && apart(other, own)).map(|pair| pair.0),
+            other_way: other
+                .filter(|(other, own)| rival && apart(other, own))
+                .map(|pair| pair.0),
         }
     };
     (0..ways.len()).map(cell).collect()

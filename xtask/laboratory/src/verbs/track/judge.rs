@@ -1,8 +1,6 @@
 //! The state of every frame, at the end.
 
-use fluoropose::follow::{
-    FrameEvidence, Missing, State, Trust, TrustLimits, between, judge_film,
-};
+use fluoropose::follow::{FrameEvidence, Missing, State, Trust, TrustLimits, between, judge_film};
 use fluoropose::pose::Pose;
 
 use super::follow::Cell;
@@ -11,15 +9,15 @@ use super::sides::Margins;
 
 /// A frame at the end.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub(super) struct Judged {
     /// What is known of it.
-    pub state: State,
+    pub(super) state: State,
     /// The pose; none where there is none.
-    pub pose: Option<Pose>,
+    pub(super) pose: Option<Pose>,
     /// Why the frame is in its state, in a sentence without its full stop.
-    pub because: String,
+    pub(super) because: String,
     /// How bad it is: above 1 it is doubtful.
-    pub badness: f64,
+    pub(super) badness: f64,
 }
 
 /// Judges a component's frames. `depths` are those of the other component.
@@ -99,12 +97,11 @@ fn fill_gaps(part: &Part<'_>, judged: &mut [Judged], longest: usize) {
             && trusted(&judged[at])
             && trusted(&judged[end])
         {
-            for k in at + 1..end {
-                let fraction = (k - at) as f64 / (end - at) as f64;
-                judged[k].pose = Some(between(&from, &to, fraction, &part.middle()));
-                judged[k].state = State::Interpolated;
-                judged[k].because =
-                    format!("taken from the frames on both sides; {}", judged[k].because);
+            for (k, one) in judged[at + 1..end].iter_mut().enumerate() {
+                let fraction = (k + 1) as f64 / (end - at) as f64;
+                one.pose = Some(between(&from, &to, fraction, &part.middle()));
+                one.state = State::Interpolated;
+                one.because = format!("taken from the frames on both sides; {}", one.because);
             }
         }
         at = end;

@@ -8,11 +8,13 @@ use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
 use fluoropose::math::Vector3;
+use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
-use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions};
+use fluoropose::refine::{
+    Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions,
+};
 
 use crate::files::{Component, Film, Role, grey, read_model};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
@@ -45,7 +47,10 @@ pub(super) struct Part<'s> {
 /// # Errors
 /// Names the file.
 pub(super) fn read_models(components: &[Component]) -> Result<Vec<OwnedModel>> {
-    components.iter().map(|one| read_model(&one.model)).collect()
+    components
+        .iter()
+        .map(|one| read_model(&one.model))
+        .collect()
 }
 
 impl<'s> Part<'s> {
@@ -104,7 +109,11 @@ impl<'s> Part<'s> {
 
     /// Tells steps with the film's constants from those without.
     pub(super) fn phase(&self) -> &'static str {
-        if self.film.get().is_some() { "film" } else { "bare" }
+        if self.film.get().is_some() {
+            "film"
+        } else {
+            "bare"
+        }
     }
 
     /// Middle of the model's box.
@@ -173,7 +182,11 @@ impl<'s> Part<'s> {
             },
         };
         let mut buffers = self.take();
-        let answer = work(&subject, &image, &mut buffers.borrow(&self.mesh, &self.camera));
+        let answer = work(
+            &subject,
+            &image,
+            &mut buffers.borrow(&self.mesh, &self.camera),
+        );
         self.locked().push(buffers);
         Ok(answer)
     }

@@ -200,7 +200,10 @@ mod tests {
                 assert_eq!(Looked::from_numbers(&looked.numbers()), Some(looked));
             }
             let some = Some(found);
-            assert_eq!(Option::<FramePose>::from_numbers(&some.numbers()), Some(some));
+            assert_eq!(
+                Option::<FramePose>::from_numbers(&some.numbers()),
+                Some(some)
+            );
         }
         assert_eq!(FramePose::from_numbers(&[1.0; 5]), None);
     }

@@ -1,15 +1,15 @@
 //! A component looked for in a whole frame, or where a person clicked.
 
 use anyhow::Result;
+use fluoropose::finder::Component;
 use fluoropose::follow::{FramePose, From, refined_on_frame};
 use fluoropose::image::contour::Point;
 use fluoropose::library::Library;
 use fluoropose_tracing::one_click::{Answer, OneClick, Progress, Prompt};
 use fluoropose_tracing::seeds::{expected_size, seeds, seeds_needed};
-use fluoropose::finder::Component;
 
-use super::film::Run;
 use super::part::Part;
+use super::run::Run;
 use crate::files::grey;
 use crate::finding::Clicker;
 
@@ -71,18 +71,15 @@ pub(super) fn searched(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<O
     })
 }
 
-fn search(
-    run: &Run<'_>,
-    part: &Part<'_>,
-    bytes: &[u8],
-    frame: usize,
-) -> Result<Option<FramePose>> {
+fn search(run: &Run<'_>, part: &Part<'_>, bytes: &[u8], frame: usize) -> Result<Option<FramePose>> {
     let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
     let mut found: Option<FramePose> = None;
     for at in places(run, part, bytes, frame)? {
         let answers = answers(run, part, &mut clicker, frame, at, is_worth_it)?;
         run.debug(|| {
-            let best = answers.first().map(|best| (best.score, best.support.fraction));
+            let best = answers
+                .first()
+                .map(|best| (best.score, best.support.fraction));
             let (name, at) = (part.name(), [at.column, at.row]);
             format!("{name} frame {}: {at:.0?}: {best:.2?}", frame + 1)
         });
@@ -153,12 +150,11 @@ fn best(
     frame: usize,
     answers: &[Answer],
 ) -> Result<Option<FramePose>> {
-    part.see(&run.film, frame, |subject, image, memory| {
+    part.see(run.film, frame, |subject, image, memory| {
         let mut best: Option<FramePose> = None;
         for answer in answers.iter().take(ANSWERS) {
-            let step = best.map(|best| best.contrast.step);
             let start = (&answer.refined.pose, From::Far);
-            let Ok(found) = refined_on_frame(subject, image, start, step, memory) else {
+            let Ok(found) = refined_on_frame(subject, image, start, memory) else {
                 continue;
             };
             if best.is_none_or(|best| found.score() > best.score()) {

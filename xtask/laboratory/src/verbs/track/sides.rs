@@ -8,10 +8,10 @@ use fluoropose::follow::{
 use fluoropose::pose::{Pose, geodesic_deg};
 use rayon::prelude::*;
 
-use super::film::Run;
 use super::follow::{Anchor, Cell, follow};
 use super::part::Part;
 use super::record::Record;
+use super::run::Run;
 
 /// Every so many frames both sides are looked at; more often in a short film.
 const EVERY: usize = 8;
@@ -125,7 +125,7 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>
             .fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits());
         let key = format!("mirror/{}/{}/{frame}/{bits:x}", part.number, part.phase());
         let mirrored = run.journal.step(&key, || {
-            part.see(&run.film, frame, |subject, image, memory| {
+            part.see(run.film, frame, |subject, image, memory| {
                 mirrored_pose(subject, image, &own, memory)
             })
         })?;
@@ -140,11 +140,7 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>
     Ok(samples.into_iter().flatten().collect())
 }
 
-fn evidence(
-    part: &Part<'_>,
-    sample: &Sample,
-    femurs: Option<&[Option<Pose>]>,
-) -> SideEvidence {
+fn evidence(part: &Part<'_>, sample: &Sample, femurs: Option<&[Option<Pose>]>) -> SideEvidence {
     let femur = femurs.and_then(|femurs| femurs.get(sample.frame).copied().flatten());
     let tilt = |pose: &Pose| {
         let (femur, axes) = (femur?, part.axes?);

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use fluoropose::follow::State;
 use fluoropose::math::Vector3;
-use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::EulerPose;
+use fluoropose::pose::covariance::Deviations;
 
 use super::follow::Cell;
 use super::judge::Judged;
@@ -59,7 +59,8 @@ impl Row {
 
     pub(super) fn write(&self, component: &str, out: &mut String) {
         let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
-        let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
+        let number =
+            |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
         let mut cells = vec![
             self.frame.to_string(),
             quoted(component),
@@ -77,7 +78,9 @@ impl Row {
         });
         for six in [pose, sd] {
             for k in 0..6 {
-                let at = |(places, turns): ([f64; 3], [f64; 3])| if k < 3 { places[k] } else { turns[k - 3] };
+                let at = |(places, turns): ([f64; 3], [f64; 3])| {
+                    if k < 3 { places[k] } else { turns[k - 3] }
+                };
                 cells.push(number(six.map(at)));
             }
         }

@@ -1,0 +1,19 @@
+//! What is followed.
+
+use crate::camera::Camera;
+use crate::mesh::Model;
+use crate::mesh::symmetry::SymmetryPlane;
+use crate::refine::RefineOptions;
+
+/// A component that is followed, the camera that sees it, and how poses are refined.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'s> {
+    /// The model.
+    pub model: &'s Model<'s>,
+    /// Its planes of near-symmetry.
+    pub planes: &'s [SymmetryPlane],
+    /// The camera.
+    pub camera: &'s Camera,
+    /// How poses are refined.
+    pub options: RefineOptions,
+}
