@@ -32,6 +32,7 @@ impl DisplayCurve {
 
     /// What is proportional to the intensity, up to a constant, of a grey value.
     #[must_use]
+    #[inline]
     pub fn linear(&self, grey: f64) -> f64 {
         let grey = self.sign * grey;
         if self.curvature == 0.0 {
@@ -55,6 +56,7 @@ impl DisplayCurve {
 
 /// The exponential, to some 1e-9 of its value, several times as fast as that of the library: one for each pixel that is read.
 /// Beyond the exponents of normal numbers it is cut.
+#[inline]
 pub(crate) fn exp_quick(x: f64) -> f64 {
     let doublings = (x * core::f64::consts::LOG2_E).clamp(-1000.0, 1000.0);
     // Beside this number there are whole numbers alone.
