@@ -14,6 +14,7 @@ fn poses_on_the_built_in_film_have_their_true_depth() {
         frames: 4,
         seed: 2,
         side: Side::Left,
+        ..Options::default()
     };
     write(&options, &folder).unwrap();
     let table = evaluate(&folder.join("study.toml"), &Request::of(Method::Image));
