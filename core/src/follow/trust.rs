@@ -30,6 +30,8 @@ pub struct TrustLimits {
     pub misfit: f64,
     /// A usual misfit below this counts as so much, pixels.
     pub least_misfit_px: f64,
+    /// Most misfit whatever is usual, pixels: a film may be wrong as a whole.
+    pub most_misfit_px: f64,
     /// Least strength of the edges, in usual ones of the film.
     pub strength: f64,
     /// Farthest from where the frames on both sides lead: degrees, mm, and in usual distances of the film.
@@ -44,6 +46,8 @@ pub struct TrustLimits {
     pub sd_deg: f64,
     /// Farthest from the other component along the view, against what is usual in the film, mm.
     pub depth_mm: f64,
+    /// The same whatever is usual: both belong to one joint.
+    pub joint_mm: f64,
     /// Two ways to one frame may differ by this much, degrees.
     pub ways_deg: f64,
     /// Least part of the outline that is met.
@@ -57,6 +61,7 @@ impl TrustLimits {
     pub const USUAL: Self = Self {
         misfit: 1.8,
         least_misfit_px: 0.2,
+        most_misfit_px: 0.9,
         strength: 0.6,
         jump_deg: 1.5,
         jump_mm: 2.0,
@@ -64,6 +69,7 @@ impl TrustLimits {
         side: 1.0,
         sd_deg: 1.5,
         depth_mm: 40.0,
+        joint_mm: 60.0,
         ways_deg: 1.5,
         met: 0.85,
         known: 0.6,
@@ -91,6 +97,8 @@ pub enum Distrust {
     Undetermined(f64),
     /// Both components cannot lie so far apart along the view: mm against what is usual in the film.
     Depths(f64),
+    /// The same against what a joint allows.
+    Joint(f64),
 }
 
 impl Distrust {
@@ -105,7 +113,7 @@ impl Distrust {
             Self::Apart(..) | Self::Unmet(_) => "residual",
             Self::Cut(_) => "cut off",
             Self::Undetermined(_) => "undetermined",
-            Self::Depths(_) => "depths",
+            Self::Depths(_) | Self::Joint(_) => "depths",
         }
     }
 }
@@ -151,6 +159,10 @@ impl fmt::Display for Distrust {
             Self::Depths(mm) => write!(
                 f,
                 "it lies {mm:.0} mm farther from the other component along the view than is usual in this film"
+            ),
+            Self::Joint(mm) => write!(
+                f,
+                "it lies {mm:.0} mm behind the other component along the view, which no joint does"
             ),
         }
     }
@@ -265,7 +277,9 @@ fn judge(
     weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
     let px = found.misfit_px;
     let times = px / usual.misfit_px.max(limits.least_misfit_px);
-    weigh(times / limits.misfit, Distrust::Apart(px, usual.misfit_px));
+    let most = px / limits.most_misfit_px;
+    let apart = (times / limits.misfit).max(most);
+    weigh(apart, Distrust::Apart(px, usual.misfit_px));
     let met = found.fit.met;
     weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
     let known = found.fit.known;
@@ -277,6 +291,7 @@ fn judge(
     if let Some(mm) = deeper(one, middle) {
         let off = mm - usual.depth_mm;
         weigh(off.abs() / limits.depth_mm, Distrust::Depths(off));
+        weigh(mm.abs() / limits.joint_mm, Distrust::Joint(mm));
     }
     worst
 }

@@ -156,7 +156,9 @@ fn finish(
             let role = |number: usize| parts[number].role();
             role(number).is_some_and(|own| role(other) == Some(own.other()))
         });
-        let depths = other.map_or(Vec::new(), |other| depths(&parts[other], &films[other]));
+        let depths = other.map_or(Vec::new(), |other| {
+            depths(&parts[other], &films[other], &margins[other])
+        });
         let (cells, interpolate) = (&films[number], run.request.interpolate);
         let judged = judge(part, cells, &margins[number], &depths, interpolate);
         let poses: Vec<Option<EulerPose>> = judged
@@ -182,9 +184,15 @@ fn finish(
     Ok(tracked)
 }
 
-/// How far a component is from the camera in each frame, mm.
-fn depths(part: &Part<'_>, cells: &[Cell]) -> Vec<Option<f64>> {
+/// How far a component is from the camera in each frame, mm, where its pose is to be trusted by itself: else it says nothing
+/// of the other.
+fn depths(part: &Part<'_>, cells: &[Cell], margins: &Margins) -> Vec<Option<f64>> {
     let middle = part.middle();
-    let depth = |cell: &Cell| cell.found().map(|found| -found.pose.transform(&middle)[2]);
-    cells.iter().map(depth).collect()
+    let alone = judge(part, cells, margins, &[], 0);
+    let trusted = |one: &Judged| matches!(one.state, State::Fixed | State::Followed);
+    let depth = |one: &Judged| {
+        let pose = one.pose.filter(|_| trusted(one))?;
+        Some(-pose.transform(&middle)[2])
+    };
+    alone.iter().map(depth).collect()
 }
