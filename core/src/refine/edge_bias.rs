@@ -13,8 +13,8 @@ use crate::film::{FilmModel, PathLine};
 use crate::math::{inverse_spd, sqrt};
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
-/// Standard deviation of the common distance, pixels, where the film is known: of synthetic films of many kinds, whose
-/// poses are off by a third of it and less than twice of it.
+/// Standard deviation of the common distance, pixels, where the film is known. Depths on synthetic films are off by some 0.06 px
+/// of outline; real films hold more that is not modelled. A judgement, not a fit.
 const KNOWN_PX: f64 = 0.1;
 /// And where it is not: edges of films seen so far lie 0.2 to 0.9 px inside the outline.
 const UNKNOWN_PX: f64 = 0.65;
