@@ -6,7 +6,7 @@
 //!
 //! - [`lines`]: the path of X-rays through a mesh along lines across its outline.
 //! - [`model`]: constants of a film, and the profile and the edge that they make of paths.
-//! - [`profile`], [`estimate`]: profiles read from frames, and the constants that explain them.
+//! - [`profile`], [`mod@estimate`]: profiles read from frames, and the constants that explain them.
 
 pub mod estimate;
 mod fit;

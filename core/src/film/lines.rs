@@ -25,7 +25,7 @@ const LEAST_PLACES: u32 = 3;
 const SPANNED: usize = 8;
 /// Head of an empty list.
 const NONE: u16 = u16::MAX;
-/// Most lines: each has [`SPANNED`] numbers.
+/// Most lines: 16 bits number the places of eight tiles for each.
 pub const MOST_LINES: usize = NONE as usize / SPANNED;
 
 /// A line across an outline, and the path of the rays to places on it through the part.
