@@ -15,6 +15,10 @@ use crate::shortlist::keep;
 
 /// Refined poses of an outline that are brought onto the grey frame: the best of them.
 const ON_IMAGE: usize = 3;
+/// But none that misses the outline by more than this many times what the best does, and by more than so many pixels: a
+/// ratio of 1.3 decides.
+const HOPELESS: f64 = 2.0;
+const HOPELESS_PX: f64 = 0.5;
 
 /// Brings the best poses that an outline led to onto the edges of a frame; best first.
 ///
@@ -28,7 +32,10 @@ pub fn onto_image(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<Candidate, CANDIDATES>, RefineError> {
-    let starts = outline.iter().take(ON_IMAGE).map(|found| found.pose);
+    let least = outline.first().map_or(0.0, Candidate::misfit);
+    let limit = (HOPELESS * least).max(HOPELESS_PX);
+    let open = outline.iter().take_while(|found| found.misfit() <= limit);
+    let starts = open.take(ON_IMAGE).map(|found| found.pose);
     let starts: Vec<Pose, ON_IMAGE> = starts.collect();
     let view = CameraView::only(camera, image);
     // Their mirror images are among them.
