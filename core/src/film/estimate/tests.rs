@@ -1,3 +1,4 @@
+use super::guards::DOUBTED;
 use super::*;
 use crate::film::lines::{INNER, POINTS, STEP};
 use crate::film::profile::READINGS;
@@ -74,6 +75,19 @@ fn both(first: fn(f64) -> f64, second: fn(f64) -> f64) -> Option<FilmEstimate> {
     let mut all = profiles(0, 0.7, first);
     all.extend(profiles(1, 0.2, second));
     estimate(&mut all, 2)
+}
+
+#[test]
+fn the_units_of_grey_values_do_not_matter() {
+    let wide = |intensity: f64| 257.0 * logarithmic(intensity) + 1000.0;
+    let [film, same] = [both(logarithmic, logarithmic), both(wide, wide)].map(|f| f.expect("told"));
+    let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+    near(257.0 * same.constants.curvature, film.constants.curvature);
+    near(same.constants.blur_px, film.constants.blur_px);
+    near(same.residual / 257.0, film.residual);
+    for component in 0..2 {
+        near(same.attenuation[component], film.attenuation[component]);
+    }
 }
 
 #[test]

@@ -1,0 +1,94 @@
+//! What is not believed: frames that fit worse than the others, and a curved display that one component alone tells of.
+
+use heapless::Vec;
+
+use super::solver::{Fit, UNEXPLAINED};
+use super::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, Vector};
+use crate::film::profile::FilmProfile;
+
+/// A frame whose profiles cost more than this many times the mean of the better half of a component's frames is left out: its
+/// pose may be wrong.
+const COSTLY: f64 = 1.4;
+/// Curvature for each contrast from which on it must be confirmed: an unsharp mask on a linear film looks alike, but not the
+/// same to components of other thickness.
+pub(super) const DOUBTED: f64 = 1.2;
+/// Curvatures of single components, for each contrast, that differ by no more than this part, agree.
+const AGREE: f64 = 0.3;
+
+impl Fit<'_> {
+    /// Leaves frames out whose profiles are explained worse than those of the others; whether there are any.
+    pub(super) fn leave_out_costly(&mut self, at: &Vector) -> bool {
+        let mut any = false;
+        for component in 0..self.components as u8 {
+            let mut costs: Vec<(u16, f64), 256> = Vec::new();
+            for number in 0..self.profiles.len() {
+                let profile = &self.profiles[number];
+                if profile.component != component || costs.is_full() {
+                    continue;
+                }
+                if costs
+                    .last()
+                    .is_none_or(|&(frame, _)| frame != profile.frame)
+                {
+                    let cost = self.cost_of(profile.frame, component, at);
+                    // There is room.
+                    let _ = costs.push((profile.frame, cost));
+                }
+            }
+            let mut sorted: Vec<f64, 256> = costs.iter().map(|&(_, cost)| cost).collect();
+            sorted.sort_unstable_by(f64::total_cmp);
+            let half = &sorted[..sorted.len().div_ceil(2)];
+            let limit = COSTLY * half.iter().sum::<f64>() / half.len().max(1) as f64;
+            for profile in self.profiles.iter_mut() {
+                let costly = |&(frame, cost): &(u16, f64)| frame == profile.frame && cost > limit;
+                if profile.component == component && costs.iter().any(costly) {
+                    profile.used = false;
+                    any = true;
+                }
+            }
+        }
+        any
+    }
+
+    /// The mean cost of the profiles of a frame and component.
+    fn cost_of(&self, frame: u16, component: u8, at: &Vector) -> f64 {
+        let wanted =
+            |profile: &&FilmProfile| profile.frame == frame && profile.component == component;
+        let (mut sum, mut count) = (0.0, 0.0f64);
+        for profile in self.profiles.iter().filter(wanted) {
+            let squares = self.explained(profile, at, false);
+            sum += squares.map_or(UNEXPLAINED, |(explained, _)| self.cost(explained.squares()));
+            count += 1.0;
+        }
+        sum / count.max(1.0)
+    }
+
+    /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike. Else the film
+    /// is taken to be linear.
+    pub(super) fn confirmed(&mut self, at: &mut Vector) -> Option<DisplayKnowledge> {
+        if at[CURVATURE] < DOUBTED {
+            return Some(DisplayKnowledge::Told);
+        }
+        let mut told: Vec<f64, MOST_COMPONENTS> = Vec::new();
+        for component in 0..self.components as u8 {
+            self.only = Some(component);
+            let mut alone = *at;
+            if self.improve(&mut alone, 6).is_some() {
+                // There is room.
+                let _ = told.push(alone[CURVATURE]);
+            }
+        }
+        self.only = None;
+        let [least, most] = told.iter().fold([f64::MAX, f64::MIN], |[least, most], &x| {
+            [least.min(x), most.max(x)]
+        });
+        if told.len() >= 2 && most - least <= AGREE * most {
+            self.find_shifts(at);
+            return Some(DisplayKnowledge::Told);
+        }
+        (at[CURVATURE], self.hold) = (0.0, true);
+        self.find_shifts(at);
+        self.improve(at, 8)?;
+        Some(DisplayKnowledge::Untold)
+    }
+}

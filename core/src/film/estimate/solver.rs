@@ -1,0 +1,243 @@
+//! The search for the constants: from several starts, by Levenberg and Marquardt.
+
+use heapless::Vec;
+
+use super::equations::{Sums, product};
+use super::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
+use crate::film::fit::{Developed, Explained, Residuals, explain, search};
+use crate::film::model::{CONSTANTS, Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
+use crate::film::profile::{FilmProfile, READINGS};
+use crate::math::{exp, ln, solve_spd};
+
+/// Curvatures to start from, for each contrast, and logarithms of attenuations.
+const STARTS: [f64; 8] = [-0.3, 0.3, 0.9, 1.5, 2.2, 3.0, 4.0, 5.5];
+const ATTENUATIONS: [f64; 2] = [-1.8, -0.4];
+/// What is expected of logarithms before anything was read, and its standard deviation: wide, for what data do not tell, as
+/// the attenuation of metal that lets nothing pass.
+const EXPECTED_BLUR: [f64; 2] = [-0.1, 0.8];
+const EXPECTED_ATTENUATION: [f64; 2] = [-1.2, 1.0];
+/// Changes over which derivatives are taken.
+const CHANGE: f64 = 0.03;
+/// Residual of a profile, as a part of the contrast, from which on it counts less: films are shown in any units.
+/// Two of 8-bit grey values on films of contrasts between 30 and 100.
+const NOISE: f64 = 0.035;
+/// What a profile costs that nothing explains.
+pub(super) const UNEXPLAINED: f64 = 4.6;
+/// Profiles that starts are compared on.
+const FEW: usize = 320;
+/// Consecutive profiles that err alike.
+const TOGETHER: usize = 8;
+
+/// Profiles and which of them are looked at.
+pub(super) struct Fit<'p> {
+    pub(super) profiles: &'p mut [FilmProfile],
+    pub(super) components: usize,
+    pub(super) contrast: f64,
+    /// One component alone.
+    pub(super) only: Option<u8>,
+    /// One of this many profiles.
+    pub(super) every: usize,
+    /// Whether the curvature stays as it is.
+    pub(super) hold: bool,
+}
+
+impl Fit<'_> {
+    /// The square of a residual, squared grey values, from which on a profile counts less.
+    fn noise(&self) -> f64 {
+        (NOISE * self.contrast) * (NOISE * self.contrast)
+    }
+
+    /// What a profile costs of which so much remains, squared grey values.
+    pub(super) fn cost(&self, squares: f64) -> f64 {
+        ln(1.0 + squares / self.noise())
+    }
+
+    fn expected(number: usize) -> Option<[f64; 2]> {
+        match number {
+            CURVATURE => None,
+            BLUR => Some(EXPECTED_BLUR),
+            _ => Some(EXPECTED_ATTENUATION),
+        }
+    }
+
+    /// The best of several curvatures and attenuations, on some of the profiles; between curvatures by a parabola.
+    pub(super) fn begin(&mut self) -> Option<Vector> {
+        self.every = (self.profiles.len() / FEW).max(1);
+        self.hold = true;
+        let mut tried: Vec<(f64, Vector), { STARTS.len() }> = Vec::new();
+        for curvature in STARTS {
+            let from = ATTENUATIONS.iter().filter_map(|&attenuation| {
+                let mut at = [attenuation; UNKNOWNS];
+                (at[CURVATURE], at[BLUR]) = (curvature, EXPECTED_BLUR[0]);
+                self.find_shifts(&at);
+                let cost = self.improve(&mut at, 8)?;
+                Some((cost, at))
+            });
+            let best = from.min_by(|a, b| a.0.total_cmp(&b.0));
+            // There is room.
+            let _ = best.map(|best| tried.push(best));
+        }
+        (self.every, self.hold) = (1, false);
+        let (_, at) = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.find_shifts(&at);
+        Some(at)
+    }
+
+    fn drawn(&self, profile: &FilmProfile, at: &Vector) -> Drawn {
+        let passed = transmission(&profile.paths, exp(at[2 + usize::from(profile.component)]));
+        blurred(&passed, exp(at[BLUR]))
+    }
+
+    fn is_wanted(&self, number: usize, profile: &FilmProfile) -> bool {
+        profile.used
+            && number.is_multiple_of(self.every)
+            && usize::from(profile.component) < self.components
+            && self.only.is_none_or(|only| only == profile.component)
+    }
+
+    /// Looks for the shift of every profile.
+    pub(super) fn find_shifts(&mut self, at: &Vector) {
+        for number in 0..self.profiles.len() {
+            let profile = &self.profiles[number];
+            if self.is_wanted(number, profile) {
+                let film = Developed::of(profile, at[CURVATURE] / self.contrast);
+                let found = search(profile, &film, &self.drawn(profile, at));
+                self.profiles[number].shift = found.map_or(0.0, |found| found.shift as f32);
+            }
+        }
+    }
+
+    /// Steps of Levenberg and Marquardt; gives the cost for each profile.
+    pub(super) fn improve(&mut self, at: &mut Vector, steps: usize) -> Option<f64> {
+        let mut seen = self.look(at)?;
+        let mut damping = 1e-2;
+        for _ in 0..steps {
+            let mut normal = seen.normal;
+            (0..UNKNOWNS).for_each(|k| normal[k][k] *= 1.0 + damping);
+            let step = solve_spd(normal, seen.right)?;
+            let mut next = *at;
+            for (k, value) in next.iter_mut().enumerate() {
+                *value += step[k].clamp(-0.8, 0.8);
+            }
+            next[CURVATURE] = next[CURVATURE].clamp(-1.0, 8.0);
+            next[BLUR] = next[BLUR].clamp(ln(LEAST_BLUR), ln(MOST_BLUR));
+            let there = self.look(&next)?;
+            if there.cost < seen.cost {
+                let settled = step.iter().all(|x| x.abs() < 2e-3);
+                (*at, seen) = (next, there);
+                damping *= 0.2;
+                if settled {
+                    break;
+                }
+            } else {
+                damping *= 10.0;
+                if damping > 1e3 {
+                    break;
+                }
+            }
+        }
+        Some(seen.cost / seen.count as f64)
+    }
+
+    /// What is seen at some constants.
+    pub(super) fn look(&mut self, at: &Vector) -> Option<Sums> {
+        let mut sums = Sums {
+            normal: [[0.0; UNKNOWNS]; UNKNOWNS],
+            right: [0.0; UNKNOWNS],
+            spread: [[0.0; UNKNOWNS]; UNKNOWNS],
+            cost: 0.0,
+            squares: 0.0,
+            count: 0,
+        };
+        let (mut group, mut in_group) = ([0.0; UNKNOWNS], 0);
+        for number in 0..self.profiles.len() {
+            let profile = &self.profiles[number];
+            if !self.is_wanted(number, profile) {
+                continue;
+            }
+            let Some((explained, slopes)) = self.explained(profile, at, true) else {
+                sums.cost += UNEXPLAINED;
+                continue;
+            };
+            let squares = explained.squares();
+            let component = 2 + usize::from(profile.component);
+            self.profiles[number].shift = explained.shift as f32;
+            sums.cost += self.cost(squares);
+            sums.squares += squares;
+            sums.count += 1;
+            let weight = 1.0 / (self.noise() + squares);
+            let of = [CURVATURE, BLUR, component];
+            for (a, &row) in of.iter().enumerate() {
+                let pull = -weight * product(&slopes[a], &explained.residuals);
+                sums.right[row] += pull;
+                group[row] += pull;
+                for (b, &column) in of.iter().enumerate() {
+                    sums.normal[row][column] += weight * product(&slopes[a], &slopes[b]);
+                }
+            }
+            in_group += 1;
+            if in_group == TOGETHER {
+                sums.close(&mut group);
+                in_group = 0;
+            }
+        }
+        sums.close(&mut group);
+        self.expect(at, &mut sums);
+        (sums.count >= LEAST_PROFILES / 2).then_some(sums)
+    }
+
+    /// Adds what is expected of the unknowns before anything is read.
+    fn expect(&self, at: &Vector, sums: &mut Sums) {
+        for (k, value) in at.iter().enumerate() {
+            if let Some([mean, deviation]) = Self::expected(k) {
+                let weight = 1.0 / (deviation * deviation);
+                let off = value - mean;
+                sums.normal[k][k] += weight;
+                sums.spread[k][k] += weight;
+                sums.right[k] -= weight * off;
+                sums.cost += weight * off * off / 2.0;
+            }
+        }
+        if self.hold {
+            for matrix in [&mut sums.normal, &mut sums.spread] {
+                matrix[CURVATURE] = [0.0; UNKNOWNS];
+                matrix.iter_mut().for_each(|row| row[CURVATURE] = 0.0);
+            }
+            sums.right[CURVATURE] = 0.0;
+            sums.normal[CURVATURE][CURVATURE] = 1.0;
+        } else {
+            sums.normal[CURVATURE][CURVATURE] += 1e-3;
+        }
+    }
+
+    /// A profile explained, and, where it is `wanted`, how its residuals change with curvature, blur and attenuation.
+    pub(super) fn explained(
+        &self,
+        profile: &FilmProfile,
+        at: &Vector,
+        wanted: bool,
+    ) -> Option<(Explained, [Residuals; CONSTANTS])> {
+        let film = Developed::of(profile, at[CURVATURE] / self.contrast);
+        let start = f64::from(profile.shift);
+        let explained = explain(profile, &film, &self.drawn(profile, at), start)?;
+        let mut slopes = [[0.0; READINGS]; CONSTANTS];
+        if wanted {
+            let of = [CURVATURE, BLUR, 2 + usize::from(profile.component)];
+            for (slopes, number) in slopes.iter_mut().zip(of) {
+                let mut near = *at;
+                near[number] += CHANGE;
+                let other = match number {
+                    CURVATURE => {
+                        let film = Developed::of(profile, near[CURVATURE] / self.contrast);
+                        explain(profile, &film, &self.drawn(profile, at), explained.shift)?
+                    }
+                    _ => explain(profile, &film, &self.drawn(profile, &near), explained.shift)?,
+                };
+                for (k, slope) in slopes.iter_mut().enumerate() {
+                    *slope = (other.residuals[k] - explained.residuals[k]) / CHANGE as f32;
+                }
+            }
+        }
+        Some((explained, slopes))
+    }
+}
