@@ -23,43 +23,31 @@ pub trait Pixel: Copy + Ord + Default + Into<u32> {
     ) -> Option<f64>;
 }
 
-impl Pixel for u8 {
-    fn from_u32(value: u32) -> Self {
-        u8::try_from(value).unwrap_or(u8::MAX)
-    }
+macro_rules! pixel {
+    ($type:ty) => {
+        impl Pixel for $type {
+            fn from_u32(value: u32) -> Self {
+                Self::try_from(value).unwrap_or(Self::MAX)
+            }
 
-    fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
-        frame.between(column, row, |grey| grey)
-    }
+            fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
+                frame.between(column, row, |grey| grey)
+            }
 
-    fn intensity_at(
-        frame: &Frame<'_, Self>,
-        column: f64,
-        row: f64,
-        curve: &DisplayCurve,
-    ) -> Option<f64> {
-        frame.between(column, row, |grey| curve.linear(grey))
-    }
+            fn intensity_at(
+                frame: &Frame<'_, Self>,
+                column: f64,
+                row: f64,
+                curve: &DisplayCurve,
+            ) -> Option<f64> {
+                frame.between(column, row, |grey| curve.linear(grey))
+            }
+        }
+    };
 }
 
-impl Pixel for u16 {
-    fn from_u32(value: u32) -> Self {
-        u16::try_from(value).unwrap_or(u16::MAX)
-    }
-
-    fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
-        frame.between(column, row, |grey| grey)
-    }
-
-    fn intensity_at(
-        frame: &Frame<'_, Self>,
-        column: f64,
-        row: f64,
-        curve: &DisplayCurve,
-    ) -> Option<f64> {
-        frame.between(column, row, |grey| curve.linear(grey))
-    }
-}
+pixel!(u8);
+pixel!(u16);
 
 /// Why a frame or a region is not one.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
