@@ -15,6 +15,7 @@ mod border;
 mod buffers;
 mod correct;
 mod depth;
+mod drawing;
 mod drawn;
 mod edge;
 mod edge_bias;

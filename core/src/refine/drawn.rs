@@ -3,12 +3,13 @@
 use super::border::{BorderPixel, NormalReading};
 use super::error::RefineError;
 use super::memory::FILM_EVERY;
-use super::outline::DrawnModel;
 use super::stages::Stage;
 use super::view::CameraView;
 use crate::film::lines::measure;
 use crate::film::{FilmModel, LineMemory, PathLine};
 use crate::memory::first;
+use crate::mesh::Model;
+use crate::pose::Pose;
 use crate::render::Projected;
 
 /// Lines across the outline, one for each sample; none where edges are taken to lie on the outline.
@@ -24,7 +25,8 @@ impl<'l> DrawnEdges<'l> {
     /// # Errors
     /// [`RefineError::Memory`] where there are more samples than lines.
     pub(super) fn of(
-        drawn: &DrawnModel<'_>,
+        model: &Model<'_>,
+        pose: &Pose,
         view: &CameraView<'_>,
         stage: &Stage,
         border: &mut [BorderPixel],
@@ -41,14 +43,7 @@ impl<'l> DrawnEdges<'l> {
             sample.weight *= FILM_EVERY as f32;
             *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
         }
-        measure(
-            drawn.model,
-            drawn.camera,
-            drawn.pose,
-            scratch,
-            lines,
-            memory.heads,
-        )?;
+        measure(model, view.camera, pose, scratch, lines, memory.heads)?;
         Ok(Self { film, lines })
     }
 

@@ -1,6 +1,7 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
 use super::border::{BorderPixel, NormalReading, Residual};
+use super::drawing::{Drawing, draw};
 use super::drawn::DrawnEdges;
 use super::edge;
 use super::effort::Effort;
@@ -8,17 +9,17 @@ use super::equations::Equations;
 use super::error::RefineError;
 use super::locks::{Hold, Locks};
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
-use super::outline::{Depth, DrawnModel};
+use super::outline::Depth;
 use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, STAGES, Stage};
 use super::step::Step;
 use super::view::{CameraView, Target};
-use crate::image::mask::{MaskError, MaskMut, words_needed};
+use crate::image::mask::MaskError;
 use crate::math::Vector3;
 use crate::mesh::Model;
 use crate::pose::{EulerPose, Pose};
-use crate::render::{RenderError, render};
+use crate::render::RenderError;
 
 /// Part of a loss that is not known, because the model is drawn in whole pixels.
 const GRAIN: f64 = 0.02;
@@ -312,34 +313,19 @@ impl<'a> Problem<'a> {
         equations: &mut Equations,
     ) -> Result<usize, RefineError> {
         let pose = view.placement.compose(pose);
-        let (width, height) = view.target.size();
-        let words = memory.drawn.get_mut(..words_needed(width, height));
-        let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-        render(self.model, view.camera, &pose, memory.projected, &mut drawn)?;
-        let drawn = drawn.into_mask();
-        let outliner = DrawnModel {
-            model: self.model,
-            camera: view.camera,
-            pose: &pose,
-            drawn: &drawn,
-            depth: Depth::of(&view.target),
-            every: if stage.drawn {
-                FILM_EVERY
-            } else {
-                self.effort.every()
-            },
+        let every = if stage.drawn {
+            FILM_EVERY
+        } else {
+            self.effort.every()
         };
-        let places = memory.places.get_mut(..width * height);
-        let border =
-            outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
-        let edges = DrawnEdges::of(
-            &outliner,
-            view,
-            stage,
+        let sampled = (Depth::of(&view.target), every);
+        let Drawing {
+            drawn,
             border,
-            memory.projected,
-            &mut memory.film,
-        )?;
+            projected,
+            film,
+        } = draw(self.model, view.camera, &pose, sampled, memory)?;
+        let edges = DrawnEdges::of(self.model, &pose, view, stage, border, projected, film)?;
         let centre = pose.transform(&self.middle);
         let count = border.len();
         for (number, sample) in border.iter_mut().enumerate() {

@@ -1,20 +1,19 @@
 //! Profiles of a frame across the outline of a model at a pose: what the constants of a film are estimated from.
 
 use super::border::NormalReading;
+use super::drawing::{Drawing, draw};
 use super::edge::{TANGENT, is_known};
 use super::error::RefineError;
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
-use super::outline::{Depth, DrawnModel};
+use super::outline::Depth;
 use super::probe::{self, OWN_RANGE};
 use super::view::{ImageTarget, Polarity};
 use crate::camera::Camera;
 use crate::film::lines::measure;
 use crate::film::{FilmProfile, PathLine};
-use crate::image::mask::{MaskMut, words_needed};
 use crate::memory::first;
 use crate::mesh::Model;
 use crate::pose::Pose;
-use crate::render::render;
 
 /// Reads profiles across the outline of `model` at `pose` (`camera_from_model`), evenly spread along it, as many as there is
 /// room for in `profiles`, and gives how many were read. The pose need only be near: how far each edge lies beside the outline
@@ -32,33 +31,18 @@ pub fn film_profiles(
     profiles: &mut [FilmProfile],
 ) -> Result<usize, RefineError> {
     check_memory(camera, memory)?;
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.drawn.get_mut(..words_needed(width, height));
-    let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    render(model, camera, pose, memory.projected, &mut drawn)?;
-    let drawn = drawn.into_mask();
-    let outliner = DrawnModel {
-        model,
-        camera,
-        pose,
-        drawn: &drawn,
-        depth: Depth::Edges,
-        every: FILM_EVERY,
-    };
-    let places = memory.places.get_mut(..width * height);
-    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
-    let lines = first("lines across the outline", border.len(), memory.film.lines)?;
+    let sampled = (Depth::Edges, FILM_EVERY);
+    let Drawing {
+        drawn,
+        border,
+        projected,
+        film,
+    } = draw(model, camera, pose, sampled, memory)?;
+    let lines = first("lines across the outline", border.len(), film.lines)?;
     for (line, sample) in lines.iter_mut().zip(&*border) {
         *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
     }
-    measure(
-        model,
-        camera,
-        pose,
-        memory.projected,
-        lines,
-        memory.film.heads,
-    )?;
+    measure(model, camera, pose, projected, lines, film.heads)?;
     let every = border.len().div_ceil(profiles.len().max(1)).max(1);
     let mut count = 0;
     for (line, sample) in lines.iter().zip(border).step_by(every) {

@@ -1,16 +1,15 @@
 //! The occluding contour as samples: what bounds and tests need of it.
 
 use super::border::NormalReading;
+use super::drawing::{Drawing, draw};
 use super::error::RefineError;
 use super::memory::{RefineMemory, check_memory};
-use super::outline::{Depth, DrawnModel};
+use super::outline::Depth;
 use super::probe::{self, OWN_RANGE};
 use super::step::Step;
 use crate::camera::Camera;
-use crate::image::mask::{MaskMut, words_needed};
 use crate::mesh::Model;
 use crate::pose::Pose;
-use crate::render::render;
 
 /// A piece of the model's occluding contour as one camera sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,21 +40,7 @@ pub fn outline_samples(
     mut visit: impl FnMut(&OutlineSample),
 ) -> Result<(), RefineError> {
     check_memory(camera, memory)?;
-    let (width, height) = (camera.width(), camera.height());
-    let words = memory.drawn.get_mut(..words_needed(width, height));
-    let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
-    render(model, camera, pose, memory.projected, &mut drawn)?;
-    let drawn = drawn.into_mask();
-    let outliner = DrawnModel {
-        model,
-        camera,
-        pose,
-        drawn: &drawn,
-        depth: Depth::Edges,
-        every: 1,
-    };
-    let places = memory.places.get_mut(..width * height);
-    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
+    let Drawing { drawn, border, .. } = draw(model, camera, pose, (Depth::Edges, 1), memory)?;
     let centre = pose.transform(&model.bounds().centre);
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
         let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {

@@ -1,0 +1,56 @@
+//! A model drawn at a pose, and the samples of its outline.
+
+use super::border::BorderPixel;
+use super::error::RefineError;
+use super::memory::RefineMemory;
+use super::outline::{Depth, DrawnModel};
+use crate::camera::Camera;
+use crate::film::LineMemory;
+use crate::image::mask::{Mask, MaskMut, words_needed};
+use crate::mesh::Model;
+use crate::pose::Pose;
+use crate::render::{Projected, render};
+
+/// What drawing leaves in working memory, and the memory that it leaves.
+pub(super) struct Drawing<'m, 'a> {
+    /// The model as drawn.
+    pub(super) drawn: Mask<'m>,
+    /// The samples of its outline.
+    pub(super) border: &'m mut [BorderPixel],
+    pub(super) projected: &'m mut [Projected],
+    pub(super) film: &'m mut LineMemory<'a>,
+}
+
+/// Draws `model` at `pose` (`camera_from_model`) and samples one of `every` pixels of its border.
+///
+/// # Errors
+/// [`RefineError`] where the model cannot be drawn or memory is too short.
+pub(super) fn draw<'m, 'a>(
+    model: &Model<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    (depth, every): (Depth, usize),
+    memory: &'m mut RefineMemory<'a>,
+) -> Result<Drawing<'m, 'a>, RefineError> {
+    let (width, height) = (camera.width(), camera.height());
+    let words = memory.drawn.get_mut(..words_needed(width, height));
+    let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
+    render(model, camera, pose, memory.projected, &mut drawn)?;
+    let drawn = drawn.into_mask();
+    let outliner = DrawnModel {
+        model,
+        camera,
+        pose,
+        drawn: &drawn,
+        depth,
+        every,
+    };
+    let places = memory.places.get_mut(..width * height);
+    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
+    Ok(Drawing {
+        drawn,
+        border,
+        projected: memory.projected,
+        film: &mut memory.film,
+    })
+}
