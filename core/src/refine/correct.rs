@@ -2,16 +2,21 @@
 //!
 //! Both edges are measured by one procedure, so what blur, display and thin metal do to them cancels. Their difference changes
 //! slowly with the pose: some undamped steps from where refinement on the frame's edges alone has ended.
+//!
+//! Each step sees other pixels of the border, so steps never end by themselves: once one is not shorter than the one before, the
+//! `n`-th from there is made by its `n`-th part. Poses then rest where steps are none in the mean over all border pixels (Robbins
+//! and Monro, Ann. Math. Statist. 22, 1951), wherever they come from.
 
+use super::equations::Equations;
 use super::error::RefineError;
-use super::memory::RefineMemory;
+use super::memory::{FILM_EVERY, RefineMemory};
 use super::problem::Problem;
 use super::result::{Iterate, Refined};
 use super::stages::Pass;
 
-/// Steps at most; usually three are made, of a tray on real films up to twenty.
+/// Steps at most.
 const STEPS: usize = 24;
-/// A step of this size ends the work: 0.004 degrees or 0.02 mm.
+/// A step of this size ends the work, as far as it is made: 0.004 degrees or 0.02 mm.
 const SMALL: f64 = 0.004;
 
 impl Problem<'_> {
@@ -30,27 +35,44 @@ impl Problem<'_> {
     ) -> Result<(), RefineError> {
         let mut next = *state;
         let mut seen = self.look(&mut next, pass, memory)?;
-        let (mut last, mut fraction) = (f64::INFINITY, 1.0);
+        let (mut last, mut parts) = (f64::INFINITY, 1.0);
         next.converged = false;
-        for _ in 0..STEPS {
+        for turn in 1..=STEPS {
             let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if step.size() > last {
-                fraction *= 0.6;
+            if step.size() > last || parts > 1.0 {
+                parts += 1.0;
             }
             last = step.size();
-            next.pose = self.apply(&step.scaled(fraction), &next.pose);
-            next.offset_px += fraction * more;
-            if last < SMALL {
+            next.pose = self.apply(&step.scaled(1.0 / parts), &next.pose);
+            next.offset_px += more / parts;
+            if last < SMALL * parts {
                 next.converged = true;
                 break;
             }
+            let pass = &Pass { turn, ..*pass };
             seen = self.look(&mut next, pass, memory)?;
         }
-        seen.equations.report(&mut next);
-        trace(&seen.equations.iterate(pass, &next));
+        let all = self.look_at_all(&mut next, pass, memory)?;
+        all.report(&mut next);
+        trace(&all.iterate(pass, &next));
         *state = next;
         Ok(())
+    }
+
+    /// What all border pixels see: rival poses are compared by it.
+    fn look_at_all(
+        &self,
+        state: &mut Refined,
+        pass: &Pass,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Equations, RefineError> {
+        let mut all = Equations::new();
+        for turn in 0..FILM_EVERY {
+            let pass = Pass { turn, ..*pass };
+            self.look_into(&mut all, state, &pass, memory)?;
+        }
+        Ok(all)
     }
 }

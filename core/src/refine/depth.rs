@@ -22,7 +22,7 @@ impl DrawnModel<'_> {
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        if let (Depth::Edges, Some(edges)) = (self.depth, contour(self.model, scratch)) {
+        if let (Depth::Edges, Some(edges)) = (self.sampling.depth, contour(self.model, scratch)) {
             for (vertices, images) in edges {
                 let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
                 self.lay_edge(depths, images.map(Projected::place), places, border);
@@ -146,6 +146,7 @@ mod tests {
     use crate::mesh::Model;
     use crate::mesh::edges::fake::Linked;
     use crate::pose::Pose;
+    use crate::refine::outline::Sampling;
     use crate::render::{render, scratch_needed};
     use std::vec;
     use std::vec::Vec;
@@ -197,8 +198,7 @@ mod tests {
             camera: &camera,
             pose: &pose,
             drawn: &drawn,
-            depth: Depth::Edges,
-            every: 1,
+            sampling: Sampling::ALL,
         };
         // What the memory held before does not matter.
         let mut places = vec![7; SIDE * SIDE];

@@ -3,7 +3,7 @@
 use super::border::BorderPixel;
 use super::error::RefineError;
 use super::memory::RefineMemory;
-use super::outline::{Depth, DrawnModel};
+use super::outline::{DrawnModel, Sampling};
 use crate::camera::Camera;
 use crate::film::LineMemory;
 use crate::image::mask::{Mask, MaskMut, words_needed};
@@ -21,7 +21,7 @@ pub(super) struct Drawing<'m, 'a> {
     pub(super) film: &'m mut LineMemory<'a>,
 }
 
-/// Draws `model` at `pose` (`camera_from_model`) and samples one of `every` pixels of its border.
+/// Draws `model` at `pose` (`camera_from_model`) and samples its border.
 ///
 /// # Errors
 /// [`RefineError`] where the model cannot be drawn or memory is too short.
@@ -29,7 +29,7 @@ pub(super) fn draw<'m, 'a>(
     model: &Model<'_>,
     camera: &Camera,
     pose: &Pose,
-    (depth, every): (Depth, usize),
+    sampling: Sampling,
     memory: &'m mut RefineMemory<'a>,
 ) -> Result<Drawing<'m, 'a>, RefineError> {
     let (width, height) = (camera.width(), camera.height());
@@ -42,8 +42,7 @@ pub(super) fn draw<'m, 'a>(
         camera,
         pose,
         drawn: &drawn,
-        depth,
-        every,
+        sampling,
     };
     let places = memory.places.get_mut(..width * height);
     let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;

@@ -34,15 +34,37 @@ impl Depth {
     }
 }
 
+/// Which border pixels are samples, and where their depth is taken from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sampling {
+    pub(super) depth: Depth,
+    /// One of this many is a sample.
+    pub(super) every: usize,
+    /// Which of them: as many different turns as `every` are all border pixels.
+    pub(super) turn: usize,
+}
+
+impl Sampling {
+    /// All border pixels, with the depth of the silhouette edges.
+    pub(super) const ALL: Self = Self {
+        depth: Depth::Edges,
+        every: 1,
+        turn: 0,
+    };
+
+    /// All along an edge, whatever its direction.
+    fn takes(&self, column: usize, row: usize) -> bool {
+        (column + 3 * row + self.turn).is_multiple_of(self.every)
+    }
+}
+
 /// A model as drawn at a pose.
 pub(super) struct DrawnModel<'a> {
     pub(super) model: &'a Model<'a>,
     pub(super) camera: &'a Camera,
     pub(super) pose: &'a Pose,
     pub(super) drawn: &'a Mask<'a>,
-    pub(super) depth: Depth,
-    /// One of this many border pixels is a sample.
-    pub(super) every: usize,
+    pub(super) sampling: Sampling,
 }
 
 impl DrawnModel<'_> {
@@ -76,8 +98,7 @@ impl DrawnModel<'_> {
                 if column == 0 || column + 1 >= width {
                     continue;
                 }
-                // All along an edge, whatever its direction.
-                if !(column + 3 * row).is_multiple_of(self.every) {
+                if !self.sampling.takes(column, row) {
                     continue;
                 }
                 let Some(pixel) = sample_at(self.drawn, column, row) else {

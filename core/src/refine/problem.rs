@@ -9,7 +9,7 @@ use super::equations::Equations;
 use super::error::RefineError;
 use super::locks::{Hold, Locks};
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
-use super::outline::Depth;
+use super::outline::{Depth, Sampling};
 use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, STAGES, Stage};
@@ -254,16 +254,27 @@ impl<'a> Problem<'a> {
         pass: &Pass,
         memory: &mut RefineMemory<'_>,
     ) -> Result<Seen, RefineError> {
-        state.renders += self.views.len();
         let mut equations = Equations::new();
+        let samples = self.look_into(&mut equations, state, pass, memory)?;
+        Ok(Seen { equations, samples })
+    }
+
+    /// Adds what is seen at a pose, and gives the number of samples of the last view.
+    pub(super) fn look_into(
+        &self,
+        equations: &mut Equations,
+        state: &mut Refined,
+        pass: &Pass,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Option<usize>, RefineError> {
+        state.renders += self.views.len();
         let mut samples = None;
         for view in self.views {
             let stage = pass.stage(&view.target);
             let (pose, offset) = (&state.pose, state.offset_px);
-            samples =
-                Some(self.observe_view(view, pose, offset, &stage, memory, &mut equations)?);
+            samples = Some(self.observe_view(view, pose, offset, &stage, memory, equations)?);
         }
-        Ok(Seen { equations, samples })
+        Ok(samples)
     }
 
     /// What was seen, weighed as another stage does, without drawing again: of one camera and a
@@ -318,13 +329,17 @@ impl<'a> Problem<'a> {
         } else {
             self.effort.every()
         };
-        let sampled = (Depth::of(&view.target), every);
+        let sampling = Sampling {
+            depth: Depth::of(&view.target),
+            every,
+            turn: stage.turn,
+        };
         let Drawing {
             drawn,
             border,
             projected,
             film,
-        } = draw(self.model, view.camera, &pose, sampled, memory)?;
+        } = draw(self.model, view.camera, &pose, sampling, memory)?;
         let edges = DrawnEdges::of(self.model, &pose, view, stage, border, projected, film)?;
         let centre = pose.transform(&self.middle);
         let count = border.len();

@@ -5,7 +5,7 @@ use super::drawing::{Drawing, draw};
 use super::edge::{TANGENT, is_known};
 use super::error::RefineError;
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
-use super::outline::Depth;
+use super::outline::Sampling;
 use super::probe::{self, OWN_RANGE};
 use super::view::{ImageTarget, Polarity};
 use crate::camera::Camera;
@@ -31,13 +31,16 @@ pub fn film_profiles(
     profiles: &mut [FilmProfile],
 ) -> Result<usize, RefineError> {
     check_memory(camera, memory)?;
-    let sampled = (Depth::Edges, FILM_EVERY);
+    let sampling = Sampling {
+        every: FILM_EVERY,
+        ..Sampling::ALL
+    };
     let Drawing {
         drawn,
         border,
         projected,
         film,
-    } = draw(model, camera, pose, sampled, memory)?;
+    } = draw(model, camera, pose, sampling, memory)?;
     let lines = first("lines across the outline", border.len(), film.lines)?;
     for (line, sample) in lines.iter_mut().zip(&*border) {
         *line = PathLine::at(sample.place(), sample.normal.map(f64::from));

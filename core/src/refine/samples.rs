@@ -4,7 +4,7 @@ use super::border::NormalReading;
 use super::drawing::{Drawing, draw};
 use super::error::RefineError;
 use super::memory::{RefineMemory, check_memory};
-use super::outline::Depth;
+use super::outline::Sampling;
 use super::probe::{self, OWN_RANGE};
 use super::step::Step;
 use crate::camera::Camera;
@@ -40,7 +40,7 @@ pub fn outline_samples(
     mut visit: impl FnMut(&OutlineSample),
 ) -> Result<(), RefineError> {
     check_memory(camera, memory)?;
-    let Drawing { drawn, border, .. } = draw(model, camera, pose, (Depth::Edges, 1), memory)?;
+    let Drawing { drawn, border, .. } = draw(model, camera, pose, Sampling::ALL, memory)?;
     let centre = pose.transform(&model.bounds().centre);
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
         let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {

@@ -14,6 +14,8 @@ pub(super) struct Stage {
     pub(super) loss: Loss,
     /// Whether edges are compared with those that the film's model puts on the drawing.
     pub(super) drawn: bool,
+    /// Which border pixels are looked at, where not all are.
+    pub(super) turn: usize,
 }
 
 /// Undamped steps after the last stage at most.
@@ -33,6 +35,7 @@ impl Stage {
             range,
             loss,
             drawn: false,
+            turn: 0,
         };
         match (target, index) {
             (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
@@ -60,6 +63,8 @@ pub(super) struct Pass {
     pub(super) free: bool,
     /// Whether edges are compared with those that the film's model puts on the drawing, where there is one.
     pub(super) drawn: bool,
+    /// Which border pixels are looked at, where not all are.
+    pub(super) turn: usize,
 }
 
 impl Pass {
@@ -67,6 +72,7 @@ impl Pass {
     pub(super) fn stage(&self, target: &Target<'_>) -> Stage {
         Stage {
             drawn: self.drawn && target.film().is_some(),
+            turn: self.turn,
             ..Stage::of(target, self.index, self.sigma_px)
         }
     }
