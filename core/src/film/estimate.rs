@@ -1,48 +1,28 @@
 //! The constants of a film, from profiles across the outlines of its components.
 //!
 //! Only the shape of profiles counts: where each lies along its normal is left free, so nothing is circular with the depths of
-//! the poses that they were read at. What is minimised is `sum log(1 + RSS / n)` over profiles, with the square `n` of a small part of the contrast, by Gauss and Newton with
-//! weights made anew, from several curvatures, because there are local minima.
+//! the poses that they were read at. What is minimised is `sum log(1 + RSS / n)` over profiles, with the square `n` of a small
+//! part of the contrast, by Gauss and Newton with weights made anew, from several curvatures, because there are local minima.
 
 mod equations;
 mod guards;
 mod solver;
+mod unknowns;
 
 use core::fmt;
 
 use solver::Fit;
+use unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
+pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
 use super::model::{FilmConstants, FilmModel};
 use super::profile::FilmProfile;
 use crate::math::{exp, sqrt};
 
-/// Most components of a film.
-pub const MOST_COMPONENTS: usize = 4;
-
-/// Contrast times curvature, the logarithm of the blur, and those of the attenuations.
-const UNKNOWNS: usize = 2 + MOST_COMPONENTS;
-const CURVATURE: usize = 0;
-const BLUR: usize = 1;
-
-type Vector = [f64; UNKNOWNS];
-type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
-
-/// At least so many profiles tell anything.
-const LEAST_PROFILES: usize = 40;
 /// Errors that formal ones do not know of: for the physics left out. Of the curvature for each contrast, and of logarithms.
 const LEAST_DEVIATION: [f64; 3] = [0.06, 0.05, 0.1];
 /// The same of the curvature where no two components tell it alike.
 const UNTOLD_DEVIATION: f64 = 0.6;
-
-/// What is known of a display.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DisplayKnowledge {
-    /// The profiles tell it.
-    Told,
-    /// They do not: components contradict each other, or there is one alone, and an unsharp mask may pass for a curve. The
-    /// film is taken to be linear.
-    Untold,
-}
 
 /// The constants of a film and how sure they are.
 #[derive(Clone, Copy, Debug, PartialEq)]

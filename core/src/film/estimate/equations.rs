@@ -1,6 +1,6 @@
 //! Normal equations of the constants, and how their slope varies between stretches of outline.
 
-use super::{Matrix, UNKNOWNS, Vector};
+use super::unknowns::{Matrix, UNKNOWNS, Vector};
 use crate::film::fit::Residuals;
 use crate::math::inverse_spd;
 

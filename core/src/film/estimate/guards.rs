@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::solver::{Fit, UNEXPLAINED};
-use super::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, Vector};
+use super::unknowns::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, Vector};
 use crate::film::profile::FilmProfile;
 
 /// A frame whose profiles cost more than this many times the mean of the better half of a component's frames is left out: its

@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::equations::{Sums, product};
-use super::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
+use super::unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::model::{CONSTANTS, Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
 use crate::film::profile::{FilmProfile, READINGS};

@@ -1,0 +1,25 @@
+//! The unknowns of an estimate: how many there are, and which is which.
+
+/// Most components of a film.
+pub const MOST_COMPONENTS: usize = 4;
+
+/// Contrast times curvature, the logarithm of the blur, and those of the attenuations.
+pub(super) const UNKNOWNS: usize = 2 + MOST_COMPONENTS;
+pub(super) const CURVATURE: usize = 0;
+pub(super) const BLUR: usize = 1;
+
+pub(super) type Vector = [f64; UNKNOWNS];
+pub(super) type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];
+
+/// At least so many profiles tell anything.
+pub(super) const LEAST_PROFILES: usize = 40;
+
+/// What is known of a display.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DisplayKnowledge {
+    /// The profiles tell it.
+    Told,
+    /// They do not: components contradict each other, or there is one alone, and an unsharp mask may pass for a curve. The
+    /// film is taken to be linear.
+    Untold,
+}
