@@ -2,31 +2,53 @@
 //!
 //! [`Trail`] goes from frame to frame in one direction. Where the motion so far leads to is the pose that is expected
 //! ([`Trail::expect`]); it is refined on the frame ([`look`]), and where what comes of it is out of the ordinary, poses
-//! around it are searched. [`mirrored_pose`] gives the rival on the other side of the mirror; [`choose_sides`] tells over
-//! the film which side is the right one. [`judge_film`] says at the end how far each frame is to be trusted.
+//! around it are searched. A [`Way`] leads from an [`Anchor`], a frame whose pose is known, over the frames beside it; where
+//! two ways meet, [`join_ways`] takes the better of both. [`mirrored_pose`] gives the rival on the other side of the mirror;
+//! [`choose_sides`] tells over the film which side is the right one, and [`mirrored_runs`] where to go over to it.
+//! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
+//!
+//! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for.
 //!
 //! Nothing here knows files, threads or time: whoever calls gives frames one by one, in the order that he likes.
 
+mod cell;
+#[cfg(feature = "alloc")]
+mod conclude;
+mod conclusion;
 mod contrast;
+#[cfg(feature = "alloc")]
+mod following;
 mod frame_pose;
 mod look;
+mod meeting;
 mod motion;
 mod near;
 mod settle;
+mod side_samples;
 mod sides;
 mod state;
 mod subject;
 mod trail;
 mod trust;
+mod way;
 
+pub use cell::{Anchor, Cell};
+#[cfg(feature = "alloc")]
+pub use conclude::{conclude, trusted_depths};
+pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
+#[cfg(feature = "alloc")]
+pub use following::{Following, KnownFemur};
 pub use frame_pose::{FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame};
 pub use look::{Looked, Missing, look};
+pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
 pub use settle::settled;
+pub use side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
 pub use sides::{Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};
 pub use trust::{Distrust, FrameEvidence, Trust, TrustLimits, judge_film};
+pub use way::Way;

@@ -4,9 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
-use fluoropose::follow::State;
+use fluoropose::follow::{Conclusion, Following, KnownFemur, State, Subject};
+use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineBuffers, RefineOptions};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::write_poses;
 use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
@@ -203,4 +206,109 @@ fn fixed_poses_stay_and_other_inputs_are_not_mixed() {
     .expect("a copy");
     let mixed = film.track("all", &[0]).err().expect("refused").to_string();
     assert!(mixed.contains("other frames"), "{mixed}");
+}
+
+/// The same film from frames that are given when they are asked for, as the page has them.
+struct Given<'f> {
+    part: &'f Triangles,
+    frames: &'f [Vec<u8>],
+    asked: Vec<usize>,
+}
+
+impl Given<'_> {
+    /// Gives all frames that are asked for.
+    fn go_on(&mut self, following: &mut Following) {
+        let model = surface(self.part.clone());
+        let model = model.as_model();
+        let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
+        let camera = camera.expect("valid");
+        let planes = symmetry_planes(model.mesh());
+        let subject = Subject {
+            model: &model,
+            planes: &planes,
+            camera: &camera,
+            options: RefineOptions {
+                effort: Effort::Film,
+                ..RefineOptions::default()
+            },
+        };
+        let mut buffers = RefineBuffers::default();
+        while let Some(number) = following.wanted() {
+            self.asked.push(number);
+            let frame = Frame::new(&self.frames[number], SIDE, SIDE, SIDE).expect("fits");
+            let image = ImageTarget {
+                frame: &frame,
+                unknown: None,
+                polarity: Polarity::DarkImplant,
+                film: None,
+            };
+            let mut memory = buffers.borrow(&model, &camera);
+            following
+                .take(&subject, &image, &mut memory)
+                .expect("drawn");
+        }
+    }
+}
+
+fn assert_followed(film: &[Conclusion], truth: &[EulerPose], fixed: &[usize]) {
+    for (frame, (one, truth)) in film.iter().zip(truth).enumerate() {
+        let (pose, truth) = (
+            one.pose.expect("every frame is visible"),
+            Pose::from(*truth),
+        );
+        let turn = geodesic_deg(&pose.rotation, &truth.rotation);
+        assert!(turn < 2.0, "frame {frame}: {turn} {one:?}");
+        assert_eq!(one.state == State::Fixed, fixed.contains(&frame));
+        assert!(one.state != State::Fixed || pose == truth, "frame {frame}");
+    }
+    // Where the film is not known, a turn may count as undetermined.
+    let doubtful = film.iter().filter(|one| one.state == State::Doubtful);
+    assert!(doubtful.count() <= 1, "{film:?}");
+}
+
+#[test]
+fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
+    let (thigh, tray) = (femur(), tibia());
+    let motion = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
+    let frames: Vec<Vec<u8>> = (0..FRAMES)
+        .map(|number| {
+            let at = &motion[number];
+            frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], number)
+        })
+        .collect();
+    let truth = |of: fn(usize, &[fluoropose_phantom::film::motion::Position]) -> EulerPose| {
+        let poses = (0..FRAMES).map(|number| of(number, &motion));
+        poses.collect::<Vec<EulerPose>>()
+    };
+    let femurs = truth(|number, film| film[number].femur);
+    let tibiae = truth(|number, film| film[number].tibia);
+    let follow = |part: &Triangles, truth: &[EulerPose], fixed: &[usize], femur| {
+        let middle = surface(part.clone()).as_model().bounds().centre;
+        let mut following = Following::new(middle, FRAMES, 0..FRAMES);
+        for &frame in fixed {
+            following.give(frame, truth[frame].into(), true);
+        }
+        let mut given = Given {
+            part,
+            frames: &frames,
+            asked: Vec::new(),
+        };
+        given.go_on(&mut following);
+        let mut first = given.asked.clone();
+        first.sort_unstable();
+        first.dedup();
+        assert_eq!(first, (0..FRAMES).collect::<Vec<_>>());
+        following.choose_sides(femur);
+        given.go_on(&mut following);
+        following
+    };
+    // From one end; from both, so that two ways meet.
+    let femur = follow(&thigh, &femurs, &[0], None);
+    assert_followed(&femur.conclude(&[]), &femurs, &[0]);
+    let known = KnownFemur {
+        poses: femur.conclude(&[]).iter().map(|one| one.pose).collect(),
+        axes: Pose::IDENTITY,
+    };
+    let tibia = follow(&tray, &tibiae, &[0, FRAMES - 1], Some(known));
+    assert_followed(&tibia.conclude(&femur.depths()), &tibiae, &[0, FRAMES - 1]);
 }

@@ -1,10 +1,10 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{FramePose, frame_pose_at, settled};
+use fluoropose::follow::{Anchor, Cell, FramePose, frame_pose_at, settled};
 use fluoropose::pose::Pose;
 
-use super::follow::{Anchor, Cell, follow};
+use super::follow::{follow, mark};
 use super::part::Part;
 use super::run::Run;
 use super::search::{clicked, searched};
@@ -120,7 +120,7 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         if anchor.fixed {
             return of_person(run, part, frame, &pose);
         }
-        let key = format!("again/{}/{}", part.number, anchor.mark());
+        let key = format!("again/{}/{}", part.number, mark(anchor));
         let found: Option<FramePose> = run.journal.step(&key, || {
             part.see(run.film, frame, |subject, image, memory| {
                 Some(settled(subject, image, &anchor.found, memory))

@@ -3,9 +3,10 @@
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmProfile, estimate};
+use fluoropose::follow::Anchor;
 use fluoropose::refine::film_profiles;
 
-use super::follow::{Anchor, beside};
+use super::follow::beside;
 use super::part::Part;
 use super::record::Films;
 use super::run::Run;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::fs;
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::State;
+use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
 use rayon::prelude::*;
@@ -12,9 +12,9 @@ use sha2::{Digest, Sha256};
 
 use super::anchors::{again, begin, fill};
 use super::constants::learn_film;
-use super::follow::{Anchor, Cell, follow};
+use super::follow::follow;
 use super::journal::Journal;
-use super::judge::{Judged, judge};
+use super::judge::judge;
 use super::part::{Part, read_models};
 use super::request::Request;
 use super::run::Run;
@@ -157,13 +157,13 @@ fn finish(
             role(number).is_some_and(|own| role(other) == Some(own.other()))
         });
         let depths = other.map_or(Vec::new(), |other| {
-            depths(&parts[other], &films[other], &margins[other])
+            trusted_depths(&films[other], &margins[other], &parts[other].middle())
         });
         let (cells, interpolate) = (&films[number], run.request.interpolate);
         let judged = judge(part, cells, &margins[number], &depths, interpolate);
         let poses: Vec<Option<EulerPose>> = judged
             .iter()
-            .map(|one: &Judged| one.pose.map(EulerPose::from))
+            .map(|one: &Conclusion| one.pose.map(EulerPose::from))
             .collect();
         write_poses(&out.join(format!("{}.jts", part.name())), &poses)?;
         let middle = part.middle();
@@ -182,17 +182,4 @@ fn finish(
     }
     write_text(&out.join("track.csv"), &text)?;
     Ok(tracked)
-}
-
-/// How far a component is from the camera in each frame, mm, where its pose is to be trusted by itself: else it says nothing
-/// of the other.
-fn depths(part: &Part<'_>, cells: &[Cell], margins: &Margins) -> Vec<Option<f64>> {
-    let middle = part.middle();
-    let alone = judge(part, cells, margins, &[], 0);
-    let trusted = |one: &Judged| matches!(one.state, State::Fixed | State::Followed);
-    let depth = |one: &Judged| {
-        let pose = one.pose.filter(|_| trusted(one))?;
-        Some(-pose.transform(&middle)[2])
-    };
-    alone.iter().map(depth).collect()
 }

@@ -1,75 +1,26 @@
 //! A component followed from anchors, frames whose pose is known, over the frames between and beside them.
 
 use anyhow::Result;
-use fluoropose::follow::{FramePose, Looked, Trail, look};
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::follow::{Anchor, Cell, Looked, Way, have_met, join_ways, look};
+use fluoropose::pose::Pose;
 use sha2::{Digest, Sha256};
 
 use super::part::Part;
 use super::record::Record;
 use super::run::Run;
 
-/// A trail ends after so many frames without a pose: whole frames are searched from there on.
-const GIVE_UP: usize = 12;
-/// Two ways have come to the same pose of a frame where they are nearer than this, degrees.
-const SAME_DEG: f64 = 1.0;
-/// The worse of two ways that differ is no rival where its score is below this part of the better one's.
-const RIVAL: f64 = 0.8;
-/// What a jump of a degree costs where one way is left for the other, in scores.
-const JUMP: f64 = 0.05;
-
-/// A frame whose pose is known before it is followed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Anchor {
-    pub(super) frame: usize,
-    pub(super) found: FramePose,
-    /// Whether a person gave it: it never changes.
-    pub(super) fixed: bool,
-}
-
-impl Anchor {
-    /// Tells it from all others: what follows from it is done again where it changes.
-    pub(super) fn mark(&self) -> String {
-        let mut hash = Sha256::new();
-        for number in self.found.numbers() {
-            hash.update(number.to_bits().to_le_bytes());
-        }
-        let digest: [u8; 32] = hash.finalize().into();
-        let short: String = digest[..8]
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
-        format!("{}-{short}", self.frame)
+/// Tells an anchor from all others: what follows from it is done again where it changes.
+pub(super) fn mark(anchor: &Anchor) -> String {
+    let mut hash = Sha256::new();
+    for number in anchor.found.numbers() {
+        hash.update(number.to_bits().to_le_bytes());
     }
-}
-
-/// What came of a frame.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Cell {
-    /// None where it was never reached.
-    pub(super) looked: Option<Looked>,
-    pub(super) fixed: bool,
-    /// What the way from the other end came to, where it differs.
-    pub(super) other_way: Option<Pose>,
-}
-
-impl Cell {
-    pub(super) fn found(&self) -> Option<&FramePose> {
-        self.looked.as_ref()?.found.as_ref().ok()
-    }
-
-    fn of(anchor: &Anchor) -> Self {
-        Self {
-            looked: Some(Looked {
-                found: Ok(anchor.found),
-                ordinary: true,
-                searched: false,
-                known: anchor.found.fit.known,
-            }),
-            fixed: anchor.fixed,
-            other_way: None,
-        }
-    }
+    let digest: [u8; 32] = hash.finalize().into();
+    let short: String = digest[..8]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    format!("{}-{short}", anchor.frame)
 }
 
 /// Follows a component from its anchors, which are in the order of their frames, over the frames `range`.
@@ -81,7 +32,7 @@ pub(super) fn follow(
     cells: &mut [Cell],
 ) -> Result<()> {
     for anchor in anchors {
-        cells[anchor.frame] = Cell::of(anchor);
+        cells[anchor.frame] = Cell::from(anchor);
     }
     let (Some(first), Some(last)) = (anchors.first(), anchors.last()) else {
         return Ok(());
@@ -111,9 +62,7 @@ struct Walk<'w, 's> {
     run: &'w Run<'s>,
     part: &'w Part<'s>,
     mark: String,
-    trail: Trail,
-    /// The next frame, where there is one.
-    at: usize,
+    way: Way,
     forward: bool,
     looked: Vec<(usize, Looked)>,
 }
@@ -149,9 +98,8 @@ fn way<'w, 's>(
     let mut walk = Walk {
         run,
         part,
-        mark: from.mark(),
-        trail: Trail::begin(from.frame, &from.found),
-        at: from.frame,
+        mark: mark(from),
+        way: Way::begin(from, to >= from.frame),
         forward: to >= from.frame,
         looked: Vec::new(),
     };
@@ -163,12 +111,8 @@ impl Walk<'_, '_> {
     /// Goes on up to a frame, unless the trail is given up.
     fn on(&mut self, to: usize) -> Result<()> {
         let middle = self.part.middle();
-        while self.at != to && self.trail.missed() < GIVE_UP {
-            self.at = match self.forward {
-                true => self.at + 1,
-                false => self.at - 1,
-            };
-            let (frame, trail) = (self.at, &self.trail);
+        while let Some(frame) = self.way.next(to) {
+            let trail = self.way.trail();
             let arrow = if self.forward { "f" } else { "b" };
             let key = format!(
                 "look/{}/{}/{}/{arrow}/{frame}",
@@ -182,8 +126,7 @@ impl Walk<'_, '_> {
                         look(subject, image, frame, trail, memory)
                     })
             })?;
-            self.trail
-                .take(frame, looked.found.as_ref().ok(), looked.ordinary, &middle);
+            self.way.take(frame, &looked, &middle);
             self.run.tell(self.part, frame, &looked);
             self.looked.push((frame, looked));
         }
@@ -191,18 +134,8 @@ impl Walk<'_, '_> {
     }
 
     fn cells(self) -> impl Iterator<Item = (usize, Cell)> {
-        self.looked.into_iter().map(|(frame, looked)| {
-            let cell = Cell {
-                looked: Some(looked),
-                ..Cell::default()
-            };
-            (frame, cell)
-        })
-    }
-
-    fn last_found(&self) -> Option<(usize, FramePose)> {
-        let &(frame, looked) = self.looked.last()?;
-        Some((frame, looked.found.ok()?))
+        let cell = |(frame, looked)| (frame, Cell::on_the_way(looked));
+        self.looked.into_iter().map(cell)
     }
 
     fn at(&self, frame: usize) -> Option<Looked> {
@@ -223,11 +156,11 @@ fn span(run: &Run<'_>, part: &Part<'_>, a: &Anchor, b: &Anchor) -> Result<Vec<(u
         || way(run, part, b, middle.max(a.frame + 1)),
     );
     let (mut forward, mut backward) = (forward?, backward?);
-    if let (Some((at, one)), Some((_, other))) = (forward.last_found(), backward.last_found())
-        && at == backward.at
-        && geodesic_deg(&one.pose.rotation, &other.pose.rotation) < SAME_DEG
+    let last = backward.way.at();
+    if let (Some(one), Some(other)) = (forward.at(last), backward.at(last))
+        && have_met(&one, &other)
     {
-        let half = forward.cells().filter(|&(frame, _)| frame != at);
+        let half = forward.cells().filter(|&(frame, _)| frame != last);
         return Ok(half.chain(backward.cells()).collect());
     }
     let (one, other) = rayon::join(|| forward.on(b.frame - 1), || backward.on(a.frame + 1));
@@ -236,44 +169,7 @@ fn span(run: &Run<'_>, part: &Part<'_>, a: &Anchor, b: &Anchor) -> Result<Vec<(u
     let ways: Vec<[Option<Looked>; 2]> = (a.frame + 1..b.frame)
         .map(|frame| [forward.at(frame), backward.at(frame)])
         .collect();
-    let cells = cut(&ways).into_iter().enumerate();
-    Ok(cells.map(|(k, cell)| (a.frame + 1 + k, cell)).collect())
-}
-
-/// Takes the frames up to one from the first way and those behind it from the second, where that is best.
-fn cut(ways: &[[Option<Looked>; 2]]) -> Vec<Cell> {
-    let score = |k: usize, which: usize| {
-        let looked = ways[k][which].as_ref();
-        let found = looked.and_then(|looked| looked.found.as_ref().ok());
-        found.map_or(0.0, FramePose::score)
-    };
-    let pose = |k: usize, which: usize| ways[k][which]?.found.ok().map(|found| found.pose);
-    let jump = |at: usize| match (
-        pose(at.saturating_sub(1), 0),
-        pose(at.min(ways.len() - 1), 1),
-    ) {
-        (Some(one), Some(other)) => JUMP * geodesic_deg(&one.rotation, &other.rotation),
-        _ => 0.0,
-    };
-    let worth = |at: usize| {
-        let first: f64 = (0..at).map(|k| score(k, 0)).sum();
-        let second: f64 = (at..ways.len()).map(|k| score(k, 1)).sum();
-        first + second - jump(at)
-    };
-    let best = (0..=ways.len()).max_by(|&a, &b| worth(a).total_cmp(&worth(b)));
-    let best = best.unwrap_or(0);
-    let cell = |k: usize| {
-        let which = usize::from(k >= best);
-        let rival = score(k, 1 - which) >= RIVAL * score(k, which);
-        let apart = |a: &Pose, b: &Pose| geodesic_deg(&a.rotation, &b.rotation) >= SAME_DEG;
-        let other = pose(k, 1 - which).zip(pose(k, which));
-        Cell {
-            looked: ways[k][which].or(ways[k][1 - which]),
-            fixed: false,
-            other_way: other
-                .filter(|(other, own)| rival && apart(other, own))
-                .map(|pair| pair.0),
-        }
-    };
-    (0..ways.len()).map(cell).collect()
+    let mut cells = vec![Cell::default(); ways.len()];
+    join_ways(&ways, &mut cells);
+    Ok((a.frame + 1..).zip(cells).collect())
 }

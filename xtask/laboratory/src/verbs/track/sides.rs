@@ -3,30 +3,19 @@
 use anyhow::Result;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::follow::{
-    FramePose, Side, SideEvidence, SideFigures, SideStep, choose_sides, mirrored_pose,
+    Anchor, Cell, SideEvidence, SideSample, SideStep, choose_sides, frames_for_sides,
+    mirrored_pose, mirrored_runs, side_margin,
 };
-use fluoropose::pose::{Pose, geodesic_deg};
+use fluoropose::pose::Pose;
 use rayon::prelude::*;
 
-use super::follow::{Anchor, Cell, follow};
+use super::follow::follow;
 use super::part::Part;
 use super::record::Record;
 use super::run::Run;
 
-/// Every so many frames both sides are looked at; more often in a short film.
-const EVERY: usize = 8;
-const LEAST: usize = 6;
-
 /// By how much the other side of each frame is less likely; `None` where there is none.
 pub(super) type Margins = Vec<Option<f64>>;
-
-/// A frame seen from both sides.
-struct Sample {
-    frame: usize,
-    own: FramePose,
-    mirrored: Option<FramePose>,
-    fixed: bool,
-}
 
 /// Chooses the sides of a component; where the other side is the right one it is followed there. `femurs` are the femoral
 /// poses of all frames in the field's axes, for a tibia.
@@ -39,7 +28,7 @@ pub(super) fn settle(
     let samples = samples(run, part, cells)?;
     let evidence: Vec<SideEvidence> = samples
         .iter()
-        .map(|sample| evidence(part, sample, femurs))
+        .map(|sample| sample.evidence(|pose| tilt_deg(part, sample.frame, femurs, pose)))
         .collect();
     let mut steps = vec![SideStep::default(); samples.len()];
     choose_sides(&evidence, &mut steps);
@@ -52,51 +41,33 @@ pub(super) fn settle(
             )
         });
     }
-    let mut margins = vec![None; cells.len()];
-    let mut at = 0;
-    while at < samples.len() {
-        let side = steps[at].side;
-        let end = (at..samples.len())
-            .find(|&k| steps[k].side != side)
-            .unwrap_or(samples.len());
-        let first = at.checked_sub(1).map_or(0, |last| {
-            usize::midpoint(samples[last].frame, samples[at].frame) + 1
-        });
-        let behind = samples.get(end).map_or(cells.len(), |next| {
-            usize::midpoint(samples[end - 1].frame, next.frame) + 1
-        });
-        if side == Side::Mirrored {
-            go_over(run, part, &samples[at..end], first..behind, cells)?;
-        }
-        at = end;
+    for (range, anchor) in mirrored_runs(&samples, &steps, cells.len()) {
+        go_over(run, part, anchor, range, cells)?;
     }
-    for (frame, margin) in margins.iter_mut().enumerate() {
-        let nearest = (0..samples.len()).min_by_key(|&k| samples[k].frame.abs_diff(frame));
-        *margin = nearest
-            .filter(|&k| samples[k].mirrored.is_some() && !samples[k].fixed)
-            .map(|k| steps[k].margin);
-    }
-    Ok(margins)
+    let margin = |frame| side_margin(&samples, &steps, frame);
+    Ok((0..cells.len()).map(margin).collect())
+}
+
+/// Coronal tilt of a tibial pose against the femur of its frame, degrees, where that is known.
+fn tilt_deg(
+    part: &Part<'_>,
+    frame: usize,
+    femurs: Option<&[Option<Pose>]>,
+    pose: &Pose,
+) -> Option<f64> {
+    let femur = (*femurs?.get(frame)?)?;
+    let axes = part.axes?;
+    Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&axes)))
 }
 
 /// Follows the other side over some frames.
 fn go_over(
     run: &Run<'_>,
     part: &Part<'_>,
-    samples: &[Sample],
+    anchor: Anchor,
     range: std::ops::Range<usize>,
     cells: &mut [Cell],
 ) -> Result<()> {
-    let score = |sample: &&Sample| sample.mirrored.map_or(0.0, |found| found.score());
-    let best = samples.iter().max_by(|a, b| score(a).total_cmp(&score(b)));
-    let Some((frame, found)) = best.and_then(|best| Some((best.frame, best.mirrored?))) else {
-        return Ok(());
-    };
-    let anchor = Anchor {
-        frame,
-        found,
-        fixed: false,
-    };
     // What is there is of the wrong side; what a person fixed stays.
     for cell in cells[range.clone()].iter_mut().filter(|cell| !cell.fixed) {
         *cell = Cell::default();
@@ -104,18 +75,9 @@ fn go_over(
     follow(run, part, &[anchor], range, cells)
 }
 
-fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>> {
-    let posed: Vec<usize> = (0..cells.len())
-        .filter(|&frame| cells[frame].found().is_some())
-        .collect();
-    let every = (posed.len() / LEAST).clamp(1, EVERY);
-    let wanted: Vec<usize> = posed
-        .iter()
-        .enumerate()
-        .filter(|&(k, &frame)| k % every == every / 2 || cells[frame].fixed)
-        .map(|(_, &frame)| frame)
-        .collect();
-    let sample = |&frame: &usize| -> Result<Option<Sample>> {
+fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<SideSample>> {
+    let wanted: Vec<usize> = frames_for_sides(cells).collect();
+    let sample = |&frame: &usize| -> Result<Option<SideSample>> {
         let Some(&own) = cells[frame].found() else {
             return Ok(None);
         };
@@ -129,40 +91,13 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<Sample>
                 mirrored_pose(subject, image, &own, memory)
             })
         })?;
-        Ok(Some(Sample {
+        Ok(Some(SideSample {
             frame,
             own,
             mirrored,
             fixed: cells[frame].fixed,
         }))
     };
-    let samples: Vec<Option<Sample>> = wanted.par_iter().map(sample).collect::<Result<_>>()?;
+    let samples: Vec<Option<SideSample>> = wanted.par_iter().map(sample).collect::<Result<_>>()?;
     Ok(samples.into_iter().flatten().collect())
-}
-
-fn evidence(part: &Part<'_>, sample: &Sample, femurs: Option<&[Option<Pose>]>) -> SideEvidence {
-    let femur = femurs.and_then(|femurs| femurs.get(sample.frame).copied().flatten());
-    let tilt = |pose: &Pose| {
-        let (femur, axes) = (femur?, part.axes?);
-        Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&axes)))
-    };
-    let figures = |found: &FramePose| SideFigures {
-        misfit_px: found.misfit_px,
-        tilt_deg: tilt(&found.pose),
-    };
-    let own = figures(&sample.own);
-    // Without another side, and where a person has chosen, the own side is the right one.
-    let none = SideFigures {
-        misfit_px: 10.0 * own.misfit_px,
-        tilt_deg: None,
-    };
-    let mirrored = sample.mirrored.filter(|_| !sample.fixed);
-    SideEvidence {
-        frame: sample.frame,
-        own,
-        mirrored: mirrored.as_ref().map_or(none, figures),
-        apart_deg: mirrored.map_or(180.0, |other| {
-            geodesic_deg(&sample.own.pose.rotation, &other.pose.rotation)
-        }),
-    }
 }

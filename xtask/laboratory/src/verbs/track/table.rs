@@ -2,13 +2,10 @@
 
 use std::fmt::Write as _;
 
-use fluoropose::follow::State;
+use fluoropose::follow::{Cell, Conclusion, State};
 use fluoropose::math::Vector3;
 use fluoropose::pose::EulerPose;
 use fluoropose::pose::covariance::Deviations;
-
-use super::follow::Cell;
-use super::judge::Judged;
 
 /// A frame of a component.
 #[derive(Clone, Debug)]
@@ -34,7 +31,7 @@ pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_m
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness\n";
 
 impl Row {
-    pub(super) fn of(frame: usize, cell: &Cell, judged: &Judged, middle: &Vector3) -> Self {
+    pub(super) fn of(frame: usize, cell: &Cell, judged: &Conclusion, middle: &Vector3) -> Self {
         let found = cell.found().filter(|_| !cell.fixed);
         let sd = found.and_then(|found| Some(found.covariance?.deviations(&found.pose, middle)));
         Self {
@@ -44,7 +41,7 @@ impl Row {
             sd,
             misfit_px: cell.found().map(|found| found.misfit_px),
             badness: judged.badness,
-            because: judged.because.clone(),
+            because: judged.to_string(),
         }
     }
 

@@ -1,0 +1,59 @@
+//! What is known of a component in each frame while a film is followed.
+
+use super::frame_pose::FramePose;
+use super::look::Looked;
+use crate::pose::Pose;
+
+/// A frame whose pose is known before a component is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Anchor {
+    /// Number of the frame, from 0.
+    pub frame: usize,
+    /// The pose, and what the frame says of it.
+    pub found: FramePose,
+    /// Whether a person gave it: it never changes.
+    pub fixed: bool,
+}
+
+/// What came of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cell {
+    /// None where it was never reached.
+    pub looked: Option<Looked>,
+    /// Whether a person gave the pose.
+    pub fixed: bool,
+    /// What the way from the other end came to, where it differs.
+    pub other_way: Option<Pose>,
+}
+
+impl Cell {
+    /// A frame on the way from an anchor.
+    #[must_use]
+    pub fn on_the_way(looked: Looked) -> Self {
+        Self {
+            looked: Some(looked),
+            ..Self::default()
+        }
+    }
+
+    /// The pose, where one was found or given.
+    #[must_use]
+    pub fn found(&self) -> Option<&FramePose> {
+        self.looked.as_ref()?.found.as_ref().ok()
+    }
+}
+
+impl From<&Anchor> for Cell {
+    fn from(anchor: &Anchor) -> Self {
+        Self {
+            looked: Some(Looked {
+                found: Ok(anchor.found),
+                ordinary: true,
+                searched: false,
+                known: anchor.found.fit.known,
+            }),
+            fixed: anchor.fixed,
+            other_way: None,
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! The state of every frame at the end, with the reason.
+
+use core::fmt;
+
+use super::cell::Cell;
+use super::look::Missing;
+use super::motion::between;
+use super::state::State;
+use super::trust::{Distrust, FrameEvidence, Trust};
+use crate::math::Vector3;
+use crate::pose::Pose;
+
+/// Why a frame is in its state. Displayed, it is a sentence without its full stop.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Why {
+    /// No frame that leads there has the component.
+    #[default]
+    NeverReached,
+    /// A person gave the pose.
+    GivenByPerson,
+    /// Nothing speaks against the pose.
+    Agrees,
+    /// This does.
+    Distrusted(Distrust),
+    /// Only this part of the outline would be in the frame.
+    Outside(f64),
+    /// There are no edges of it.
+    Hidden,
+}
+
+impl fmt::Display for Why {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NeverReached => f.write_str("it was not found in any frame that leads here"),
+            Self::GivenByPerson => f.write_str("a person fixed the pose"),
+            Self::Agrees => {
+                f.write_str("the edges lie on the outline, and the frames beside it agree")
+            }
+            Self::Distrusted(distrust) => write!(f, "{}: {distrust}", distrust.word()),
+            Self::Outside(known) => {
+                let percent = 100.0 * known;
+                write!(
+                    f,
+                    "only {percent:.0} % of the component would be in the frame"
+                )
+            }
+            Self::Hidden => f.write_str("there are no edges of it where it is expected"),
+        }
+    }
+}
+
+/// A frame at the end. Displayed, it is the reason for its state, a sentence without its full stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conclusion {
+    /// What is known of it.
+    pub state: State,
+    /// `camera_from_model`; none where there is none.
+    pub pose: Option<Pose>,
+    /// Why the frame is in its state; of an interpolated one, why nothing was found.
+    pub why: Why,
+    /// How bad it is: above 1 it is doubtful, and the worst have the most.
+    pub badness: f64,
+}
+
+impl Conclusion {
+    /// What a frame comes to, and how far its pose is to be trusted.
+    #[must_use]
+    pub fn of(cell: &Cell, trust: &Trust) -> Self {
+        let (state, why) = match (&cell.looked, cell.fixed, trust.distrust) {
+            (_, true, _) => (State::Fixed, Why::GivenByPerson),
+            (None, ..) => (State::Unsolved, Why::NeverReached),
+            (Some(looked), _, distrust) => match (looked.found, distrust) {
+                (Err(Missing::Outside), _) => (State::Untrackable, Why::Outside(looked.known)),
+                (Err(Missing::Hidden), _) => (State::Untrackable, Why::Hidden),
+                (Ok(_), Some(distrust)) => (State::Doubtful, Why::Distrusted(distrust)),
+                (Ok(_), None) => (State::Followed, Why::Agrees),
+            },
+        };
+        Self {
+            state,
+            pose: cell.found().map(|found| found.pose),
+            why,
+            badness: trust.badness,
+        }
+    }
+
+    /// Whether the pose is to be trusted.
+    #[must_use]
+    pub fn is_trusted(&self) -> bool {
+        matches!(self.state, State::Fixed | State::Followed)
+    }
+}
+
+impl fmt::Display for Conclusion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.state == State::Interpolated {
+            f.write_str("taken from the frames on both sides; ")?;
+        }
+        self.why.fmt(f)
+    }
+}
+
+impl FrameEvidence {
+    /// What a frame says when its film is judged. `side_margin` and `other_depth_mm` are those of the fields.
+    #[must_use]
+    pub fn of(cell: &Cell, side_margin: Option<f64>, other_depth_mm: Option<f64>) -> Self {
+        Self {
+            found: cell.found().copied(),
+            side_margin,
+            other_way: cell.other_way,
+            other_depth_mm,
+            fixed: cell.fixed,
+        }
+    }
+}
+
+/// Fills gaps of at most `longest` frames between frames to be trusted. `middle` is the model's.
+pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
+    let mut at = 0;
+    while at < film.len() {
+        let Some(end) = (at + 1..film.len()).find(|&k| film[k].pose.is_some()) else {
+            return;
+        };
+        let gap = end - at - 1;
+        if let (Some(from), Some(to)) = (film[at].pose, film[end].pose)
+            && (1..=longest).contains(&gap)
+            && film[at].is_trusted()
+            && film[end].is_trusted()
+        {
+            for (k, one) in film[at + 1..end].iter_mut().enumerate() {
+                let fraction = (k + 1) as f64 / (end - at) as f64;
+                one.pose = Some(between(&from, &to, fraction, middle));
+                one.state = State::Interpolated;
+            }
+        }
+        at = end;
+    }
+}

@@ -1,0 +1,245 @@
+//! A component followed by a caller that gives frames one by one, when they are asked for.
+
+mod task;
+
+use alloc::boxed::Box;
+use alloc::collections::VecDeque;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use task::{Span, Task, Walk};
+
+use super::cell::{Anchor, Cell};
+use super::conclude::{conclude, trusted_depths};
+use super::conclusion::Conclusion;
+use super::frame_pose::FramePose;
+use super::side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
+use super::sides::{SideEvidence, SideStep, choose_sides};
+use super::subject::Subject;
+use crate::finder::choice::Counterpart;
+use crate::math::Vector3;
+use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineError, RefineMemory};
+
+/// What is known of the other component when sides are chosen.
+#[derive(Clone, Debug)]
+pub struct KnownFemur {
+    /// Femoral poses of all frames, in the field's axes.
+    pub poses: Vec<Option<Pose>>,
+    /// The field's axes in the followed model's: `model_from_field`.
+    pub axes: Pose,
+}
+
+impl KnownFemur {
+    fn tilt_deg(&self, frame: usize, pose: &Pose) -> Option<f64> {
+        let femur = (*self.poses.get(frame)?)?;
+        Some(Counterpart::Femur(femur).tilt_deg(&pose.compose(&self.axes)))
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    /// From the poses that were given over all frames.
+    Way,
+    /// Waits for [`Following::choose_sides`].
+    Followed,
+    Sides,
+    /// To the other side, where that is the right one.
+    GoOver,
+    Over,
+}
+
+/// Follows one component over some frames of a film. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at
+/// it. When none is left, [`Self::choose_sides`] begins the second part, after which [`Self::conclude`] has the answer.
+///
+/// Frames are asked for one at a time and none is kept. Poses that a person gave never change.
+#[derive(Debug)]
+pub struct Following {
+    middle: Vector3,
+    range: Range<usize>,
+    cells: Vec<Cell>,
+    anchors: Vec<Anchor>,
+    tasks: VecDeque<Task>,
+    phase: Phase,
+    femur: Option<KnownFemur>,
+    samples: Vec<SideSample>,
+    steps: Vec<SideStep>,
+}
+
+impl Following {
+    /// Over the frames `range` of a film of `frames`; `middle` is the middle of the model's box.
+    #[must_use]
+    pub fn new(middle: Vector3, frames: usize, range: Range<usize>) -> Self {
+        Self {
+            middle,
+            range: range.start..range.end.min(frames),
+            cells: vec![Cell::default(); frames],
+            anchors: Vec::new(),
+            tasks: VecDeque::new(),
+            phase: Phase::Way,
+            femur: None,
+            samples: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+
+    /// Gives a pose to follow from, before the first frame is asked for. One that is `fixed` a person gave: it never changes.
+    /// Frames outside of the film are left out.
+    pub fn give(&mut self, frame: usize, pose: Pose, fixed: bool) {
+        if self.range.contains(&frame) {
+            self.tasks.push_back(Task::Given { frame, pose, fixed });
+        }
+    }
+
+    /// The frame that is to be looked at; `None` where a part of the work is done.
+    pub fn wanted(&mut self) -> Option<usize> {
+        loop {
+            if let Some(frame) = self.tasks.front_mut().and_then(Task::wanted) {
+                return Some(frame);
+            }
+            match self.tasks.pop_front() {
+                Some(task) => task.write(&mut self.cells),
+                None => self.go_on()?,
+            }
+        }
+    }
+
+    /// Looks at the frame that [`Self::wanted`] asked for; gives its pose, where one was found.
+    ///
+    /// # Errors
+    /// Where a pose that was given cannot be drawn: it is left out, and the work goes on.
+    pub fn take(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Option<FramePose>, RefineError> {
+        let Some(task) = self.tasks.front_mut() else {
+            return Ok(None);
+        };
+        match task {
+            &mut Task::Given { frame, pose, fixed } => {
+                self.tasks.pop_front();
+                let found = task::given(subject, image, &pose, fixed, memory)?;
+                self.anchors.push(Anchor {
+                    frame,
+                    found,
+                    fixed,
+                });
+                Ok(Some(found))
+            }
+            &mut Task::BothSides(frame) => {
+                self.tasks.pop_front();
+                let Some(&own) = self.cells[frame].found() else {
+                    return Ok(None);
+                };
+                self.samples.push(SideSample {
+                    frame,
+                    own,
+                    mirrored: super::mirrored_pose(subject, image, &own, memory),
+                    fixed: self.cells[frame].fixed,
+                });
+                Ok(Some(own))
+            }
+            Task::Walk(walk) => Ok(walk.take(subject, image, &self.middle, memory)),
+            Task::Span(span) => Ok(span.take(subject, image, &self.middle, memory)),
+        }
+    }
+
+    /// Begins to choose the sides of the mirror, for a tibia with its femur, where that is known.
+    pub fn choose_sides(&mut self, femur: Option<KnownFemur>) {
+        if self.phase != Phase::Followed {
+            return;
+        }
+        self.phase = Phase::Sides;
+        self.femur = femur;
+        let wanted = frames_for_sides(&self.cells).filter(|frame| self.range.contains(frame));
+        self.tasks.extend(wanted.map(Task::BothSides));
+    }
+
+    /// The poses so far.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// How far the component is from the camera where it is to be trusted; see [`trusted_depths`].
+    #[must_use]
+    pub fn depths(&self) -> Vec<Option<f64>> {
+        trusted_depths(&self.cells, &self.side_margins(), &self.middle)
+    }
+
+    /// The answer, with the other component's [`Self::depths`], where there is one.
+    #[must_use]
+    pub fn conclude(&self, other_depths_mm: &[Option<f64>]) -> Vec<Conclusion> {
+        let margins = self.side_margins();
+        conclude(&self.cells, &margins, other_depths_mm, &self.middle)
+    }
+
+    fn side_margins(&self) -> Vec<Option<f64>> {
+        let margin = |frame| side_margin(&self.samples, &self.steps, frame);
+        (0..self.cells.len()).map(margin).collect()
+    }
+
+    /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
+    fn go_on(&mut self) -> Option<()> {
+        match self.phase {
+            Phase::Way => {
+                self.begin_ways();
+                self.phase = Phase::Followed;
+            }
+            Phase::Sides => {
+                self.begin_other_sides();
+                self.phase = Phase::GoOver;
+            }
+            Phase::GoOver => self.phase = Phase::Over,
+            Phase::Followed | Phase::Over => return None,
+        }
+        Some(())
+    }
+
+    fn begin_ways(&mut self) {
+        // Of two poses of one frame the first that was given.
+        self.anchors.sort_by_key(|anchor| anchor.frame);
+        self.anchors.dedup_by_key(|anchor| anchor.frame);
+        for anchor in &self.anchors {
+            self.cells[anchor.frame] = Cell::from(anchor);
+        }
+        let between = self.anchors.windows(2).filter_map(|pair| match pair {
+            [a, b] => Span::between(a, b).map(Box::new).map(Task::Span),
+            _ => None,
+        });
+        self.tasks.extend(between);
+        if let (Some(first), Some(last)) = (self.anchors.first(), self.anchors.last()) {
+            let ends = [(last, self.range.end - 1), (first, self.range.start)];
+            let walks = ends.map(|(anchor, to)| Walk::new(anchor, to));
+            self.tasks.extend(walks.map(Box::new).map(Task::Walk));
+        }
+    }
+
+    fn begin_other_sides(&mut self) {
+        let femur = self.femur.as_ref();
+        let tilt = |frame: usize, pose: &Pose| femur.and_then(|femur| femur.tilt_deg(frame, pose));
+        let evidence = self
+            .samples
+            .iter()
+            .map(|sample| sample.evidence(|pose| tilt(sample.frame, pose)));
+        let evidence: Vec<SideEvidence> = evidence.collect();
+        self.steps = vec![SideStep::default(); evidence.len()];
+        choose_sides(&evidence, &mut self.steps);
+        for (run, anchor) in mirrored_runs(&self.samples, &self.steps, self.cells.len()) {
+            let run = run.start.max(self.range.start)..run.end.min(self.range.end);
+            // What is there is of the wrong side; what a person gave stays.
+            for cell in self.cells[run.clone()]
+                .iter_mut()
+                .filter(|cell| !cell.fixed)
+            {
+                *cell = Cell::default();
+            }
+            self.cells[anchor.frame] = Cell::from(&anchor);
+            let walks = [run.end - 1, run.start].map(|to| Walk::new(&anchor, to));
+            self.tasks.extend(walks.map(Box::new).map(Task::Walk));
+        }
+    }
+}

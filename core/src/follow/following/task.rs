@@ -1,0 +1,206 @@
+//! Pieces of work that ask for frames.
+
+use alloc::boxed::Box;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use crate::follow::cell::{Anchor, Cell};
+use crate::follow::frame_pose::{FramePose, frame_pose_at};
+use crate::follow::look::{Looked, look};
+use crate::follow::meeting::{have_met, join_ways};
+use crate::follow::settle::settled;
+use crate::follow::subject::Subject;
+use crate::follow::way::Way;
+use crate::math::Vector3;
+use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineError, RefineMemory};
+
+/// A piece of work.
+#[derive(Debug)]
+pub(super) enum Task {
+    /// A pose that the caller gave is looked at in its frame.
+    Given {
+        frame: usize,
+        pose: Pose,
+        fixed: bool,
+    },
+    Walk(Box<Walk>),
+    Span(Box<Span>),
+    /// A frame is seen from the other side of the mirror too.
+    BothSides(usize),
+}
+
+impl Task {
+    /// The frame that is to be looked at; `None` where it is done.
+    pub(super) fn wanted(&mut self) -> Option<usize> {
+        match self {
+            Self::Given { frame, .. } | Self::BothSides(frame) => Some(*frame),
+            Self::Walk(walk) => walk.way.next(walk.to),
+            Self::Span(span) => span.wanted(),
+        }
+    }
+
+    /// Writes what came of it.
+    pub(super) fn write(self, cells: &mut [Cell]) {
+        match self {
+            Self::Walk(walk) => {
+                for (frame, looked) in walk.seen {
+                    // A pose that a person gave, in the way of the other side.
+                    if let Some(cell) = cells.get_mut(frame).filter(|cell| !cell.fixed) {
+                        *cell = Cell::on_the_way(looked);
+                    }
+                }
+            }
+            Self::Span(span) => span.write(cells),
+            Self::Given { .. } | Self::BothSides(_) => {}
+        }
+    }
+}
+
+/// What a frame says of a pose that was given. One that nobody fixed is brought to the best of those near it once the film is
+/// known.
+///
+/// # Errors
+/// Where the model cannot be drawn there.
+pub(super) fn given(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    pose: &Pose,
+    fixed: bool,
+    memory: &mut RefineMemory<'_>,
+) -> Result<FramePose, RefineError> {
+    let found = frame_pose_at(subject, image, pose, memory)?;
+    Ok(match fixed || image.film.is_none() {
+        true => found,
+        false => settled(subject, image, &found, memory),
+    })
+}
+
+/// From an anchor to the end of the film, or of a run of frames.
+#[derive(Debug)]
+pub(super) struct Walk {
+    way: Way,
+    to: usize,
+    seen: Vec<(usize, Looked)>,
+}
+
+impl Walk {
+    pub(super) fn new(from: &Anchor, to: usize) -> Self {
+        Self {
+            way: Way::begin(from, to >= from.frame),
+            to,
+            seen: Vec::new(),
+        }
+    }
+
+    pub(super) fn take(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        middle: &Vector3,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let frame = self.way.next(self.to)?;
+        let looked = look(subject, image, frame, self.way.trail(), memory);
+        self.way.take(frame, &looked, middle);
+        self.seen.push((frame, looked));
+        looked.found.ok()
+    }
+}
+
+/// The frames between two anchors: followed from both to the middle, and over all of them from both where they do not meet
+/// there.
+#[derive(Debug)]
+pub(super) struct Span {
+    /// The first frame between.
+    first: usize,
+    ways: [Way; 2],
+    /// What both ways saw of each frame between.
+    seen: Vec<[Option<Looked>; 2]>,
+    /// Both go all the way.
+    apart: bool,
+}
+
+impl Span {
+    /// `None` where nothing lies between them.
+    pub(super) fn between(a: &Anchor, b: &Anchor) -> Option<Self> {
+        let count = b
+            .frame
+            .checked_sub(a.frame + 1)
+            .filter(|&count| count > 0)?;
+        Some(Self {
+            first: a.frame + 1,
+            ways: [Way::begin(a, true), Way::begin(b, false)],
+            seen: vec![[None; 2]; count],
+            apart: false,
+        })
+    }
+
+    /// Where the ways meet.
+    fn middle(&self) -> usize {
+        (self.first - 1 + self.first + self.seen.len()) / 2
+    }
+
+    fn ends(&self) -> [usize; 2] {
+        match self.apart {
+            true => [self.first + self.seen.len() - 1, self.first],
+            false => [self.middle(), self.middle().max(self.first)],
+        }
+    }
+
+    /// The way that goes on, and its next frame.
+    fn next(&self) -> Option<(usize, usize)> {
+        let ends = self.ends();
+        let next = |which: usize| Some((which, self.ways[which].next(ends[which])?));
+        next(0).or_else(|| next(1))
+    }
+
+    fn wanted(&mut self) -> Option<usize> {
+        if self.next().is_none() && !self.apart && !self.has_met() {
+            self.apart = true;
+        }
+        self.next().map(|(_, frame)| frame)
+    }
+
+    fn has_met(&self) -> bool {
+        let seen = self.ways[1]
+            .at()
+            .checked_sub(self.first)
+            .and_then(|at| self.seen.get(at));
+        match seen {
+            Some([Some(one), Some(other)]) => have_met(one, other),
+            _ => false,
+        }
+    }
+
+    pub(super) fn take(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        middle: &Vector3,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let (which, frame) = self.next()?;
+        let way = &mut self.ways[which];
+        let looked = look(subject, image, frame, way.trail(), memory);
+        way.take(frame, &looked, middle);
+        if let Some(seen) = self.seen.get_mut(frame - self.first) {
+            seen[which] = Some(looked);
+        }
+        looked.found.ok()
+    }
+
+    fn write(self, cells: &mut [Cell]) {
+        let Some(cells) = cells.get_mut(self.first..self.first + self.seen.len()) else {
+            return;
+        };
+        if self.apart {
+            join_ways(&self.seen, cells);
+            return;
+        }
+        for (cell, [one, other]) in cells.iter_mut().zip(self.seen) {
+            // Where they met the way from the second end has the word.
+            *cell = other.or(one).map_or(Cell::default(), Cell::on_the_way);
+        }
+    }
+}

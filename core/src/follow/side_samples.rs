@@ -1,0 +1,114 @@
+//! Frames of a film seen from both sides of a component's mirror: which, what they say, and where the other side is taken.
+
+use core::ops::Range;
+
+use super::cell::{Anchor, Cell};
+use super::frame_pose::FramePose;
+use super::sides::{Side, SideEvidence, SideFigures, SideStep};
+use crate::pose::{Pose, geodesic_deg};
+
+/// Every so many frames both sides are looked at; more often in a short film.
+const EVERY: usize = 8;
+const LEAST: usize = 6;
+/// Where there is no other side, it fits so many times worse.
+const NO_OTHER: f64 = 10.0;
+
+/// A frame seen from both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideSample {
+    /// Number of the frame.
+    pub frame: usize,
+    /// The pose on the trail.
+    pub own: FramePose,
+    /// Its mirror image ([`super::mirrored_pose`]), where there is one.
+    pub mirrored: Option<FramePose>,
+    /// Whether a person gave the pose.
+    pub fixed: bool,
+}
+
+impl SideSample {
+    /// What the frame says of both. `tilt_deg` gives the coronal tilt of a pose against the other component, where that is
+    /// known.
+    #[must_use]
+    pub fn evidence(&self, tilt_deg: impl Fn(&Pose) -> Option<f64>) -> SideEvidence {
+        let figures = |found: &FramePose| SideFigures {
+            misfit_px: found.misfit_px,
+            tilt_deg: tilt_deg(&found.pose),
+        };
+        let own = figures(&self.own);
+        let none = SideFigures {
+            misfit_px: NO_OTHER * own.misfit_px,
+            tilt_deg: None,
+        };
+        // Where a person has chosen, the own side is the right one.
+        let mirrored = self.mirrored.filter(|_| !self.fixed);
+        let apart = |other: FramePose| geodesic_deg(&self.own.pose.rotation, &other.pose.rotation);
+        SideEvidence {
+            frame: self.frame,
+            own,
+            mirrored: mirrored.as_ref().map_or(none, figures),
+            apart_deg: mirrored.map_or(180.0, apart),
+        }
+    }
+
+    fn has_other_side(&self) -> bool {
+        self.mirrored.is_some() && !self.fixed
+    }
+}
+
+/// The frames that are to be seen from both sides, in their order.
+pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
+    let posed = || (0..cells.len()).filter(|&frame| cells[frame].found().is_some());
+    let every = (posed().count() / LEAST).clamp(1, EVERY);
+    let wanted = move |&(k, frame): &(usize, usize)| k % every == every / 2 || cells[frame].fixed;
+    posed().enumerate().filter(wanted).map(|(_, frame)| frame)
+}
+
+/// Runs of frames, of a film of `frames`, in which the other side is the right one, each with the frame to follow it from.
+pub fn mirrored_runs<'s>(
+    samples: &'s [SideSample],
+    steps: &'s [SideStep],
+    frames: usize,
+) -> impl Iterator<Item = (Range<usize>, Anchor)> + 's {
+    let mut at = 0;
+    core::iter::from_fn(move || {
+        while at < samples.len() {
+            let (begin, side) = (at, steps.get(at)?.side);
+            let differs = |&k: &usize| steps.get(k).is_none_or(|step| step.side != side);
+            at = (at..samples.len()).find(differs).unwrap_or(samples.len());
+            let first = begin.checked_sub(1).map_or(0, |last| {
+                usize::midpoint(samples[last].frame, samples[begin].frame) + 1
+            });
+            let behind = samples.get(at).map_or(frames, |next| {
+                usize::midpoint(samples[at - 1].frame, next.frame) + 1
+            });
+            let anchor = best_mirrored(&samples[begin..at]);
+            if let (Side::Mirrored, Some(anchor)) = (side, anchor) {
+                return Some((first..behind, anchor));
+            }
+        }
+        None
+    })
+}
+
+fn best_mirrored(samples: &[SideSample]) -> Option<Anchor> {
+    let mirrored = samples.iter().filter_map(|sample| {
+        Some(Anchor {
+            frame: sample.frame,
+            found: sample.mirrored?,
+            fixed: false,
+        })
+    });
+    mirrored.max_by(|a, b| a.found.score().total_cmp(&b.found.score()))
+}
+
+/// By how much the other side of a frame is less likely, by the nearest frame that was seen from both; `None` where there is
+/// no other side.
+#[must_use]
+pub fn side_margin(samples: &[SideSample], steps: &[SideStep], frame: usize) -> Option<f64> {
+    let away = |&k: &usize| samples[k].frame.abs_diff(frame);
+    let nearest = (0..samples.len().min(steps.len())).min_by_key(away)?;
+    samples[nearest]
+        .has_other_side()
+        .then(|| steps[nearest].margin)
+}
