@@ -35,31 +35,3 @@ fn encode(mut inside: Vec<u8>, width: u32, height: u32) -> Result<Vec<u8>, Probl
     writer.finish().map_err(failed)?;
     Ok(bytes)
 }
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "it fails the test")]
-    use super::*;
-    use crate::decode_mask;
-
-    #[test]
-    fn a_written_mask_is_read_back() {
-        let inside: Vec<u8> = (0..37 * 11).map(|at| u8::from(at % 3 == 0) * 7).collect();
-        let bytes = encode_mask(inside.clone(), 37, 11).unwrap();
-        let again = decode_mask(&bytes, "m.png").unwrap();
-        assert_eq!((again.width, again.height), (37, 11));
-        assert!(
-            again
-                .pixels
-                .iter()
-                .zip(&inside)
-                .all(|(&a, &b)| (a != 0) == (b != 0))
-        );
-    }
-
-    #[test]
-    fn too_few_pixels_are_refused() {
-        let sentence = encode_mask(vec![1, 0, 1], 2, 2).unwrap_err().to_string();
-        assert!(sentence.contains("3 pixels for 2 x 2"), "{sentence}");
-    }
-}

@@ -1,4 +1,4 @@
-use fluoropose_decode::{MaskRule, Problem, decode_mask, decode_mask_by};
+use fluoropose_decode::{MaskRule, Problem, decode_mask, decode_mask_by, encode_mask};
 use png::{BitDepth, ColorType};
 use tiff::encoder::{Compression, colortype::Gray8};
 
@@ -46,4 +46,20 @@ fn several_pages_are_refused() {
     });
     let error = decode_mask(&file, "m.tif").unwrap_err();
     assert_eq!(error.problem, Problem::SeveralMasks { count: 2 });
+}
+
+#[test]
+fn a_written_mask_is_read_back() {
+    let inside: Vec<u8> = (0..37 * 11).map(|at| u8::from(at % 3 == 0) * 7).collect();
+    let bytes = encode_mask(inside.clone(), 37, 11).unwrap();
+    let again = decode_mask(&bytes, "m.png").unwrap();
+    assert_eq!((again.width, again.height), (37, 11));
+    let same = |(&a, &b): (&u8, &u8)| (a != 0) == (b != 0);
+    assert!(again.pixels.iter().zip(&inside).all(same));
+}
+
+#[test]
+fn too_few_pixels_are_refused() {
+    let sentence = encode_mask(vec![1, 0, 1], 2, 2).unwrap_err().to_string();
+    assert!(sentence.contains("3 pixels for 2 x 2"), "{sentence}");
 }
