@@ -5,6 +5,8 @@
 //! same pixels. A pixel belongs to a shape when its centre does; a centre exactly on an edge
 //! belongs to the shape below or to the right of it (Foley et al., *Computer Graphics*, 3.6).
 
+use core::ops::Range;
+
 use crate::image::contour::Point;
 
 /// Binary places of a fixed-point coordinate.
@@ -98,34 +100,32 @@ fn first_centre(coordinate: i32) -> i32 {
     (coordinate + HALF as i32 - 1) >> PLACES
 }
 
+/// The rows whose centre line runs between the ends of an edge, cut to `0..height`: those that it crosses.
+pub(crate) fn rows_between([a, b]: [FixedPoint; 2], height: usize) -> Range<usize> {
+    let cut = |row: i32| usize::try_from(first_centre(row)).unwrap_or(0).min(height);
+    cut(a.row.min(b.row))..cut(a.row.max(b.row))
+}
+
 /// A polygon side, ordered downwards, so that its crossings do not depend on who asks.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Edge {
     from: FixedPoint,
-    last_row: i32,
     right: i64,
     down: i64,
     per_step: f64,
 }
 
 impl Edge {
-    pub(crate) fn new(a: FixedPoint, b: FixedPoint) -> Self {
+    pub(crate) fn new([a, b]: [FixedPoint; 2]) -> Self {
         let (from, to) = if a.row <= b.row { (a, b) } else { (b, a) };
         let down = i64::from(to.row) - i64::from(from.row);
         Self {
             from,
-            last_row: to.row,
             right: i64::from(to.column) - i64::from(from.column),
             down,
             // Infinite for a level edge, which crosses no row.
             per_step: 1.0 / (down * ONE) as f64,
         }
-    }
-
-    /// The rows whose centre line the edge crosses, cut to `0..height`.
-    pub(crate) fn rows(&self, height: usize) -> core::ops::Range<usize> {
-        let cut = |row: i32| usize::try_from(row).unwrap_or(0).min(height);
-        cut(first_centre(self.from.row))..cut(first_centre(self.last_row))
     }
 
     /// The first column whose centre is at or to the right of the edge on a row that it crosses:
@@ -146,7 +146,7 @@ impl Edge {
 
 /// The pixels that a triangle may cover the centres of: columns and rows, not cut to a frame.
 /// Most triangles of a CAD model are smaller than a pixel and cover none.
-pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [core::ops::Range<i32>; 2] {
+pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
     let range = |of: fn(FixedPoint) -> i32| {
         let [a, b, c] = corners.map(of);
         first_centre(a.min(b).min(c))..first_centre(a.max(b).max(c))
@@ -161,13 +161,14 @@ pub(crate) fn triangle_spans(
     height: usize,
     mut fill: impl FnMut(usize, i64, i64),
 ) {
-    if pixel_box(corners).iter().any(core::ops::Range::is_empty) {
+    if pixel_box(corners).iter().any(Range::is_empty) {
         return;
     }
     let [a, b, c] = sorted_by_row(corners);
-    let (long, upper, lower) = (Edge::new(a, c), Edge::new(a, b), Edge::new(b, c));
-    for short in [upper, lower] {
-        for row in short.rows(height) {
+    let long = Edge::new([a, c]);
+    for ends in [[a, b], [b, c]] {
+        let short = Edge::new(ends);
+        for row in rows_between(ends, height) {
             let (x, y) = (long.column_at(row), short.column_at(row));
             fill(row, x.min(y), x.max(y));
         }
@@ -198,8 +199,9 @@ mod tests {
             let point = |(column, row): (i32, i32)| FixedPoint { column, row };
             // Half the cases are short edges, as in a CAD model.
             let b = if near { (a.0 + b.0 % 9000, a.1 + b.1 % 9000) } else { b };
-            let edge = Edge::new(point(a), point(b));
-            let rows = edge.rows(1 << 17);
+            let ends = [point(a), point(b)];
+            let edge = Edge::new(ends);
+            let rows = rows_between(ends, 1 << 17);
             prop_assume!(!rows.is_empty());
             let row = rows.start + (fraction * rows.len() as f64) as usize;
             let ((x, y), (to_x, to_y)) = if a.1 <= b.1 { (a, b) } else { (b, a) };

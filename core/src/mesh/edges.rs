@@ -8,8 +8,8 @@ mod link;
 mod list;
 mod orient;
 
+pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
-pub(crate) use boxes::{IN_BOX, place};
 pub use edge::{MeshEdge, RimEdge};
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;

@@ -8,7 +8,7 @@
 //! so holes and mixed winding do not matter.
 
 use super::border::BorderPixel;
-use super::outline::{Depth, DrawnModel};
+use super::outline::{Depth, DrawnModel, is_surrounded};
 use crate::image::scan::pixel_box;
 use crate::image::tiles::Tiles;
 use crate::math::dot;
@@ -24,8 +24,7 @@ impl DrawnModel<'_> {
     ) {
         if let (Depth::Edges, Some(edges)) = (self.sampling.depth, contour(self.model, scratch)) {
             for (vertices, images) in edges {
-                let depths = vertices.map(|vertex| self.depth_of_vertex(vertex));
-                self.lay_edge(depths, images.map(Projected::place), places, border);
+                self.lay_edge(vertices, images.map(Projected::place), places, border);
             }
             return;
         }
@@ -35,7 +34,7 @@ impl DrawnModel<'_> {
     /// Gives an edge's depth to the border pixels that it passes.
     fn lay_edge(
         &self,
-        depths: [f32; 2],
+        vertices: [u32; 2],
         [from, to]: [[f32; 2]; 2],
         places: &[u16],
         border: &mut [BorderPixel],
@@ -44,28 +43,39 @@ impl DrawnModel<'_> {
         // Less than two pixels apart: where the edge passes a border pixel, one of them is in it or
         // beside it. The last is the first of another edge.
         let steps = (along[0].abs().max(along[1].abs()) / 2.0) as usize + 1;
+        let mut depths = None;
         for step in 0..steps {
             let fraction = step as f32 / steps as f32;
             let point = core::array::from_fn(|k| from[k] + fraction * along[k]);
-            let depth = depths[0] + fraction * (depths[1] - depths[0]);
-            self.lay_point(depth, point, places, border);
+            let Some(place) = self.near_border(point) else {
+                continue;
+            };
+            let [near, far] =
+                *depths.get_or_insert_with(|| vertices.map(|vertex| self.depth_of_vertex(vertex)));
+            self.lay_point(near + fraction * (far - near), place, places, border);
         }
+    }
+
+    /// The pixel of a point, where there may be border pixels in or beside it: most of a contour lies inside the silhouette.
+    fn near_border(&self, [column, row]: [f32; 2]) -> Option<[usize; 2]> {
+        let (width, height) = (self.drawn.width(), self.drawn.height());
+        if column < 1.0 || row < 1.0 || column >= (width - 1) as f32 || row >= (height - 1) as f32 {
+            return None;
+        }
+        let (column, row) = (column as usize, row as usize);
+        (!is_surrounded(self.drawn, column, row)).then_some([column, row])
     }
 
     fn lay_point(
         &self,
         depth: f32,
-        [column, row]: [f32; 2],
+        [column, row]: [usize; 2],
         places: &[u16],
         border: &mut [BorderPixel],
     ) {
-        let (width, height) = (self.drawn.width(), self.drawn.height());
-        if column < 1.0 || row < 1.0 || column >= (width - 1) as f32 || row >= (height - 1) as f32 {
-            return;
-        }
-        let (left, above) = (column as usize - 1, row as usize - 1);
+        let (left, above) = (column - 1, row - 1);
         for row_at in above..above + 3 {
-            let first = row_at * width + left;
+            let first = row_at * self.drawn.width() + left;
             let three = places.get(first..first + 3).unwrap_or_default();
             for (&place, at) in three.iter().zip(left..) {
                 if let Some(pixel) = listed(border, place, at, row_at) {

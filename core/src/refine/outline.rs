@@ -204,6 +204,16 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
     })
 }
 
+/// Whether all pixels up to two beside a pixel are set, so that none in or beside it is on the border.
+pub(super) fn is_surrounded(mask: &Mask<'_>, column: usize, row: usize) -> bool {
+    const FIVE: u32 = 0b11111 << (WINDOW - 2);
+    let (Some(first), last) = (row.checked_sub(2), row + 2) else {
+        return false;
+    };
+    let all = (first..=last).fold(FIVE, |all, row| all & bits_round(mask.row(row), column));
+    all == FIVE
+}
+
 /// The pixels of a row from [`WINDOW`] to the left of a column to as many to its right, from the
 /// lowest bit; none where the row has none.
 fn bits_round(row: &[Word], column: usize) -> u32 {
@@ -265,6 +275,36 @@ mod tests {
                 if set { 0.0 } else { along.max(0.0) }
             }).sum();
             prop_assert!((f64::from(sample.weight) - weight).abs() < 1e-6);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_pixel_beside_a_surrounded_one_is_on_the_border(
+            unset in proptest::collection::vec((0usize..70, 0usize..9), 0..4),
+            column in 1usize..69, row in 1usize..8,
+        ) {
+            let mut words = [0; words_needed(70, 9)];
+            let mut mask = MaskMut::new(&mut words, 70, 9).expect("fits");
+            (0..9).for_each(|row| mask.fill_span(row, 0, 70));
+            for &(column, row) in &unset {
+                mask.set(column, row, false);
+            }
+            let mask = mask.into_mask();
+            let beside = |column: usize, row: usize| {
+                (column - 1..column + 2).flat_map(move |c| (row - 1..row + 2).map(move |r| (c, r)))
+            };
+            let is_border = |(column, row): (usize, usize)| {
+                let inner = (1..69).contains(&column) && (1..8).contains(&row);
+                inner && mask.get(column, row) && border_columns(&mask, row).any(|c| c == column)
+            };
+            if is_surrounded(&mask, column, row) {
+                prop_assert!(!beside(column, row).any(is_border));
+            } else if (3..67).contains(&column) && (3..6).contains(&row) {
+                // Only corners of the five by five pixels are looked at in vain.
+                let near = |&(c, r): &(usize, usize)| c.abs_diff(column) <= 2 && r.abs_diff(row) <= 2;
+                prop_assert!(unset.iter().any(near));
+            }
         }
     }
 

@@ -9,16 +9,15 @@
 
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
-use crate::math::{Vector3, cross, dot, norm, sqrt, subtract};
-use crate::mesh::edges::{EdgeBox, EdgeGroup, IN_BOX, MeshEdge, place};
+use crate::math::{norm, sqrt};
+use crate::mesh::edges::{EdgeBox, EdgeGroup, IN_BOX, MeshEdge};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::render::project::Images;
 
 /// Part of a distance that rounding to 32 bits changes at most, with some to spare.
 const SINGLE: f32 = 4e-6;
-/// The same of 64 bits and of poses that are rigid but for [`RIGID`].
-const DOUBLE: f64 = 1e-8;
+/// Poses are rigid but for this.
 const RIGID: f64 = 1e-9;
 
 /// A bit for each edge of a group.
@@ -31,25 +30,18 @@ struct Sides {
 }
 
 /// The camera in model coordinates, with the margins within which rounding may change which way a triangle faces.
-pub(crate) struct FacingTest<'a> {
-    vertices: &'a [[f32; 3]],
-    /// In mesh coordinates, mm.
-    place: Vector3,
-    single: [f32; 3],
-    /// Distance from the origin of the mesh and farthest distance of its parts, mm.
-    distance: f64,
-    /// How far edge-on must be, as doubled area times distance from the plane, mm^3: for each mm of
-    /// the longest side, and beside that.
-    per_mm: f64,
-    least: f64,
-    /// The same two, and how far planes are from where they seem, mm, in 32 bits.
+pub(crate) struct FacingTest {
+    /// The camera in mesh coordinates, mm.
+    place: [f32; 3],
+    /// How far edge-on must be, as doubled area times distance from the plane, mm^3: for each mm of the longest side, and
+    /// beside that; and how far planes are from where they seem, mm.
     margins: [f32; 3],
     /// Whether it is certain that all vertices have images.
     sees_all: bool,
 }
 
-impl<'a> FacingTest<'a> {
-    pub(crate) fn new(mesh: &Mesh<'a>, camera: &Camera, pose: &Pose) -> Self {
+impl FacingTest {
+    pub(crate) fn new(mesh: &Mesh<'_>, camera: &Camera, pose: &Pose) -> Self {
         let Bounds { centre, radius } = mesh.bounds();
         let middle = pose.transform(&centre);
         let (near, far) = (-middle[2] - radius, -middle[2] + radius);
@@ -73,12 +65,7 @@ impl<'a> FacingTest<'a> {
         };
         let distance = norm(&place) + norm(&centre) + radius;
         Self {
-            vertices: mesh.vertices(),
-            place,
-            single: place.map(|x| x as f32),
-            distance,
-            per_mm,
-            least,
+            place: place.map(|x| x as f32),
             margins: [per_mm as f32, least as f32, SINGLE * distance as f32],
             // Well inside of what is refused.
             sees_all: in_front && (0..2).all(|k| farthest(k) < 0.99 * MAX_COORDINATE),
@@ -119,7 +106,7 @@ impl<'a> FacingTest<'a> {
             let [forth, back] = if certain >> at & 1 == 1 {
                 [forth.faces, back.faces].map(|faces| faces >> at & 1 == 1)
             } else {
-                self.faces(edge, images)
+                Self::faces(edge, images)
             };
             match (forth, back) {
                 (true, false) => visit([edge.from, edge.to]),
@@ -132,7 +119,7 @@ impl<'a> FacingTest<'a> {
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.
     fn is_clear(&self, bounds: &EdgeBox, margin: f32) -> bool {
         let (mut from_middle, mut reach) = (-bounds.middle[3], bounds.reach[3] + margin);
-        for (k, x) in self.single.iter().enumerate() {
+        for (k, x) in self.place.iter().enumerate() {
             from_middle += x * bounds.middle[k];
             reach += x.abs() * bounds.reach[k];
         }
@@ -141,7 +128,7 @@ impl<'a> FacingTest<'a> {
 
     /// Of triangles by their duals.
     fn sides(&self, [a, b, c, d]: &[[f32; IN_BOX]; 4], margin: f32) -> Sides {
-        let [x, y, z] = self.single;
+        let [x, y, z] = self.place;
         let from_plane: [f32; IN_BOX] =
             core::array::from_fn(|k| a[k] * x + b[k] * y + c[k] * z - d[k]);
         let bits = |holds: fn(f32, f32) -> bool| {
@@ -157,30 +144,11 @@ impl<'a> FacingTest<'a> {
         }
     }
 
-    /// Whether the triangles forth and back beside an edge face the camera.
-    fn faces(&self, edge: &MeshEdge, images: &mut Images<'_>) -> [bool; 2] {
-        let &MeshEdge { from, to, .. } = edge;
-        let start = place(self.vertices, from);
-        let along = subtract(&place(self.vertices, to), &start);
-        let ray = subtract(&start, &self.place);
-        [(edge.forth, 1.0), (edge.back, -1.0)].map(|(third, sign)| {
-            let side = subtract(&place(self.vertices, third), &start);
-            let doubled = sign * dot(&cross(&along, &side), &ray);
-            if doubled.abs() > self.edge_on(&along, &side) {
-                return doubled > 0.0;
-            }
-
-            let corners = [from, to, third].map(|vertex| images.of(vertex));
-            let area = FixedPoint::doubled_area(corners);
-            if sign > 0.0 { area > 0 } else { area < 0 }
-        })
-    }
-
-    /// Doubled area times distance from the plane of a triangle with two such sides below which
-    /// rounding may turn its image over, mm^3.
-    fn edge_on(&self, a: &Vector3, b: &Vector3) -> f64 {
-        let sides: f64 = a.iter().chain(b).map(|x| x.abs()).sum();
-        self.per_mm / 2.0 * sides + self.least + DOUBLE * sides * sides * self.distance
+    /// Whether the triangles forth and back beside an edge face the camera, by their images.
+    fn faces(edge: &MeshEdge, images: &mut Images<'_>) -> [bool; 2] {
+        let [from, to, forth, back] =
+            [edge.from, edge.to, edge.forth, edge.back].map(|vertex| images.of(vertex));
+        [[from, to, forth], [to, from, back]].map(|corners| FixedPoint::doubled_area(corners) > 0)
     }
 }
 

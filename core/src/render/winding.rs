@@ -9,8 +9,10 @@
 //! two chains are one. Facing is decided by the sign of the area between the rounded vertices, and
 //! crossings are those of the scan conversion, so this holds exactly, for any triangles.
 
+use core::ops::Range;
+
 use crate::image::mask::MaskMut;
-use crate::image::scan::{Edge, FixedPoint};
+use crate::image::scan::{Edge, FixedPoint, rows_between};
 use crate::mesh::edges::{Edges, RimEdge};
 use crate::render::facing::FacingTest;
 use crate::render::project::Images;
@@ -29,7 +31,7 @@ pub(crate) fn room_needed(edges: &Edges<'_>) -> usize {
 /// Adds the silhouette of a surface to `out`. Gives `false`, and has drawn a part of it at most, where
 /// the room does not hold all crossings. Afterwards [`contour`] reads the edges from `room`.
 pub(crate) fn fill(
-    facing: &FacingTest<'_>,
+    facing: &FacingTest,
     edges: &Edges<'_>,
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
@@ -47,21 +49,16 @@ pub(crate) fn fill(
     };
     let (crossings, kept) = room.split_at_mut(room.len() - chains.all());
     let (away, towards) = kept.split_at(chains.away);
-    let (rims, both) = towards.split_at(chains.towards);
-    let mut lists = Lists {
-        rows,
-        crossings,
-        count: 0,
+    let (towards, both) = towards.split_at(chains.towards);
+    let parts = [
+        (Chain::Both, both),
+        (Chain::Towards, towards),
+        (Chain::Away, away),
+    ];
+    let Some(mut crossings) = Crossings::of(parts, images, out.width(), rows, crossings) else {
+        return false;
     };
-    // Of a closed surface the two chains are one.
-    let second = (!edges.rims().is_empty()).then_some(away);
-    for chain in [Some(rims), second].into_iter().flatten() {
-        lists.clear();
-        if !lists.add_all([both, chain], images, out.width()) {
-            return false;
-        }
-        lists.fill(out);
-    }
+    crossings.fill(out);
     *count = (chains.all() as u64).into();
     true
 }
@@ -92,7 +89,7 @@ impl Chains {
 /// Writes the edges of the contour to the end of the room: from the back those of both chains, rims of triangles that face
 /// the camera, other rims. `None` where it does not hold them.
 fn find_contour(
-    facing: &FacingTest<'_>,
+    facing: &FacingTest,
     edges: &Edges<'_>,
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
@@ -137,95 +134,138 @@ fn vertices_of(kept: FixedPoint) -> [u32; 2] {
     [(bits >> 32) as u32, bits as u32]
 }
 
-/// In place of the crossing that follows the last of a row.
-const END: u64 = u32::MAX as u64;
-
-/// Where silhouette edges cross rows, each row's from left to right; where several meet, those that
-/// enter come first.
-struct Lists<'r> {
-    /// The first crossing of each row.
-    rows: &'r mut [FixedPoint],
-    /// In the upper half of each its column and whether it leaves, in the lower the next of its row.
-    crossings: &'r mut [FixedPoint],
-    count: usize,
+/// Which of the two chains edges belong to, as bits.
+#[derive(Clone, Copy)]
+enum Chain {
+    Towards = 1,
+    Away = 2,
+    Both = 3,
 }
 
-impl Lists<'_> {
-    fn clear(&mut self) {
-        self.rows.fill(END.into());
-        self.count = 0;
-    }
+/// Edges of the contour, by their chain.
+type Parts<'p> = [(Chain, &'p [FixedPoint]); 3];
 
-    /// The crossings of two parts of a chain; `false` where there is no room for all.
-    fn add_all(
-        &mut self,
-        parts: [&[FixedPoint]; 2],
+/// Calls `visit` for each edge that crosses rows, with these.
+fn for_each_edge(
+    parts: Parts<'_>,
+    images: &mut Images<'_>,
+    height: usize,
+    mut visit: impl FnMut(Chain, [FixedPoint; 2], Range<usize>),
+) {
+    for (chain, edges) in parts {
+        for &kept in edges {
+            let ends = vertices_of(kept).map(|vertex| images.of(vertex));
+            let rows = rows_between(ends, height);
+            // Most edges of a CAD model are shorter than a pixel.
+            if !rows.is_empty() {
+                visit(chain, ends, rows);
+            }
+        }
+    }
+}
+
+/// Bits of a crossing below its column: that it leaves, and its chains.
+const LEAVES: u64 = 4;
+const COLUMN_BIT: u32 = 3;
+
+/// Where silhouette edges cross rows.
+struct Crossings<'r> {
+    /// Behind the last crossing of each row.
+    ends: &'r [FixedPoint],
+    /// Row by row.
+    places: &'r mut [FixedPoint],
+}
+
+impl<'r> Crossings<'r> {
+    /// The crossings of all edges; `None` where there is no room for them. They are counted first, so that each is written
+    /// once, to where its row has its place.
+    fn of(
+        parts: Parts<'_>,
         images: &mut Images<'_>,
         width: usize,
-    ) -> bool {
-        parts.into_iter().flatten().all(|&kept| {
-            let ends = vertices_of(kept).map(|vertex| images.of(vertex));
-            self.add(ends, width)
-        })
+        ends: &'r mut [FixedPoint],
+        places: &'r mut [FixedPoint],
+    ) -> Option<Self> {
+        let height = ends.len();
+        ends.fill(FixedPoint::ZERO);
+        for_each_edge(parts, images, height, |_, _, rows| {
+            add_to(ends, rows.start, 1);
+            add_to(ends, rows.end, u64::MAX);
+        });
+        let (mut in_row, mut before) = (0u64, 0u64);
+        for end in &mut *ends {
+            in_row = in_row.wrapping_add(u64::from(*end));
+            *end = before.into();
+            before += in_row;
+        }
+        if before > places.len() as u64 {
+            return None;
+        }
+        for_each_edge(parts, images, height, |chain, ends_of, rows| {
+            // Facing triangles are run clockwise: what is run upwards has them to its right.
+            let [from, to] = ends_of;
+            let leaves = if to.is_above(from) { 0 } else { LEAVES };
+            let edge = Edge::new(ends_of);
+            for row in rows {
+                let column = edge.column_at(row).clamp(0, width as i64) as u64;
+                let place = u64::from(ends[row]) as usize;
+                places[place] = (column << COLUMN_BIT | leaves | chain as u64).into();
+                add_to(ends, row, 1);
+            }
+        });
+        Some(Self { ends, places })
     }
 
-    /// Adds the crossings of a silhouette edge; `false` where there is no room for all.
-    fn add(&mut self, [from, to]: [FixedPoint; 2], width: usize) -> bool {
-        // Facing triangles are run clockwise: what is run upwards has them to its right.
-        let leaves = !to.is_above(from);
-        let edge = Edge::new(from, to);
-        for row in edge.rows(self.rows.len()) {
-            let column = edge.column_at(row).clamp(0, width as i64) as u64;
-            if !self.insert(row, column << 1 | u64::from(leaves)) {
-                return false;
-            }
+    /// Fills the spans in which the winding number of either chain is not zero.
+    fn fill(&mut self, out: &mut MaskMut<'_>) {
+        let mut start = 0;
+        for (row, &end) in self.ends.iter().enumerate() {
+            let end = u64::from(end) as usize;
+            let crossings = self.places.get_mut(start..end).unwrap_or_default();
+            sort(crossings);
+            fill_row(row, crossings, out);
+            start = end;
         }
-        true
     }
+}
 
-    fn insert(&mut self, row: usize, place: u64) -> bool {
-        let new = self.count;
-        if new >= self.crossings.len() {
-            return false;
-        }
-        let mut before = None;
-        let mut next = u64::from(self.rows[row]);
-        while let Some(&crossing) = self.crossings.get(next as usize) {
-            let crossing = u64::from(crossing);
-            if crossing >> 32 >= place {
-                break;
-            }
-            (before, next) = (Some(next as usize), crossing & END);
-        }
-        self.crossings[new] = (place << 32 | next).into();
-        self.count += 1;
-        match before {
-            None => self.rows[row] = (new as u64).into(),
-            Some(at) => {
-                let crossing = u64::from(self.crossings[at]);
-                self.crossings[at] = (crossing & !END | new as u64).into();
-            }
-        }
-        true
+/// Adds to the number of a row, where there is such a row.
+fn add_to(rows: &mut [FixedPoint], row: usize, more: u64) {
+    if let Some(number) = rows.get_mut(row) {
+        *number = u64::from(*number).wrapping_add(more).into();
     }
+}
 
-    /// Fills the spans in which the winding number is not zero.
-    fn fill(&self, out: &mut MaskMut<'_>) {
-        for (row, &first) in self.rows.iter().enumerate() {
-            let (mut winding, mut start) = (0, 0);
-            let mut next = u64::from(first);
-            while let Some(&crossing) = self.crossings.get(next as usize) {
-                let crossing = u64::from(crossing);
-                next = crossing & END;
-                let column = (crossing >> 33) as i64;
-                if winding == 0 {
-                    start = column;
-                }
-                winding += if crossing >> 32 & 1 == 0 { 1 } else { -1 };
-                if winding == 0 {
-                    out.fill_span(row, start, column);
-                }
-            }
+/// By insertion: few edges cross one row.
+fn sort(crossings: &mut [FixedPoint]) {
+    for at in 1..crossings.len() {
+        let own = crossings[at];
+        let mut free = at;
+        while free > 0 && u64::from(crossings[free - 1]) > u64::from(own) {
+            crossings[free] = crossings[free - 1];
+            free -= 1;
+        }
+        crossings[free] = own;
+    }
+}
+
+fn fill_row(row: usize, crossings: &[FixedPoint], out: &mut MaskMut<'_>) {
+    let (mut towards, mut away, mut start) = (0i32, 0i32, 0);
+    for &crossing in crossings {
+        let crossing = u64::from(crossing);
+        let column = (crossing >> COLUMN_BIT) as i64;
+        if towards | away == 0 {
+            start = column;
+        }
+        let turn = if crossing & LEAVES == 0 { 1 } else { -1 };
+        if crossing & Chain::Towards as u64 != 0 {
+            towards += turn;
+        }
+        if crossing & Chain::Away as u64 != 0 {
+            away += turn;
+        }
+        if towards | away == 0 {
+            out.fill_span(row, start, column);
         }
     }
 }

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::{Mask, MaskError, WORD_BITS, Word, checked_words, row_place, row_words, tail_mask};
 use crate::image::contour::Outline;
-use crate::image::scan::{Edge, FixedPoint};
+use crate::image::scan::{Edge, FixedPoint, rows_between};
 use crate::memory::first;
 
 /// A mask that can be drawn into, over borrowed words.
@@ -159,14 +159,15 @@ impl<'a> MaskMut<'a> {
         for (a, b) in outline.sides() {
             let ends = (FixedPoint::from_point(a), FixedPoint::from_point(b));
             if let (Some(a), Some(b)) = ends {
-                self.toggle_edge(Edge::new(a, b));
+                self.toggle_edge([a, b]);
             }
         }
         self.fill_parity();
     }
 
-    pub(crate) fn toggle_edge(&mut self, edge: Edge) {
-        for row in edge.rows(self.height) {
+    pub(crate) fn toggle_edge(&mut self, ends: [FixedPoint; 2]) {
+        let edge = Edge::new(ends);
+        for row in rows_between(ends, self.height) {
             self.toggle(edge.column_at(row).max(0) as usize, row);
         }
     }

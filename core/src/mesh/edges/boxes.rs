@@ -83,7 +83,7 @@ impl Dual {
     }
 }
 
-pub(crate) fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
+fn place(vertices: &[[f32; 3]], vertex: u32) -> Vector3 {
     // Indices were checked when the mesh was made.
     let vertex = vertices.get(vertex as usize).copied().unwrap_or_default();
     vertex.map(f64::from)
