@@ -50,6 +50,7 @@ pub use memory::{FILM_EVERY, RefineMemory};
 pub use options::RefineOptions;
 pub use profiles::film_profiles;
 pub use result::{Iterate, Refined};
+pub(crate) use run::probe;
 pub use run::{correct, refine, refine_traced};
 pub use samples::{OutlineSample, outline_samples};
 pub use uncertainty::{Assessment, assess, fit_at, uncertainty};

@@ -11,7 +11,7 @@ use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, Effort, RefineError, RefineMemory, RefineOptions, Refined, Target, refine,
+    CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, probe, refine,
 };
 use crate::shortlist::keep;
 
@@ -56,6 +56,9 @@ const NOISE_DEG: f64 = 2.5;
 const LOOKED_WORSE: f64 = 4.0;
 const LOOKED_PX2: f64 = 0.125;
 const LOOKED_SAME_DEG: f64 = 1.0;
+
+/// See [`is_on_the_way`].
+const ON_THE_WAY: f64 = 0.5;
 
 /// Of poses nearer to each other than this, degrees, the best is kept.
 pub(super) const SAME_DEG: f64 = 0.5;
@@ -166,11 +169,17 @@ impl RivalRefinement<'_, '_> {
     /// Where the starts lead, each pose once, and only those that may be the best; a start that a quick look leads nowhere
     /// is kept as it is.
     fn look_at(&mut self, starts: &[Pose]) -> Vec<(usize, Pose), STARTS> {
-        let options = self.quick();
         let mut seen: Vec<(usize, Pose, f64), STARTS> = Vec::new();
         for (start, pose) in starts.iter().enumerate() {
-            let probed = refine(self.model, self.views, pose, options, self.memory);
-            let (pose, loss) = probed.map_or((*pose, 0.0), |probed| (probed.pose, probed.loss));
+            let known = |pose: &Pose| {
+                let mut seen = seen.iter();
+                seen.any(|(_, other, _)| is_on_the_way(pose, other, LOOKED_SAME_DEG))
+            };
+            let (pose, loss) = match self.look(pose, &known) {
+                Ok(None) => continue,
+                Ok(Some(looked)) => (looked.pose, looked.loss),
+                Err(_) => (*pose, 0.0),
+            };
             keep(&mut seen, (start, pose, loss), |&(_, _, loss)| loss);
         }
         let least = seen
@@ -217,7 +226,13 @@ impl RivalRefinement<'_, '_> {
         let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
             return true;
         };
-        let Ok(looked) = refine(self.model, self.views, start, self.quick(), self.memory) else {
+        let answers = self.answers.clone();
+        let known = |pose: &Pose| {
+            answers.iter().any(|RefinedRival { refined, .. }| {
+                is_on_the_way(pose, &refined.pose, blurred_deg(refined))
+            })
+        };
+        let Ok(Some(looked)) = self.look(start, &known) else {
             return false;
         };
         let known = |RefinedRival { refined, .. }: &RefinedRival| {
@@ -228,13 +243,20 @@ impl RivalRefinement<'_, '_> {
         looked.loss <= limit && !self.answers.iter().any(known)
     }
 
-    /// How a quick look is taken.
-    fn quick(&self) -> RefineOptions {
-        RefineOptions {
-            effort: Effort::Probe,
-            edge_offset: false,
-            ..self.options
-        }
+    /// A quick look at where a start leads; nothing where it leads to what is `known`.
+    fn look(
+        &mut self,
+        start: &Pose,
+        known: &dyn Fn(&Pose) -> bool,
+    ) -> Result<Option<Refined>, RefineError> {
+        probe(
+            self.model,
+            self.views,
+            start,
+            self.options,
+            known,
+            self.memory,
+        )
     }
 
     /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
@@ -283,11 +305,16 @@ impl RivalRefinement<'_, '_> {
 
     /// The pose that a start leads to, unless that is the best pose again, to within `back_deg`, or a worse one, as most are.
     fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Option<Pose> {
-        let options = self.quick();
-        let found = refine(self.model, self.views, start, options, self.memory).ok()?;
+        let known = |pose: &Pose| is_on_the_way(pose, &best.pose, back_deg);
+        let found = self.look(start, &known).ok()??;
         let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
         (apart > back_deg && found.loss < ALIKE * best.loss).then_some(found.pose)
     }
+}
+
+/// Whether a quick look that has come to `pose` will end within so many degrees of `other`: it is well on the way there.
+fn is_on_the_way(pose: &Pose, other: &Pose, within_deg: f64) -> bool {
+    geodesic_deg(&pose.rotation, &other.rotation) < ON_THE_WAY * within_deg
 }
 
 /// How far apart a quick look may leave what is one minimum, degrees.

@@ -33,6 +33,8 @@ pub(super) struct Problem<'a> {
     /// Numbers of the pose that do not change.
     hold: Option<Hold>,
     pub(super) effort: Effort,
+    /// Poses from which it is known where they lead.
+    pub(super) known: Option<&'a dyn Fn(&Pose) -> bool>,
 }
 
 /// Steps shorter than this lower the loss by no more than its grain, and one that fails is not worth
@@ -84,7 +86,13 @@ impl<'a> Problem<'a> {
             middle: model.bounds().centre,
             hold: None,
             effort: Effort::Full,
+            known: None,
         })
+    }
+
+    /// Whether it is known where a pose leads.
+    pub(super) fn is_known(&self, pose: &Pose) -> bool {
+        self.known.is_some_and(|known| known(pose))
     }
 
     /// Holds the locked numbers as they are at `start`.
@@ -159,6 +167,9 @@ impl<'a> Problem<'a> {
                     (*state, seen) = (next, there);
                     damping = (damping * 0.2).max(1e-9);
                     trace(&seen.equations.iterate(pass, state));
+                    if self.is_known(&state.pose) {
+                        break;
+                    }
                     if gained < WORTH_GOING_ON && pass.index + 1 < STAGES && self.is_outline() {
                         break;
                     }

@@ -78,6 +78,38 @@ pub fn refine_traced(
     Ok(state)
 }
 
+/// A quick look at where `start` leads, by [`Effort::Probe`]; `None` as soon as a pose is reached from which that is `known`.
+///
+/// # Errors
+/// [`RefineError`].
+pub(crate) fn probe(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    known: &dyn Fn(&Pose) -> bool,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Option<Refined>, RefineError> {
+    let mut problem = Problem::new(model, views, memory)?;
+    problem.hold(options.locks, start);
+    problem.effort = Effort::Probe;
+    problem.known = Some(known);
+    let mut state = Refined::at(*start);
+    let mut before = None;
+    for index in 0..STAGES {
+        let pass = Pass {
+            index,
+            sigma_px: state.robust_sigma_px,
+            ..Pass::default()
+        };
+        before = Some(problem.run(&pass, &mut state, before, memory, &mut |_| ())?);
+        if problem.is_known(&state.pose) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(state))
+}
+
 /// Brings a pose that was refined on frames whose film was not known to where its edges are put by the films of `views`: what
 /// [`refine`] does at its end where it is known from the beginning.
 ///
