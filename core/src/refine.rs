@@ -22,6 +22,7 @@ mod edge_bias;
 mod effort;
 mod equations;
 mod error;
+mod eye;
 mod fit;
 mod locks;
 mod loss;

@@ -6,7 +6,7 @@
 //! counted once. The reciprocal of the depth is linear on the image of a triangle, however steeply that is seen.
 
 use crate::camera::Camera;
-use crate::image::scan::FixedPoint;
+use crate::image::scan::{FixedPoint, touched_box};
 use crate::image::tiles::{TILES, Tiles};
 use crate::math::{dot, sqrt};
 use crate::memory::{TooLittleMemory, first};
@@ -93,23 +93,26 @@ impl PathLine {
         [0, 1].map(|axis| floor(self.origin[axis] + along * self.direction[axis]))
     }
 
-    /// Across and along the line, pixels.
-    fn coordinates(&self, [column, row]: [f32; 2]) -> [f64; 2] {
+    /// How far beside the line a place is, pixels.
+    fn across(&self, [column, row]: [f64; 2]) -> f64 {
         let [right, down] = self.direction;
-        let (x, y) = (
-            f64::from(column) - self.origin[0],
-            f64::from(row) - self.origin[1],
-        );
-        [x * down - y * right, x * right + y * down]
+        (column - self.origin[0]) * down - (row - self.origin[1]) * right
+    }
+
+    /// How far along the line a place is, pixels.
+    fn along(&self, [column, row]: [f64; 2]) -> f64 {
+        let [right, down] = self.direction;
+        (column - self.origin[0]) * right + (row - self.origin[1]) * down
     }
 
     /// Adds the depth of a triangle to the places inside it. `nearness` is the reciprocal of its corners' depths.
-    fn add(&mut self, corners: [[f32; 2]; 3], nearness: impl Fn() -> [f64; 3], side: &Side) {
-        let at = corners.map(|corner| self.coordinates(corner));
-        let [a, b, c] = at.map(|[across, _]| across > 0.0);
+    fn add(&mut self, corners: &[[f64; 2]; 3], nearness: impl Fn() -> [f64; 3], side: &Side) {
+        let across = corners.map(|corner| self.across(corner));
+        let [a, b, c] = across.map(|across| across > 0.0);
         if a == b && b == c {
             return;
         }
+        let at: [[f64; 2]; 3] = core::array::from_fn(|k| [across[k], self.along(corners[k])]);
         let nearness = nearness();
         let mut ends = [[0.0; 2]; 2];
         let mut found = 0;
@@ -195,7 +198,7 @@ pub fn measure(
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
     for (number, triangle) in model.triangles().iter().enumerate() {
         let corners = triangle.map(image);
-        let Some([columns, rows]) = tiles.under(whole_box(corners)) else {
+        let Some([columns, rows]) = tiles.under(touched_box(corners)) else {
             continue;
         };
         let sign = FixedPoint::doubled_area(corners).signum() as i8;
@@ -204,7 +207,7 @@ pub fn measure(
         }
         let side = Side { sign, middle };
         let nearness = || triangle.map(|vertex| nearness_of(model, pose, vertex));
-        let places = corners.map(Projected::place);
+        let places = corners.map(|corner| corner.place().map(f64::from));
         for row in rows {
             for column in columns.clone() {
                 let mut node = heads[row * TILES + column];
@@ -212,7 +215,7 @@ pub fn measure(
                     node = line.next[usize::from(node) % SPANNED];
                     if line.last != number as u32 + 1 {
                         line.last = number as u32 + 1;
-                        line.add(places, nearness, &side);
+                        line.add(&places, nearness, &side);
                     }
                 }
             }
@@ -245,16 +248,6 @@ fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
         }
     }
     tiles
-}
-
-/// The pixels that a triangle has any part in, and those that rounding may put a place of it into.
-fn whole_box(corners: [Projected; 3]) -> [core::ops::Range<i32>; 2] {
-    let places = corners.map(Projected::place);
-    [0, 1].map(|axis| {
-        let [a, b, c] = places.map(|place| place[axis]);
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        floor(f64::from(low) - 0.001)..floor(f64::from(high) + 0.001) + 1
-    })
 }
 
 /// The whole number below, of what is no farther out than coordinates may be.

@@ -3,7 +3,7 @@
 
 use thiserror::Error;
 
-use super::display::DisplayCurve;
+use super::display::QuickCurve;
 
 /// A grey value: `u8` or `u16`.
 pub trait Pixel: Copy + Ord + Default + Into<u32> {
@@ -19,7 +19,7 @@ pub trait Pixel: Copy + Ord + Default + Into<u32> {
         frame: &Frame<'_, Self>,
         column: f64,
         row: f64,
-        curve: &DisplayCurve,
+        curve: &QuickCurve,
     ) -> Option<f64>;
 }
 
@@ -31,14 +31,14 @@ macro_rules! pixel {
             }
 
             fn grey_at(frame: &Frame<'_, Self>, column: f64, row: f64) -> Option<f64> {
-                frame.between(column, row, |grey| grey)
+                frame.between(column, row, f64::from)
             }
 
             fn intensity_at(
                 frame: &Frame<'_, Self>,
                 column: f64,
                 row: f64,
-                curve: &DisplayCurve,
+                curve: &QuickCurve,
             ) -> Option<f64> {
                 frame.between(column, row, |grey| curve.linear(grey))
             }
@@ -219,7 +219,7 @@ pub trait Grey {
     fn at(&self, column: f64, row: f64) -> Option<f64>;
 
     /// The same of what a curve makes of each pixel: the mean of intensities is not the intensity of the mean grey value.
-    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64>;
+    fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64>;
 }
 
 impl<P: Pixel> Grey for Frame<'_, P> {
@@ -231,9 +231,9 @@ impl<P: Pixel> Grey for Frame<'_, P> {
         P::grey_at(self, column, row)
     }
 
-    fn at_through(&self, column: f64, row: f64, curve: &DisplayCurve) -> Option<f64> {
-        if curve.is_straight() {
-            return Some(curve.upright(self.at(column, row)?));
+    fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64> {
+        if curve.curve().is_straight() {
+            return Some(curve.curve().upright(self.at(column, row)?));
         }
         P::intensity_at(self, column, row, curve)
     }
@@ -242,7 +242,7 @@ impl<P: Pixel> Grey for Frame<'_, P> {
 impl<P: Pixel> Frame<'_, P> {
     /// What is made of each pixel, linear between the four nearest centres.
     #[inline]
-    fn between(&self, column: f64, row: f64, of: impl Fn(f64) -> f64) -> Option<f64> {
+    fn between(&self, column: f64, row: f64, of: impl Fn(u32) -> f64) -> Option<f64> {
         let (column, row) = (column - 0.5, row - 0.5);
         let last = |side: usize| side as f64 - 1.0;
         // A NaN is in no range.
@@ -263,7 +263,7 @@ impl<P: Pixel> Frame<'_, P> {
         let first = above * self.stride + left;
         let value = |place: usize| {
             let value: u32 = (*self.pixels.get(place)?).into();
-            Some(of(f64::from(value)))
+            Some(of(value))
         };
         let upper = value(first)? * (1.0 - right) + value(first + next)? * right;
         let first = first + below;

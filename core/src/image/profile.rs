@@ -1,6 +1,6 @@
 //! Grey values along a line across an edge, and the filter that finds the edge in them.
 
-use crate::image::display::DisplayCurve;
+use crate::image::display::QuickCurve;
 use crate::image::frame::Grey;
 use crate::math::exp;
 
@@ -26,7 +26,7 @@ pub fn grey_across(
 /// [`grey_across`] of what a display curve makes of each pixel.
 pub fn intensity_across(
     frame: &(impl Grey + ?Sized),
-    curve: &DisplayCurve,
+    curve: &QuickCurve,
     place: [f64; 2],
     normal: [f64; 2],
     weights: &[f64],

@@ -154,6 +154,18 @@ pub(crate) fn pixel_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
     [range(|corner| corner.column), range(|corner| corner.row)]
 }
 
+/// The pixels that a triangle has any part in, and those that rounding elsewhere, by up to a thousandth of a pixel, may put
+/// a place of it into.
+pub(crate) fn touched_box(corners: [FixedPoint; 3]) -> [Range<i32>; 2] {
+    const BESIDE: i32 = ONE as i32 / 1000 + 1;
+    let range = |of: fn(FixedPoint) -> i32| {
+        let [a, b, c] = corners.map(of);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        (low - BESIDE) >> PLACES..((high + BESIDE) >> PLACES) + 1
+    };
+    [range(|corner| corner.column), range(|corner| corner.row)]
+}
+
 /// Calls `fill(row, from, to)` for each row of the triangle that has pixel centres: columns
 /// `from..to`, not yet cut to a frame's width.
 pub(crate) fn triangle_spans(

@@ -3,7 +3,7 @@
 
 use super::border::{BorderPixel, NormalReading};
 use super::view::ImageTarget;
-use crate::image::display::DisplayCurve;
+use crate::image::display::QuickCurve;
 use crate::image::mask::Mask;
 use crate::image::profile::{intensity_across, steepest_rise};
 
@@ -14,7 +14,7 @@ pub(super) const TANGENT: [f64; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 
 /// of its pixel, at most `range` from there. Grey values are read through `curve`.
 pub(super) fn edge(
     image: &ImageTarget<'_>,
-    curve: &DisplayCurve,
+    curve: &QuickCurve,
     sample: &BorderPixel,
     expected: f64,
     range: f64,
@@ -29,7 +29,7 @@ pub(super) fn edge(
 /// one of the pixels is unknown or beyond the frame.
 fn reading(
     image: &ImageTarget<'_>,
-    curve: &DisplayCurve,
+    curve: &QuickCurve,
     place: [f64; 2],
     normal: [f64; 2],
     t: f64,

@@ -10,6 +10,7 @@ use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
 use crate::film::model::CONSTANTS;
 use crate::film::{FilmModel, PathLine};
+use crate::image::display::QuickCurve;
 use crate::math::{inverse_spd, sqrt};
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
@@ -40,32 +41,48 @@ impl EdgeBias {
         border: &[BorderPixel],
         lines: &[PathLine],
     ) {
-        let film = view.target.film().filter(|_| stage.drawn);
-        let deviations = film.map_or([0.0; CONSTANTS], |film| {
-            core::array::from_fn(|k| sqrt(film.covariance[k][k].max(0.0)))
-        });
-        if let Some(film) = film {
-            self.correlation = correlation(film, &deviations);
+        match (&view.target, view.target.film().filter(|_| stage.drawn)) {
+            // It is where it is.
+            (Target::Silhouette(_), _) => self.add_moved(border, 0.0, |_, _| [0.0; CONSTANTS]),
+            (Target::Image(_), None) => self.add_moved(border, UNKNOWN_PX, |_, _| [0.0; CONSTANTS]),
+            (Target::Image(image), Some(film)) => {
+                self.add_by_film(image, film, stage, border, lines);
+            }
         }
+    }
+
+    /// By itself, because ready curves take up a part of the stack that silhouettes need not have.
+    #[inline(never)]
+    fn add_by_film(
+        &mut self,
+        image: &ImageTarget<'_>,
+        film: &FilmModel,
+        stage: &Stage,
+        border: &[BorderPixel],
+        lines: &[PathLine],
+    ) {
+        let deviations = core::array::from_fn(|k| sqrt(film.covariance[k][k].max(0.0)));
+        self.correlation = correlation(film, &deviations);
+        let changes = Changes::of(image, film, &deviations, stage);
+        self.add_moved(border, KNOWN_PX, |number, sample| {
+            let line = lines.get(number);
+            line.map_or([0.0; CONSTANTS], |line| changes.moves(sample, line))
+        });
+    }
+
+    /// Adds samples whose edges a constant's standard deviation would move so far, and `common` pixels all of them.
+    fn add_moved(
+        &mut self,
+        border: &[BorderPixel],
+        common: f64,
+        moves: impl Fn(usize, &BorderPixel) -> [f64; CONSTANTS],
+    ) {
         for (number, sample) in border.iter().enumerate() {
             if sample.residual_px().is_none() {
                 continue;
             }
-            let mut moved = [0.0; CONSTANTS + 1];
-            moved[CONSTANTS] = match view.target {
-                // A silhouette is where it is.
-                Target::Silhouette(_) => 0.0,
-                Target::Image(_) if film.is_some() => KNOWN_PX,
-                Target::Image(_) => UNKNOWN_PX,
-            };
-            if let (Target::Image(image), Some(film), Some(line)) =
-                (&view.target, film, lines.get(number))
-            {
-                let change = Change { image, film, stage };
-                for (k, moved) in moved.iter_mut().take(CONSTANTS).enumerate() {
-                    *moved = change.by(k, deviations[k], sample, line).unwrap_or(0.0);
-                }
-            }
+            let [curvature, blur, attenuation] = moves(number, sample);
+            let moved = [curvature, blur, attenuation, common];
             self.any |= moved.iter().any(|&x| x != 0.0);
             self.add_sample(sample, &moved);
         }
@@ -119,33 +136,73 @@ fn correlation(film: &FilmModel, deviations: &[f64; CONSTANTS]) -> [[f64; CONSTA
     })
 }
 
-/// A change of one constant.
-struct Change<'c> {
+/// A film as it is known, and with each of its constants changed by a standard deviation.
+struct Changes<'c> {
     image: &'c ImageTarget<'c>,
-    film: &'c FilmModel,
-    stage: &'c Stage,
+    range: f64,
+    known: Seen,
+    /// None where a constant is certain.
+    changed: [Option<Seen>; CONSTANTS],
 }
 
-impl Change<'_> {
-    /// How far the residual of a sample moves, pixels; `None` where an edge jumps.
-    fn by(&self, number: usize, by: f64, sample: &BorderPixel, line: &PathLine) -> Option<f64> {
-        if by == 0.0 {
-            return None;
-        }
-        let residual = |film: &FilmModel| {
-            let NormalReading::At(drawn) = film.edge(line.paths(), 0.0) else {
-                return None;
+/// A film and the curve by which its frames are read.
+struct Seen {
+    film: FilmModel,
+    curve: QuickCurve,
+}
+
+impl<'c> Changes<'c> {
+    fn of(
+        image: &'c ImageTarget<'c>,
+        film: &FilmModel,
+        deviations: &[f64; CONSTANTS],
+        stage: &Stage,
+    ) -> Self {
+        let seen = |film: FilmModel| {
+            let film_of = Some(film);
+            let curve = ImageTarget {
+                film: film_of,
+                ..*image
             };
-            let image = ImageTarget {
-                film: Some(*film),
-                ..*self.image
-            };
-            match edge::edge(&image, &image.curve(), sample, drawn, self.stage.range) {
-                NormalReading::At(found) => Some(found - drawn),
-                _ => None,
+            Seen {
+                film,
+                curve: curve.curve().into(),
             }
         };
-        let moved = residual(&self.film.changed(number, by))? - residual(self.film)?;
-        (moved.abs() < JUMP).then_some(moved)
+        let changed =
+            |k: usize| (deviations[k] != 0.0).then(|| seen(film.changed(k, deviations[k])));
+        Self {
+            image,
+            range: stage.range,
+            known: seen(*film),
+            changed: core::array::from_fn(changed),
+        }
+    }
+
+    /// How far the residual of a sample moves by each, pixels; not at all where an edge jumps.
+    fn moves(&self, sample: &BorderPixel, line: &PathLine) -> [f64; CONSTANTS] {
+        let certain = self.changed.iter().all(Option::is_none);
+        let known = || self.residual(&self.known, sample, line);
+        let Some(known) = (!certain).then(known).flatten() else {
+            return [0.0; CONSTANTS];
+        };
+        self.changed.each_ref().map(|changed| {
+            let residual = |seen| self.residual(seen, sample, line);
+            let moved = changed
+                .as_ref()
+                .and_then(residual)
+                .map(|there| there - known);
+            moved.filter(|moved| moved.abs() < JUMP).unwrap_or(0.0)
+        })
+    }
+
+    fn residual(&self, seen: &Seen, sample: &BorderPixel, line: &PathLine) -> Option<f64> {
+        let NormalReading::At(drawn) = seen.film.edge(line.paths(), 0.0) else {
+            return None;
+        };
+        match edge::edge(self.image, &seen.curve, sample, drawn, self.range) {
+            NormalReading::At(found) => Some(found - drawn),
+            _ => None,
+        }
     }
 }

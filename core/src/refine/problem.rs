@@ -1,16 +1,14 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
-use super::border::{BorderPixel, NormalReading, Residual};
 use super::drawing::{Drawing, draw};
 use super::drawn::DrawnEdges;
-use super::edge;
 use super::effort::Effort;
 use super::equations::Equations;
 use super::error::RefineError;
+use super::eye::Eye;
 use super::locks::{Hold, Locks};
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
 use super::outline::{Depth, Sampling};
-use super::probe::{self, OWN_RANGE};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, STAGES, Stage};
 use super::step::Step;
@@ -352,46 +350,16 @@ impl<'a> Problem<'a> {
             film,
         } = draw(self.model, view.camera, &pose, sampling, memory)?;
         let edges = DrawnEdges::of(self.model, &pose, view, stage, border, projected, film)?;
-        let centre = pose.transform(&self.middle);
         let count = border.len();
-        for (number, sample) in border.iter_mut().enumerate() {
-            if !sample.is_on_surface() {
-                continue;
-            }
-            let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE)
-            else {
-                continue;
-            };
-            let NormalReading::At(own) = edges.at(number, own) else {
-                continue;
-            };
-            let found = find(&view.target, sample, own + offset, stage);
-            sample.residual = Residual::of(found, own + offset);
-            if let Residual::Px(_) = sample.residual {
-                let normal = sample.normal.map(f64::from);
-                let (place, depth) = (sample.place(), sample.depth());
-                let jacobian = Step::jacobian(view.camera, &centre, place, depth, normal);
-                let jacobian = Step::in_world(jacobian, &view.placement);
-                sample.jacobian = jacobian.map(|value| value as f32);
-            }
-            equations.add_sample(sample, stage);
-        }
+        let eye = Eye {
+            view,
+            drawn,
+            edges,
+            centre: pose.transform(&self.middle),
+            offset,
+            stage,
+        };
+        eye.measure(border, equations);
         Ok(count)
-    }
-}
-
-/// Where a target's outline crosses the normal of a sample, or where the frame has an edge. What no film is drawn for is read
-/// as it is displayed.
-fn find(target: &Target<'_>, sample: &BorderPixel, expected: f64, stage: &Stage) -> NormalReading {
-    match target {
-        Target::Silhouette(silhouette) => probe::crossing(silhouette, sample, stage.range),
-        Target::Image(image) => {
-            let curve = if stage.drawn {
-                image.curve()
-            } else {
-                image.display()
-            };
-            edge::edge(image, &curve, sample, expected, stage.range)
-        }
     }
 }
