@@ -3,9 +3,11 @@
 //! Both edges are measured by one procedure, so what blur, display and thin metal do to them cancels. Their difference changes
 //! slowly with the pose: some undamped steps from where refinement on the frame's edges alone has ended.
 //!
-//! Each step sees other pixels of the border, so steps never end by themselves: once one is not shorter than the one before, the
-//! `n`-th from there is made by its `n`-th part. Poses then rest where steps are none in the mean over all border pixels (Robbins
-//! and Monro, Ann. Math. Statist. 22, 1951), wherever they come from.
+//! Each step sees other pixels of the border, a fifth of them; what the others have shown before is carried along to first
+//! order, so that all of them decide on each step (an incremental gradient: Blatt, Hero and Gauchman, SIAM J. Optim. 18, 2007).
+//! A drawing in whole pixels lets steps go to and fro at the end: once one is not shorter than the one before, the `n`-th from
+//! there is made by its `n`-th part. Poses then rest where steps are none in the mean (Robbins and Monro, Ann. Math. Statist. 22,
+//! 1951), wherever they come from.
 
 use super::equations::Equations;
 use super::error::RefineError;
@@ -34,25 +36,30 @@ impl Problem<'_> {
         trace: &mut dyn FnMut(&Iterate),
     ) -> Result<(), RefineError> {
         let mut next = *state;
-        let mut seen = self.look(&mut next, pass, memory)?;
+        let mut fifths: [Equations; FILM_EVERY] = core::array::from_fn(|_| Equations::new());
         let (mut last, mut parts) = (f64::INFINITY, 1.0);
         next.converged = false;
-        for turn in 1..=STEPS {
-            let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
+        for turn in 0..STEPS {
+            let pass = &Pass { turn, ..*pass };
+            fifths[turn % FILM_EVERY] = self.look(&mut next, pass, memory)?.equations;
+            let Some((step, more)) = self.step(&joined(&fifths), 0.0, pass, &next.pose) else {
                 return Err(RefineError::TooFar);
             };
-            if step.size() > last || parts > 1.0 {
+            let has_all = turn + 1 >= FILM_EVERY;
+            if has_all && (step.size() > last || parts > 1.0) {
                 parts += 1.0;
             }
             last = step.size();
-            next.pose = self.apply(&step.scaled(1.0 / parts), &next.pose);
-            next.offset_px += more / parts;
-            if last < SMALL * parts {
+            let (step, more) = (step.scaled(1.0 / parts), more / parts);
+            next.pose = self.apply(&step, &next.pose);
+            next.offset_px += more;
+            if has_all && last < SMALL * parts {
                 next.converged = true;
                 break;
             }
-            let pass = &Pass { turn, ..*pass };
-            seen = self.look(&mut next, pass, memory)?;
+            for fifth in &mut fifths {
+                fifth.follow(&step, more);
+            }
         }
         let all = self.look_at_all(&mut next, pass, memory)?;
         all.report(&mut next);
@@ -75,4 +82,10 @@ impl Problem<'_> {
         }
         Ok(all)
     }
+}
+
+fn joined(fifths: &[Equations]) -> Equations {
+    let mut all = Equations::new();
+    fifths.iter().for_each(|fifth| all.join(fifth));
+    all
 }

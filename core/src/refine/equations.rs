@@ -26,6 +26,12 @@ fn dot(a: &[f64; UNKNOWNS], b: &[f64; UNKNOWNS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+fn add_each(to: &mut [f64], more: &[f64]) {
+    for (sum, more) in to.iter_mut().zip(more) {
+        *sum += more;
+    }
+}
+
 /// Normal equations of robust least squares.
 pub(super) struct Equations {
     /// The lower triangle alone.
@@ -105,6 +111,35 @@ impl Equations {
             // Solvers read the lower triangle alone.
             for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
                 *sum += w * a * b;
+            }
+        }
+    }
+
+    /// Adds what was seen of another part of the outline.
+    pub(super) fn join(&mut self, other: &Self) {
+        for (row, others) in self.normal.iter_mut().zip(&other.normal) {
+            add_each(row, others);
+        }
+        add_each(&mut self.right, &other.right);
+        add_each(&mut self.histogram, &other.histogram);
+        self.length += other.length;
+        self.known += other.known;
+        self.loss += other.loss;
+        self.used += other.used;
+        self.squares += other.squares;
+    }
+
+    /// What would be seen, to first order, after a step and a change of the offset.
+    pub(super) fn follow(&mut self, step: &Step, more: f64) {
+        let [a, b, c, x, y, z] = step.values();
+        let change = [a, b, c, x, y, z, more];
+        for row in 0..UNKNOWNS {
+            for column in 0..=row {
+                let entry = self.normal[row][column];
+                self.right[row] -= entry * change[column];
+                if column < row {
+                    self.right[column] -= entry * change[row];
+                }
             }
         }
     }

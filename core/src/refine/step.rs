@@ -71,6 +71,12 @@ impl Step {
         }
     }
 
+    /// Three turns, then three shifts.
+    pub(super) fn values(&self) -> [f64; 6] {
+        let ([a, b, c], [x, y, z]) = (self.turn, self.shift);
+        [a, b, c, x, y, z]
+    }
+
     pub(super) fn scaled(&self, factor: f64) -> Self {
         Self {
             turn: scale(&self.turn, factor),
