@@ -44,6 +44,8 @@ const GRAINED: f64 = 0.1;
 /// the second.
 const NOISE_PX: f64 = 0.1;
 const COARSEST: f64 = 20.0;
+/// Most steps of the stages before correction by the film, which goes on from wherever they end.
+const BEFORE_CORRECTION: [usize; STAGES] = [5, 0, 3, 0];
 /// A stage that is not the last ends where a step lowers the loss by less than this part: the next goes on from there.
 const WORTH_GOING_ON: f64 = 0.02;
 /// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
@@ -146,7 +148,7 @@ impl<'a> Problem<'a> {
             }
         };
         let mut damping = 1e-3;
-        for _ in 0..self.effort.steps()[pass.index] {
+        for _ in 0..self.steps(pass) {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
                 return Err(RefineError::TooFar);
             };
@@ -168,7 +170,7 @@ impl<'a> Problem<'a> {
                     if self.is_known(&state.pose) {
                         break;
                     }
-                    if gained < WORTH_GOING_ON && pass.index + 1 < STAGES && self.is_outline() {
+                    if gained < WORTH_GOING_ON && self.goes_on(pass) {
                         break;
                     }
                 }
@@ -185,6 +187,28 @@ impl<'a> Problem<'a> {
         }
         seen.equations.report(state);
         Ok(seen)
+    }
+
+    /// Most steps tried in a stage.
+    pub(super) fn steps(&self, pass: &Pass) -> usize {
+        let most = self.effort.steps()[pass.index];
+        match self.is_corrected(pass) {
+            true => most.min(BEFORE_CORRECTION[pass.index]),
+            false => most,
+        }
+    }
+
+    /// Whether the film corrects what the stages lead to.
+    fn is_corrected(&self, pass: &Pass) -> bool {
+        self.has_film() && self.effort != Effort::Probe && !pass.free
+    }
+
+    /// Whether another stage, or correction by the film, goes on from where this one ends.
+    fn goes_on(&self, pass: &Pass) -> bool {
+        match self.is_outline() {
+            true => pass.index + 1 < STAGES,
+            false => self.is_corrected(pass),
+        }
     }
 
     /// Undamped steps to the zero of the gradient. The loss of a pose is known no better than the

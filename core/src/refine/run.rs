@@ -58,7 +58,10 @@ pub fn refine_traced(
             drawn,
             ..Pass::default()
         };
-        seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
+        // An outline is weighed again, a frame would be looked at again.
+        if !drawn || problem.steps(&pass) > 0 {
+            seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
+        }
     }
     if !drawn {
         problem.polish(&pass, &mut state, seen, memory, trace)?;
