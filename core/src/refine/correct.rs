@@ -18,8 +18,8 @@ use super::stages::Pass;
 
 /// Steps at most.
 const STEPS: usize = 24;
-/// A step of this size ends the work, as far as it is made: 0.004 degrees or 0.02 mm.
-const SMALL: f64 = 0.004;
+/// A step of this size ends the work, as far as it is made: 0.002 degrees or 0.01 mm.
+const SMALL: f64 = 0.002;
 
 impl Problem<'_> {
     /// Whether the film of any view is known.
