@@ -7,14 +7,21 @@
 //! - [`lines`]: the path of X-rays through a mesh along lines across its outline.
 //! - [`model`]: constants of a film, and the profile and the edge that they make of paths.
 //! - [`profile`], [`mod@estimate`]: profiles read from frames, and the constants that explain them.
+//! - [`given`]: what a person states instead. [`pool`]: the profiles of a study, for callers that have an allocator.
 
 pub mod estimate;
 mod fit;
 pub mod lines;
 pub mod model;
+#[cfg(feature = "alloc")]
+pub mod pool;
 pub mod profile;
+pub mod given;
 
-pub use estimate::{FilmEstimate, estimate};
+pub use estimate::{FilmEstimate, estimate, estimate_with};
 pub use lines::{LineMemory, PathLine};
 pub use model::{FilmConstants, FilmModel};
+#[cfg(feature = "alloc")]
+pub use pool::FilmPool;
 pub use profile::FilmProfile;
+pub use given::{DisplayKind, GivenFilm};

@@ -9,6 +9,7 @@ mod anatomy;
 mod bead_grid;
 mod choice;
 mod exchange;
+mod film;
 mod found;
 mod library;
 mod matcher;
@@ -18,6 +19,7 @@ pub use anatomy::{ShapeAxes, shape_axes};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
+pub use film::{FilmFacts, FilmStudy};
 pub use found::Match;
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{

@@ -4,6 +4,7 @@ mod follow;
 mod from_here;
 mod landscape;
 mod nearest;
+mod on_frame;
 mod one_click;
 
 pub use from_here::{HandFit, HandVerdict, HiddenPixels};
@@ -12,19 +13,22 @@ pub use nearest::{Canonical, NearestView};
 pub use one_click::{OneClick, OneClickAnswer};
 
 use fluoropose::canonical::reverse;
-use fluoropose::finder::{FinderBuffers, Verdict};
+use fluoropose::finder::{FinderBuffers, Goal, Verdict};
 use fluoropose::image::mask::Word;
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, locate};
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
 use crate::choice::{Chosen, Surroundings};
+use crate::film::film_model;
 use crate::found::{Candidate, Match, deviation_numbers};
 use crate::working_model::{Ranked, WorkingModel};
 use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
 use fluoropose_page::traced::Traced;
 
@@ -139,26 +143,36 @@ impl Matcher {
         traced: &Traced,
         around: &Surroundings,
     ) -> Result<Match, JsError> {
-        traced.look(|silhouette| {
-            let library = self.library.borrow_dependent();
-            let Some(model) = &mut self.model else {
-                return self.match_outline(traced);
+        self.refine(traced, Goal::Outline, around)
+    }
+
+    /// The same, and then brings the poses onto the edges of the grey frame that was traced. `film` is what the film makes of the
+    /// component, as `FilmFacts.model` gives it, or empty: then depth is uncertain by millimetres.
+    ///
+    /// # Errors
+    /// Those of `refine_outline`, and a sentence about the film.
+    #[wasm_bindgen(js_name = refineImage)]
+    pub fn refine_image(
+        &mut self,
+        traced: &Traced,
+        frame: &FrameImage,
+        film: &[f64],
+        bright_implant: bool,
+        around: &Surroundings,
+    ) -> Result<Match, JsError> {
+        let polarity = match bright_implant {
+            true => Polarity::BrightImplant,
+            false => Polarity::DarkImplant,
+        };
+        let film = film_model(film)?;
+        frame.look(|frame| {
+            let image = ImageTarget {
+                frame,
+                unknown: None,
+                polarity,
+                film,
             };
-            let camera = traced.camera();
-            let found = model.find(library, &camera, silhouette)?;
-            let chosen = Chosen::of(&found, around);
-            let mut ranked = Vec::new();
-            for candidate in &found.candidates {
-                ranked.push(model.ranked(candidate, &camera, silhouette)?);
-            }
-            let offered = offered(&ranked, chosen.as_ref());
-            Ok(Match {
-                candidates: offered.iter().map(|one| self.candidate(one)).collect(),
-                compared: ranked.len(),
-                clipped: found.clipped,
-                partial: found.partial,
-                chosen,
-            })
+            self.refine(traced, Goal::Image(image), around)
         })
     }
 
@@ -202,6 +216,35 @@ struct LocatedPoses {
 }
 
 impl Matcher {
+    fn refine(
+        &mut self,
+        traced: &Traced,
+        goal: Goal<'_>,
+        around: &Surroundings,
+    ) -> Result<Match, JsError> {
+        traced.look(|silhouette| {
+            let library = self.library.borrow_dependent();
+            let Some(model) = &mut self.model else {
+                return self.match_outline(traced);
+            };
+            let camera = traced.camera();
+            let found = model.find(library, &camera, silhouette, goal)?;
+            let chosen = Chosen::of(&found, around);
+            let mut ranked = Vec::new();
+            for candidate in &found.candidates {
+                ranked.push(model.ranked(candidate, &camera, silhouette)?);
+            }
+            let offered = offered(&ranked, chosen.as_ref());
+            Ok(Match {
+                candidates: offered.iter().map(|one| self.candidate(one)).collect(),
+                compared: ranked.len(),
+                clipped: found.clipped,
+                partial: found.partial,
+                chosen,
+            })
+        })
+    }
+
     /// Memory to compare silhouettes with the library.
     fn buffers(&mut self) -> (&Library<'_>, &mut FinderBuffers) {
         let buffers = match &mut self.model {

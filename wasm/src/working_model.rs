@@ -1,6 +1,7 @@
 //! The model that a library was made from: rivals are drawn with it, ranked and refined.
 
 use fluoropose::camera::Camera;
+use fluoropose::film::FilmProfile;
 use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
     find, first_poses, judge_fit,
@@ -16,8 +17,8 @@ use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
-    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, assess, fit_at,
-    outline_samples, refine, refine_traced,
+    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess, correct,
+    film_profiles, fit_at, outline_samples, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
@@ -187,6 +188,7 @@ impl WorkingModel {
         library: &Library<'_>,
         camera: &Camera,
         silhouette: &Silhouette<'_>,
+        goal: Goal<'_>,
     ) -> Result<Found, JsError> {
         let options = RefineOptions::default();
         self.with_component(library, camera, |component, mut memory| {
@@ -194,7 +196,7 @@ impl WorkingModel {
                 component,
                 camera,
                 silhouette,
-                Goal::Outline,
+                goal,
                 options,
                 &mut memory,
             )
@@ -281,6 +283,42 @@ impl WorkingModel {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         refine(&model, &[view], start, options, &mut memory).map_err(sentence)
+    }
+
+    /// Brings a pose that was refined on a frame to where its film puts the edges.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be corrected.
+    pub(crate) fn correct(
+        &mut self,
+        refined: &Refined,
+        view: CameraView<'_>,
+    ) -> Result<Refined, JsError> {
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        let options = RefineOptions::default();
+        correct(&model, &[view], refined, options, &mut memory).map_err(sentence)
+    }
+
+    /// Reads profiles of a frame across the model's outline at a pose; gives how many.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    pub(crate) fn film_profiles(
+        &mut self,
+        pose: &Pose,
+        view: &CameraView<'_>,
+        profiles: &mut [FilmProfile],
+    ) -> Result<usize, JsError> {
+        let Target::Image(image) = &view.target else {
+            return Ok(0);
+        };
+        let model = self.owned.as_model();
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        // Whoever keeps them says of which component and frame they are.
+        let names = (0, 0);
+        film_profiles(&model, view.camera, pose, image, names, &mut memory, profiles)
+            .map_err(sentence)
     }
 
     /// Whether the implant is darker or brighter than what surrounds it, by the pixels on both sides of its outline.

@@ -17,6 +17,7 @@ pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
 use super::model::{FilmConstants, FilmModel};
 use super::profile::FilmProfile;
+use super::given::{DisplayKind, GivenFilm};
 use crate::math::{exp, sqrt};
 
 /// Errors that formal ones do not know of: for the physics left out. Of the curvature for each contrast, and of logarithms.
@@ -61,17 +62,18 @@ impl FilmEstimate {
 impl fmt::Display for FilmEstimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let FilmConstants { curvature, blur_px } = self.constants;
-        match (self.display, curvature * self.contrast) {
+        let kind = DisplayKind::of(curvature * self.contrast);
+        f.write_str(match (self.display, kind) {
             (DisplayKnowledge::Untold, _) => {
-                f.write_str("film taken to be linear, because its frames do not tell")?;
+                "film taken to be linear, because its frames do not tell"
             }
-            (_, curved) if curved < 0.5 => f.write_str("nearly linear film")?,
-            (_, curved) if curved < 1.0 => f.write_str("film between linear and logarithmic")?,
-            _ => write!(
-                f,
-                "logarithmic film, {:.0} grey values for a factor of e",
-                1.0 / curvature
-            )?,
+            (DisplayKnowledge::Stated, DisplayKind::Linear) => "linear film, as stated",
+            (_, DisplayKind::Linear) => "nearly linear film",
+            (_, DisplayKind::Between) => "film between linear and logarithmic",
+            (_, DisplayKind::Logarithmic) => "logarithmic film",
+        })?;
+        if kind == DisplayKind::Logarithmic {
+            write!(f, ", {:.0} grey values for a factor of e", 1.0 / curvature)?;
         }
         write!(f, ", blur {blur_px:.1} px")
     }
@@ -81,6 +83,16 @@ impl fmt::Display for FilmEstimate {
 /// frame and component stand together, in order along the outline where that is known. `None` where they do not tell.
 #[must_use]
 pub fn estimate(profiles: &mut [FilmProfile], components: usize) -> Option<FilmEstimate> {
+    estimate_with(profiles, components, GivenFilm::default())
+}
+
+/// As [`estimate`], with what a person states of the film.
+#[must_use]
+pub fn estimate_with(
+    profiles: &mut [FilmProfile],
+    components: usize,
+    given: GivenFilm,
+) -> Option<FilmEstimate> {
     let contrast = contrast(profiles)?;
     profiles.iter_mut().for_each(|profile| profile.used = true);
     let mut fit = Fit {
@@ -90,6 +102,7 @@ pub fn estimate(profiles: &mut [FilmProfile], components: usize) -> Option<FilmE
         only: None,
         every: 1,
         hold: false,
+        given,
     };
     let mut at = fit.begin()?;
     fit.improve(&mut at, 8)?;

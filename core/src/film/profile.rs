@@ -9,6 +9,9 @@ pub(crate) const FIRST_READING: f64 = -6.0;
 /// Readings of a profile: to 5 pixels outside.
 pub const READINGS: usize = 23;
 
+/// Numbers that a profile is made of, without the names of its component and frame.
+pub const PROFILE_NUMBERS: usize = 2 * READINGS + POINTS + 1;
+
 /// A profile across a component's outline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmProfile {
@@ -46,6 +49,33 @@ impl Default for FilmProfile {
 }
 
 impl FilmProfile {
+    /// What was read, as numbers: for programs that read in one place and estimate in another.
+    #[must_use]
+    pub fn numbers(&self) -> [f32; PROFILE_NUMBERS] {
+        let mut numbers = [self.outline; PROFILE_NUMBERS];
+        let (readings, paths) = numbers.split_at_mut(2 * READINGS);
+        readings[..READINGS].copy_from_slice(&self.mean);
+        readings[READINGS..].copy_from_slice(&self.variance);
+        paths[..POINTS].copy_from_slice(&self.paths);
+        numbers
+    }
+
+    /// The profile of a component and a frame that such numbers make.
+    #[must_use]
+    pub fn of_numbers((component, frame): (u8, u16), numbers: &[f32; PROFILE_NUMBERS]) -> Self {
+        let (readings, paths) = numbers.split_at(2 * READINGS);
+        let mut profile = Self {
+            component,
+            frame,
+            outline: numbers[PROFILE_NUMBERS - 1],
+            ..Self::default()
+        };
+        profile.mean.copy_from_slice(&readings[..READINGS]);
+        profile.variance.copy_from_slice(&readings[READINGS..]);
+        profile.paths.copy_from_slice(&paths[..POINTS]);
+        profile
+    }
+
     /// A profile of the readings that `reading` gives: mean and variance of the pixels read at a distance from the line's
     /// origin, `outline` being where the component's outline lies. `None` where one of them is not known.
     pub(crate) fn read(

@@ -26,8 +26,9 @@ pub struct Refined {
 }
 
 impl Refined {
-    /// A pose before refinement.
-    pub(super) fn at(pose: Pose) -> Self {
+    /// A pose before refinement, or one that was refined on a frame of which nothing but the pose was kept.
+    #[must_use]
+    pub fn at(pose: Pose) -> Self {
         Self {
             pose,
             offset_px: 0.0,

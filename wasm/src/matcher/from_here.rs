@@ -1,6 +1,7 @@
 //! Poses that a person set, refined from where they stand: against an outline, or the grey frame itself.
 
 use fluoropose::camera::Camera;
+use fluoropose::film::FilmModel;
 use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
@@ -8,6 +9,7 @@ use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
+use crate::film::film_model;
 use crate::found::deviation_numbers;
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
@@ -99,8 +101,8 @@ impl HandFit {
 /// Pixels of a frame whose edges are not the implant's: the other component's.
 #[wasm_bindgen]
 pub struct HiddenPixels {
-    camera: Camera,
-    words: Vec<Word>,
+    pub(super) camera: Camera,
+    pub(super) words: Vec<Word>,
 }
 
 /// Round the other component, pixels: its edges are as wide as the detector's blur.
@@ -179,7 +181,8 @@ impl Matcher {
     }
 
     /// The same onto the edges of a grey frame, seen by the camera of a calibration text. Whether the implant is darker or
-    /// brighter than what surrounds it is seen at the start.
+    /// brighter than what surrounds it is seen at the start. `known` is what the film makes of the component, as
+    /// `FilmFacts.model` gives it, or empty.
     ///
     /// # Errors
     /// The core's sentence about why it cannot be refined from there.
@@ -190,10 +193,12 @@ impl Matcher {
         hidden: &HiddenPixels,
         start: &[f64],
         locked: &[u8],
+        known: &[f64],
     ) -> Result<HandFit, JsError> {
         let (start, options) = begin(start, locked)?;
         let model = model_of(&mut self.model)?;
-        on_frame(model, film, hidden, &start, |model, view, bright| {
+        let on = (film, film_model(known)?);
+        on_frame(model, on, hidden, &start, |model, view, bright| {
             let fit = fitted(model, &start, view, options)?;
             Ok(HandFit { bright, ..fit })
         })
@@ -221,10 +226,12 @@ impl Matcher {
         film: &FrameImage,
         hidden: &HiddenPixels,
         pose: &[f64],
+        known: &[f64],
     ) -> Result<HandVerdict, JsError> {
         let pose = Pose::from(from_numbers(pose)?);
         let model = model_of(&mut self.model)?;
-        on_frame(model, film, hidden, &pose, |model, view, _| {
+        let on = (film, film_model(known)?);
+        on_frame(model, on, hidden, &pose, |model, view, _| {
             judged(model, &pose, view)
         })
     }
@@ -242,20 +249,20 @@ fn judged(
 /// Calls `with` with what the camera saw on a grey frame; whether the implant is bright is seen at `pose`, and told too.
 fn on_frame<T>(
     model: &mut WorkingModel,
-    film: &FrameImage,
+    (frame, film): (&FrameImage, Option<FilmModel>),
     hidden: &HiddenPixels,
     pose: &Pose,
     with: impl FnOnce(&mut WorkingModel, CameraView<'_>, bool) -> Result<T, JsError>,
 ) -> Result<T, JsError> {
     let camera = hidden.camera;
     let unknown = Mask::new(&hidden.words, camera.width(), camera.height()).map_err(sentence)?;
-    film.look(|frame| {
+    frame.look(|frame| {
         let polarity = model.polarity(pose, &camera, frame)?;
         let target = ImageTarget {
             frame,
             unknown: Some(&unknown),
             polarity,
-            film: None,
+            film,
         };
         let bright = polarity == Polarity::BrightImplant;
         with(model, CameraView::only(&camera, target), bright)

@@ -5,17 +5,13 @@ mod answer;
 pub use answer::OneClickAnswer;
 
 use fluoropose::camera::Camera;
-use fluoropose::film::LineMemory;
+use fluoropose::film::{FilmModel, LineMemory};
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::finder::{Component, Verdict};
-use fluoropose::image::border::follow_border;
-use fluoropose::image::contour::{Contour, Outline, Point};
-use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::image::region::largest_region;
+use fluoropose::image::contour::{Outline, Point};
+use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::locate::Workspace;
-use fluoropose::math::{multiply, transpose};
-use fluoropose::pose::{EulerPose, Pose, view_rotation};
-use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineMemory, Refined};
+use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
@@ -23,19 +19,17 @@ use fluoropose_tracing::one_click::{
 use wasm_bindgen::prelude::*;
 
 use super::from_here::model_of;
+use super::on_frame::{OnFrame, Seen, misfit, outline_of, with_mask};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
-use crate::exchange::simplified;
-use crate::found::{Candidate, Match, deviation_numbers};
+use crate::film::film_model;
+use crate::found::Match;
 use crate::working_model::Assessed;
 use answer::{FAIR, told};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
-use fluoropose_page::pose_numbers::to_numbers;
 
-/// The outline that is handed out stays so near to the silhouette, pixels.
-const TOLERANCE: f64 = 0.5;
 /// An answer whose edges are weaker than this part of the best's is no rival.
 const RIVAL_STRENGTH: f64 = 0.75;
 
@@ -64,6 +58,8 @@ pub struct OneClick {
     excluded: Option<Vec<Word>>,
     work: Option<Work>,
     buffers: OneClickBuffers,
+    /// What the film makes of the component.
+    known: Option<FilmModel>,
 }
 
 #[wasm_bindgen]
@@ -92,6 +88,7 @@ impl OneClick {
             excluded: None,
             work: None,
             buffers: OneClickBuffers::default(),
+            known: None,
         })
     }
 
@@ -116,6 +113,16 @@ impl OneClick {
                 .for_each(|(all, word)| *all |= word),
             None => self.excluded = Some(words),
         }
+        Ok(())
+    }
+
+    /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then corrected by it.
+    ///
+    /// # Errors
+    /// A sentence about the numbers.
+    #[wasm_bindgen(js_name = knowFilm)]
+    pub fn know_film(&mut self, film: &[f64]) -> Result<(), JsError> {
+        self.known = film_model(film)?;
         Ok(())
     }
 
@@ -194,6 +201,7 @@ impl OneClick {
         Ok(OneClickAnswer {
             outlines: vec![outline],
             supports: Vec::new(),
+            corrected: false,
             matched: None,
             sentence: "The region with the sharpest border round there; open the implant's model for an outline that knows its shape.".to_owned(),
         })
@@ -211,7 +219,9 @@ impl OneClick {
         let answers = self.work.as_ref().map_or(&[][..], Work::answers);
         let strongest = answers.first().map_or(0.0, |best| best.score);
         let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
-        let answers: Vec<Answer> = answers.iter().filter(rivals).copied().collect();
+        let answers: Vec<OnFrame> = answers.iter().filter(rivals).map(OnFrame::from).collect();
+        let (answers, film) = self.corrected(answers, matcher);
+        let seen = self.seen(film);
         let contenders: Vec<Contender> = answers.iter().map(contender).collect();
         let Some(chosen) = Chosen::among(&contenders, around) else {
             return Err(JsError::new("The first outline is not worked out yet"));
@@ -219,13 +229,14 @@ impl OneClick {
         let mut answer = OneClickAnswer {
             outlines: Vec::new(),
             supports: Vec::new(),
+            corrected: film.is_some(),
             matched: None,
             sentence: String::new(),
         };
         let mut candidates = Vec::new();
         for place in offered(&answers, &chosen) {
             let one = &answers[place];
-            let candidate = self.candidate(one, matcher)?;
+            let candidate = matcher.on_frame(one, &seen)?;
             // The chosen one stays for its reason.
             let fits = !matches!(candidate.verdict, Some(Verdict::NoFit(_)));
             if !fits && !candidates.is_empty() {
@@ -234,7 +245,7 @@ impl OneClick {
             answer
                 .outlines
                 .push(matcher.outline_at(&one.refined.pose, &self.camera)?);
-            answer.supports.push(one.support.fraction);
+            answer.supports.push(one.support);
             candidates.push(candidate);
         }
         let share = answer.supports.first().copied().unwrap_or(0.0);
@@ -255,6 +266,35 @@ impl OneClick {
 }
 
 impl OneClick {
+    fn seen(&self, film: Option<FilmModel>) -> Seen<'_> {
+        Seen {
+            frame: &self.film,
+            camera: &self.camera,
+            polarity: self.polarity,
+            unknown: self.excluded.as_deref(),
+            film,
+        }
+    }
+
+    /// The poses as the film puts the edges, and the film; one that cannot be corrected is dropped while another can. Where none
+    /// can, or no film is known, they are as they were, and no film counts.
+    fn corrected(
+        &self,
+        answers: Vec<OnFrame>,
+        matcher: &mut Matcher,
+    ) -> (Vec<OnFrame>, Option<FilmModel>) {
+        let seen = self.seen(self.known);
+        let correct = |one: &OnFrame| {
+            let refined = matcher.corrected(&one.refined, &seen).ok()?;
+            Some(OnFrame { refined, ..*one })
+        };
+        let corrected: Vec<OnFrame> = answers.iter().filter_map(correct).collect();
+        match corrected.is_empty() {
+            true => (answers, None),
+            false => (corrected, self.known),
+        }
+    }
+
     fn alone<T>(
         &mut self,
         with: impl FnOnce(&mut Work, &Observation<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,
@@ -294,38 +334,6 @@ impl OneClick {
         self.work = Some(work);
         done
     }
-
-    fn candidate(&self, answer: &Answer, matcher: &mut Matcher) -> Result<Candidate, JsError> {
-        let (camera, polarity) = (&self.camera, self.polarity);
-        let assessed = self.film.look(|frame| {
-            with_mask(self.excluded.as_deref(), camera, |unknown| {
-                let target = ImageTarget {
-                    frame,
-                    unknown,
-                    polarity,
-                    film: None,
-                };
-                matcher.assess_on(&answer.refined, CameraView::only(camera, target))
-            })
-        })?;
-        let assessed = supported(assessed, answer.support.fraction);
-        let pose = &answer.refined.pose;
-        let (view, at_border) = matcher.view_of(pose)?;
-        Ok(Candidate {
-            pose: to_numbers(&EulerPose::from(*pose)),
-            unmatched: None,
-            drawn: None,
-            residual_px: Some(answer.refined.residual_px),
-            misfit: Some(misfit(answer)),
-            verdict: Some(assessed.verdict()),
-            deviations: assessed.deviations.as_ref().map(deviation_numbers),
-            start: Some(to_numbers(&EulerPose::from(answer.start))),
-            view,
-            at_border,
-            input: Vec::new(),
-            library: Vec::new(),
-        })
-    }
 }
 
 impl Matcher {
@@ -341,91 +349,37 @@ impl Matcher {
             with(component, memory.workspace, memory.refine)
         })
     }
+}
 
-    /// How sure a pose is that was refined on a film, and how well it fits.
-    fn assess_on(&mut self, refined: &Refined, view: CameraView<'_>) -> Result<Assessed, JsError> {
-        model_of(&mut self.model)?.assess(refined, view)
-    }
-
-    /// The model's silhouette at a pose as an outline: columns and rows by turns.
-    fn outline_at(&mut self, pose: &Pose, camera: &Camera) -> Result<Vec<f64>, JsError> {
-        let (width, height) = (camera.width(), camera.height());
-        let model = model_of(&mut self.model)?;
-        let drawn = model.drawn_at(pose, camera)?;
-        outline_of(&Mask::new(drawn, width, height).map_err(sentence)?)
-    }
-
-    /// The library's view of a pose (rotations about x and y, degrees), and whether it lies at the border of the library
-    /// or beyond.
-    fn view_of(&mut self, pose: &Pose) -> Result<([f64; 2], bool), JsError> {
-        let info = *self.library.borrow_dependent().info();
-        let ray = pose.transform(&info.reference);
-        let rotation = multiply(&transpose(&view_rotation(&ray)), &pose.rotation);
-        let seen = EulerPose::from(Pose { rotation, ..*pose });
-        let view = [seen.x_rot_deg, seen.y_rot_deg];
-        let axes = [info.grid.x, info.grid.y];
-        let inner = view.iter().zip(axes).all(|(&at, axis)| {
-            let last = axis.at(axis.count.saturating_sub(1) as f64);
-            axis.first < at && at < last
-        });
-        Ok((view, !inner && self.has_border()))
+impl From<&Answer> for OnFrame {
+    fn from(answer: &Answer) -> Self {
+        Self {
+            refined: answer.refined,
+            start: answer.start,
+            support: answer.support.fraction,
+        }
     }
 }
 
-/// Corners of a border that a silhouette may have.
-const BORDER_CORNERS: usize = 16_384;
-
-/// The outline of a mask's largest region with few points: columns and rows by turns.
-fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
-    let (width, height) = (mask.width(), mask.height());
-    let mut memory: [Vec<Word>; 2] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
-    let [a, b] = &mut memory;
-    let [mut rest, mut largest] = [
-        MaskMut::new(a, width, height).map_err(sentence)?,
-        MaskMut::new(b, width, height).map_err(sentence)?,
-    ];
-    largest_region(mask, &mut rest, &mut largest).map_err(sentence)?;
-    let mut border = Box::<Contour<BORDER_CORNERS>>::default();
-    follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
-    let points = simplified(&border, TOLERANCE)?;
-    Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
-}
-
-/// Calls `with` with a mask of the camera's frame, where there is one.
-fn with_mask<T>(
-    words: Option<&[Word]>,
-    camera: &Camera,
-    with: impl FnOnce(Option<&Mask<'_>>) -> Result<T, JsError>,
-) -> Result<T, JsError> {
-    let mask = words.map(|words| Mask::new(words, camera.width(), camera.height()));
-    let mask = mask.transpose().map_err(sentence)?;
-    with(mask.as_ref())
-}
-
-fn contender(answer: &Answer) -> Contender {
+fn contender(one: &OnFrame) -> Contender {
     Contender {
-        pose: answer.refined.pose,
-        residual_px: misfit(answer),
+        pose: one.refined.pose,
+        residual_px: misfit(&one.refined),
     }
 }
 
 /// What else lies near an outline is no counterpart where only a little of its length lies on strong edges of the right
 /// polarity.
-fn supported(mut assessed: Assessed, part: f64) -> Assessed {
+pub(super) fn supported(mut assessed: Assessed, part: f64) -> Assessed {
     if part < FAIR {
         assessed.fit.met = assessed.fit.met.min(part);
     }
     assessed
 }
 
-/// By what answers are compared, as the finder compares its candidates: it counts outline that lies on no edge.
-fn misfit(answer: &Answer) -> f64 {
-    (2.0 * answer.refined.loss).sqrt()
-}
-
 /// Numbers of the answers that are offered: the chosen one, the rival that is still open, and others that come near.
-fn offered(answers: &[Answer], chosen: &Chosen) -> Vec<usize> {
-    let misfit = |at: usize| misfit(&answers[at]);
+fn offered(answers: &[OnFrame], chosen: &Chosen) -> Vec<usize> {
+    let misfit = |at: usize| misfit(&answers[at].refined);
     let least = (0..answers.len()).map(misfit).fold(f64::MAX, f64::min);
     let first = [chosen.index()].into_iter().chain(chosen.open());
     let near = (0..answers.len()).filter(|&at| misfit(at) <= RIVAL_WITHIN * least);

@@ -32,6 +32,16 @@ impl Sums {
         Some(product)
     }
 
+    /// Leaves an unknown where it is.
+    pub(super) fn hold(&mut self, unknown: usize) {
+        for matrix in [&mut self.normal, &mut self.spread] {
+            matrix[unknown] = [0.0; UNKNOWNS];
+            matrix.iter_mut().for_each(|row| row[unknown] = 0.0);
+        }
+        self.right[unknown] = 0.0;
+        self.normal[unknown][unknown] = 1.0;
+    }
+
     /// Adds a stretch of profiles that err alike.
     pub(super) fn close(&mut self, group: &mut Vector) {
         for (row, &a) in group.iter().enumerate() {

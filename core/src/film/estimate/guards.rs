@@ -66,6 +66,9 @@ impl Fit<'_> {
     /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike. Else the film
     /// is taken to be linear.
     pub(super) fn confirmed(&mut self, at: &mut Vector) -> Option<DisplayKnowledge> {
+        if self.given.display.is_some() {
+            return Some(DisplayKnowledge::Stated);
+        }
         if at[CURVATURE] < DOUBTED {
             return Some(DisplayKnowledge::Told);
         }

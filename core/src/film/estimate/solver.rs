@@ -7,6 +7,7 @@ use super::unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::model::{CONSTANTS, Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
 use crate::film::profile::{FilmProfile, READINGS};
+use crate::film::given::GivenFilm;
 use crate::math::{exp, ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.
@@ -28,6 +29,10 @@ const FEW: usize = 320;
 /// Consecutive profiles that err alike.
 const TOGETHER: usize = 8;
 
+fn ln_of_blur(blur_px: f64) -> f64 {
+    ln(blur_px.clamp(LEAST_BLUR, MOST_BLUR))
+}
+
 /// Profiles and which of them are looked at.
 pub(super) struct Fit<'p> {
     pub(super) profiles: &'p mut [FilmProfile],
@@ -39,6 +44,8 @@ pub(super) struct Fit<'p> {
     pub(super) every: usize,
     /// Whether the curvature stays as it is.
     pub(super) hold: bool,
+    /// What is not estimated.
+    pub(super) given: GivenFilm,
 }
 
 impl Fit<'_> {
@@ -65,10 +72,16 @@ impl Fit<'_> {
         self.every = (self.profiles.len() / FEW).max(1);
         self.hold = true;
         let mut tried: Vec<(f64, Vector), { STARTS.len() }> = Vec::new();
-        for curvature in STARTS {
+        let [least, most] = self.given.range();
+        let blur = self.given.blur_px.map_or(EXPECTED_BLUR[0], ln_of_blur);
+        let mut last = None;
+        for curvature in STARTS.map(|curvature| curvature.clamp(least, most)) {
+            if last.replace(curvature) == Some(curvature) {
+                continue;
+            }
             let from = ATTENUATIONS.iter().filter_map(|&attenuation| {
                 let mut at = [attenuation; UNKNOWNS];
-                (at[CURVATURE], at[BLUR]) = (curvature, EXPECTED_BLUR[0]);
+                (at[CURVATURE], at[BLUR]) = (curvature, blur);
                 self.find_shifts(&at);
                 let cost = self.improve(&mut at, 8)?;
                 Some((cost, at))
@@ -77,7 +90,7 @@ impl Fit<'_> {
             // There is room.
             let _ = best.map(|best| tried.push(best));
         }
-        (self.every, self.hold) = (1, false);
+        (self.every, self.hold) = (1, least >= most);
         let (_, at) = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         self.find_shifts(&at);
         Some(at)
@@ -119,7 +132,8 @@ impl Fit<'_> {
             for (k, value) in next.iter_mut().enumerate() {
                 *value += step[k].clamp(-0.8, 0.8);
             }
-            next[CURVATURE] = next[CURVATURE].clamp(-1.0, 8.0);
+            let [least, most] = self.given.range();
+            next[CURVATURE] = next[CURVATURE].clamp(least, most);
             next[BLUR] = next[BLUR].clamp(ln(LEAST_BLUR), ln(MOST_BLUR));
             let there = self.look(&next)?;
             if there.cost < seen.cost {
@@ -199,14 +213,12 @@ impl Fit<'_> {
             }
         }
         if self.hold {
-            for matrix in [&mut sums.normal, &mut sums.spread] {
-                matrix[CURVATURE] = [0.0; UNKNOWNS];
-                matrix.iter_mut().for_each(|row| row[CURVATURE] = 0.0);
-            }
-            sums.right[CURVATURE] = 0.0;
-            sums.normal[CURVATURE][CURVATURE] = 1.0;
+            sums.hold(CURVATURE);
         } else {
             sums.normal[CURVATURE][CURVATURE] += 1e-3;
+        }
+        if self.given.blur_px.is_some() {
+            sums.hold(BLUR);
         }
     }
 

@@ -22,4 +22,6 @@ pub enum DisplayKnowledge {
     /// They do not: components contradict each other, or there is one alone, and an unsharp mask may pass for a curve. The
     /// film is taken to be linear.
     Untold,
+    /// A person stated it.
+    Stated,
 }

@@ -15,12 +15,33 @@ pub struct OneClickAnswer {
     pub(super) outlines: Vec<Vec<f64>>,
     /// Of outlines from a model.
     pub(super) supports: Vec<f64>,
+    /// Whether its poses are as the film puts the edges.
+    pub(super) corrected: bool,
     pub(super) matched: Option<Match>,
     pub(super) sentence: String,
 }
 
+impl OneClickAnswer {
+    /// One pose that was found before, corrected by the film.
+    pub(crate) fn of_one(outline: Vec<f64>, support: f64, matched: Match) -> Self {
+        Self {
+            outlines: vec![outline],
+            supports: vec![support],
+            corrected: true,
+            matched: Some(matched),
+            sentence: told(support, false),
+        }
+    }
+}
+
 #[wasm_bindgen]
 impl OneClickAnswer {
+    /// Whether its poses are as the film puts the edges: what the film makes of the component was known.
+    #[wasm_bindgen(getter)]
+    pub fn corrected(&self) -> bool {
+        self.corrected
+    }
+
     /// How many candidates there are.
     #[wasm_bindgen(getter)]
     pub fn count(&self) -> usize {

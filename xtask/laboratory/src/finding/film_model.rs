@@ -2,7 +2,8 @@
 
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmProfile, estimate};
+use fluoropose::film::pool::profiles_of_each;
+use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{correct_candidates, onto_image};
 use fluoropose::mesh::Model;
@@ -14,11 +15,6 @@ use super::film::FrameFound;
 use super::finder::{EdgeOptions, image};
 use crate::files::StatedFilm;
 use crate::sequence::{Seen, Sequence};
-
-/// Profiles of each frame and component; fewer of a long film.
-const PROFILES: usize = 96;
-/// Profiles of all frames together, at most.
-const ALL: usize = 6000;
 
 /// Rounds of estimating the film from poses and correcting these by it.
 const ROUNDS: usize = 2;
@@ -120,8 +116,8 @@ pub fn stated_model(film: StatedFilm, attenuation: f64) -> FilmModel {
 fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
     let parts = &parts[..parts.len().min(MOST_COMPONENTS)];
     let frames: usize = parts.iter().map(|part| part.found.len()).sum();
-    let each = (ALL / frames.max(1)).clamp(12, PROFILES);
-    let mut profiles = Vec::new();
+    let each = profiles_of_each(frames);
+    let mut pool = FilmPool::default();
     for (component, part) in parts.iter().enumerate() {
         let read = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
             let Some(best) = found.candidates.first() else {
@@ -133,9 +129,11 @@ fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
         };
         let frames = part.found.par_iter().enumerate();
         let read: Vec<Vec<FilmProfile>> = frames.map_init(RefineBuffers::default, read).collect();
-        profiles.extend(read.into_iter().flatten());
+        for (frame, profiles) in read.into_iter().enumerate() {
+            pool.take(component as u8, frame as u16, profiles);
+        }
     }
-    estimate(&mut profiles, parts.len())
+    pool.estimate(GivenFilm::default())
 }
 
 impl Filmed<'_> {

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::{FilmProfile, estimate};
+use fluoropose::film::{FilmPool, FilmProfile, GivenFilm};
 use fluoropose::follow::Anchor;
 use fluoropose::refine::film_profiles;
 
@@ -21,7 +21,7 @@ const PROFILES: usize = 96;
 /// folder, so that a correction of one frame does not change all others.
 pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Anchor>]) -> Result<()> {
     let films = run.journal.step("film", || {
-        let mut profiles = Vec::new();
+        let mut pool = FilmPool::default();
         for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
             for anchor in anchors[number].iter().take(ANCHORS) {
                 for (frame, pose) in beside(run, part, anchor, BESIDE)? {
@@ -31,11 +31,12 @@ pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Ancho
                         let (model, camera) = (subject.model, subject.camera);
                         film_profiles(model, camera, &pose, image, names, memory, &mut read)
                     })?;
-                    profiles.extend_from_slice(&read[..count.unwrap_or(0)]);
+                    read.truncate(count.unwrap_or(0));
+                    pool.take(names.0, names.1, read);
                 }
             }
         }
-        let found = estimate(&mut profiles, parts.len().min(MOST_COMPONENTS));
+        let found = pool.estimate(GivenFilm::default());
         if let Some(found) = &found {
             run.say(&format!("film: {found}"));
         }

@@ -1,0 +1,54 @@
+//! What a person states of a film, where the frames are not asked.
+
+/// How a display shows intensities: by its curvature times the contrast of metal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DisplayKind {
+    /// Grey values in proportion to intensity, or nearly.
+    Linear,
+    /// Neither.
+    Between,
+    /// Grey values in proportion to the logarithm of the intensity.
+    Logarithmic,
+}
+
+/// Curvature for each contrast from which on a display is between, and logarithmic.
+const KINDS: [f64; 2] = [0.5, 1.0];
+/// Curvatures that are looked at, for each contrast.
+pub(super) const CURVATURES: [f64; 2] = [-1.0, 8.0];
+
+impl DisplayKind {
+    /// That of a curvature for each contrast.
+    pub(super) fn of(curved: f64) -> Self {
+        match curved {
+            _ if curved < KINDS[0] => Self::Linear,
+            _ if curved < KINDS[1] => Self::Between,
+            _ => Self::Logarithmic,
+        }
+    }
+
+    /// The curvatures for each contrast that it may have. One that is stated to be linear is.
+    fn range(self) -> [f64; 2] {
+        match self {
+            Self::Linear => [0.0, 0.0],
+            // At its end it would be called logarithmic.
+            Self::Between => [KINDS[0], 0.999 * KINDS[1]],
+            Self::Logarithmic => [KINDS[1], CURVATURES[1]],
+        }
+    }
+}
+
+/// What is taken as it is stated; what is left out is estimated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GivenFilm {
+    /// How intensities are shown. Where it curves, how much is estimated all the same.
+    pub display: Option<DisplayKind>,
+    /// Standard deviation of everything that blurs, pixels.
+    pub blur_px: Option<f64>,
+}
+
+impl GivenFilm {
+    /// The curvatures for each contrast that it leaves open.
+    pub(super) fn range(&self) -> [f64; 2] {
+        self.display.map_or(CURVATURES, DisplayKind::range)
+    }
+}

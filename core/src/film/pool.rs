@@ -1,0 +1,97 @@
+//! Profiles of all frames and components of a study, and the constants of its film from them.
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
+use super::profile::FilmProfile;
+use super::given::GivenFilm;
+
+/// Profiles of one frame and component; fewer of a long film.
+const PROFILES: usize = 96;
+const LEAST: usize = 12;
+/// Profiles of all frames together, at most.
+const ALL: usize = 6000;
+
+/// How many profiles of each frame and component are worth reading where there are so many of them.
+#[must_use]
+pub fn profiles_of_each(poses: usize) -> usize {
+    (ALL / poses.max(1)).clamp(LEAST, PROFILES)
+}
+
+/// The profiles of a study as they become known, each frame and component once.
+#[derive(Clone, Debug, Default)]
+pub struct FilmPool {
+    read: BTreeMap<(u8, u16), Vec<FilmProfile>>,
+}
+
+impl FilmPool {
+    /// Takes the profiles of a frame and component, whose names they bear, in place of those it had.
+    pub fn take(&mut self, component: u8, frame: u16, profiles: Vec<FilmProfile>) {
+        if profiles.is_empty() || usize::from(component) >= MOST_COMPONENTS {
+            self.forget(component, frame);
+        } else {
+            self.read.insert((component, frame), profiles);
+        }
+    }
+
+    /// Forgets those of a frame and component: there is no pose any more.
+    pub fn forget(&mut self, component: u8, frame: u16) {
+        self.read.remove(&(component, frame));
+    }
+
+    /// Whether anything is known of a component.
+    #[must_use]
+    pub fn knows(&self, component: u8) -> bool {
+        self.read.keys().any(|&(known, _)| known == component)
+    }
+
+    /// The constants of the film that all of it was taken on; `None` where the profiles do not tell.
+    #[must_use]
+    pub fn estimate(&self, given: GivenFilm) -> Option<FilmEstimate> {
+        let mut profiles: Vec<FilmProfile> = self.read.values().flatten().copied().collect();
+        let components = self.read.keys().map(|&(component, _)| component).max();
+        estimate_with(&mut profiles, 1 + usize::from(components?), given)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_and_component_is_known_once_until_it_is_forgotten() {
+        let mut pool = FilmPool::default();
+        pool.take(1, 7, alloc::vec![FilmProfile::default(); 30]);
+        pool.take(1, 7, alloc::vec![FilmProfile::default(); 20]);
+        assert!(pool.knows(1) && !pool.knows(0));
+        assert_eq!(pool.read.values().map(Vec::len).sum::<usize>(), 20);
+        pool.forget(1, 7);
+        assert!(!pool.knows(1));
+        assert_eq!(pool.estimate(GivenFilm::default()), None);
+        pool.take(1, 7, Vec::new());
+        assert!(!pool.knows(1));
+    }
+
+    #[test]
+    fn long_films_give_fewer_profiles_of_each_frame() {
+        assert_eq!(profiles_of_each(0), PROFILES);
+        assert_eq!(profiles_of_each(32), PROFILES);
+        assert_eq!(profiles_of_each(122), 49);
+        assert_eq!(profiles_of_each(4000), LEAST);
+    }
+
+    #[test]
+    fn profiles_survive_the_way_through_numbers() {
+        let mut profile = FilmProfile::default();
+        (profile.mean[3], profile.variance[4]) = (1.5, 2.5);
+        (profile.paths[80], profile.outline) = (3.5, -0.25);
+        let again = FilmProfile::of_numbers((2, 9), &profile.numbers());
+        let named = FilmProfile {
+            component: 2,
+            frame: 9,
+            ..profile
+        };
+        assert_eq!(again, named);
+    }
+}

@@ -1,0 +1,172 @@
+//! The constants of a film, from profiles that other workers read.
+
+use fluoropose::film::profile::PROFILE_NUMBERS;
+use fluoropose::film::{
+    DisplayKind, FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm,
+};
+use wasm_bindgen::prelude::*;
+
+/// The profiles of a study, and what they tell of its film.
+#[wasm_bindgen]
+#[derive(Default)]
+pub struct FilmStudy {
+    pool: FilmPool,
+}
+
+#[wasm_bindgen]
+impl FilmStudy {
+    /// Knows nothing yet.
+    #[wasm_bindgen(constructor)]
+    #[must_use]
+    pub fn new() -> FilmStudy {
+        Self::default()
+    }
+
+    /// Takes the profiles of a component (0 femur, 1 tibia) and a frame, as `filmProfiles` gives them; they take the place of
+    /// those it had. None at all are forgotten.
+    pub fn take(&mut self, component: u8, frame: u16, numbers: &[f32]) {
+        let of = |numbers| FilmProfile::of_numbers((component, frame), numbers);
+        let profiles = numbers.as_chunks::<PROFILE_NUMBERS>().0.iter().map(of);
+        self.pool.take(component, frame, profiles.collect());
+    }
+
+    /// The constants; nothing where the profiles do not tell. `display` (`linear`, `between` or `logarithmic`) and `blur_px` are
+    /// what a person states.
+    ///
+    /// # Errors
+    /// A sentence about what is stated.
+    pub fn estimate(
+        &self,
+        display: Option<String>,
+        blur_px: Option<f64>,
+    ) -> Result<Option<FilmFacts>, JsError> {
+        let display = display.as_deref().map(kind).transpose()?;
+        if blur_px.is_some_and(|blur_px| !(blur_px > 0.0)) {
+            return Err(JsError::new("The blur of a film is a number above zero"));
+        }
+        let found = self.pool.estimate(GivenFilm { display, blur_px });
+        let knows = [0, 1].map(|component| self.pool.knows(component));
+        Ok(found.map(|estimate| FilmFacts { estimate, knows }))
+    }
+}
+
+fn kind(word: &str) -> Result<DisplayKind, JsError> {
+    match word {
+        "linear" => Ok(DisplayKind::Linear),
+        "between" => Ok(DisplayKind::Between),
+        "logarithmic" => Ok(DisplayKind::Logarithmic),
+        _ => Err(JsError::new(&format!(
+            "A display is linear, between or logarithmic, not {word:?}"
+        ))),
+    }
+}
+
+/// The constants of a film.
+#[wasm_bindgen]
+pub struct FilmFacts {
+    estimate: FilmEstimate,
+    knows: [bool; 2],
+}
+
+#[wasm_bindgen]
+impl FilmFacts {
+    /// As a person would say it, without a full stop.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn words(&self) -> String {
+        self.estimate.to_string()
+    }
+
+    /// Standard deviation of everything that blurs, pixels.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn blur(&self) -> f64 {
+        self.estimate.constants.blur_px
+    }
+
+    /// Curvature of the display times the contrast of metal: 0 linear, from 1 on logarithmic.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn curved(&self) -> f64 {
+        self.estimate.constants.curvature * self.estimate.contrast
+    }
+
+    /// Profiles that were believed.
+    #[wasm_bindgen(getter)]
+    #[must_use]
+    pub fn profiles(&self) -> usize {
+        self.estimate.profiles
+    }
+
+    /// Twelve numbers: curvature, blur, a component's attenuation, and their covariance row by row. Nothing where no frame of
+    /// that component was read.
+    #[must_use]
+    pub fn model(&self, component: usize) -> Option<Vec<f64>> {
+        let known = self.knows.get(component).copied().unwrap_or(false);
+        known.then(|| numbers_of(&self.estimate.model(component)))
+    }
+}
+
+fn numbers_of(model: &FilmModel) -> Vec<f64> {
+    let FilmConstants { curvature, blur_px } = model.constants;
+    let constants = [curvature, blur_px, model.attenuation];
+    constants.iter().chain(model.covariance.as_flattened()).copied().collect()
+}
+
+/// What a film makes of a component: twelve numbers as [`FilmFacts::model`] has them, or the first three, which are then taken
+/// as they are. Nothing where there are none.
+pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> {
+    let (constants, covariance) = match *numbers {
+        [] => return Ok(None),
+        [curvature, blur_px, attenuation, ref covariance @ ..] => {
+            ([curvature, blur_px, attenuation], covariance)
+        }
+        _ => return Err(wrong_count(numbers)),
+    };
+    if !numbers.iter().all(|number| number.is_finite()) || constants[1] <= 0.0 || constants[2] <= 0.0 {
+        return Err(JsError::new(
+            "Of a film the curvature, the blur (px) and the attenuation (1/mm) are stated; the last two are above zero",
+        ));
+    }
+    let [curvature, blur_px, attenuation] = constants;
+    let mut model = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
+    match covariance.as_chunks::<3>() {
+        ([], []) => {}
+        (&[a, b, c], []) => model.covariance = [a, b, c],
+        _ => return Err(wrong_count(numbers)),
+    }
+    Ok(Some(model))
+}
+
+fn wrong_count(numbers: &[f64]) -> JsError {
+    JsError::new(&format!(
+        "A film has 3 or 12 numbers, but {} were given",
+        numbers.len()
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_model_of_a_film_survives_the_way_through_numbers() {
+        let constants = FilmConstants {
+            curvature: 0.02,
+            blur_px: 1.3,
+        };
+        let mut model = FilmModel::certain(constants, 0.4);
+        assert_eq!(film_model(&[0.02, 1.3, 0.4]).ok(), Some(Some(model)));
+        model.covariance = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+        assert_eq!(film_model(&numbers_of(&model)).ok(), Some(Some(model)));
+        assert_eq!(film_model(&[]).ok(), Some(None));
+    }
+
+    #[test]
+    fn profiles_that_nobody_read_tell_nothing() {
+        let mut study = FilmStudy::new();
+        study.take(0, 3, &[0.0; 2 * PROFILE_NUMBERS]);
+        let told = study.estimate(Some("between".to_owned()), Some(1.0));
+        assert!(told.is_ok_and(|told| told.is_none()));
+    }
+}

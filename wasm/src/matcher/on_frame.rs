@@ -1,0 +1,250 @@
+//! Poses on the edges of a grey frame: corrected by its film, judged, and the outline that they have there.
+
+use fluoropose::camera::Camera;
+use fluoropose::film::profile::PROFILE_NUMBERS;
+use fluoropose::film::{FilmModel, FilmProfile, pool::profiles_of_each};
+use fluoropose::image::border::follow_border;
+use fluoropose::image::contour::Contour;
+use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::region::largest_region;
+use fluoropose::math::{multiply, transpose};
+use fluoropose::pose::{EulerPose, Pose, view_rotation};
+use fluoropose::refine::{CameraView, ImageTarget, Polarity, Refined};
+use wasm_bindgen::prelude::*;
+
+use super::Matcher;
+use super::from_here::{HiddenPixels, model_of};
+use super::one_click::{OneClickAnswer, supported};
+use crate::exchange::simplified;
+use crate::film::film_model;
+use crate::found::{Candidate, Match, deviation_numbers};
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
+
+/// The outline that is handed out stays so near to the silhouette, pixels.
+const TOLERANCE: f64 = 0.5;
+/// Corners of a border that a silhouette may have.
+const BORDER_CORNERS: usize = 16_384;
+
+/// A grey frame, and what is known of it.
+pub(super) struct Seen<'s> {
+    pub(super) frame: &'s FrameImage,
+    pub(super) camera: &'s Camera,
+    pub(super) polarity: Polarity,
+    /// Pixels whose edges are not the implant's.
+    pub(super) unknown: Option<&'s [Word]>,
+    /// What its film makes of the implant.
+    pub(super) film: Option<FilmModel>,
+}
+
+impl Seen<'_> {
+    /// Calls `with` with what the camera saw.
+    pub(super) fn look<T>(
+        &self,
+        with: impl FnOnce(CameraView<'_>) -> Result<T, JsError>,
+    ) -> Result<T, JsError> {
+        self.frame.look(|frame| {
+            with_mask(self.unknown, self.camera, |unknown| {
+                let target = ImageTarget {
+                    frame,
+                    unknown,
+                    polarity: self.polarity,
+                    film: self.film,
+                };
+                with(CameraView::only(self.camera, target))
+            })
+        })
+    }
+}
+
+/// A pose that was refined on a frame.
+#[derive(Clone, Copy)]
+pub(super) struct OnFrame {
+    pub(super) refined: Refined,
+    /// What led to it.
+    pub(super) start: Pose,
+    /// Part of the outline that lies on edges of the right sign, 0 to 1.
+    pub(super) support: f64,
+}
+
+#[wasm_bindgen]
+impl Matcher {
+    /// Profiles of a frame across the model's outline at a pose (six numbers), as `FilmStudy` takes them. The pose need only be
+    /// near.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose at which the model cannot be drawn.
+    #[wasm_bindgen(js_name = filmProfiles)]
+    pub fn film_profiles(
+        &mut self,
+        frame: &FrameImage,
+        hidden: &HiddenPixels,
+        pose: &[f64],
+    ) -> Result<Vec<f32>, JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        let seen = self.seen(frame, hidden, &pose, None)?;
+        let mut profiles = vec![FilmProfile::default(); profiles_of_each(1)];
+        let model = model_of(&mut self.model)?;
+        let read = seen.look(|view| model.film_profiles(&pose, &view, &mut profiles))?;
+        let mut numbers = Vec::with_capacity(read * PROFILE_NUMBERS);
+        profiles[..read]
+            .iter()
+            .for_each(|profile| numbers.extend(profile.numbers()));
+        Ok(numbers)
+    }
+
+    /// Brings a pose that was refined on a frame to where its film puts the edges (`film` as `FilmFacts.model` gives it): the
+    /// pose, its outline, how sure it is and how far to be trusted. `support` is the part of its outline on edges.
+    ///
+    /// # Errors
+    /// The core's sentence about why it cannot be corrected.
+    #[wasm_bindgen(js_name = correctOnFrame)]
+    pub fn correct_on_frame(
+        &mut self,
+        frame: &FrameImage,
+        hidden: &HiddenPixels,
+        pose: &[f64],
+        support: f64,
+        film: &[f64],
+    ) -> Result<OneClickAnswer, JsError> {
+        let start = Pose::from(from_numbers(pose)?);
+        let seen = self.seen(frame, hidden, &start, film_model(film)?)?;
+        let refined = self.corrected(&Refined::at(start), &seen)?;
+        let one = OnFrame {
+            refined,
+            start,
+            support,
+        };
+        let candidate = self.on_frame(&one, &seen)?;
+        let outline = self.outline_at(&refined.pose, seen.camera)?;
+        let matched = Match {
+            candidates: vec![candidate],
+            compared: 1,
+            clipped: false,
+            partial: false,
+            chosen: None,
+        };
+        Ok(OneClickAnswer::of_one(outline, support, matched))
+    }
+}
+
+impl Matcher {
+    fn seen<'s>(
+        &mut self,
+        frame: &'s FrameImage,
+        hidden: &'s HiddenPixels,
+        pose: &Pose,
+        film: Option<FilmModel>,
+    ) -> Result<Seen<'s>, JsError> {
+        let model = model_of(&mut self.model)?;
+        let camera = &hidden.camera;
+        Ok(Seen {
+            polarity: frame.look(|frame| model.polarity(pose, camera, frame))?,
+            frame,
+            camera,
+            unknown: Some(&hidden.words),
+            film,
+        })
+    }
+
+    /// A pose that was refined on a frame, as its film puts the edges, where that is known.
+    pub(super) fn corrected(
+        &mut self,
+        refined: &Refined,
+        seen: &Seen<'_>,
+    ) -> Result<Refined, JsError> {
+        if seen.film.is_none() {
+            return Ok(*refined);
+        }
+        let model = model_of(&mut self.model)?;
+        seen.look(|view| model.correct(refined, view))
+    }
+
+    /// A refined pose as the page reads it.
+    pub(super) fn on_frame(
+        &mut self,
+        one: &OnFrame,
+        seen: &Seen<'_>,
+    ) -> Result<Candidate, JsError> {
+        let model = model_of(&mut self.model)?;
+        let assessed = seen.look(|view| model.assess(&one.refined, view))?;
+        let assessed = supported(assessed, one.support);
+        let pose = &one.refined.pose;
+        let (view, at_border) = self.view_of(pose)?;
+        Ok(Candidate {
+            pose: to_numbers(&EulerPose::from(*pose)),
+            unmatched: None,
+            drawn: None,
+            residual_px: Some(one.refined.residual_px),
+            misfit: Some(misfit(&one.refined)),
+            verdict: Some(assessed.verdict()),
+            deviations: assessed.deviations.as_ref().map(deviation_numbers),
+            start: Some(to_numbers(&EulerPose::from(one.start))),
+            view,
+            at_border,
+            input: Vec::new(),
+            library: Vec::new(),
+        })
+    }
+
+    /// The model's silhouette at a pose as an outline: columns and rows by turns.
+    pub(super) fn outline_at(
+        &mut self,
+        pose: &Pose,
+        camera: &Camera,
+    ) -> Result<Vec<f64>, JsError> {
+        let (width, height) = (camera.width(), camera.height());
+        let model = model_of(&mut self.model)?;
+        let drawn = model.drawn_at(pose, camera)?;
+        outline_of(&Mask::new(drawn, width, height).map_err(sentence)?)
+    }
+
+    /// The library's view of a pose (rotations about x and y, degrees), and whether it lies at the border of the library
+    /// or beyond.
+    fn view_of(&mut self, pose: &Pose) -> Result<([f64; 2], bool), JsError> {
+        let info = *self.library.borrow_dependent().info();
+        let ray = pose.transform(&info.reference);
+        let rotation = multiply(&transpose(&view_rotation(&ray)), &pose.rotation);
+        let seen = EulerPose::from(Pose { rotation, ..*pose });
+        let view = [seen.x_rot_deg, seen.y_rot_deg];
+        let axes = [info.grid.x, info.grid.y];
+        let inner = view.iter().zip(axes).all(|(&at, axis)| {
+            let last = axis.at(axis.count.saturating_sub(1) as f64);
+            axis.first < at && at < last
+        });
+        Ok((view, !inner && self.has_border()))
+    }
+}
+
+/// By what poses on a frame are compared, as the finder compares its candidates: it counts outline that lies on no edge.
+pub(super) fn misfit(refined: &Refined) -> f64 {
+    (2.0 * refined.loss).sqrt()
+}
+
+/// The outline of a mask's largest region with few points: columns and rows by turns.
+pub(super) fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
+    let (width, height) = (mask.width(), mask.height());
+    let mut memory: [Vec<Word>; 2] = std::array::from_fn(|_| vec![0; words_needed(width, height)]);
+    let [a, b] = &mut memory;
+    let [mut rest, mut largest] = [
+        MaskMut::new(a, width, height).map_err(sentence)?,
+        MaskMut::new(b, width, height).map_err(sentence)?,
+    ];
+    largest_region(mask, &mut rest, &mut largest).map_err(sentence)?;
+    let mut border = Box::<Contour<BORDER_CORNERS>>::default();
+    follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
+    let points = simplified(&border, TOLERANCE)?;
+    Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
+}
+
+/// Calls `with` with a mask of the camera's frame, where there is one.
+pub(super) fn with_mask<T>(
+    words: Option<&[Word]>,
+    camera: &Camera,
+    with: impl FnOnce(Option<&Mask<'_>>) -> Result<T, JsError>,
+) -> Result<T, JsError> {
+    let mask = words.map(|words| Mask::new(words, camera.width(), camera.height()));
+    let mask = mask.transpose().map_err(sentence)?;
+    with(mask.as_ref())
+}
