@@ -1,6 +1,6 @@
 import { withCell } from './commands';
 import type { Command, Place } from './command';
-import { type Candidate, cellOf, type Doc, isByHand, type Posed, type Verdict } from './types';
+import { type Candidate, cellOf, type Doc, isByHand, type OnFrame, type Posed, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { texts } from '../texts/texts';
 
@@ -15,6 +15,8 @@ export interface HandFit {
   /** A sentence: against what it was refined, and what was held. */
   readonly reason: string;
   readonly verdict: Verdict;
+  /** Null against an outline. */
+  readonly onFrame: OnFrame | null;
 }
 
 /** Sets a pose by hand. Nudges with the same `mergeKey` are one step back. */
@@ -28,11 +30,14 @@ export function setPoseByHand(place: Place, pose: PoseNumbers, label = texts.ste
 }
 
 /** Takes over what refinement made of a pose set by hand. */
-export function takeHandFit(place: Place, { candidate, reason, verdict }: HandFit): Command {
+export function takeHandFit(place: Place, { candidate, reason, verdict, onFrame }: HandFit): Command {
   return {
     label: texts.steps.refineFromHand,
     place,
-    apply: (doc) => withResult(doc, place, byHand('refined from a pose set by hand', candidate, reason, verdict)),
+    apply: (doc) => {
+      const posed = byHand('refined from a pose set by hand', candidate, reason, verdict);
+      return withResult(doc, place, onFrame ? { ...posed, onFrame } : posed);
+    },
   };
 }
 

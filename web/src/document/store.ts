@@ -54,7 +54,7 @@ export interface Ui {
 /** Dark like a reading room, or light for projectors. Print is light by itself. */
 export type Theme = 'dark' | 'light';
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film';
 
 export interface ThresholdLevel {
   readonly level: number;

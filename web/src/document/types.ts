@@ -24,6 +24,8 @@ export interface Doc {
   readonly marks: Readonly<Record<string, Mark>>;
   /** How frames or outlines are undistorted; null: they stay as they were taken. */
   readonly distortion: Distortion | null;
+  /** What is known of how the frames show metal. */
+  readonly film: Film;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
   readonly work: string;
 }
@@ -116,6 +118,49 @@ export interface ViewWindow {
   readonly area: number;
 }
 
+/**
+ * The constants of the film that the study's frames were taken on: how its display curves, how much it blurs, how much the
+ * metal of each component takes away. With them an edge of a frame tells where the outline is.
+ */
+export interface Film {
+  readonly stated: StatedFilm;
+  /** Null until frames have told it. */
+  readonly known: KnownFilm | null;
+}
+
+export const DISPLAYS = ['linear', 'between', 'logarithmic'] as const;
+
+/** What a person fixed; null is estimated from the frames. */
+export interface StatedFilm {
+  readonly display: (typeof DISPLAYS)[number] | null;
+  /** Px. */
+  readonly blur: number | null;
+}
+
+export interface KnownFilm {
+  /** As a person would say it, from the core, without a full stop. */
+  readonly words: string;
+  /** What was stated then. */
+  readonly stated: StatedFilm;
+  /** Px. */
+  readonly blur: number;
+  /** Curvature of the display times the contrast of metal. */
+  readonly curved: number;
+  /** Profiles across outlines that were believed. */
+  readonly profiles: number;
+  readonly models: Readonly<Record<ComponentName, FilmModel | null>>;
+}
+
+/** What the film makes of a component; null where no frame of it has told. */
+export interface FilmModel {
+  /** SHA-256 of the component's model. */
+  readonly of: string;
+  /** Curvature, blur and attenuation, and their covariance row by row: twelve, as the core takes them. */
+  readonly numbers: readonly number[];
+}
+
+export const UNKNOWN_FILM: Film = { stated: { display: null, blur: null }, known: null };
+
 /** What is known of one component in one frame. */
 export interface Cell {
   readonly outline: Outline | null;
@@ -150,6 +195,14 @@ export interface Posed {
   readonly verdict: Verdict | null;
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
+  /** Missing where the poses were brought onto an outline, not onto the edges of the frame itself. */
+  readonly onFrame?: OnFrame;
+}
+
+/** How poses were brought onto the edges of a frame. */
+export interface OnFrame {
+  /** Curvature, blur and attenuation of its film; null where they were not known, and depth is off by millimetres. */
+  readonly film: readonly number[] | null;
 }
 
 export interface Failed {
@@ -171,6 +224,8 @@ export interface Candidate {
   readonly deviations: PoseNumbers | null;
   /** How well it fits by itself; null where it was not compared with others. */
   readonly judged: Judged | null;
+  /** Part of the model's outline that lies on edges of the frame, 0 to 1; missing where it was not measured. */
+  readonly support?: number;
 }
 
 /** How far a pose is to be trusted, and why: a sentence without its full stop. Where nothing fits there is no pose. */
@@ -223,6 +278,7 @@ export const EMPTY_DOC: Doc = {
   reference: null,
   marks: {},
   distortion: null,
+  film: UNKNOWN_FILM,
   work: '',
 };
 

@@ -23,6 +23,10 @@ export function framePoint(column: number, row: number): FramePoint {
   return { column, row } as FramePoint;
 }
 
+export function pointsFrom(numbers: ArrayLike<number>): readonly FramePoint[] {
+  return Array.from({ length: numbers.length / 2 }, (_, index) => framePoint(numbers[2 * index]!, numbers[2 * index + 1]!));
+}
+
 export function canvasPoint(x: number, y: number): CanvasPoint {
   return { x, y } as CanvasPoint;
 }

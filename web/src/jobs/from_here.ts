@@ -1,4 +1,5 @@
 import type { Place } from '../document/command';
+import { CONSTANTS, filmNumbers } from '../document/film';
 import { bare, takeHandFit, type HandFit } from '../document/hand_poses';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, type FrameEntry } from '../document/types';
 import type { Locks, PoseNumbers } from '../geometry/pose_numbers';
@@ -52,11 +53,13 @@ export class FromHere {
     return asJob(this.#services.store, job, async () => {
       const { doc } = this.#services.store;
       const { outline } = cellOf(doc, place.frameId, place.component);
+      const known = outline?.closed ? null : filmNumbers(doc, place.component);
+      const onFrame = outline?.closed ? null : { film: known?.slice(0, CONSTANTS) ?? null };
       const fit = outline?.closed ? await this.#onOutline(place, start, locks, abort.signal) : await this.#onFrame(place, start, locks, abort.signal);
       const against = outline?.closed
         ? texts.hand.fitOutline(fit.residual.toFixed(2))
         : texts.hand.fitFrame(fit.residual.toFixed(2), fit.bright);
-      return { candidate: candidateOf(fit), reason: against + heldWords(locks), verdict: fit.verdict };
+      return { candidate: candidateOf(fit), reason: against + heldWords(locks), verdict: fit.verdict, onFrame };
     });
   }
 
@@ -98,7 +101,7 @@ export function onFrameInput({ store, studio }: Services, { component, frameId }
     const there = other !== component && ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(doc, frameId, other));
     return there ? [{ component: other, pose: there.pose }] : [];
   });
-  return { component, camera, frame: { pixels, width, height }, others };
+  return { component, camera, frame: { pixels, width, height }, others, film: filmNumbers(doc, component) };
 }
 
 function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {

@@ -8,6 +8,7 @@ import { PoseNumbersCard } from '../pose/pose_card';
 import { Candidates } from '../pose/candidates';
 import { CompareCard } from '../pose/compare_card';
 import { ComponentNotes } from '../pose/component_notes';
+import { FilmNote } from '../pose/film_note';
 import { Pictures } from '../pose/pictures';
 import { texts } from '../texts/texts';
 
@@ -42,6 +43,7 @@ export function Panel({ state }: { state: State }) {
         ))}
       </div>
       <PoseNumbersCard cell={cell} missing={missingForPose(state, component)} outdated={isOutdated(state)} />
+      <FilmNote state={state} />
       <ComponentNotes state={state} />
       {(posed || reference) && <CompareCard state={state} />}
       {found && <Candidates cell={cell} result={found} />}

@@ -7,6 +7,7 @@ import { CalibrateSheet } from '../sheets/calibrate_sheet';
 import { CalibrationSheet } from '../sheets/calibration_sheet';
 import { ComponentSheet } from '../sheets/component_sheet';
 import { ConvergenceSheet } from '../sheets/convergence_sheet';
+import { FilmSheet } from '../sheets/film_sheet';
 import { Icon } from '../controls/icons';
 import { KeySheet } from '../sheets/key_sheet';
 import { LogSheet } from '../sheets/log_sheet';
@@ -43,6 +44,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   view: texts.seeing.sheet,
   calibrate: texts.calibrate.sheet,
   video: texts.files.video.sheet,
+  film: texts.film.sheet,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -70,6 +72,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <CalibrateSheet state={state} />;
     case 'video':
       return <VideoSheet state={state} />;
+    case 'film':
+      return <FilmSheet state={state} />;
     case 'view':
       return <ViewSheet state={state} />;
   }

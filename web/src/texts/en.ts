@@ -3,6 +3,7 @@ import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
+import { film } from './en_film';
 import { hand } from './en_hand';
 import { keys } from './en_keys';
 import { panel } from './en_panel';
@@ -19,6 +20,7 @@ export const en = {
   tracing,
   calibrate,
   files,
+  film,
   hand,
   keys,
   panel,

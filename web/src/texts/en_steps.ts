@@ -12,6 +12,7 @@ export const steps = {
   scaleOutline: 'scale the outline',
   snapOutline: 'snap the outline',
   oneClick: 'outline by one click',
+  stateFilm: 'state the film',
   takeRegion: 'take a region',
   stretchUnknown: 'mark a stretch unknown',
   stretchKnown: 'mark a stretch known',

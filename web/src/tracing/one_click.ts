@@ -1,8 +1,9 @@
 import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
+import { CONSTANTS, filmNumbers } from '../document/film';
 import { currentPlace } from '../document/store';
 import { cellOf, type FrameEntry } from '../document/types';
-import { framePoint, type FramePoint } from '../geometry/points';
+import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -10,7 +11,7 @@ import type { OneClickFacts, OneClickInput } from '../workers/protocol/one_click
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
-import { flat, pointsFrom } from './pixels';
+import { flat } from './pixels';
 
 /** A click inside the implant, or opposite corners of a rough box. */
 export type Prompt = readonly [FramePoint] | readonly [FramePoint, FramePoint];
@@ -59,7 +60,7 @@ export class OneClick {
     );
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
     if (changed) return store.say('info', texts.tracing.said.changedMeanwhile);
-    this.#take(answer, place, key);
+    this.#take(answer, place, key, input.film);
   }
 
   #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean): OneClickInput {
@@ -79,13 +80,15 @@ export class OneClick {
       avoid: other?.closed ? flat(other.points) : null,
       withModel: store.ui.libraries[component].state === 'ready',
       around: surroundingsOf(store.doc, frame.id, component),
+      film: filmNumbers(store.doc, component),
     };
   }
 
-  #take(answer: OneClickFacts, place: Place, key: string | null): void {
+  #take(answer: OneClickFacts, place: Place, key: string | null, film: OneClickInput['film']): void {
     const { store } = this.#services;
     const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [] }));
-    store.perform(oneClickOutline(place, outlines, answer.match, key, answer.sentence));
+    const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null };
+    store.perform(oneClickOutline(place, outlines, { ...answer, onFrame }, key));
     store.show({ selectedPoint: null });
     // What was refused stands in the cell and the bottom line as long as it does.
     if (answer.match?.refusal == null) store.say('info', answer.sentence);

@@ -1,5 +1,5 @@
 import type { Outline } from '../document/types';
-import { framePoint, type FramePoint } from '../geometry/points';
+import { type FramePoint, pointsFrom } from '../geometry/points';
 import {
   brushOutline,
   Cooling,
@@ -29,10 +29,6 @@ export const TOLERANCE = 0.25;
 /** As the core wants them: columns and rows by turns. */
 export function flat(points: readonly FramePoint[]): Float64Array<ArrayBuffer> {
   return Float64Array.from(points.flatMap(({ column, row }) => [column, row]));
-}
-
-export function pointsFrom(numbers: ArrayLike<number>): readonly FramePoint[] {
-  return Array.from({ length: numbers.length / 2 }, (_, index) => framePoint(numbers[2 * index]!, numbers[2 * index + 1]!));
 }
 
 /** Reads an answer of the core and gives its memory back. */

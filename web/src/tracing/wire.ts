@@ -1,8 +1,8 @@
 import type { Command, Place } from '../document/command';
 import { addPoints, setOutline } from '../document/outlines';
 import type { Outline } from '../document/types';
-import type { FramePoint } from '../geometry/points';
-import { flat, pointsFrom, type CoolingPixels, type WirePixels } from './pixels';
+import { type FramePoint, pointsFrom } from '../geometry/points';
+import { flat, type CoolingPixels, type WirePixels } from './pixels';
 import { NO_PREVIEW, type Preview } from './preview';
 import { texts } from '../texts/texts';
 

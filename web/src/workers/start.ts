@@ -1,6 +1,7 @@
 import { Bridge, type WorkerPort } from './bridge';
 import type { MasksProtocol } from './protocol/masks';
 import type { CalibrateProtocol } from './protocol/calibrate';
+import type { FilmProtocol } from './protocol/film';
 import type { PoseProtocol } from './protocol/pose';
 import type { LibraryProtocol } from './protocol/library';
 import type { DecodeProtocol } from './protocol/decode';
@@ -21,6 +22,12 @@ export function libraryWorker(): Bridge<LibraryProtocol> {
 export function poseWorker(): Bridge<PoseProtocol> {
   return new Bridge<PoseProtocol>(() =>
     port(new Worker(new URL('./handlers/pose.ts', import.meta.url), { type: 'module', name: 'pose' })),
+  );
+}
+
+export function filmWorker(): Bridge<FilmProtocol> {
+  return new Bridge<FilmProtocol>(() =>
+    port(new Worker(new URL('./handlers/film.ts', import.meta.url), { type: 'module', name: 'film' })),
   );
 }
 

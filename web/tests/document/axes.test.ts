@@ -97,7 +97,7 @@ describe('the front by the film', () => {
     turns.forEach((turn, index) => {
       for (const [component, yRot] of [['femur', 5], ['tibia', 5 + turn]] as const) {
         const place = { frameId: ids[index]!, component };
-        store.perform(takeHandFit(place, { candidate: bare(pose(yRot)), reason: '', verdict: verdict(component === 'tibia' ? word : 'good') }));
+        store.perform(takeHandFit(place, { candidate: bare(pose(yRot)), reason: '', verdict: verdict(component === 'tibia' ? word : 'good'), onFrame: null }));
       }
     });
     return store.doc;

@@ -90,7 +90,7 @@ describe('a pose set by hand', () => {
     for (const component of ['femur', 'tibia'] as const) store.amend((doc) => withAxes(doc, component, OWN_AXES));
     expect(surroundingsOf(store.doc, 'f', 'tibia').counterpart?.pose).toEqual(POSE);
     expect(poseTable(store.doc, 'femur')).toContain(',by hand,');
-    store.perform(takeHandFit(PLACE, { candidate: { ...bare(OTHER), residual: 0.2 }, reason: 'Refined.', verdict: { word: 'good', because: 'it fits' } }));
+    store.perform(takeHandFit(PLACE, { candidate: { ...bare(OTHER), residual: 0.2 }, reason: 'Refined.', verdict: { word: 'good', because: 'it fits' }, onFrame: null }));
     expect(poseTable(store.doc, 'femur')).toContain(',good,it fits,"by hand, refined",1,1,Refined.');
   });
 });

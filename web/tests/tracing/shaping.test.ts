@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { chooseCandidate, movePoint } from '../../src/document/commands';
 import * as history from '../../src/document/history';
-import { oneClickOutline } from '../../src/tracing/one_click_result';
+import { type Answer, oneClickOutline } from '../../src/tracing/one_click_result';
 import { copyOutline, tracedNeighbour } from '../../src/document/outlines';
 import { carriedSides } from '../../src/document/sides';
 import { ahead, markedStretch, perimeter, pointsOf } from '../../src/document/stretch';
@@ -305,17 +305,18 @@ describe('an outline by one click', () => {
     refusal: null,
     milliseconds: 1,
   };
-  const found = oneClickOutline(PLACE, [SQUARE, other], match, 'key', 'It fits.').apply(EMPTY_DOC);
+  const answer = (match: Match | null, sentence: string): Answer => ({ match, sentence, supports: [0.9, 0.7], onFrame: { film: null } });
+  const found = oneClickOutline(PLACE, [SQUARE, other], answer(match, 'It fits.'), 'key').apply(EMPTY_DOC);
   const cell = (doc: Doc) => cellOf(doc, 'f', 'femur');
 
   it('comes with its pose', () => {
-    expect(cell(found)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'posed', origin: 'key', chosen: 0 } });
+    expect(cell(found)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'posed', origin: 'key', chosen: 0, onFrame: { film: null }, candidates: [{ support: 0.9 }, { support: 0.7 }] } });
     expect(verdictOf(cell(found).result)).toEqual({ word: 'doubtful', because: 'a part is hidden' });
   });
 
   it('has no pose where nothing fits, and says what to do', () => {
     const sentence = 'That is little: click elsewhere.';
-    const refused = oneClickOutline(PLACE, [SQUARE, other], { ...match, verdict: null, refusal: 'no fit' }, 'key', sentence).apply(EMPTY_DOC);
+    const refused = oneClickOutline(PLACE, [SQUARE, other], answer({ ...match, verdict: null, refusal: 'no fit' }, sentence), 'key').apply(EMPTY_DOC);
     expect(cell(refused)).toMatchObject({ outline: SQUARE, resultOf: SQUARE, result: { kind: 'failed', origin: 'key', sentence } });
   });
 
@@ -333,6 +334,6 @@ describe('an outline by one click', () => {
   });
 
   it('is an outline like any other where no model led to it', () => {
-    expect(cell(oneClickOutline(PLACE, [SQUARE], null, null, '').apply(EMPTY_DOC))).toMatchObject({ outline: SQUARE, result: null });
+    expect(cell(oneClickOutline(PLACE, [SQUARE], answer(null, ''), null).apply(EMPTY_DOC))).toMatchObject({ outline: SQUARE, result: null });
   });
 });

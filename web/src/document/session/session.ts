@@ -2,6 +2,7 @@ import { framePoint, type FramePoint } from '../../geometry/points';
 import { readAudit, type Audit } from './audit';
 import { readAxes } from '../axes';
 import { readDistortion } from '../distortion';
+import { readFilm } from '../film';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
 import type {
   AllDirections,
@@ -17,6 +18,7 @@ import type {
   Judged,
   LibrarySpec,
   Mark,
+  OnFrame,
   Outline,
   Posed,
   Reference,
@@ -52,10 +54,10 @@ export interface SessionFile {
 }
 
 export const SESSION_KIND = 'fluoropose-session';
-export const SESSION_VERSION = 4;
+export const SESSION_VERSION = 5;
 /**
  * Version 1 had neither marks nor an audit, version 2 neither libraries of all directions nor verdicts, version 3 no
- * anatomical axes and no verdicts in its audit.
+ * anatomical axes and no verdicts in its audit, version 4 no film.
  */
 const OLDEST_VERSION = 1;
 
@@ -141,7 +143,7 @@ const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: nu
 
 const readVerdict = object<Verdict>({ word: oneOf('good', 'doubtful'), because: text });
 
-const readCandidate = object<Candidate>({
+const readCandidateParts = object<Omit<Candidate, 'support'>>({
   pose: readPose,
   unmatched: nullable(number),
   drawn: nullable(number),
@@ -152,7 +154,12 @@ const readCandidate = object<Candidate>({
   judged: optional(object<Judged>({ misfit: number, verdict: readVerdict })),
 });
 
-const readPosedParts = object<Omit<Posed, 'program'>>({
+const readCandidate: Reader<Candidate> = (value, path) => {
+  const { support } = object({ support: optional(number) })(value, path);
+  return { ...readCandidateParts(value, path), ...(support !== null && { support }) };
+};
+
+const readPosedParts = object<Omit<Posed, 'program' | 'onFrame'>>({
   kind: oneOf('posed'),
   from: oneOf('outline', 'file', 'hand'),
   origin: text,
@@ -164,9 +171,18 @@ const readPosedParts = object<Omit<Posed, 'program'>>({
 });
 
 const readPosed: Reader<Posed> = (value, path) => {
-  const { program } = object({ program: optional(text) })(value, path);
-  return { ...readPosedParts(value, path), ...(program !== null && { program }) };
+  const { program, onFrame } = object({ program: optional(text), onFrame: optional(readOnFrame) })(value, path);
+  const parts = readPosedParts(value, path);
+  const found = onFrame ?? (isByClick(parts) ? { film: null } : null);
+  return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }) };
 };
+
+const readOnFrame = object<OnFrame>({ film: nullable(list(number)) });
+
+/** Sessions of versions 1 to 4 do not say it: what was refined and never drawn against an outline came of one click. */
+function isByClick({ from, candidates }: Omit<Posed, 'program' | 'onFrame'>): boolean {
+  return from === 'outline' && candidates.length > 0 && candidates.every(({ residual, drawn, unmatched }) => residual !== null && drawn === null && unmatched === null);
+}
 
 const readFailed = object<Failed>({ kind: oneOf('failed'), origin: text, sentence: text });
 
@@ -244,6 +260,7 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   marks: missingAs({}, dictionary(readMark)),
   // Sessions from before distortion could be corrected have none.
   distortion: optional(readDistortion),
+  film: readFilm,
 });
 
 /** The reverse of `plainDoc`. */

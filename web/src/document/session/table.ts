@@ -73,10 +73,16 @@ export function methodOf(result: Posed): string {
     case 'file':
       return `file ${result.origin}`;
     case 'hand':
-      return refined ? 'by hand, refined' : 'by hand';
+      return refined ? `by hand, refined${onFrameWords(result)}` : 'by hand';
     case 'outline':
-      return refined ? 'refined' : 'library';
+      return refined ? `refined${onFrameWords(result)}` : 'library';
   }
+}
+
+/** Whether it was brought onto the frame itself, and whether its film was known: depth rests on that. */
+function onFrameWords({ onFrame }: Posed): string {
+  if (!onFrame) return '';
+  return onFrame.film ? ' on the frame by its film' : ' on the frame, film unknown';
 }
 
 function field(value: string | number | null): string {

@@ -1,38 +1,26 @@
-import { type FrameImage, HiddenPixels, type HandFit, type HandVerdict, type Landscape, type Matcher, type Traced } from '../../pkg/core/fluoropose_wasm.js';
-import type { ComponentName } from '../../terms/component';
+import type { HandFit, HandVerdict, Landscape, Matcher, Traced } from '../../pkg/core/fluoropose_wasm.js';
 import type { Verdict } from '../../document/types';
-import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum, OnFrame } from '../protocol/by_hand';
+import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import type { MatchInput } from '../protocol/match';
-import { imageOf } from './frame_pixels';
+import { filmArray, type MatcherOf, onFrame } from './on_frame';
 import type { Handlers } from './serve';
 
 /** What the handlers share with those that hold the libraries. */
 export interface Held {
   readonly withTraced: <T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T) => Promise<T>;
-  readonly matcherOf: (component: ComponentName) => Promise<Matcher>;
+  readonly matcherOf: MatcherOf;
 }
 
 export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> {
-  const onFrame = async <T>({ component, camera, frame, others }: OnFrame, work: (matcher: Matcher, image: FrameImage, hidden: HiddenPixels) => T): Promise<T> => {
-    const matcher = await matcherOf(component);
-    const image = imageOf(frame);
-    const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
-    try {
-      for (const other of others) hidden.add(await matcherOf(other.component), numbers(poseArray(other.pose)));
-      return work(matcher, image, hidden);
-    } finally {
-      hidden.free();
-      image.free();
-    }
-  };
   return {
     refineFrom: ({ start, locked, ...input }) =>
       withTraced(input, (matcher, traced) => factsOf(matcher.refineFrom(traced, numbers(poseArray(start)), flags(locked)))),
     refineOnFrame: ({ start, locked, ...input }) =>
-      onFrame(input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked)))),
+      onFrame(matcherOf, input, (matcher, image, hidden) => factsOf(matcher.refineOnFrame(image, hidden, numbers(poseArray(start)), flags(locked), filmArray(input.film)))),
     judgeOutline: ({ pose, ...input }) => withTraced(input, (matcher, traced) => verdictOf(matcher.judgeOutline(traced, numbers(poseArray(pose))))),
-    judgeOnFrame: ({ pose, ...input }) => onFrame(input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose))))),
+    judgeOnFrame: ({ pose, ...input }) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) => verdictOf(matcher.judgeOnFrame(image, hidden, numbers(poseArray(pose)), filmArray(input.film)))),
     landscape: (input) => withTraced(input, (matcher, traced) => landscapeOf(matcher.landscape(traced))),
     viewPose: ({ view, ...input }) =>
       withTraced(input, (matcher, traced) => {

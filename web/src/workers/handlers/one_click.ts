@@ -3,6 +3,7 @@ import type { ComponentName } from '../../terms/component';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';
 import { imageOf } from './frame_pixels';
+import { filmArray } from './on_frame';
 import type { Context, Handlers } from './serve';
 
 /** What the handler shares with those that hold the libraries. */
@@ -36,6 +37,7 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
   const work = new OneClick(image, input.camera.text, input.prompt, input.bright);
   try {
     if (input.avoid) work.avoid(input.avoid);
+    work.knowFilm(filmArray(input.film));
     while (matcher ? work.step(matcher) : work.stepAlone()) {
       context.report({ fraction: work.progress, doing: work.doing });
       await context.breathe();
@@ -55,6 +57,8 @@ function facts(held: Held, answer: OneClickAnswer, matcher: Matcher | null, mill
     const match = answer.fromModel && matcher ? answer.takeMatch() : undefined;
     return {
       outlines: outlines.filter((outline) => outline !== undefined),
+      supports: outlines.flatMap((_, index) => answer.support(index) ?? []),
+      corrected: answer.corrected,
       match: match && matcher ? held.read(match, matcher, milliseconds) : null,
       sentence: answer.sentence,
     };

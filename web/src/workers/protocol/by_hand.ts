@@ -13,6 +13,8 @@ export interface OnFrame {
   readonly camera: CameraInput;
   readonly frame: FramePixels;
   readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
+  /** What the film makes of the component; null where that is not known. */
+  readonly film: readonly number[] | null;
 }
 
 /** Where refinement starts, and which of the six numbers stay, in the order of `poseArray`. */

@@ -17,11 +17,17 @@ export interface OneClickInput {
   /** Without library and model only the region and its edges lead to an outline. */
   readonly withModel: boolean;
   readonly around: Surroundings;
+  /** What the film makes of the component; null where that is not known. */
+  readonly film: readonly number[] | null;
 }
 
 export interface OneClickFacts {
   /** One for each candidate, the chosen first; columns and rows by turns. */
   readonly outlines: readonly Float64Array<ArrayBuffer>[];
+  /** Parts of them that lie on edges of the right sign, 0 to 1; none without a model. */
+  readonly supports: readonly number[];
+  /** The poses are as the film puts the edges. */
+  readonly corrected: boolean;
   /** The candidates' poses; null where no model led to the outline. */
   readonly match: Match | null;
   /** What was done and how sure it is. */

@@ -1,0 +1,51 @@
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import type { Command } from './command';
+import { count, list, missingAs, nullable, number, object, oneOf, text, type Reader } from './reader';
+import { DISPLAYS, type Doc, type Film, type FilmModel, type KnownFilm, type StatedFilm, UNKNOWN_FILM } from './types';
+
+/** Curvature, blur and attenuation: with what a pose was found. */
+export const CONSTANTS = 3;
+
+/** What the film makes of a component as its model is now. */
+export function filmNumbers({ film, components }: Doc, component: ComponentName): readonly number[] | null {
+  const known = film.known?.models[component];
+  return known && known.of === components[component].model?.sha256 ? known.numbers : null;
+}
+
+/** Two lists of constants are the same. */
+export function sameFilm(a: readonly number[] | null, b: readonly number[] | null): boolean {
+  return a === b || (a !== null && b !== null && a.slice(0, CONSTANTS).join() === b.slice(0, CONSTANTS).join());
+}
+
+/** What a person says of the film. Poses follow by themselves. */
+export function stateFilm(stated: StatedFilm): Command {
+  return { label: texts.steps.stateFilm, mergeKey: 'film', apply: (doc) => ({ ...doc, film: { ...doc.film, stated } }) };
+}
+
+/** What the frames tell; no unit of undo: nobody did anything. */
+export function withKnownFilm(doc: Doc, known: KnownFilm | null): Doc {
+  return doc.film.known === known ? doc : { ...doc, film: { ...doc.film, known } };
+}
+
+const readStated = object<StatedFilm>({ display: nullable(oneOf(...DISPLAYS)), blur: nullable(number) });
+
+const readModel = nullable(object<FilmModel>({ of: text, numbers: list(number) }));
+
+/** Sessions of versions 1 to 4 have none. */
+export const readFilm: Reader<Film> = missingAs(
+  UNKNOWN_FILM,
+  object<Film>({
+    stated: readStated,
+    known: nullable(
+      object<KnownFilm>({
+        words: text,
+        stated: readStated,
+        blur: number,
+        curved: number,
+        profiles: count,
+        models: object({ femur: readModel, tibia: readModel }),
+      }),
+    ),
+  }),
+);

@@ -1,0 +1,222 @@
+import { withCell } from '../document/commands';
+import type { Place } from '../document/command';
+import { CONSTANTS, withKnownFilm } from '../document/film';
+import { setItsOutline } from '../document/own_outlines';
+import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
+import { pointsFrom } from '../geometry/points';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import { isNear, isNews, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { work } from '../workers/activity';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { Corrected, FilmFacts, FilmProtocol, ReadProfiles } from '../workers/protocol/film';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import { onFrameInput } from './from_here';
+import { sentenceOf, type Services } from './services';
+
+/** How long the document rests before its frames are asked, ms: while a hand moves nothing is worth reading. */
+export const FILM_REST = 40;
+
+/** A pose at which profiles were read, or are when they are wanted: those of an opened session were told before. */
+interface Entry {
+  readonly witness: Witness;
+  readonly isRead: boolean;
+}
+
+/**
+ * Keeps what is known of the study's film up to date: profiles across the outlines of posed components are read in the pose
+ * worker, the constants are estimated from all of them in a worker of their own, and poses that were found on a frame before are
+ * corrected when the constants change what is known. What a person set or checked never changes.
+ */
+export class FilmReader {
+  readonly #services: Services;
+  readonly #poses: Pick<Bridge<PoseProtocol>, 'call'>;
+  readonly #films: Pick<Bridge<FilmProtocol>, 'call'>;
+  readonly #entries = new Map<string, Entry>();
+  /** What the page worked out itself, or adopted. */
+  readonly #taken = new WeakSet<KnownFilm>();
+  /** They cannot be corrected. */
+  readonly #refused = new WeakSet<Posed>();
+  #last: KnownFilm | null = null;
+  #asked: string | null = null;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #pauseIsOver: () => void = () => undefined;
+  #busy = false;
+
+  constructor(services: Services, poses: Pick<Bridge<PoseProtocol>, 'call'>, films: Pick<Bridge<FilmProtocol>, 'call'>) {
+    this.#services = services;
+    this.#poses = poses;
+    this.#films = films;
+    services.store.subscribe(() => this.#consider());
+  }
+
+  #consider(): void {
+    clearTimeout(this.#timer);
+    this.#pauseIsOver();
+    if (this.#busy || this.#adopt()) return;
+    const task = this.#task();
+    if (!task) return;
+    this.#pauseIsOver = work.begin();
+    this.#timer = setTimeout(() => void this.#run(), FILM_REST);
+  }
+
+  /** A film from a session, or from before a step back, was told by the poses that are there with it. */
+  #adopt(): boolean {
+    const { store } = this.#services;
+    const { known, stated } = store.doc.film;
+    const here = this.#witnesses();
+    if (known && !this.#taken.has(known)) {
+      this.#taken.add(known);
+      this.#last = known;
+      this.#asked = JSON.stringify(known.stated);
+      for (const witness of here) this.#entries.set(witness.key, { witness, isRead: false });
+      return false;
+    }
+    const isBehind = known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(here);
+    if (isBehind) store.amend((doc) => withKnownFilm(doc, this.#last));
+    return isBehind;
+  }
+
+  #task(): (() => Promise<void>) | null {
+    const { doc } = this.#services.store;
+    const here = this.#witnesses();
+    const isStated = JSON.stringify(doc.film.stated) !== this.#asked && (here.length > 0 || doc.film.known !== null);
+    if (this.#isOpen(here) || isStated) return () => this.#estimate(here);
+    for (const frame of doc.frames) {
+      for (const component of COMPONENT_NAMES) {
+        const cell = needsCorrection(doc, component, frame);
+        if (cell && !this.#refused.has(cell.result) && this.#isReady(component, frame)) {
+          return () => this.#correct({ component, frameId: frame.id }, cell.result);
+        }
+      }
+    }
+    return null;
+  }
+
+  #witnesses(): readonly Witness[] {
+    return witnesses(this.#services.store.doc, (component, frame) => this.#isReady(component, frame));
+  }
+
+  #isReady(component: ComponentName, frame: FrameEntry): boolean {
+    const { store, studio } = this.#services;
+    const { model } = store.doc.components[component];
+    return model !== null && store.ui.libraries[component].state === 'ready' && studio.hasFrame(frame.id);
+  }
+
+  /** Is there a pose that was not asked, or was one asked that is gone? */
+  #isOpen(here: readonly Witness[]): boolean {
+    const known = ({ key, pose }: Witness) => isNear(this.#entries.get(key)?.witness.pose ?? FAR, pose);
+    return here.some((witness) => !known(witness)) || this.#gone(here).length > 0;
+  }
+
+  #gone(here: readonly Witness[]): readonly Witness[] {
+    const keys = new Set(here.map(({ key }) => key));
+    return [...this.#entries.values()].flatMap(({ witness }) => (keys.has(witness.key) ? [] : [witness]));
+  }
+
+  async #run(): Promise<void> {
+    this.#pauseIsOver();
+    const task = this.#task();
+    if (!task) return;
+    this.#busy = true;
+    try {
+      await task();
+    } catch (error) {
+      if (!(error instanceof Aborted)) this.#services.store.say('error', sentenceOf(error));
+    } finally {
+      this.#busy = false;
+      queueMicrotask(() => this.#consider());
+    }
+  }
+
+  async #estimate(here: readonly Witness[]): Promise<void> {
+    const { store } = this.#services;
+    const { stated } = store.doc.film;
+    this.#asked = JSON.stringify(stated);
+    const read: ReadProfiles[] = [];
+    for (const witness of this.#gone(here)) {
+      this.#entries.delete(witness.key);
+      read.push({ ...namesOf(witness), profiles: new Float32Array() });
+    }
+    for (const witness of here) {
+      const entry = this.#entries.get(witness.key);
+      if (entry?.isRead && isNear(entry.witness.pose, witness.pose)) continue;
+      this.#entries.set(witness.key, { witness, isRead: true });
+      read.push({ ...namesOf(witness), profiles: await this.#profilesOf(witness) });
+    }
+    const facts = await this.#films.call('estimate', { read, stated });
+    const found = facts && this.#knownFrom(facts);
+    this.#take(found);
+  }
+
+  /** None where the frame cannot be held against the pose. */
+  async #profilesOf({ component, frameId, pose }: Witness): Promise<Float32Array<ArrayBuffer>> {
+    try {
+      const input = onFrameInput(this.#services, { component, frameId });
+      return await this.#poses.call('filmProfiles', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
+    } catch (error) {
+      if (error instanceof Aborted) throw error;
+      return new Float32Array();
+    }
+  }
+
+  #knownFrom({ words, blur, curved, profiles, models }: FilmFacts): KnownFilm {
+    const { doc } = this.#services.store;
+    const model = (component: ComponentName): FilmModel | null => {
+      const of = doc.components[component].model?.sha256;
+      const numbers = models[component];
+      return of !== undefined && numbers ? { of, numbers } : null;
+    };
+    return { words, stated: doc.film.stated, blur, curved, profiles, models: { femur: model('femur'), tibia: model('tibia') } };
+  }
+
+  #take(found: KnownFilm | null): void {
+    const { store } = this.#services;
+    if (!isNews(store.doc.film.known, found)) return;
+    if (found) this.#taken.add(found);
+    this.#last = found;
+    store.amend((doc) => withKnownFilm(doc, found));
+  }
+
+  async #correct(place: Place, result: Posed): Promise<void> {
+    const input = onFrameInput(this.#services, place);
+    const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
+    const answers = await this.#poses.call('correct', { ...input, candidates }, { transfer: [input.frame.pixels.buffer] });
+    const chosen = answers[result.chosen];
+    if (!chosen || !input.film) return void this.#refused.add(result);
+    const film = input.film.slice(0, CONSTANTS);
+    this.#services.store.amend((doc) => {
+      const cell = cellOf(doc, place.frameId, place.component);
+      if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
+      const corrected = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null));
+      const outline = outlineOf(chosen);
+      const verdict = verdictAfter(result, corrected[0]);
+      return withCell(doc, place, { outline, result: { ...result, candidates: corrected, verdict, onFrame: { film } }, resultOf: outline });
+    });
+  }
+}
+
+const FAR: PoseNumbers = { x: NaN, y: NaN, z: NaN, zRot: NaN, xRot: NaN, yRot: NaN };
+
+function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' | 'frame'> {
+  return { component, frame };
+}
+
+/** The candidate with its new numbers, and the outline that they draw. */
+function correctedBy(candidate: Candidate, answer: Corrected | null): Candidate {
+  if (!answer) return candidate;
+  const { pose, residual, deviations, judged } = answer;
+  const corrected = { ...candidate, pose, residual, deviations, judged };
+  setItsOutline(corrected, outlineOf(answer));
+  return corrected;
+}
+
+const outlines = new WeakMap<Corrected, Outline>();
+
+function outlineOf(answer: Corrected): Outline {
+  const known = outlines.get(answer);
+  if (known) return known;
+  const outline = { points: pointsFrom(answer.outline), closed: true, unknownSides: [] };
+  outlines.set(answer, outline);
+  return outline;
+}

@@ -1,0 +1,95 @@
+import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
+import { checkState, markOf } from '../document/marks';
+import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { poseKey } from './keys';
+
+/** What the study's own frames tell of their film, and which poses it concerns. */
+
+/** Frames of each component that are asked: more tell hardly more. */
+const FRAMES = 16;
+
+/** A cell whose pose is good enough to read profiles across its outline. */
+export interface Witness {
+  readonly key: string;
+  readonly frameId: string;
+  readonly component: ComponentName;
+  /** Place in the sequence, from 0. */
+  readonly frame: number;
+  readonly pose: PoseNumbers;
+}
+
+/** The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. */
+export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean): readonly Witness[] {
+  return COMPONENT_NAMES.flatMap((component) => {
+    const found = doc.frames.flatMap((entry, frame): Witness[] => {
+      const candidate = toldBy(doc, component, entry);
+      if (!candidate || !isReady(component, entry)) return [];
+      return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose }];
+    });
+    return found.slice(0, FRAMES);
+  });
+}
+
+function toldBy(doc: Doc, component: ComponentName, frame: FrameEntry): Candidate | null {
+  const { result, outline, resultOf } = cellOf(doc, frame.id, component);
+  if (result?.kind !== 'posed') return null;
+  const candidate = result.candidates[result.chosen];
+  if (!candidate || (candidate.residual === null && result.from !== 'file')) return null;
+  const isCurrent = result.from !== 'outline' || (resultOf === outline && result.origin === poseKey(doc, component, frame));
+  return isCurrent ? candidate : null;
+}
+
+/** Where profiles were read serves for poses this near: how far each edge lies beside the outline is left open anyway. */
+const NEAR: PoseNumbers = { x: 1, y: 1, z: 25, zRot: 2, xRot: 2, yRot: 2 };
+
+export function isNear(a: PoseNumbers, b: PoseNumbers): boolean {
+  return (Object.keys(NEAR) as (keyof PoseNumbers)[]).every((field) => Math.abs(a[field] - b[field]) <= NEAR[field]);
+}
+
+/** A constant has changed by more than this part of its standard deviation, or is that much better known. */
+const NEWS = 0.25;
+
+/** Does an estimate change what is known? Poses are corrected by what is new, not by every last digit. */
+export function isNews(before: KnownFilm | null, after: KnownFilm | null): boolean {
+  if (!before || !after) return before !== after;
+  if (JSON.stringify(before.stated) !== JSON.stringify(after.stated)) return true;
+  return COMPONENT_NAMES.some((component) => {
+    const [then, now] = [before.models[component], after.models[component]];
+    if (then?.of !== now?.of || !then || !now) return then !== now && (then === null || now === null || then.of !== now.of);
+    return isNewsOf(then.numbers, now.numbers);
+  });
+}
+
+function isNewsOf(then: readonly number[], now: readonly number[]): boolean {
+  return Array.from({ length: CONSTANTS }, (_, at) => {
+    const [deviation, later] = [deviationOf(then, at), deviationOf(now, at)];
+    // Of the first the curvature itself is uncertain, of the others their logarithms.
+    const moved = at === 0 ? (now[at] ?? 0) - (then[at] ?? 0) : Math.log((now[at] ?? 1) / (then[at] ?? 1));
+    return Math.abs(moved) > NEWS * deviation || later < (1 - NEWS) * deviation || later > (1 + NEWS) * deviation;
+  }).some(Boolean);
+}
+
+function deviationOf(numbers: readonly number[], at: number): number {
+  return Math.sqrt(Math.max(0, numbers[CONSTANTS + (CONSTANTS + 1) * at] ?? 0));
+}
+
+/** Poses that were found on the frame with other constants than are known now. What a person set, or checked, stays. */
+export function needsCorrection(doc: Doc, component: ComponentName, frame: FrameEntry): (Cell & { readonly result: Posed }) | null {
+  const cell = cellOf(doc, frame.id, component);
+  const { result, outline, resultOf } = cell;
+  if (result?.kind !== 'posed' || !result.onFrame || result.from !== 'outline' || resultOf !== outline) return null;
+  if (result.origin !== poseKey(doc, component, frame)) return null;
+  const film = filmNumbers(doc, component);
+  if (!film || sameFilm(result.onFrame.film, film)) return null;
+  const isChecked = checkState(cell, markOf(doc, { frameId: frame.id, component })) === 'yes';
+  return isChecked ? null : { ...cell, result };
+}
+
+/** The verdict on a corrected pose: its own, or that a rival is open, which the chooser asks again. */
+export function verdictAfter(before: Posed, first: Candidate | undefined): Verdict | null {
+  const own = first?.judged?.verdict ?? null;
+  const isRival = before.verdict?.word === 'doubtful' && before.candidates[0]?.judged?.verdict.word === 'good';
+  return isRival && own?.word === 'good' ? before.verdict : own;
+}

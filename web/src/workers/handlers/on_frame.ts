@@ -1,0 +1,30 @@
+import { type FrameImage, HiddenPixels, type Matcher } from '../../pkg/core/fluoropose_wasm.js';
+import type { ComponentName } from '../../terms/component';
+import type { OnFrame } from '../protocol/by_hand';
+import { poseArray } from '../protocol/pose_array';
+import { imageOf } from './frame_pixels';
+
+export type MatcherOf = (component: ComponentName) => Promise<Matcher>;
+
+/** Calls `work` with a frame, and with the pixels of it that belong to the other components. */
+export async function onFrame<T>(
+  matcherOf: MatcherOf,
+  { component, camera, frame, others }: OnFrame,
+  work: (matcher: Matcher, image: FrameImage, hidden: HiddenPixels) => T,
+): Promise<T> {
+  const matcher = await matcherOf(component);
+  const image = imageOf(frame);
+  const hidden = new HiddenPixels(camera.text, camera.width, camera.height);
+  try {
+    for (const other of others) hidden.add(await matcherOf(other.component), Float64Array.from(poseArray(other.pose)));
+    return work(matcher, image, hidden);
+  } finally {
+    hidden.free();
+    image.free();
+  }
+}
+
+/** What the film makes of a component, as WASM takes it. */
+export function filmArray(film: readonly number[] | null): Float64Array {
+  return Float64Array.from(film ?? []);
+}
