@@ -140,7 +140,7 @@ impl HiddenPixels {
 }
 
 /// Sets every pixel within [`MARGIN`] columns and rows of one that is set.
-fn widen(mask: &Mask<'_>, wide: &mut MaskMut<'_>) {
+pub(super) fn widen(mask: &Mask<'_>, wide: &mut MaskMut<'_>) {
     for row in 0..mask.height() {
         for run in mask.runs(row) {
             let columns = run.start.saturating_sub(MARGIN)..(run.end + MARGIN).min(mask.width());

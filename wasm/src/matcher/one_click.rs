@@ -18,7 +18,7 @@ use fluoropose_tracing::one_click::{
 };
 use wasm_bindgen::prelude::*;
 
-use super::from_here::model_of;
+use super::from_here::{model_of, widen};
 use super::on_frame::{OnFrame, Seen, misfit, outline_of, with_mask};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
@@ -92,7 +92,8 @@ impl OneClick {
         })
     }
 
-    /// Leaves out the pixels inside an outline (columns and rows by turns): another component's.
+    /// Leaves out the pixels inside an outline (columns and rows by turns), and some round it: another component's, whose edges
+    /// are as wide as the film's blur.
     ///
     /// # Errors
     /// The core's sentence about the outline.
@@ -106,17 +107,14 @@ impl OneClick {
         let mut words = vec![0; words_needed(width, height)];
         let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
         mask.fill_outline(&outline);
-        match &mut self.excluded {
-            Some(all) => all
-                .iter_mut()
-                .zip(&words)
-                .for_each(|(all, word)| *all |= word),
-            None => self.excluded = Some(words),
-        }
+        let fresh = || vec![0; words_needed(width, height)];
+        let all = self.excluded.get_or_insert_with(fresh);
+        let mut all = MaskMut::new(all, width, height).map_err(sentence)?;
+        widen(&mask.into_mask(), &mut all);
         Ok(())
     }
 
-    /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then corrected by it.
+    /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then where it puts the edges.
     ///
     /// # Errors
     /// A sentence about the numbers.
@@ -166,7 +164,7 @@ impl OneClick {
                         camera,
                         polarity,
                         excluded,
-                        film: None,
+                        film: self.known,
                     };
                     work.step(&observation, Some(component), &mut memory)
                         .map_err(sentence)
@@ -220,8 +218,13 @@ impl OneClick {
         let strongest = answers.first().map_or(0.0, |best| best.score);
         let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
         let answers: Vec<OnFrame> = answers.iter().filter(rivals).map(OnFrame::from).collect();
-        let (answers, film) = self.corrected(answers, matcher);
-        let seen = self.seen(film);
+        let seen = Seen {
+            frame: &self.film,
+            camera: &self.camera,
+            polarity: self.polarity,
+            unknown: self.excluded.as_deref(),
+            film: self.known,
+        };
         let contenders: Vec<Contender> = answers.iter().map(contender).collect();
         let Some(chosen) = Chosen::among(&contenders, around) else {
             return Err(JsError::new("The first outline is not worked out yet"));
@@ -229,7 +232,7 @@ impl OneClick {
         let mut answer = OneClickAnswer {
             outlines: Vec::new(),
             supports: Vec::new(),
-            corrected: film.is_some(),
+            corrected: self.known.is_some(),
             matched: None,
             sentence: String::new(),
         };
@@ -266,35 +269,6 @@ impl OneClick {
 }
 
 impl OneClick {
-    fn seen(&self, film: Option<FilmModel>) -> Seen<'_> {
-        Seen {
-            frame: &self.film,
-            camera: &self.camera,
-            polarity: self.polarity,
-            unknown: self.excluded.as_deref(),
-            film,
-        }
-    }
-
-    /// The poses as the film puts the edges, and the film; one that cannot be corrected is dropped while another can. Where none
-    /// can, or no film is known, they are as they were, and no film counts.
-    fn corrected(
-        &self,
-        answers: Vec<OnFrame>,
-        matcher: &mut Matcher,
-    ) -> (Vec<OnFrame>, Option<FilmModel>) {
-        let seen = self.seen(self.known);
-        let correct = |one: &OnFrame| {
-            let refined = matcher.corrected(&one.refined, &seen).ok()?;
-            Some(OnFrame { refined, ..*one })
-        };
-        let corrected: Vec<OnFrame> = answers.iter().filter_map(correct).collect();
-        match corrected.is_empty() {
-            true => (answers, None),
-            false => (corrected, self.known),
-        }
-    }
-
     fn alone<T>(
         &mut self,
         with: impl FnOnce(&mut Work, &Observation<'_>, &mut OneClickMemory<'_>) -> Result<T, JsError>,

@@ -5,7 +5,7 @@ import { setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
 import type { PoseNumbers } from '../geometry/pose_numbers';
-import { isNear, isNews, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
+import { corrected, isNear, isNews, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -182,16 +182,17 @@ export class FilmReader {
     const input = onFrameInput(this.#services, place);
     const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
     const answers = await this.#poses.call('correct', { ...input, candidates }, { transfer: [input.frame.pixels.buffer] });
-    const chosen = answers[result.chosen];
-    if (!chosen || !input.film) return void this.#refused.add(result);
+    const [chosen, first] = [answers[result.chosen], answers[0]];
+    const [firstThen] = result.candidates;
+    if (!chosen || !first || !firstThen || !input.film) return void this.#refused.add(result);
     const film = input.film.slice(0, CONSTANTS);
     this.#services.store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
-      const corrected = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null));
+      const candidates = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null, [firstThen, first]));
       const outline = outlineOf(chosen);
-      const verdict = verdictAfter(result, corrected[0]);
-      return withCell(doc, place, { outline, result: { ...result, candidates: corrected, verdict, onFrame: { film } }, resultOf: outline });
+      const verdict = verdictAfter(result, candidates[0]);
+      return withCell(doc, place, { outline, result: { ...result, candidates, verdict, onFrame: { film } }, resultOf: outline });
     });
   }
 }
@@ -203,12 +204,11 @@ function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' 
 }
 
 /** The candidate with its new numbers, and the outline that they draw. */
-function correctedBy(candidate: Candidate, answer: Corrected | null): Candidate {
+function correctedBy(candidate: Candidate, answer: Corrected | null, first: Parameters<typeof corrected>[2]): Candidate {
   if (!answer) return candidate;
-  const { pose, residual, deviations, judged } = answer;
-  const corrected = { ...candidate, pose, residual, deviations, judged };
-  setItsOutline(corrected, outlineOf(answer));
-  return corrected;
+  const after = corrected(candidate, answer, first);
+  setItsOutline(after, outlineOf(answer));
+  return after;
 }
 
 const outlines = new WeakMap<Corrected, Outline>();

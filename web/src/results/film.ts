@@ -1,6 +1,6 @@
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
 import { checkState, markOf } from '../document/marks';
-import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict } from '../document/types';
+import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { poseKey } from './keys';
@@ -18,17 +18,23 @@ export interface Witness {
   /** Place in the sequence, from 0. */
   readonly frame: number;
   readonly pose: PoseNumbers;
+  readonly isDoubtful: boolean;
 }
 
-/** The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. */
+/**
+ * The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. What is doubtful does where
+ * nothing better does: a tray on the wrong rim would bend the film to explain it.
+ */
 export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean): readonly Witness[] {
   return COMPONENT_NAMES.flatMap((component) => {
     const found = doc.frames.flatMap((entry, frame): Witness[] => {
       const candidate = toldBy(doc, component, entry);
       if (!candidate || !isReady(component, entry)) return [];
-      return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose }];
+      const isDoubtful = verdictOf(cellOf(doc, entry.id, component).result)?.word === 'doubtful';
+      return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful }];
     });
-    return found.slice(0, FRAMES);
+    const good = found.filter(({ isDoubtful }) => !isDoubtful);
+    return (good.length > 0 ? good : found).slice(0, FRAMES);
   });
 }
 
@@ -49,7 +55,7 @@ export function isNear(a: PoseNumbers, b: PoseNumbers): boolean {
 }
 
 /** A constant has changed by more than this part of its standard deviation, or is that much better known. */
-const NEWS = 0.25;
+const NEWS = 0.5;
 
 /** Does an estimate change what is known? Poses are corrected by what is new, not by every last digit. */
 export function isNews(before: KnownFilm | null, after: KnownFilm | null): boolean {
@@ -85,6 +91,19 @@ export function needsCorrection(doc: Doc, component: ComponentName, frame: Frame
   if (!film || sameFilm(result.onFrame.film, film)) return null;
   const isChecked = checkState(cell, markOf(doc, { frameId: frame.id, component })) === 'yes';
   return isChecked ? null : { ...cell, result };
+}
+
+/**
+ * A candidate after its correction. Which of several is likelier was found with all evidence at hand and is no matter of the
+ * correction: what rivals are compared by keeps its ratio to the first's.
+ */
+export function corrected(before: Candidate, after: Pick<Candidate, 'pose' | 'residual' | 'deviations' | 'judged'>, first: readonly [Candidate, Pick<Candidate, 'judged'>]): Candidate {
+  const [then, now] = [first[0].judged?.misfit, first[1].judged?.misfit];
+  const { judged } = after;
+  const ratio = before.judged && then ? before.judged.misfit / then : NaN;
+  const misfit = now === undefined || !Number.isFinite(ratio) ? judged?.misfit : ratio * now;
+  const { pose, residual, deviations } = after;
+  return { ...before, pose, residual, deviations, judged: judged && misfit !== undefined ? { ...judged, misfit } : judged };
 }
 
 /** The verdict on a corrected pose: its own, or that a rival is open, which the chooser asks again. */
