@@ -172,10 +172,11 @@ export class FilmReader {
 
   #take(found: KnownFilm | null): void {
     const { store } = this.#services;
-    if (!isNews(store.doc.film.known, found)) return;
-    if (found) this.#taken.add(found);
-    this.#last = found;
-    store.amend((doc) => withKnownFilm(doc, found));
+    const { known } = store.doc.film;
+    const taken = isNews(known, found) ? found : known;
+    if (taken) this.#taken.add(taken);
+    this.#last = taken;
+    store.amend((doc) => withKnownFilm(doc, taken));
   }
 
   async #correct(place: Place, result: Posed): Promise<void> {

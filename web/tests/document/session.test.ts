@@ -14,11 +14,12 @@ const posed: Cell = {
     kind: 'posed',
     from: 'outline',
     origin: 'k',
-    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations, judged: { misfit: 0.3, verdict: { word: 'good', because: 'it fits' } } }],
+    candidates: [{ pose, unmatched: 625, drawn: 41, residual: 0.21, deviations, judged: { misfit: 0.3, verdict: { word: 'good', because: 'it fits' } }, support: 0.9 }],
     chosen: 0,
     reason: 'The only pose found.',
     decided: true,
     verdict: { word: 'doubtful', because: 'a part is hidden' },
+    onFrame: { film: [0.026, 0.8, 0.7] },
   },
   resultOf: outline,
 };
@@ -50,6 +51,7 @@ const doc: Doc = {
   },
   cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
   window: { centre: 2000, width: 4095 },
+  film: { stated: { display: 'linear', blur: 1.2 }, known: null },
   marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
 };
 
@@ -73,7 +75,7 @@ describe('session', () => {
 
   it('reads candidates that were saved before poses were refined', () => {
     const old = written()
-      .replace(/,"judged":(null|\{.*?\}\})/g, '')
+      .replace(/,"judged":(null|\{.*?\}\})(,"support":[\d.]+)?/g, '')
       .replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
     expect(old).not.toMatch(/residual|deviations|judged/);
     const result = readSession(old).doc.cells['ab:0/femur']?.result;
@@ -96,7 +98,7 @@ describe('session', () => {
   });
 
   it('names kind, version and program', () => {
-    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 4, program: 'fluoropose 0' });
+    expect(JSON.parse(written())).toMatchObject({ kind: 'fluoropose-session', version: 5, program: 'fluoropose 0' });
   });
 
   it('refuses a file that is cut at any of many places', () => {
@@ -107,7 +109,7 @@ describe('session', () => {
   });
 
   it.each([
-    ['"version":4', '"version":5', /version 5.*newer page/],
+    ['"version":5', '"version":6', /version 6.*newer page/],
     ['"told":"not the front"', '"told":"half"', /axes\.told should be "all" or "not the front"/],
     ['"all directions",', '"some directions",', /librarySpec\.views should be "all directions" or "window"/],
     ['"word":"doubtful"', '"word":"none"', /verdict\.word should be "good" or "doubtful"/],

@@ -1,6 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { describe, expect, it } from 'vitest';
 import { auditOf, auditTroubles } from '../../src/document/session/audit';
+import { filmNumbers } from '../../src/document/film';
 import { readSession, SESSION_VERSION, writeSession } from '../../src/document/session/session';
 import { cellKey, cellOf, chosenCandidate, DEFAULT_WINDOW, verdictOf } from '../../src/document/types';
 
@@ -62,6 +63,28 @@ describe('sessions of earlier versions', () => {
       ['tibia', 'none', 'none'],
       ['femur', 'file fem.jts', null],
     ]);
+    expect(await auditTroubles(doc, audit!)).toEqual([]);
+  });
+
+  it.each([1, 2, 3, 4])('version %i knows no film', (version) => {
+    expect(readSession(file(version)).doc.film).toEqual({ stated: { display: null, blur: null }, known: null });
+  });
+
+  it('version 4 does not say that a click found a pose: it is seen by what was never drawn', () => {
+    const clicked = file(4).replace(/"unmatched":\d+,"drawn":\d+/g, '"unmatched":null,"drawn":null');
+    const { frames, ...doc } = readSession(clicked).doc;
+    expect(cellOf({ frames, ...doc }, frames[0]!.id, 'femur').result).toMatchObject({ onFrame: { film: null } });
+    expect(cellOf(readSession(file(4)).doc, frames[0]!.id, 'femur').result).not.toHaveProperty('onFrame');
+  });
+
+  it('version 5 has the film, by which poses were found on the frame', async () => {
+    const { doc, audit } = readSession(file(5));
+    expect(doc.film.stated).toEqual({ display: 'logarithmic', blur: null });
+    expect(filmNumbers(doc, 'femur')?.slice(0, 3)).toEqual([0.0263, 0.82, 0.71]);
+    expect(filmNumbers(doc, 'tibia')).toBeNull();
+    const { result } = cellOf(doc, doc.frames[0]!.id, 'femur');
+    expect(result).toMatchObject({ onFrame: { film: [0.0263, 0.82, 0.71] }, candidates: [{ support: 0.91 }, {}] });
+    expect(audit?.results[0]?.method).toBe('refined on the frame by its film');
     expect(await auditTroubles(doc, audit!)).toEqual([]);
   });
 

@@ -1,0 +1,145 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { addFrames, deleteOutline, setCalibration, setModel, withCell } from '../../src/document/commands';
+import type { Command } from '../../src/document/command';
+import { stateFilm } from '../../src/document/film';
+import { Store } from '../../src/document/store';
+import { cellOf, chosenCandidate, type Doc, type Outline, type Posed } from '../../src/document/types';
+import { framePoint } from '../../src/geometry/points';
+import { FILM_REST, FilmReader } from '../../src/jobs/film_reader';
+import { poseKey } from '../../src/results/keys';
+import type { FilmFacts, FilmProtocol } from '../../src/workers/protocol/film';
+
+const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [] };
+const GOOD = { word: 'good', because: 'it fits' } as const;
+
+type Estimate = FilmProtocol['estimate']['input'];
+
+/** Frames with their pixels; workers that answer with a curvature for each estimate, and bring poses 15 mm nearer. */
+function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts> = {}) {
+  const store = new Store();
+  const asked: Estimate[] = [];
+  const corrected: string[] = [];
+  const poses = async (method: string, input: { component: string; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
+    if (method === 'filmProfiles') return new Float32Array(128);
+    corrected.push(input.component);
+    return input.candidates.map(({ pose }) => ({
+      pose: { ...pose, z: -985 },
+      residual: 0.1,
+      deviations: null,
+      judged: { misfit: 0.1, verdict: GOOD },
+      outline: Float64Array.of(2, 2, 6, 2, 4, 7),
+    }));
+  };
+  const films = async (_: string, input: Estimate): Promise<FilmFacts | null> => {
+    asked.push(input);
+    const curvature = curvatures.length > 1 ? curvatures.shift() : curvatures[0];
+    const numbers = curvature == null ? null : [curvature, 0.8, 0.7, 1e-8, 0, 0, 0, 0.01, 0, 0, 0, 0.01];
+    return numbers && { words: 'a film', blur: 0.8, curved: 2, profiles: 96, models: { femur: numbers, tibia: numbers }, ...facts };
+  };
+  const studio = { framePixels: () => new Uint8Array(64), hasFrame: () => true };
+  const bridges = [{ call: poses }, { call: films }] as unknown as [ConstructorParameters<typeof FilmReader>[1], ConstructorParameters<typeof FilmReader>[2]];
+  new FilmReader({ store, studio } as unknown as ConstructorParameters<typeof FilmReader>[0], ...bridges);
+  store.perform(addFrames(['a', 'b'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 }))));
+  store.perform(setCalibration({ name: 'c', text: 'c' }));
+  for (const component of ['femur', 'tibia'] as const) {
+    store.perform(setModel(component, { name: component, sha256: component }));
+    store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+  }
+  return { store, asked, corrected, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
+}
+
+/** A pose as a click finds it. */
+function clicked(doc: Doc, frameId = 'a', part: Partial<Posed> = {}): Command {
+  const place = { frameId, component: 'femur' } as const;
+  const pose = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+  const candidate = { pose, unmatched: null, drawn: null, residual: 0.2, deviations: null, judged: { misfit: 0.2, verdict: GOOD }, support: 0.9 };
+  const origin = poseKey(doc, 'femur', doc.frames[0]!)!;
+  const result: Posed = { kind: 'posed', from: 'outline', origin, candidates: [candidate], chosen: 0, reason: null, decided: true, verdict: GOOD, onFrame: { film: null }, ...part };
+  return { label: 'click', place, apply: (doc) => withCell(doc, place, { outline: OUTLINE, result, resultOf: OUTLINE }) };
+}
+
+const rest = () => vi.advanceTimersByTimeAsync(20 * FILM_REST);
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+describe('the reader of the film', () => {
+  it('learns from the first pose on a frame, and corrects it with its outline; no units of undo', async () => {
+    const { store, asked, corrected, z } = bench();
+    store.perform(clicked(store.doc));
+    const units = store.state.history.past.length;
+    await rest();
+    expect(asked.map(({ read }) => read.map(({ component, frame }) => `${component} ${frame}`))).toEqual([['femur 0']]);
+    expect(store.doc.film.known?.words).toBe('a film');
+    expect(corrected).toEqual(['femur']);
+    expect(z()).toBe(-985);
+    const cell = cellOf(store.doc, 'a', 'femur');
+    expect(cell.outline?.points[0]).toEqual(framePoint(2, 2));
+    expect(cell.resultOf).toBe(cell.outline);
+    expect(cell.result).toMatchObject({ onFrame: { film: [0.026, 0.8, 0.7] }, verdict: GOOD });
+    expect(store.state.history.past.length).toBe(units);
+    await rest();
+    expect([asked.length, corrected.length]).toEqual([1, 1]);
+  });
+
+  it('never changes what a person set', async () => {
+    const { store, corrected, z } = bench();
+    store.perform(clicked(store.doc, 'a', { from: 'hand' }));
+    await rest();
+    expect(store.doc.film.known).not.toBeNull();
+    expect([corrected, z()]).toEqual([[], -1000]);
+  });
+
+  it('asks again with each new pose, and corrects all of them where that is news', async () => {
+    const { store, asked, corrected } = bench([0.026, 0.02600001, 0.03]);
+    store.perform(clicked(store.doc));
+    await rest();
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    // The second estimate is no news: the new pose alone is corrected.
+    expect([asked.length, corrected.length]).toEqual([2, 2]);
+    expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.026);
+    store.perform(stateFilm({ display: 'logarithmic', blur: null }));
+    await rest();
+    expect(asked.at(-1)?.stated.display).toBe('logarithmic');
+    expect([asked.length, corrected.length]).toEqual([3, 4]);
+  });
+
+  it('forgets a pose that is taken away, and goes back with undo', async () => {
+    const { store, asked } = bench([0.026, 0.03, null, 0.03]);
+    store.perform(clicked(store.doc));
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    store.perform(deleteOutline({ frameId: 'b', component: 'femur' }));
+    await rest();
+    expect(asked.at(-1)?.read.map(({ frame, profiles }) => [frame, profiles.length])).toEqual([[1, 0]]);
+    store.perform(deleteOutline({ frameId: 'a', component: 'femur' }));
+    await rest();
+    expect(store.doc.film.known).toBeNull();
+    store.undo();
+    await rest();
+    expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.03);
+  });
+
+  it('takes a film from a session as it is, until a new pose comes: then all are asked', async () => {
+    const first = bench();
+    first.store.perform(clicked(first.store.doc));
+    await rest();
+    const saved = first.store.doc;
+    const { store, asked } = bench();
+    store.perform({ label: 'open', apply: () => saved });
+    await rest();
+    expect(asked).toEqual([]);
+    expect(store.doc.film.known).toEqual(saved.film.known);
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    expect(asked.map(({ read }) => read.map(({ frame }) => frame))).toEqual([[0, 1]]);
+  });
+
+  it('leaves a pose as it is where the film does not tell', async () => {
+    const { store, corrected, z } = bench([null]);
+    store.perform(clicked(store.doc));
+    await rest();
+    expect([store.doc.film.known, corrected, z()]).toEqual([null, [], -1000]);
+  });
+});

@@ -1,0 +1,129 @@
+import { describe, expect, it } from 'vitest';
+import { filmNumbers, stateFilm } from '../../src/document/film';
+import { toggleChecked } from '../../src/document/marks';
+import { cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
+import { framePoint } from '../../src/geometry/points';
+import { corrected, isNear, isNews, needsCorrection, verdictAfter, witnesses } from '../../src/results/film';
+import { poseKey } from '../../src/results/keys';
+
+const GOOD: Verdict = { word: 'good', because: 'it fits' };
+const RIVAL: Verdict = { word: 'doubtful', because: 'another pose fits as well' };
+const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [] };
+const K = [0.026, 0.8, 0.7];
+const COVARIANCE = [1e-6, 0, 0, 0, 0.0025, 0, 0, 0, 0.01];
+
+function candidate(misfit: number, verdict = GOOD): Candidate {
+  return { pose: { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 }, unmatched: null, drawn: null, residual: misfit, deviations: null, judged: { misfit, verdict } };
+}
+
+function known(numbers: readonly number[], of = 'femur model'): KnownFilm {
+  return { words: 'w', stated: { display: null, blur: null }, blur: 0.8, curved: 2, profiles: 90, models: { femur: { of, numbers }, tibia: null } };
+}
+
+const BARE: Doc = {
+  ...EMPTY_DOC,
+  frames: ['a', 'b'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 })),
+  calibration: { name: 'c', text: 'c' },
+  components: { ...EMPTY_DOC.components, femur: { ...EMPTY_DOC.components.femur, model: { name: 'f.stl', sha256: 'femur model' } } },
+};
+
+function posed(doc: Doc, frame: string, part: Partial<Posed> = {}): Doc {
+  const origin = poseKey(doc, 'femur', doc.frames[0]!)!;
+  const result: Posed = { kind: 'posed', from: 'outline', origin, candidates: [candidate(0.2)], chosen: 0, reason: null, decided: true, verdict: GOOD, onFrame: { film: null }, ...part };
+  return { ...doc, cells: { ...doc.cells, [cellKey(frame, 'femur')]: { outline: OUTLINE, result, resultOf: OUTLINE } } };
+}
+
+const told = (doc: Doc, numbers = [...K, ...COVARIANCE]): Doc => ({ ...doc, film: { ...doc.film, known: known(numbers) } });
+
+describe('who tells of the film', () => {
+  const names = (doc: Doc) => witnesses(doc, () => true).map(({ frameId }) => frameId);
+
+  it('refined poses and those of files do; what was only placed by hand, is outdated or of another outline does not', () => {
+    expect(names(posed(posed(BARE, 'a'), 'b'))).toEqual(['a', 'b']);
+    const placed = [{ ...candidate(1), residual: null }];
+    expect(names(posed(BARE, 'a', { from: 'hand', candidates: placed }))).toEqual([]);
+    expect(names(posed(BARE, 'a', { from: 'file', candidates: placed }))).toEqual(['a']);
+    expect(names(posed(BARE, 'a', { origin: 'another library' }))).toEqual([]);
+    expect(witnesses(posed(BARE, 'a'), () => false)).toEqual([]);
+  });
+
+  it('doubtful poses do where nothing better does', () => {
+    const doubtful = posed(BARE, 'a', { verdict: RIVAL });
+    expect(names(doubtful)).toEqual(['a']);
+    expect(names(posed(doubtful, 'b'))).toEqual(['b']);
+  });
+
+  it('a pose is asked again where it lies elsewhere', () => {
+    const { pose } = candidate(1);
+    expect(isNear(pose, { ...pose, z: -1020 })).toBe(true);
+    expect(isNear(pose, { ...pose, x: 2 })).toBe(false);
+    expect(isNear({ ...pose, x: NaN }, pose)).toBe(false);
+  });
+});
+
+describe('news of the film', () => {
+  const before = known([...K, ...COVARIANCE]);
+
+  it('is what moves by half a standard deviation or more, is much surer, of another model, or stated otherwise', () => {
+    expect(isNews(before, known([0.0262, 0.81, 0.71, ...COVARIANCE]))).toBe(false);
+    expect(isNews(before, known([0.0268, 0.8, 0.7, ...COVARIANCE]))).toBe(true);
+    expect(isNews(before, known([0.026, 0.8, 0.76, ...COVARIANCE]))).toBe(true);
+    expect(isNews(before, known([...K, 1e-7, ...COVARIANCE.slice(1)]))).toBe(true);
+    expect(isNews(before, known([...K, ...COVARIANCE], 'another'))).toBe(true);
+    expect(isNews(before, { ...before, stated: { display: 'linear', blur: null } })).toBe(true);
+    expect(isNews(before, { ...before, models: { ...before.models, tibia: before.models.femur } })).toBe(true);
+  });
+
+  it('is the first and the last', () => {
+    expect(isNews(null, before)).toBe(true);
+    expect(isNews(before, null)).toBe(true);
+    expect(isNews(null, null)).toBe(false);
+  });
+});
+
+describe('what a known film changes', () => {
+  const frame = BARE.frames[0]!;
+
+  it('poses found on the frame with other constants, and no others', () => {
+    const open = told(posed(BARE, 'a'));
+    expect(needsCorrection(open, 'femur', frame)?.result.onFrame).toEqual({ film: null });
+    expect(needsCorrection(posed(BARE, 'a'), 'femur', frame)).toBeNull();
+    expect(needsCorrection(told(posed(BARE, 'a', { onFrame: { film: K } })), 'femur', frame)).toBeNull();
+    expect(needsCorrection(told(posed(BARE, 'a', { from: 'hand' })), 'femur', frame)).toBeNull();
+    const { onFrame: _, ...traced } = open.cells[cellKey('a', 'femur')]!.result as Posed;
+    expect(needsCorrection({ ...open, cells: { [cellKey('a', 'femur')]: { outline: OUTLINE, result: traced, resultOf: OUTLINE } } }, 'femur', frame)).toBeNull();
+  });
+
+  it('nothing that a person checked', () => {
+    const checked = toggleChecked({ frameId: 'a', component: 'femur' }).apply(posed(BARE, 'a'));
+    expect(needsCorrection(told(checked), 'femur', frame)).toBeNull();
+  });
+
+  it('nothing of another model', () => {
+    expect(filmNumbers(told(BARE), 'femur')).toHaveLength(12);
+    const other = { ...BARE.components.femur, model: { name: 'g.stl', sha256: 'other' } };
+    expect(filmNumbers({ ...told(BARE), components: { ...BARE.components, femur: other } }, 'femur')).toBeNull();
+  });
+
+  it('not which of several poses is likelier', () => {
+    const [first, rival] = [candidate(0.6), candidate(0.75)];
+    const after = { ...candidate(0.3), pose: { ...first.pose, z: -985 } };
+    expect(corrected(first, after, [first, after]).judged?.misfit).toBeCloseTo(0.3);
+    expect(corrected(rival, candidate(0.2), [first, after]).judged?.misfit).toBeCloseTo(0.375);
+    expect(corrected(first, after, [first, after]).pose.z).toBe(-985);
+  });
+
+  it('the verdict is that of the corrected pose, and a rival that was open stays open', () => {
+    const before = (posed(BARE, 'a', { verdict: RIVAL }).cells[cellKey('a', 'femur')]!.result as Posed);
+    expect(verdictAfter(before, candidate(0.3))).toEqual(RIVAL);
+    const weak: Verdict = { word: 'doubtful', because: 'little of it is met' };
+    expect(verdictAfter(before, candidate(0.3, weak))).toEqual(weak);
+    expect(verdictAfter({ ...before, verdict: GOOD }, candidate(0.3))).toEqual(GOOD);
+  });
+});
+
+it('what a person states is one step back, and leaves what is known until it is asked again', () => {
+  const stated = stateFilm({ display: 'linear', blur: null }).apply(told(BARE));
+  expect(stated.film.stated.display).toBe('linear');
+  expect(stated.film.known).not.toBeNull();
+});
