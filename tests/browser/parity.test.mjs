@@ -14,7 +14,9 @@ import { demoFile } from './support/study.mjs';
 /**
  * @typedef {{ name: string, model: string, outline: [number, number][], verdict: string, because: string, chosen: number,
  *   candidates: number[][] }} Case numbers of a pose as in a `.jts` file
- * @typedef {{ calibration: string, side: number, libraries: Record<string, string>, cases: Case[] }} Native
+ * @typedef {{ model: string, outline: [number, number][], given: number[], pose: number[], words: string, constants: number[],
+ *   corrected: number[] }} OnFrame
+ * @typedef {{ calibration: string, side: number, libraries: Record<string, string>, cases: Case[], image: OnFrame }} Native
  */
 
 const SNAPSHOT = new URL('../snapshots/parity.json', import.meta.url);
@@ -40,10 +42,46 @@ test('the npm module finds what the native program finds', { timeout: 3 * PATIEN
         if (wanted.verdict === 'good') samePose(implant, wanted);
       });
     }
+    if (name === native.image.model) {
+      const module = await from('node.js');
+      await t.test(`${name}: on a grey frame, by its film`, () => onFrame(core, matcher, implant, module.estimateFilm, native));
+    }
     matcher.free();
     implant.close();
   }
 });
+
+/** Drawn as the native program draws it: dark by how many of the 25 pixels round each lie inside. @param {any} core @param {Native} native */
+function frameOf(core, { side, image }) {
+  const mask = core.maskOfOutline(Float64Array.from(image.outline.flat()), side, side);
+  return Uint8Array.from(mask, (/** @type {number} */ _, /** @type {number} */ number) => {
+    const [column, row] = [number % side, Math.floor(number / side)];
+    let covered = 0;
+    for (let down = Math.max(0, row - 2); down <= Math.min(side - 1, row + 2); down++) {
+      for (let right = Math.max(0, column - 2); right <= Math.min(side - 1, column + 2); right++) covered += mask[down * side + right];
+    }
+    return 210 - 6 * covered;
+  });
+}
+
+/** The film given, the film estimated, and the pose by either. @param {any} core @param {any} matcher @param {any} implant @param {any} estimateFilm @param {Native} native */
+function onFrame(core, matcher, implant, estimateFilm, native) {
+  const { calibration, side, image: wanted } = native;
+  const pixels = frameOf(core, native);
+  const [curvature, blur, attenuation] = wanted.given;
+  const { pose } = implant.pose(wanted.outline, { image: pixels, film: { curvature, blur, attenuation } });
+  assert.deepEqual([pose.x, pose.y, pose.z, pose.zRot, pose.xRot, pose.yRot], wanted.pose);
+  const film = estimateFilm([{ implant, image: pixels, pose }]);
+  assert.equal(film.words, wanted.words);
+  const model = film.models.get(implant);
+  assert.deepEqual(model.slice(0, 3), wanted.constants);
+  // What the page does with a pose that was found before.
+  const [frame, hidden] = [core.FrameImage.fromEightBit(pixels, side, side), new core.HiddenPixels(calibration, side, side)];
+  const answer = matcher.correctOnFrame(frame, hidden, Float64Array.from(wanted.pose), 1, Float64Array.from(model));
+  const match = answer.takeMatch();
+  assert.deepEqual(Array.from(match.pose(0)), wanted.corrected);
+  for (const held of [match, answer, hidden, frame]) held.free();
+}
 
 /** What the page reads: how many poses there are, which is chosen, and how far it is to be trusted. @param {any} core @param {any} matcher @param {Native} native @param {Case} wanted */
 function sameMatch(core, matcher, { calibration, side }, wanted) {

@@ -1,6 +1,6 @@
 /** Ways from the empty page to an outline, with each tool, as a hand would go them. */
 import assert from 'node:assert/strict';
-import { drawn, until } from './browser.mjs';
+import { atRest, drawn, until } from './browser.mjs';
 import * as panel from './panel.mjs';
 import { Stage } from './stage.mjs';
 import { polygonWithin, trueOutline } from './study.mjs';
@@ -12,11 +12,20 @@ import { polygonWithin, trueOutline } from './study.mjs';
 const QUICK_HAND = 2.5;
 
 /**
- * Where the page finds the edges itself. On the demonstration's frames the metal thins out towards its border, and grey is
- * halfway 0.8 px inside of the true silhouette: a smaller outline, some 1.6 percent farther away (one click, seen: 15.3 mm
- * in z, 0.06 mm in x and y, 0.83 degrees; threshold: 18.1 mm, 0.07 mm, 0.73 degrees).
+ * Where a tool finds an outline at the edges. On the demonstration's frames the metal thins out towards its border, and grey is
+ * halfway 0.8 px inside of the true silhouette: a smaller outline, some 1.6 percent farther away (threshold, seen: 18.1 mm in
+ * z, 0.07 mm in x and y, 0.73 degrees).
  */
 export const BY_EDGES = { x: 0.25, y: 0.25, z: 22, zRot: 0.6, xRot: 0.6, yRot: 1.2 };
+
+/**
+ * One click into the femur alone: its profiles are those of a sharpened picture as well as of a logarithmic display, and the
+ * film is taken to be linear (seen: 9.9 mm, shown as +-5.2).
+ */
+export const BY_ONE_CLICK = { x: 0.1, y: 0.1, z: 11, zRot: 0.2, xRot: 0.2, yRot: 0.6 };
+
+/** One click into each component: both tell the display alike (seen: femur 0.7 mm, tibia 0.6 mm, shown as +-1.7 and +-1.8). */
+export const BY_TWO_CLICKS = { x: 0.05, y: 0.05, z: 1.5, zRot: 0.1, xRot: 0.1, yRot: 0.35 };
 
 /** Counts presses of the mouse on anything from now on. @param {Page} page */
 export async function countClicks(page) {
@@ -52,13 +61,15 @@ export async function openDemonstration(page) {
   await panel.waitForLibraries(page, 'Femur', 'Tibia');
 }
 
-/** By one click inside the femur, after opening. @param {Page} page */
-export async function byOneClick(page) {
+/** By one click inside a component, after opening: the pose once the film has been asked. @param {Page} page @param {'femur' | 'tibia'} [component] */
+export async function byOneClick(page, component = 'femur') {
   const stage = new Stage(page);
-  const inside = insideOf(await trueOutline('femur', 1));
+  const inside = insideOf(await trueOutline(component, 1));
   await page.keyboard.press('o');
   await stage.learn();
   await stage.click(inside);
+  await panel.waitForPose(page);
+  await atRest(page);
   return panel.waitForPose(page);
 }
 

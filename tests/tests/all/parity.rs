@@ -3,6 +3,8 @@
 //!
 //! `FLUOROPOSE_REGENERATE=1 cargo test -p fluoropose-tests parity` rewrites `snapshots/parity.json`.
 
+mod image;
+
 use std::fmt::Write as _;
 
 use fluoropose::camera::calibration::Calibration;
@@ -184,11 +186,13 @@ fn what_the_native_program_finds() {
         ),
         (tibia, case("a triangle", triangle)),
     ];
+    let on_a_frame = case("on a frame", traced(femur, pose(20.0, 4.0, -7.0)));
     let cases: Vec<String> = cases.iter().map(|(part, case)| found(part, case)).collect();
     let text = format!(
-        "{{\n  \"calibration\": {CALIBRATION:?},\n  \"side\": {SIDE},\n  \"libraries\": {{\n{}\n  }},\n  \"cases\": [\n{}\n  ]\n}}\n",
+        "{{\n  \"calibration\": {CALIBRATION:?},\n  \"side\": {SIDE},\n  \"libraries\": {{\n{}\n  }},\n  \"cases\": [\n{}\n  ],\n  \"image\": {}\n}}\n",
         parts.each_ref().map(digest).join(",\n"),
-        cases.join(",\n")
+        cases.join(",\n"),
+        image::found(femur, &on_a_frame)
     );
     assert_snapshot("parity.json", &text);
 }

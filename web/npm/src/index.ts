@@ -1,10 +1,12 @@
 import { decodeModel } from './decode.js';
+import { filmNumbers, withImage } from './film.js';
 import { buildLibrary } from './library.js';
-import init, { Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
+import init, { HiddenPixels, Matcher, Surroundings, Traced, type Match } from './pkg/core/fluoropose_wasm.js';
 import { read } from './read.js';
-import type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
+import type { Candidate, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict } from './types.js';
 
-export type { Candidate, FoundPose, Hints, ImplantOptions, Mesh, Point, Pose, Size, Verdict, Views } from './types.js';
+export { estimateFilm, type FilmSource } from './film.js';
+export type { Candidate, Film, FilmConstants, FoundPose, Grey, Hints, ImplantOptions, Mesh, Point, Pose, Size, StatedFilm, Verdict, Views } from './types.js';
 
 let ready: Promise<unknown> | undefined;
 
@@ -40,13 +42,19 @@ export class Implant {
   }
 
   /**
-   * The pose that brings the model's outline onto a traced one, refined: about a second. Throws a sentence about an
-   * outline from which no pose can be found, and where the outline does not fit this model from any side.
+   * The pose that brings the model's outline onto a traced one, refined: about a second. With `hints.image` it is then brought
+   * onto the edges of the frame itself, where `hints.film` puts them. Throws a sentence about an outline from which no pose
+   * can be found, and where the outline does not fit this model from any side.
    */
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     const around = surroundings(hints);
     try {
-      return this.#look(outline, hints, (traced) => this.#matcher.refineOutline(traced, around));
+      const { image, film, bright = false } = hints;
+      return this.#look(outline, hints, (traced) =>
+        image
+          ? withImage(image, this.#frame, (frame) => this.#matcher.refineImage(traced, frame, filmNumbers(film, this), bright, around))
+          : this.#matcher.refineOutline(traced, around),
+      );
     } finally {
       around.free();
     }
@@ -55,6 +63,17 @@ export class Implant {
   /** The library's pose, unrefined: some milliseconds, for an outline that is still moving. */
   preview(outline: readonly Point[], hints: Hints = {}): FoundPose {
     return this.#look(outline, hints, (traced) => this.#matcher.matchOutline(traced));
+  }
+
+  /** Profiles of a frame across the model's outline at a pose: what `estimateFilm` reads. */
+  profiles(image: Grey, pose: Pose): Float32Array {
+    const { width, height } = this.#frame;
+    const hidden = new HiddenPixels(this.#calibration, width, height);
+    try {
+      return withImage(image, this.#frame, (frame) => this.#matcher.filmProfiles(frame, hidden, numbers(pose)));
+    } finally {
+      hidden.free();
+    }
   }
 
   close(): void {

@@ -47,6 +47,26 @@ export interface Views {
   readonly distance?: number;
 }
 
+/** Grey values of a whole frame, row by row, 8 or 16 bits. */
+export type Grey = Uint8Array | Uint16Array;
+
+/** What a film makes of an implant's metal, as somebody knows it: it is taken as it is. */
+export interface Film {
+  /** Of the display, one divided by grey values: 0 is linear, 1 / g shows g grey values for a factor of e. */
+  readonly curvature: number;
+  /** Standard deviation of everything that blurs, px. */
+  readonly blur: number;
+  /** Attenuation of the metal for thin layers, per mm. */
+  readonly attenuation: number;
+}
+
+/** What is known of a film before its frames are asked. */
+export interface StatedFilm {
+  readonly display?: 'linear' | 'between' | 'logarithmic';
+  /** Px. */
+  readonly blur?: number;
+}
+
 export interface ImplantOptions {
   /** The CAD model of the very size: a file's bytes (STL, OBJ or PLY in mm), or its triangles. */
   readonly model: Uint8Array | ArrayBuffer | Mesh;
@@ -63,6 +83,18 @@ export interface ImplantOptions {
   readonly signal?: AbortSignal;
 }
 
+/** What the frames of a study tell of their film; from `estimateFilm`. */
+export interface FilmConstants {
+  /** As a person would say it: "nearly linear film, blur 1.3 px". */
+  readonly words: string;
+  /** Px. */
+  readonly blur: number;
+  /** Profiles across outlines that were believed. */
+  readonly profiles: number;
+  /** Of each implant that was seen: curvature, blur and attenuation, and their covariance row by row. */
+  readonly models: ReadonlyMap<object, readonly number[]>;
+}
+
 /** What else is known of an outline and of what is round it. */
 export interface Hints {
   /** Sides of the outline that are not to be trusted, from 0: side `i` runs from point `i` to the next. */
@@ -73,6 +105,12 @@ export interface Hints {
   readonly tibia?: Pose;
   /** Poses of the same component in the frames before and after. */
   readonly neighbours?: readonly Pose[];
+  /** The frame that was traced: poses are then brought onto its edges. */
+  readonly image?: Grey;
+  /** Metal is brighter in it than what surrounds it. */
+  readonly bright?: boolean;
+  /** What the film makes of the implant: without it depth from `image` is uncertain by millimetres. */
+  readonly film?: Film | FilmConstants;
 }
 
 /** One pose that explains an outline. */

@@ -5,8 +5,9 @@ import { setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
 import type { PoseNumbers } from '../geometry/pose_numbers';
-import { corrected, isNear, isNews, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
+import { corrected, isNear, isNews, meetsFrames, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { Corrected, FilmFacts, FilmProtocol, ReadProfiles } from '../workers/protocol/film';
@@ -79,6 +80,7 @@ export class FilmReader {
 
   #task(): (() => Promise<void>) | null {
     const { doc } = this.#services.store;
+    if (!this.#isWanted()) return null;
     const here = this.#witnesses();
     const isStated = JSON.stringify(doc.film.stated) !== this.#asked && (here.length > 0 || doc.film.known !== null);
     if (this.#isOpen(here) || isStated) return () => this.#estimate(here);
@@ -91,6 +93,12 @@ export class FilmReader {
       }
     }
     return null;
+  }
+
+  /** Traced outlines do without it: it is asked once a pose meets a frame, or is about to. */
+  #isWanted(): boolean {
+    const { doc, ui } = this.#services.store;
+    return MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || meetsFrames(doc);
   }
 
   #witnesses(): readonly Witness[] {
@@ -197,6 +205,8 @@ export class FilmReader {
     });
   }
 }
+
+const MEETING_FRAMES: readonly ToolName[] = ['one-click', 'pose'];
 
 const FAR: PoseNumbers = { x: NaN, y: NaN, z: NaN, zRot: NaN, xRot: NaN, yRot: NaN };
 

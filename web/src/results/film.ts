@@ -21,6 +21,11 @@ export interface Witness {
   readonly isDoubtful: boolean;
 }
 
+/** Was any pose found on a frame itself? */
+export function meetsFrames(doc: Doc): boolean {
+  return Object.values(doc.cells).some(({ result }) => result?.kind === 'posed' && result.onFrame !== undefined);
+}
+
 /**
  * The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. What is doubtful does where
  * nothing better does: a tray on the wrong rim would bend the film to explain it.

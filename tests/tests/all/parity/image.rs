@@ -1,0 +1,113 @@
+//! The same on a grey frame: its film, given and estimated, and poses by it.
+
+use std::fmt::Write as _;
+
+use fluoropose::film::{FilmConstants, FilmModel, FilmPool, FilmProfile, GivenFilm};
+use fluoropose::finder::{FinderBuffers, Goal, correct_candidates, find};
+use fluoropose::image::contour::Outline;
+use fluoropose::image::frame::Frame;
+use fluoropose::image::mask::Mask;
+use fluoropose::image::silhouette::Silhouette;
+use fluoropose::library::Library;
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, film_profiles};
+use fluoropose::search::kernels::Kernels;
+use fluoropose_laboratory::files::MaskBuffer;
+
+use super::{Case, Part, SIDE, calibration};
+
+/// What a person knows of the film.
+const GIVEN: [f64; 3] = [0.004, 0.8, 0.3];
+/// Profiles that are read.
+const PROFILES: usize = 96;
+
+/// A frame that anybody draws alike, of whole numbers: dark where the outline is filled, by how many of the 25 pixels round each
+/// are.
+fn frame_of(mask: &Mask<'_>) -> Vec<u8> {
+    let mut pixels = vec![0; SIDE * SIDE];
+    for (number, pixel) in pixels.iter_mut().enumerate() {
+        let (column, row) = (number % SIDE, number / SIDE);
+        let inside = |at: usize| {
+            let (right, down) = ((column + at % 5).wrapping_sub(2), (row + at / 5).wrapping_sub(2));
+            right < SIDE && down < SIDE && mask.get(right, down)
+        };
+        let covered = (0..25).filter(|&at| inside(at)).count();
+        *pixel = 210 - 6 * covered as u8;
+    }
+    pixels
+}
+
+fn six(pose: Pose) -> String {
+    let EulerPose {
+        x_mm,
+        y_mm,
+        z_mm,
+        z_rot_deg,
+        x_rot_deg,
+        y_rot_deg,
+    } = pose.into();
+    format!("{:?}", [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg])
+}
+
+/// What is found, as JSON.
+pub(super) fn found(part: &Part, case: &Case) -> String {
+    let camera = calibration().camera(SIDE, SIDE).expect("a camera");
+    let outline = Outline::new(&case.outline, SIDE, SIDE).expect("simple");
+    let mut mask = MaskBuffer::new(SIDE, SIDE).expect("possible");
+    mask.draw(|mask| mask.fill_outline(&outline));
+    let mask = mask.mask();
+    let pixels = frame_of(&mask);
+    let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+    let [curvature, blur_px, attenuation] = GIVEN;
+    let given = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
+    let image = |film| ImageTarget {
+        frame: &frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film,
+    };
+
+    let library = Library::open(&part.library).expect("a library");
+    let model = part.model.as_model();
+    let planes = symmetry_planes(model.mesh());
+    let component = fluoropose::Component {
+        library: &library,
+        model: &model,
+        planes: &planes,
+    };
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let (silhouette, options) = (Silhouette::from(&mask), RefineOptions::default());
+    let goal = Goal::Image(image(Some(given)));
+    let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
+    let found = found.expect("candidates").candidates;
+
+    let mut profiles = vec![FilmProfile::default(); PROFILES];
+    let best = found[0].pose;
+    let memory = &mut memory.refine;
+    let read = film_profiles(&model, &camera, &best, &image(None), (0, 0), memory, &mut profiles);
+    profiles.truncate(read.expect("drawn"));
+    let mut pool = FilmPool::default();
+    pool.take(0, 0, profiles);
+    let film = pool.estimate(GivenFilm::default()).expect("told");
+    let by_film = image(Some(film.model(0)));
+    let corrected = correct_candidates(&model, &camera, by_film, &found[..1], options, memory);
+    let corrected = corrected.expect("corrected")[0].pose;
+
+    let points = case.outline.iter();
+    let points = points.map(|p| format!("[{}, {}]", p.column, p.row));
+    let constants = film.model(0);
+    let FilmConstants { curvature, blur_px } = constants.constants;
+    let constants = [curvature, blur_px, constants.attenuation];
+    let mut text = String::new();
+    let _ = writeln!(text, "    \"name\": \"{}\",", case.name);
+    let _ = writeln!(text, "    \"model\": \"{}\",", part.name);
+    let _ = writeln!(text, "    \"outline\": [{}],", points.collect::<Vec<_>>().join(", "));
+    let _ = writeln!(text, "    \"given\": {GIVEN:?},");
+    let _ = writeln!(text, "    \"pose\": {},", six(best));
+    let _ = writeln!(text, "    \"words\": \"{film}\",");
+    let _ = writeln!(text, "    \"constants\": {constants:?},");
+    let _ = write!(text, "    \"corrected\": {}", six(corrected));
+    format!("{{\n{text}\n  }}")
+}

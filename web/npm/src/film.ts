@@ -1,0 +1,59 @@
+import { FilmStudy, FrameImage } from './pkg/core/fluoropose_wasm.js';
+import type { Film, FilmConstants, Grey, Pose, Size, StatedFilm } from './types.js';
+
+/** Who reads profiles across the outline of its model: an `Implant`. */
+export interface Reader {
+  profiles(image: Grey, pose: Pose): Float32Array;
+}
+
+/** A frame in which an implant has a pose, which need only be near. */
+export interface FilmSource {
+  readonly implant: Reader;
+  readonly image: Grey;
+  readonly pose: Pose;
+}
+
+/** The core tells so many implants apart. */
+const MOST = 2;
+
+/**
+ * What the frames of a study tell of their film: all of one film, one or two implants. Null where they do not tell. One implant
+ * alone does not tell a logarithmic display from a sharpened picture: the film is then taken to be linear, and depth is shown
+ * as that uncertain.
+ */
+export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm = {}): FilmConstants | null {
+  const implants = [...new Set(sources.map(({ implant }) => implant))];
+  if (implants.length > MOST) throw new Error(`A film is estimated from one or two implants, not from ${implants.length}`);
+  const study = new FilmStudy();
+  try {
+    sources.forEach(({ implant, image, pose }, frame) => study.take(implants.indexOf(implant), frame, implant.profiles(image, pose)));
+    const facts = study.estimate(stated.display, stated.blur);
+    if (!facts) return null;
+    const { words, blur, profiles } = facts;
+    const models = implants.flatMap((implant, number) => {
+      const model = facts.model(number);
+      return model ? [[implant, Array.from(model)] as const] : [];
+    });
+    facts.free();
+    return { words, blur, profiles, models: new Map(models) };
+  } finally {
+    study.free();
+  }
+}
+
+/** The numbers of a film for an implant, as WebAssembly takes them; none where nothing is known. */
+export function filmNumbers(film: Film | FilmConstants | undefined, implant: object): Float64Array {
+  if (!film) return new Float64Array();
+  if ('models' in film) return Float64Array.from(film.models.get(implant) ?? []);
+  return Float64Array.of(film.curvature, film.blur, film.attenuation);
+}
+
+/** Calls `work` with a frame in WebAssembly's memory. */
+export function withImage<T>(pixels: Grey, { width, height }: Size, work: (image: FrameImage) => T): T {
+  const image = pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
+  try {
+    return work(image);
+  } finally {
+    image.free();
+  }
+}
