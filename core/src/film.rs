@@ -11,17 +11,17 @@
 
 pub mod estimate;
 mod fit;
+pub mod given;
 pub mod lines;
 pub mod model;
 #[cfg(feature = "alloc")]
 pub mod pool;
 pub mod profile;
-pub mod given;
 
 pub use estimate::{FilmEstimate, estimate, estimate_with};
+pub use given::{DisplayKind, GivenFilm};
 pub use lines::{LineMemory, PathLine};
 pub use model::{FilmConstants, FilmModel};
 #[cfg(feature = "alloc")]
 pub use pool::FilmPool;
 pub use profile::FilmProfile;
-pub use given::{DisplayKind, GivenFilm};

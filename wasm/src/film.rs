@@ -110,7 +110,11 @@ impl FilmFacts {
 fn numbers_of(model: &FilmModel) -> Vec<f64> {
     let FilmConstants { curvature, blur_px } = model.constants;
     let constants = [curvature, blur_px, model.attenuation];
-    constants.iter().chain(model.covariance.as_flattened()).copied().collect()
+    constants
+        .iter()
+        .chain(model.covariance.as_flattened())
+        .copied()
+        .collect()
 }
 
 /// What a film makes of a component: twelve numbers as [`FilmFacts::model`] has them, or the first three, which are then taken
@@ -123,7 +127,10 @@ pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> 
         }
         _ => return Err(wrong_count(numbers)),
     };
-    if !numbers.iter().all(|number| number.is_finite()) || constants[1] <= 0.0 || constants[2] <= 0.0 {
+    if !numbers.iter().all(|number| number.is_finite())
+        || constants[1] <= 0.0
+        || constants[2] <= 0.0
+    {
         return Err(JsError::new(
             "Of a film the curvature, the blur (px) and the attenuation (1/mm) are stated; the last two are above zero",
         ));

@@ -17,8 +17,8 @@ use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
-    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess, correct,
-    film_profiles, fit_at, outline_samples, refine, refine_traced,
+    CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
+    correct, film_profiles, fit_at, outline_samples, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
@@ -192,15 +192,7 @@ impl WorkingModel {
     ) -> Result<Found, JsError> {
         let options = RefineOptions::default();
         self.with_component(library, camera, |component, mut memory| {
-            find(
-                component,
-                camera,
-                silhouette,
-                goal,
-                options,
-                &mut memory,
-            )
-            .map_err(sentence)
+            find(component, camera, silhouette, goal, options, &mut memory).map_err(sentence)
         })
     }
 
@@ -317,8 +309,16 @@ impl WorkingModel {
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         // Whoever keeps them says of which component and frame they are.
         let names = (0, 0);
-        film_profiles(&model, view.camera, pose, image, names, &mut memory, profiles)
-            .map_err(sentence)
+        film_profiles(
+            &model,
+            view.camera,
+            pose,
+            image,
+            names,
+            &mut memory,
+            profiles,
+        )
+        .map_err(sentence)
     }
 
     /// Whether the implant is darker or brighter than what surrounds it, by the pixels on both sides of its outline.

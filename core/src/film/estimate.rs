@@ -15,9 +15,9 @@ use solver::Fit;
 use unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
+use super::given::{DisplayKind, GivenFilm};
 use super::model::{FilmConstants, FilmModel};
 use super::profile::FilmProfile;
-use super::given::{DisplayKind, GivenFilm};
 use crate::math::{exp, sqrt};
 
 /// Errors that formal ones do not know of: for the physics left out. Of the curvature for each contrast, and of logarithms.

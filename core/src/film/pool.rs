@@ -4,8 +4,8 @@ use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use super::estimate::{FilmEstimate, MOST_COMPONENTS, estimate_with};
-use super::profile::FilmProfile;
 use super::given::GivenFilm;
+use super::profile::FilmProfile;
 
 /// Profiles of one frame and component; fewer of a long film.
 const PROFILES: usize = 96;

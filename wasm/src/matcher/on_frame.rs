@@ -189,11 +189,7 @@ impl Matcher {
     }
 
     /// The model's silhouette at a pose as an outline: columns and rows by turns.
-    pub(super) fn outline_at(
-        &mut self,
-        pose: &Pose,
-        camera: &Camera,
-    ) -> Result<Vec<f64>, JsError> {
+    pub(super) fn outline_at(&mut self, pose: &Pose, camera: &Camera) -> Result<Vec<f64>, JsError> {
         let (width, height) = (camera.width(), camera.height());
         let model = model_of(&mut self.model)?;
         let drawn = model.drawn_at(pose, camera)?;

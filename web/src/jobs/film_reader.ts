@@ -88,7 +88,7 @@ export class FilmReader {
       for (const component of COMPONENT_NAMES) {
         const cell = needsCorrection(doc, component, frame);
         if (cell && !this.#refused.has(cell.result) && this.#isReady(component, frame)) {
-          return () => this.#correct({ component, frameId: frame.id }, cell.result);
+          return () => this.#correctOnce({ component, frameId: frame.id }, cell.result);
         }
       }
     }
@@ -152,9 +152,14 @@ export class FilmReader {
       this.#entries.set(witness.key, { witness, isRead: true });
       read.push({ ...namesOf(witness), profiles: await this.#profilesOf(witness) });
     }
-    const facts = await this.#films.call('estimate', { read, stated });
-    const found = facts && this.#knownFrom(facts);
-    this.#take(found);
+    try {
+      const facts = await this.#films.call('estimate', { read, stated });
+      this.#take(facts && this.#knownFrom(facts));
+    } catch (error) {
+      // What the worker knew may be gone with it.
+      for (const [key, { witness }] of this.#entries) this.#entries.set(key, { witness, isRead: false });
+      throw error;
+    }
   }
 
   /** None where the frame cannot be held against the pose. */
@@ -185,6 +190,16 @@ export class FilmReader {
     if (taken) this.#taken.add(taken);
     this.#last = taken;
     store.amend((doc) => withKnownFilm(doc, taken));
+  }
+
+  /** What fails is not tried again. */
+  async #correctOnce(place: Place, result: Posed): Promise<void> {
+    try {
+      await this.#correct(place, result);
+    } catch (error) {
+      this.#refused.add(result);
+      throw error;
+    }
   }
 
   async #correct(place: Place, result: Posed): Promise<void> {

@@ -1,7 +1,8 @@
-import { filmNumbers } from '../document/film';
-import { currentCell, type State } from '../document/store';
-import type { Doc, Posed } from '../document/types';
-import type { ComponentName } from '../terms/component';
+import type { Place } from '../document/command';
+import { filmNumbers, sameFilm } from '../document/film';
+import { checkState, markOf } from '../document/marks';
+import { currentCell, currentPlace, type State } from '../document/store';
+import { cellOf, type Doc, type Posed } from '../document/types';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 
@@ -15,7 +16,7 @@ export function FilmNote({ state }: { state: State }) {
   const open = state.ui.popover === 'film';
   return (
     <section class="card note" aria-label={texts.film.card}>
-      <p class="card-note">{sentence(doc, state.ui.component, posed)}</p>
+      <p class="card-note">{sentence(doc, currentPlace(state), posed)}</p>
       <button type="button" class="button small" aria-haspopup="dialog" aria-expanded={open} title={texts.film.openTitle} onClick={() => store.show({ popover: open ? null : 'film' })}>
         {texts.film.open}
       </button>
@@ -24,9 +25,11 @@ export function FilmNote({ state }: { state: State }) {
 }
 
 /** The film in words; first what a person should know of the pose on view. */
-function sentence(doc: Doc, component: ComponentName, posed: Posed | null): string {
+function sentence(doc: Doc, place: Place | null, posed: Posed | null): string {
   const { known } = doc.film;
   const words = known ? texts.film.known(known.words) : texts.film.unknown;
-  if (!posed?.onFrame || posed.onFrame.film || !filmNumbers(doc, component)) return words;
-  return `${words} ${posed.from === 'hand' ? texts.film.before : texts.film.stays}`;
+  if (!place || !posed?.onFrame || sameFilm(posed.onFrame.film, filmNumbers(doc, place.component))) return words;
+  const isChecked = checkState(cellOf(doc, place.frameId, place.component), markOf(doc, place)) === 'yes';
+  if (posed.from === 'hand') return `${words} ${texts.film.before}`;
+  return isChecked ? `${words} ${texts.film.stays}` : words;
 }

@@ -28,14 +28,16 @@ export function meetsFrames(doc: Doc): boolean {
 
 /**
  * The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. What is doubtful does where
- * nothing better does: a tray on the wrong rim would bend the film to explain it.
+ * nothing better does, unless somebody checked it: a tray on the wrong rim would bend the film to explain it.
  */
 export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean): readonly Witness[] {
   return COMPONENT_NAMES.flatMap((component) => {
     const found = doc.frames.flatMap((entry, frame): Witness[] => {
       const candidate = toldBy(doc, component, entry);
       if (!candidate || !isReady(component, entry)) return [];
-      const isDoubtful = verdictOf(cellOf(doc, entry.id, component).result)?.word === 'doubtful';
+      const cell = cellOf(doc, entry.id, component);
+      const isChecked = checkState(cell, markOf(doc, { frameId: entry.id, component })) === 'yes';
+      const isDoubtful = !isChecked && verdictOf(cell.result)?.word === 'doubtful';
       return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful }];
     });
     const good = found.filter(({ isDoubtful }) => !isDoubtful);

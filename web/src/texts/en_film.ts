@@ -7,9 +7,8 @@ export const film = {
   /** `words` are the core's, without a full stop. */
   known: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`,
   unknown: 'The film is not known yet: depth may be off by many millimetres, and ± says so.',
-  reading: 'Reading the film from its frames ...',
-  stays: 'You checked this pose before the film was known; it stays as it was.',
-  before: 'This pose was refined before the film was known; it stays as it was.',
+  stays: 'You checked this pose before that was known; it stays as it was.',
+  before: 'This pose was refined before that was known; it stays as it was.',
   about:
     'Where metal is thin, a frame darkens late; a logarithmic display and blur move its edges too. From the frames that have a pose the page learns by how much, so that depth from grey frames has no bias. Poses found on a frame follow; what you set or checked stays.',
   from: (profiles: number) => `From ${profiles} profiles across the outlines that have a pose.`,

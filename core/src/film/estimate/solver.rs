@@ -5,9 +5,9 @@ use heapless::Vec;
 use super::equations::{Sums, product};
 use super::unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
+use crate::film::given::GivenFilm;
 use crate::film::model::{CONSTANTS, Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
 use crate::film::profile::{FilmProfile, READINGS};
-use crate::film::given::GivenFilm;
 use crate::math::{exp, ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.

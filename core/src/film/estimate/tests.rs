@@ -160,11 +160,15 @@ fn a_frame_whose_pose_is_wrong_is_left_out() {
 
 #[test]
 fn one_component_alone_does_not_tell_a_curved_display_unless_somebody_states_it() {
-    let alone = |stated| estimate_with(&mut profiles(0, 0.7, logarithmic), 1, stated).expect("told");
+    let alone =
+        |stated| estimate_with(&mut profiles(0, 0.7, logarithmic), 1, stated).expect("told");
     let untold = alone(GivenFilm::default());
     assert_eq!(untold.display, DisplayKnowledge::Untold);
     let display = Some(DisplayKind::Logarithmic);
-    let stated = alone(GivenFilm { display, ..GivenFilm::default() });
+    let stated = alone(GivenFilm {
+        display,
+        ..GivenFilm::default()
+    });
     assert_eq!(stated.display, DisplayKnowledge::Stated);
     let curvature = stated.constants.curvature;
     assert!((38.0 * curvature - 1.0).abs() < 0.3, "{curvature}");
@@ -179,9 +183,15 @@ fn what_is_stated_of_a_display_holds() {
     ] {
         let mut all = profiles(0, 0.7, logarithmic);
         all.extend(profiles(1, 0.2, logarithmic));
-        let stated = GivenFilm { display: Some(display), blur_px: Some(0.9) };
+        let stated = GivenFilm {
+            display: Some(display),
+            blur_px: Some(0.9),
+        };
         let film = estimate_with(&mut all, 2, stated).expect("told");
-        assert_eq!(DisplayKind::of(film.constants.curvature * film.contrast), display);
+        assert_eq!(
+            DisplayKind::of(film.constants.curvature * film.contrast),
+            display
+        );
         assert!((film.constants.blur_px - 0.9).abs() < 1e-9, "{film:?}");
         assert!(std::format!("{film}").starts_with(wanted), "{film}");
     }

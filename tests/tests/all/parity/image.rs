@@ -29,7 +29,10 @@ fn frame_of(mask: &Mask<'_>) -> Vec<u8> {
     for (number, pixel) in pixels.iter_mut().enumerate() {
         let (column, row) = (number % SIDE, number / SIDE);
         let inside = |at: usize| {
-            let (right, down) = ((column + at % 5).wrapping_sub(2), (row + at / 5).wrapping_sub(2));
+            let (right, down) = (
+                (column + at % 5).wrapping_sub(2),
+                (row + at / 5).wrapping_sub(2),
+            );
             right < SIDE && down < SIDE && mask.get(right, down)
         };
         let covered = (0..25).filter(|&at| inside(at)).count();
@@ -86,7 +89,15 @@ pub(super) fn found(part: &Part, case: &Case) -> String {
     let mut profiles = vec![FilmProfile::default(); PROFILES];
     let best = found[0].pose;
     let memory = &mut memory.refine;
-    let read = film_profiles(&model, &camera, &best, &image(None), (0, 0), memory, &mut profiles);
+    let read = film_profiles(
+        &model,
+        &camera,
+        &best,
+        &image(None),
+        (0, 0),
+        memory,
+        &mut profiles,
+    );
     profiles.truncate(read.expect("drawn"));
     let mut pool = FilmPool::default();
     pool.take(0, 0, profiles);
@@ -103,7 +114,11 @@ pub(super) fn found(part: &Part, case: &Case) -> String {
     let mut text = String::new();
     let _ = writeln!(text, "    \"name\": \"{}\",", case.name);
     let _ = writeln!(text, "    \"model\": \"{}\",", part.name);
-    let _ = writeln!(text, "    \"outline\": [{}],", points.collect::<Vec<_>>().join(", "));
+    let _ = writeln!(
+        text,
+        "    \"outline\": [{}],",
+        points.collect::<Vec<_>>().join(", ")
+    );
     let _ = writeln!(text, "    \"given\": {GIVEN:?},");
     let _ = writeln!(text, "    \"pose\": {},", six(best));
     let _ = writeln!(text, "    \"words\": \"{film}\",");
