@@ -39,7 +39,7 @@ pageTest('which way a component lies', async (page, t) => {
     await page.getByRole('button', { name: 'Save session', exact: true }).click();
     const saved = await downloaded(page, 'Save session file');
     const { version, document } = JSON.parse(saved.buffer.toString());
-    assert.equal(version, 4);
+    assert.equal(version, 5);
     assert.deepEqual(document.components.femur.axes, { directions: [[0, 1, 0], [0, 0, 1], [1, 0, 0]], from: 'person', told: 'all' });
     const axes = await openAxes(page, 'Femur');
     await axes.getByRole('button', { name: 'As its shape tells' }).click();

@@ -55,10 +55,10 @@ async function start(root: HTMLElement): Promise<void> {
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
-  new FilmReader(services, matcher, filmWorker());
+  const film = new FilmReader(services, matcher, filmWorker());
   const tracingTools = new TracingTools(services, matcher);
   const landscapes = new Landscapes(services.store, matcher);
-  const hand = new HandActions(services, new FromHere(services, matcher), landscapes);
+  const hand = new HandActions(services, new FromHere(services, matcher, film), landscapes);
   rememberTaste(services.store);
   const actions = new Actions(services, tracingTools);
   const videos = new Videos(services, (files) => actions.open(files));

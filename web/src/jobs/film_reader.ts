@@ -43,6 +43,7 @@ export class FilmReader {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #pauseIsOver: () => void = () => undefined;
   #busy = false;
+  #waiting: (() => void)[] = [];
 
   constructor(services: Services, poses: Pick<Bridge<PoseProtocol>, 'call'>, films: Pick<Bridge<FilmProtocol>, 'call'>) {
     this.#services = services;
@@ -51,12 +52,18 @@ export class FilmReader {
     services.store.subscribe(() => this.#consider());
   }
 
+  /** When all that is there to be known is known: for who asks once and for good. */
+  ready(): Promise<void> {
+    if (!this.#busy && !this.#task()) return Promise.resolve();
+    return new Promise((go) => this.#waiting.push(go));
+  }
+
   #consider(): void {
     clearTimeout(this.#timer);
     this.#pauseIsOver();
     if (this.#busy || this.#adopt()) return;
     const task = this.#task();
-    if (!task) return;
+    if (!task) return void this.#waiting.splice(0).forEach((go) => go());
     this.#pauseIsOver = work.begin();
     this.#timer = setTimeout(() => void this.#run(), FILM_REST);
   }

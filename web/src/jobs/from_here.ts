@@ -15,6 +15,11 @@ import { asJob, sentenceOf, type Services } from './services';
 /** The six numbers in the order in which they cross into WASM. */
 export const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies readonly (keyof PoseNumbers)[];
 
+/** Who knows what the film makes of a component. */
+export interface Readiness {
+  ready(): Promise<void>;
+}
+
 /**
  * Refines from the pose on view: against the closed outline, or against the frame where there is none. The answer is a
  * command, so that it can be undone, and is dropped when the pose was changed meanwhile.
@@ -22,11 +27,13 @@ export const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const satisfies
 export class FromHere {
   readonly #services: Services;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  readonly #film: Readiness;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>, film: Readiness) {
     this.#services = services;
     this.#worker = worker;
+    this.#film = film;
   }
 
   async refine(place: Place): Promise<void> {
@@ -51,6 +58,10 @@ export class FromHere {
     const title = texts.hand.job(texts.component[place.component]);
     const job = { title, unit: '', total: 0, cancel: () => abort.abort() };
     return asJob(this.#services.store, job, async () => {
+      const isOnFrame = !cellOf(this.#services.store.doc, place.frameId, place.component).outline?.closed;
+      // A pose that a person asked for does not change afterwards.
+      if (isOnFrame) await this.#film.ready();
+      if (abort.signal.aborted) throw new Aborted();
       const { doc } = this.#services.store;
       const { outline } = cellOf(doc, place.frameId, place.component);
       const known = outline?.closed ? null : filmNumbers(doc, place.component);

@@ -147,11 +147,12 @@ describe('refining from here', () => {
   function bench() {
     const store = traced();
     const asked: { method: string; input: Record<string, unknown> }[] = [];
+    const waited: string[] = [];
     let answer: (fit: unknown) => void = () => undefined;
     const call = (method: string, input: Record<string, unknown>) => (asked.push({ method, input }), new Promise((resolve) => (answer = resolve)));
     const studio = { framePixels: () => new Uint8Array(4) };
-    const fromHere = new FromHere({ store, studio } as unknown as Services, { call } as unknown as ConstructorParameters<typeof FromHere>[1]);
-    return { store, asked, fromHere, answer: () => answer(FIT) };
+    const fromHere = new FromHere({ store, studio } as unknown as Services, { call } as unknown as ConstructorParameters<typeof FromHere>[1], { ready: async () => void waited.push('film') });
+    return { store, asked, waited, fromHere, answer: () => answer(FIT) };
   }
 
   it('goes onto the outline, holds what is locked and can be undone', async () => {
@@ -169,10 +170,12 @@ describe('refining from here', () => {
   });
 
   it('goes onto the frame where there is no outline', async () => {
-    const { store, asked, fromHere, answer } = bench();
+    const { store, asked, waited, fromHere, answer } = bench();
     store.perform(deleteOutline(PLACE));
     store.perform(setPoseByHand(PLACE, POSE));
     const done = fromHere.refine(PLACE);
+    await vi.waitFor(() => expect(asked.length).toBe(1));
+    expect(waited).toEqual(['film']);
     expect(asked[0]).toMatchObject({ method: 'refineOnFrame', input: { start: POSE, others: [], frame: { width: 100, height: 100 } } });
     answer();
     await done;

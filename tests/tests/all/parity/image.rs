@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use fluoropose::film::{FilmConstants, FilmModel, FilmPool, FilmProfile, GivenFilm};
-use fluoropose::finder::{FinderBuffers, Goal, correct_candidates, find};
+use fluoropose::finder::{Candidate, FinderBuffers, Goal, correct_candidates, find};
 use fluoropose::image::contour::Outline;
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::Mask;
@@ -11,7 +11,7 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, film_profiles};
+use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, film_profiles};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_laboratory::files::MaskBuffer;
 
@@ -103,7 +103,12 @@ pub(super) fn found(part: &Part, case: &Case) -> String {
     pool.take(0, 0, profiles);
     let film = pool.estimate(GivenFilm::default()).expect("told");
     let by_film = image(Some(film.model(0)));
-    let corrected = correct_candidates(&model, &camera, by_film, &found[..1], options, memory);
+    // As it was kept: six numbers.
+    let kept = Candidate {
+        refined: Some(Refined::at(EulerPose::from(best).into())),
+        ..found[0]
+    };
+    let corrected = correct_candidates(&model, &camera, by_film, &[kept], options, memory);
     let corrected = corrected.expect("corrected")[0].pose;
 
     let points = case.outline.iter();
