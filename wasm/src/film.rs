@@ -41,7 +41,7 @@ impl FilmStudy {
         blur_px: Option<f64>,
     ) -> Result<Option<FilmFacts>, JsError> {
         let display = display.as_deref().map(kind).transpose()?;
-        if blur_px.is_some_and(|blur_px| !(blur_px > 0.0)) {
+        if blur_px.is_some_and(|blur_px| blur_px.is_nan() || blur_px <= 0.0) {
             return Err(JsError::new("The blur of a film is a number above zero"));
         }
         let found = self.pool.estimate(GivenFilm { display, blur_px });

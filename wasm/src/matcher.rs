@@ -1,5 +1,6 @@
 //! Outlines matched against an open library.
 
+mod answer;
 mod follow;
 mod from_here;
 mod landscape;
@@ -7,10 +8,11 @@ mod nearest;
 mod on_frame;
 mod one_click;
 
+pub use answer::OneClickAnswer;
 pub use from_here::{HandFit, HandVerdict, HiddenPixels};
 pub use landscape::{Landscape, ViewPose};
 pub use nearest::{Canonical, NearestView};
-pub use one_click::{OneClick, OneClickAnswer};
+pub use one_click::OneClick;
 
 use fluoropose::canonical::reverse;
 use fluoropose::finder::{FinderBuffers, Goal, Verdict};

@@ -13,11 +13,12 @@ use fluoropose::refine::{CameraView, ImageTarget, Polarity, Refined};
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
+use super::answer::{FAIR, OneClickAnswer};
 use super::from_here::{HiddenPixels, model_of};
-use super::one_click::{OneClickAnswer, supported};
 use crate::exchange::simplified;
 use crate::film::film_model;
 use crate::found::{Candidate, Match, deviation_numbers};
+use crate::working_model::Assessed;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
@@ -216,6 +217,15 @@ impl Matcher {
 /// By what poses on a frame are compared, as the finder compares its candidates: it counts outline that lies on no edge.
 pub(super) fn misfit(refined: &Refined) -> f64 {
     (2.0 * refined.loss).sqrt()
+}
+
+/// What else lies near an outline is no counterpart where only a little of its length lies on strong edges of the right
+/// polarity.
+fn supported(mut assessed: Assessed, part: f64) -> Assessed {
+    if part < FAIR {
+        assessed.fit.met = assessed.fit.met.min(part);
+    }
+    assessed
 }
 
 /// The outline of a mask's largest region with few points: columns and rows by turns.

@@ -1,9 +1,5 @@
 //! One click or one box: a first outline and pose, in steps between which a worker can be called off.
 
-mod answer;
-
-pub use answer::OneClickAnswer;
-
 use fluoropose::camera::Camera;
 use fluoropose::film::{FilmModel, LineMemory};
 use fluoropose::finder::choice::RivalPose as Contender;
@@ -18,14 +14,13 @@ use fluoropose_tracing::one_click::{
 };
 use wasm_bindgen::prelude::*;
 
+use super::answer::{OneClickAnswer, told};
 use super::from_here::{model_of, widen};
 use super::on_frame::{OnFrame, Seen, misfit, outline_of, with_mask};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::Match;
-use crate::working_model::Assessed;
-use answer::{FAIR, told};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -340,15 +335,6 @@ fn contender(one: &OnFrame) -> Contender {
         pose: one.refined.pose,
         residual_px: misfit(&one.refined),
     }
-}
-
-/// What else lies near an outline is no counterpart where only a little of its length lies on strong edges of the right
-/// polarity.
-pub(super) fn supported(mut assessed: Assessed, part: f64) -> Assessed {
-    if part < FAIR {
-        assessed.fit.met = assessed.fit.met.min(part);
-    }
-    assessed
 }
 
 /// Numbers of the answers that are offered: the chosen one, the rival that is still open, and others that come near.

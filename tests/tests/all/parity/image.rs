@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use fluoropose::film::{FilmConstants, FilmModel, FilmPool, FilmProfile, GivenFilm};
+use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::{Candidate, FinderBuffers, Goal, correct_candidates, find};
 use fluoropose::image::contour::Outline;
 use fluoropose::image::frame::Frame;
@@ -11,8 +11,11 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity, RefineOptions, Refined, film_profiles};
+use fluoropose::refine::{
+    ImageTarget, Polarity, RefineMemory, RefineOptions, Refined, film_profiles,
+};
 use fluoropose::search::kernels::Kernels;
+use fluoropose::{Camera, Component, Model};
 use fluoropose_laboratory::files::MaskBuffer;
 
 use super::{Case, Part, SIDE, calibration};
@@ -53,64 +56,84 @@ fn six(pose: Pose) -> String {
     format!("{:?}", [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg])
 }
 
-/// What is found, as JSON.
-pub(super) fn found(part: &Part, case: &Case) -> String {
+/// What is found on a frame.
+struct OnFrame {
+    /// By the film that is given.
+    best: Pose,
+    /// What profiles there tell of it.
+    film: FilmEstimate,
+    /// The pose by that film.
+    corrected: Pose,
+}
+
+fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
     let camera = calibration().camera(SIDE, SIDE).expect("a camera");
-    let outline = Outline::new(&case.outline, SIDE, SIDE).expect("simple");
-    let mut mask = MaskBuffer::new(SIDE, SIDE).expect("possible");
-    mask.draw(|mask| mask.fill_outline(&outline));
-    let mask = mask.mask();
-    let pixels = frame_of(&mask);
+    let pixels = frame_of(mask);
     let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
-    let [curvature, blur_px, attenuation] = GIVEN;
-    let given = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
     let image = |film| ImageTarget {
         frame: &frame,
         unknown: None,
         polarity: Polarity::DarkImplant,
         film,
     };
-
     let library = Library::open(&part.library).expect("a library");
     let model = part.model.as_model();
     let planes = symmetry_planes(model.mesh());
-    let component = fluoropose::Component {
+    let component = Component {
         library: &library,
         model: &model,
         planes: &planes,
     };
     let mut buffers = FinderBuffers::default();
     let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
-    let (silhouette, options) = (Silhouette::from(&mask), RefineOptions::default());
+    let (silhouette, options) = (Silhouette::from(mask), RefineOptions::default());
+    let [curvature, blur_px, attenuation] = GIVEN;
+    let given = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
     let goal = Goal::Image(image(Some(given)));
     let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
-    let found = found.expect("candidates").candidates;
+    let first = found.expect("candidates").candidates[0];
 
-    let mut profiles = vec![FilmProfile::default(); PROFILES];
-    let best = found[0].pose;
-    let memory = &mut memory.refine;
-    let read = film_profiles(
-        &model,
-        &camera,
-        &best,
-        &image(None),
-        (0, 0),
-        memory,
-        &mut profiles,
-    );
-    profiles.truncate(read.expect("drawn"));
-    let mut pool = FilmPool::default();
-    pool.take(0, 0, profiles);
-    let film = pool.estimate(GivenFilm::default()).expect("told");
-    let by_film = image(Some(film.model(0)));
+    let (best, memory) = (first.pose, &mut memory.refine);
+    let film = film_at(&model, &camera, &best, &image(None), memory);
     // As it was kept: six numbers.
     let kept = Candidate {
         refined: Some(Refined::at(EulerPose::from(best).into())),
-        ..found[0]
+        ..first
     };
+    let by_film = image(Some(film.model(0)));
     let corrected = correct_candidates(&model, &camera, by_film, &[kept], options, memory);
-    let corrected = corrected.expect("corrected")[0].pose;
+    OnFrame {
+        best,
+        film,
+        corrected: corrected.expect("corrected")[0].pose,
+    }
+}
 
+fn film_at(
+    model: &Model<'_>,
+    camera: &Camera,
+    pose: &Pose,
+    image: &ImageTarget<'_>,
+    memory: &mut RefineMemory<'_>,
+) -> FilmEstimate {
+    let mut profiles = vec![FilmProfile::default(); PROFILES];
+    let read = film_profiles(model, camera, pose, image, (0, 0), memory, &mut profiles);
+    profiles.truncate(read.expect("drawn"));
+    let mut pool = FilmPool::default();
+    pool.take(0, 0, profiles);
+    pool.estimate(GivenFilm::default()).expect("told")
+}
+
+/// The same as JSON.
+pub(super) fn found(part: &Part, case: &Case) -> String {
+    let outline = Outline::new(&case.outline, SIDE, SIDE).expect("simple");
+    let mut mask = MaskBuffer::new(SIDE, SIDE).expect("possible");
+    mask.draw(|mask| mask.fill_outline(&outline));
+    let OnFrame {
+        best,
+        film,
+        corrected,
+    } = look(part, &mask.mask());
     let points = case.outline.iter();
     let points = points.map(|p| format!("[{}, {}]", p.column, p.row));
     let constants = film.model(0);
