@@ -10,6 +10,7 @@ mod bead_grid;
 mod choice;
 mod exchange;
 mod film;
+mod follower;
 mod found;
 mod library;
 mod matcher;
@@ -20,6 +21,7 @@ pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
 pub use film::{FilmFacts, FilmStudy};
+pub use follower::{FilmFollower, FollowedFilm};
 pub use found::Match;
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{

@@ -16,6 +16,7 @@ import { Calibrator } from './jobs/calibrator';
 import { Chooser } from './jobs/chooser';
 import { Convergence } from './jobs/convergence';
 import { FilmReader } from './jobs/film_reader';
+import { Follower } from './jobs/follower';
 import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
 import { Landscapes } from './jobs/landscape';
@@ -28,7 +29,7 @@ import type { Services } from './jobs/services';
 import { Studio } from './films/studio';
 import { Videos } from './exchange/videos';
 import { atRest, shown } from './workers/activity';
-import { decodeWorker, filmWorker, poseWorker } from './workers/start';
+import { decodeWorker, filmWorker, followWorker, poseWorker } from './workers/start';
 import { texts } from './texts/texts';
 import { Actions } from './commands/actions';
 import { AppContext, type App } from './commands/app';
@@ -61,6 +62,7 @@ async function start(root: HTMLElement): Promise<void> {
   const hand = new HandActions(services, new FromHere(services, matcher, film), landscapes);
   rememberTaste(services.store);
   const actions = new Actions(services, tracingTools);
+  actions.work.follower = new Follower(services, { femur: followWorker(), tibia: followWorker() });
   const videos = new Videos(services, (files) => actions.open(files));
   actions.videos = videos;
   const app: App = {

@@ -5,6 +5,7 @@ import { currentPlace, type Store } from '../document/store';
 import { cellOf } from '../document/types';
 import { poseKeys } from '../results/keys';
 import { startAnew } from '../keep/restore';
+import type { Follower } from '../jobs/follower';
 import type { Services } from '../jobs/services';
 import type { WorkCommand } from './work_keys';
 import { texts } from '../texts/texts';
@@ -15,6 +16,8 @@ export class WorkActions {
   readonly #store: Store;
   /** Set by the timeline: the field for notes on the cell that is selected. */
   noteField: HTMLInputElement | null = null;
+  /** Set when the page is put together. */
+  follower: Pick<Follower, 'follow'> | null = null;
 
   constructor(services: Services) {
     this.#services = services;
@@ -35,6 +38,9 @@ export class WorkActions {
       case 'write-note':
         this.noteField?.focus();
         return this.noteField !== null;
+      case 'follow-film':
+        void this.follower?.follow();
+        return this.follower !== null;
       case 'work-list':
         this.#store.show({ popover: this.#store.ui.popover === 'work' ? null : 'work' });
         return true;

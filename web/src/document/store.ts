@@ -18,6 +18,8 @@ export interface State {
 export interface Ui {
   readonly frameIndex: number;
   readonly component: ComponentName;
+  /** The film is being followed. */
+  readonly following: boolean;
   readonly tool: ToolName;
   /** Null: the whole frame, fitted to the canvas. */
   readonly viewport: Viewport | null;
@@ -103,6 +105,7 @@ export type LibraryState =
 const EMPTY_UI: Ui = {
   frameIndex: 0,
   component: 'femur',
+  following: false,
   tool: 'trace',
   viewport: null,
   selectedPoint: null,

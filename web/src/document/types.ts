@@ -181,9 +181,9 @@ export type Result = Posed | Failed;
 
 export interface Posed {
   readonly kind: 'posed';
-  /** What the pose was found from: a library match of the cell's outline, a file, or somebody's hand. */
-  readonly from: 'outline' | 'file' | 'hand';
-  /** Library and camera that found it (`libraryKey`), the file's name, or how a pose set by hand was begun. */
+  /** What the pose was found from: a library match of the cell's outline, a file, somebody's hand, or the frames beside it. */
+  readonly from: 'outline' | 'file' | 'hand' | 'film';
+  /** Library and camera that found it (`libraryKey`), the file's name, how a pose set by hand was begun, or what it was followed from. */
   readonly origin: string;
   readonly candidates: readonly Candidate[];
   readonly chosen: number;

@@ -130,6 +130,7 @@ function HandButtons({ cell, adjusting }: { cell: Cell; adjusting: boolean }) {
 function sourceOf(cell: Cell, findings: Findings | null): string {
   if (cell.result?.kind !== 'posed') return '';
   if (cell.result.from === 'file') return texts.panel.pose.fromFile(cell.result.origin);
+  if (cell.result.from === 'film') return texts.follow.source;
   if (cell.result.from === 'hand') return [cell.result.reason, texts.hand.source].filter((part) => part !== null).join(' ');
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
   const words = texts.panel.pose;

@@ -4,7 +4,7 @@ import { type Cell, cellOf, type Doc, type FrameEntry, isByHand, isRefined, type
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 
 /** How far a cell is, from nothing to a refined pose. */
-export type Stage = 'empty' | 'draft' | 'traced' | 'posed' | 'refined' | 'by hand' | 'pose loaded' | 'no pose';
+export type Stage = 'empty' | 'draft' | 'traced' | 'posed' | 'refined' | 'by hand' | 'followed' | 'pose loaded' | 'no pose';
 
 /** All that a list says of a cell. */
 export interface Progress {
@@ -35,13 +35,14 @@ export function progressOf(cell: Cell, mark: Mark, key: string | null): Progress
   };
 }
 
-const POSED: readonly Stage[] = ['posed', 'refined', 'by hand', 'pose loaded'];
+const POSED: readonly Stage[] = ['posed', 'refined', 'by hand', 'followed', 'pose loaded'];
 
 function stageOf({ outline, result }: Cell): Stage {
   if (result?.kind === 'failed') return 'no pose';
   if (result?.kind !== 'posed') return outline ? (outline.closed ? 'traced' : 'draft') : 'empty';
   if (result.from === 'file') return 'pose loaded';
   if (isByHand(result)) return 'by hand';
+  if (result.from === 'film') return 'followed';
   return isRefined(result) ? 'refined' : 'posed';
 }
 
@@ -115,19 +116,20 @@ function isBegun({ outline, result }: Cell): boolean {
   return outline !== null || result !== null;
 }
 
-/** The next thing to do from a place, around the whole list: what has no pose; once all have one, what nobody checked. */
+/** The next thing to do from a place, around the whole list: what has no pose; once all have one, what is doubtful, and then what nobody checked. */
 export function nextTask(
   doc: Doc,
   keyOf: KeyOf,
   from: { readonly index: number; readonly component: ComponentName },
   step: 1 | -1,
-): { readonly entry: Entry; readonly filter: 'unfinished' | 'unchecked' } | null {
+): { readonly entry: Entry; readonly filter: 'unfinished' | 'doubtful' | 'unchecked' } | null {
   const entries = entriesOf(doc, keyOf, componentsInWork(doc, from.component));
   const here = entries.findIndex(({ index, place }) => index === from.index && place.component === from.component);
-  for (const filter of ['unfinished', 'unchecked'] as const) {
+  for (const filter of ['unfinished', 'doubtful', 'unchecked'] as const) {
     for (let away = 1; away <= entries.length; away++) {
       const entry = entries[(((here + step * away) % entries.length) + entries.length) % entries.length];
-      if (entry && passes(entry, filter)) return { entry, filter };
+      const isOpen = filter !== 'doubtful' || entry?.progress.check !== 'yes';
+      if (entry && isOpen && passes(entry, filter)) return { entry, filter };
     }
   }
   return null;

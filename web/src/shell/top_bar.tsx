@@ -25,6 +25,7 @@ export function TopBar({ state }: { state: State }) {
         ))}
       </div>
       <div class="bar-buttons">
+        <FollowButton state={state} />
         <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
         <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
         <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
@@ -71,6 +72,24 @@ export function TopBar({ state }: { state: State }) {
         </button>
       </div>
     </header>
+  );
+}
+
+/** The step after the first frame: from what is set there over all others. */
+function FollowButton({ state }: { state: State }) {
+  const { actions } = useApp();
+  if (state.history.present.frames.length < 2) return null;
+  const { following } = state.ui;
+  return (
+    <button
+      type="button"
+      class={following ? 'button' : 'button primary'}
+      aria-keyshortcuts="Shift+F"
+      title={following ? texts.follow.stopTitle : texts.follow.title}
+      onClick={() => actions.run({ name: 'work', command: 'follow-film' })}
+    >
+      {following ? texts.follow.stop : texts.follow.button}
+    </button>
   );
 }
 

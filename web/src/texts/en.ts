@@ -4,6 +4,7 @@ import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { film } from './en_film';
+import { follow } from './en_follow';
 import { hand } from './en_hand';
 import { keys } from './en_keys';
 import { panel } from './en_panel';
@@ -21,6 +22,7 @@ export const en = {
   calibrate,
   files,
   film,
+  follow,
   hand,
   keys,
   panel,
@@ -245,6 +247,7 @@ export const en = {
       'toggle-checked': 'Mark as checked, or not',
       'toggle-flagged': 'Flag for another look, or take the flag away',
       'write-note': 'Write a note',
+      'follow-film': 'Follow both components through the film, or stop',
       'work-list': 'Work list',
       'start-anew': 'Start anew (undo brings everything back)',
     },
@@ -255,6 +258,7 @@ export const en = {
       posed: 'posed',
       refined: 'refined',
       'by hand': 'posed by hand',
+      followed: 'followed',
       'pose loaded': 'pose loaded',
       'no pose': 'no pose',
     },

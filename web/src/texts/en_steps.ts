@@ -45,6 +45,7 @@ export const steps = {
   modelAlongView: 'move the model along the view',
   adjustPose: 'adjust the pose',
   refineFromHand: 'refine from the hand-made pose',
+  follow: 'follow through the film',
   dropHandPose: 'drop the pose set by hand',
   takeView: 'take a view of the landscape',
   keepReference: 'keep the poses to compare with',

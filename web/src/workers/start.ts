@@ -2,6 +2,7 @@ import { Bridge, type WorkerPort } from './bridge';
 import type { MasksProtocol } from './protocol/masks';
 import type { CalibrateProtocol } from './protocol/calibrate';
 import type { FilmProtocol } from './protocol/film';
+import type { FollowProtocol } from './protocol/follow';
 import type { PoseProtocol } from './protocol/pose';
 import type { LibraryProtocol } from './protocol/library';
 import type { DecodeProtocol } from './protocol/decode';
@@ -28,6 +29,12 @@ export function poseWorker(): Bridge<PoseProtocol> {
 export function filmWorker(): Bridge<FilmProtocol> {
   return new Bridge<FilmProtocol>(() =>
     port(new Worker(new URL('./handlers/film.ts', import.meta.url), { type: 'module', name: 'film' })),
+  );
+}
+
+export function followWorker(): Bridge<FollowProtocol> {
+  return new Bridge<FollowProtocol>(() =>
+    port(new Worker(new URL('./handlers/follow.ts', import.meta.url), { type: 'module', name: 'follow' })),
   );
 }
 

@@ -161,7 +161,7 @@ const readCandidate: Reader<Candidate> = (value, path) => {
 
 const readPosedParts = object<Omit<Posed, 'program' | 'onFrame'>>({
   kind: oneOf('posed'),
-  from: oneOf('outline', 'file', 'hand'),
+  from: oneOf('outline', 'file', 'hand', 'film'),
   origin: text,
   candidates: list(readCandidate),
   chosen: count,

@@ -74,6 +74,8 @@ export function methodOf(result: Posed): string {
       return `file ${result.origin}`;
     case 'hand':
       return refined ? `by hand, refined${onFrameWords(result)}` : 'by hand';
+    case 'film':
+      return 'followed through the film';
     case 'outline':
       return refined ? `refined${onFrameWords(result)}` : 'library';
   }

@@ -1,0 +1,252 @@
+//! A component followed through a film: frames come one by one, as they are asked for.
+
+use fluoropose::camera::Camera;
+use fluoropose::film::FilmModel;
+use fluoropose::follow::{Conclusion, Following, KnownFemur, Subject, contrast};
+use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{
+    Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions,
+};
+use wasm_bindgen::prelude::*;
+
+use crate::film::film_model;
+use crate::found::deviation_numbers;
+use fluoropose_page::calibration::camera;
+use fluoropose_page::error::sentence;
+use fluoropose_page::frame_image::FrameImage;
+use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};
+
+/// Numbers of a pose.
+const NUMBERS: usize = 6;
+
+/// Follows a component from poses that are known in some frames; see the core's `Following`.
+#[wasm_bindgen]
+pub struct FilmFollower {
+    following: Following,
+    model: OwnedModel,
+    planes: Vec<SymmetryPlane>,
+    camera: Camera,
+    /// Poses that were given: the first one that is looked at tells whether the implant is dark.
+    given: Vec<(usize, Pose)>,
+    polarity: Option<Polarity>,
+    film: Option<FilmModel>,
+    buffers: RefineBuffers,
+}
+
+#[wasm_bindgen]
+impl FilmFollower {
+    /// Over the frames `first` to `last` of a film of `frames`, all of the size that the calibration text is for. `film` is what the
+    /// film makes of the component, as `FilmFacts.model` gives it, or empty.
+    ///
+    /// # Errors
+    /// The core's sentence about the model or the calibration, and a sentence about the film.
+    #[wasm_bindgen(constructor)]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "they cross into JavaScript one by one"
+    )]
+    pub fn new(
+        vertices: Vec<f32>,
+        triangles: Vec<u32>,
+        calibration: &str,
+        width: u32,
+        height: u32,
+        frames: usize,
+        first: usize,
+        last: usize,
+        film: &[f64],
+    ) -> Result<FilmFollower, JsError> {
+        let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
+        let middle = model.as_model().bounds().centre;
+        let planes = symmetry_planes(model.as_model().mesh()).to_vec();
+        Ok(Self {
+            following: Following::new(middle, frames, first..last + 1),
+            model,
+            planes,
+            camera: camera(calibration, width, height)?,
+            given: Vec::new(),
+            polarity: None,
+            film: film_model(film)?,
+            buffers: RefineBuffers::default(),
+        })
+    }
+
+    /// Gives the pose (six numbers) of a frame. One that is `fixed` a person gave: it never changes.
+    ///
+    /// # Errors
+    /// A sentence where they are not six finite numbers.
+    pub fn give(&mut self, frame: usize, pose: &[f64], fixed: bool) -> Result<(), JsError> {
+        let pose = Pose::from(from_numbers(pose)?);
+        self.following.give(frame, pose, fixed);
+        self.given.push((frame, pose));
+        Ok(())
+    }
+
+    /// The frame that is to be looked at next; nothing where this part of the work is done.
+    pub fn wanted(&mut self) -> Option<usize> {
+        self.following.wanted()
+    }
+
+    /// Looks at the frame that was asked for; gives its pose, where one was found.
+    ///
+    /// # Errors
+    /// The core's sentence about a pose that was given and cannot be drawn.
+    pub fn take(&mut self, frame: &FrameImage) -> Result<Option<Vec<f64>>, JsError> {
+        let model = self.model.as_model();
+        let subject = Subject {
+            model: &model,
+            planes: &self.planes,
+            camera: &self.camera,
+            options: RefineOptions {
+                effort: Effort::Film,
+                ..RefineOptions::default()
+            },
+        };
+        let mut memory = self.buffers.borrow(&model, &self.camera);
+        let (following, polarity) = (&mut self.following, &mut self.polarity);
+        let given = self
+            .given
+            .iter()
+            .find(|(at, _)| Some(*at) == following.wanted());
+        frame.look(|frame| {
+            let image = ImageTarget {
+                frame,
+                unknown: None,
+                polarity: Polarity::DarkImplant,
+                film: self.film,
+            };
+            if let (None, Some((_, pose))) = (&polarity, given) {
+                *polarity = Some(polarity_at(&subject, &image, pose, &mut memory)?);
+            }
+            let image = ImageTarget {
+                polarity: polarity.unwrap_or(Polarity::DarkImplant),
+                ..image
+            };
+            let found = following
+                .take(&subject, &image, &mut memory)
+                .map_err(sentence)?;
+            Ok(found.map(|found| to_numbers(&EulerPose::from(found.pose)).to_vec()))
+        })
+    }
+
+    /// Begins the second part: which side of the mirror is the right one. A tibia is told by the femoral poses (six numbers a
+    /// frame, not finite where there is none) with the axes of both (nine numbers each, as `axes_from` takes them); without them
+    /// the edges alone decide.
+    ///
+    /// # Errors
+    /// A sentence where axes are no right-handed frame.
+    #[wasm_bindgen(js_name = chooseSides)]
+    pub fn choose_sides(
+        &mut self,
+        femurs: &[f64],
+        femoral_axes: &[f64],
+        own_axes: &[f64],
+    ) -> Result<(), JsError> {
+        if femurs.is_empty() {
+            self.following.choose_sides(None);
+            return Ok(());
+        }
+        let field = axes_from(femoral_axes)?;
+        let pose = |numbers: &[f64; NUMBERS]| {
+            let known = numbers.iter().all(|number| number.is_finite());
+            let pose = known.then(|| from_numbers(numbers).ok()).flatten();
+            pose.map(|pose| Pose::from(pose).compose(&field))
+        };
+        let poses = femurs.as_chunks().0.iter().map(pose).collect();
+        let axes = axes_from(own_axes)?;
+        self.following
+            .choose_sides(Some(KnownFemur { poses, axes }));
+        Ok(())
+    }
+
+    /// How far the component is from the camera in each frame where it is to be trusted, mm; not a number elsewhere.
+    pub fn depths(&self) -> Vec<f64> {
+        let depths = self.following.depths();
+        depths.iter().map(|mm| mm.unwrap_or(f64::NAN)).collect()
+    }
+
+    /// The answer, with the other component's `depths`, or none of them.
+    pub fn conclude(&self, other_depths: &[f64]) -> FollowedFilm {
+        let depths = other_depths.iter().map(|&mm| mm.is_finite().then_some(mm));
+        let depths: Vec<Option<f64>> = depths.collect();
+        let cells = self.following.cells();
+        let frames = self.following.conclude(&depths);
+        let deviations = cells.iter().map(|cell| {
+            let found = cell.found()?;
+            let middle = self.model.as_model().bounds().centre;
+            let deviations = found.covariance?.deviations(&found.pose, &middle);
+            Some(deviation_numbers(&deviations).to_vec())
+        });
+        FollowedFilm {
+            residuals: cells
+                .iter()
+                .map(|cell| cell.found().map(|found| found.fit.residual_px))
+                .collect(),
+            deviations: deviations.collect(),
+            frames,
+        }
+    }
+}
+
+/// Whether the implant is darker or brighter than what surrounds it.
+fn polarity_at(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    pose: &Pose,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Polarity, JsError> {
+    let mut step = |polarity| {
+        let image = ImageTarget { polarity, ..*image };
+        let seen = contrast(subject, &image, pose, memory).map_err(sentence)?;
+        Ok::<f64, JsError>(seen.step)
+    };
+    let dark: f64 = step(Polarity::DarkImplant)?;
+    Ok(match step(Polarity::BrightImplant)? > dark {
+        true => Polarity::BrightImplant,
+        false => Polarity::DarkImplant,
+    })
+}
+
+/// What became of every frame.
+#[wasm_bindgen]
+pub struct FollowedFilm {
+    frames: Vec<Conclusion>,
+    residuals: Vec<Option<f64>>,
+    deviations: Vec<Option<Vec<f64>>>,
+}
+
+#[wasm_bindgen]
+impl FollowedFilm {
+    /// `fixed`, `followed`, `doubtful`, `untrackable` or `unsolved`.
+    pub fn state(&self, frame: usize) -> Option<String> {
+        Some(self.frames.get(frame)?.state.word().to_owned())
+    }
+
+    /// Why, in a sentence without its full stop.
+    pub fn because(&self, frame: usize) -> Option<String> {
+        Some(self.frames.get(frame)?.to_string())
+    }
+
+    /// Six numbers, where there is a pose.
+    pub fn pose(&self, frame: usize) -> Option<Vec<f64>> {
+        let pose = self.frames.get(frame)?.pose?;
+        Some(to_numbers(&EulerPose::from(pose)).to_vec())
+    }
+
+    /// Standard deviations of the six, where they are known.
+    pub fn deviations(&self, frame: usize) -> Option<Vec<f64>> {
+        self.deviations.get(frame)?.clone()
+    }
+
+    /// Root mean square of what remains between outline and edges, pixels.
+    pub fn residual(&self, frame: usize) -> Option<f64> {
+        *self.residuals.get(frame)?
+    }
+
+    /// How bad a frame is: above 1 it is doubtful, and the worst have the most.
+    pub fn badness(&self, frame: usize) -> Option<f64> {
+        Some(self.frames.get(frame)?.badness)
+    }
+}

@@ -1,0 +1,177 @@
+import type { Place } from '../document/command';
+import { filmNumbers } from '../document/film';
+import { type Followed, takeFollowed } from '../document/followed';
+import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import { type Span, spanToFollow } from '../results/spans';
+import { cameraOf } from '../results/keys';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { CameraInput } from '../workers/protocol/camera';
+import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/follow';
+import { asJob, sentenceOf, type Services } from './services';
+
+type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+
+/** A component with the frames that it is followed over. */
+interface Part {
+  readonly component: ComponentName;
+  readonly worker: Worker;
+  readonly span: Span;
+}
+
+/**
+ * Follows the components through the film from the frames that a person set, in a worker each, while the person goes on working.
+ * What a person set never changes, and only what lies between frames that have changed is done again.
+ */
+export class Follower {
+  readonly #services: Services;
+  readonly #workers: Readonly<Record<ComponentName, Worker>>;
+  #abort: AbortController | null = null;
+
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>) {
+    this.#services = services;
+    this.#workers = workers;
+  }
+
+  /** Begins, or where it is under way stops and keeps what there is. */
+  async follow(): Promise<void> {
+    if (this.#abort) return this.#abort.abort();
+    const { store } = this.#services;
+    const refusal = this.#refusal();
+    if (refusal !== null) return store.say('info', refusal);
+    const parts = this.#parts();
+    if (parts.length === 0) return store.say('info', this.#nothingToDo());
+    const abort = (this.#abort = new AbortController());
+    store.show({ following: true });
+    const total = parts.reduce((sum, { span }) => sum + span.free, 0);
+    const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
+    try {
+      const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
+      if (found.length > 0) store.perform(takeFollowed(found));
+      store.say('info', texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted));
+    } catch (error) {
+      if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
+    } finally {
+      this.#abort = null;
+      store.show({ following: false });
+    }
+  }
+
+  /** Why the film cannot be followed; null where it can. */
+  #refusal(): string | null {
+    const { doc } = this.#services.store;
+    const [first] = doc.frames;
+    if (!first || doc.frames.length < 2) return texts.follow.oneFrame;
+    if (doc.frames.some((frame) => frame.width !== first.width || frame.height !== first.height)) return texts.follow.sizes;
+    const camera = cameraOf(doc, first);
+    if (!camera) return texts.follow.noCalibration;
+    return camera.distortion ? texts.calibrate.distortedFrame : null;
+  }
+
+  #nothingToDo(): string {
+    const { doc } = this.#services.store;
+    const isSet = (frame: FrameEntry) => COMPONENT_NAMES.some((component) => chosenCandidate(cellOf(doc, frame.id, component)));
+    return doc.frames.some(isSet) ? texts.follow.allSet : texts.follow.noneSet;
+  }
+
+  #parts(): readonly Part[] {
+    const { store, studio } = this.#services;
+    return COMPONENT_NAMES.flatMap((component) => {
+      const { model } = store.doc.components[component];
+      const span = model && studio.meshOf(model.sha256) ? spanToFollow(store.doc, component) : null;
+      return span ? [{ component, span, worker: this.#workers[component] }] : [];
+    });
+  }
+
+  async #all(parts: readonly Part[], signal: AbortSignal, looked: () => void): Promise<readonly Followed[]> {
+    const followed = Promise.all(parts.map((part) => this.#through(part, signal, looked)));
+    const femur = parts.find(({ component }) => component === 'femur');
+    await followed;
+    if (femur) await this.#sides(femur, null, signal);
+    const femurs = femur ? await this.#posesOf(femur) : this.#shownPoses('femur');
+    const tibia = parts.find(({ component }) => component === 'tibia');
+    if (tibia) await this.#sides(tibia, this.#known(femurs), signal);
+    const depths = new Map<ComponentName, Float64Array<ArrayBuffer>>();
+    for (const { component, worker } of parts) depths.set(component, await worker.call('depths', null));
+    const found: Followed[] = [];
+    for (const part of parts) {
+      const other = depths.get(part.component === 'femur' ? 'tibia' : 'femur') ?? new Float64Array();
+      const film = await part.worker.call('conclude', { otherDepths: other });
+      found.push(...this.#answers(part, film, signal.aborted));
+    }
+    return found;
+  }
+
+  /** From the frames that are set over all others. */
+  async #through({ component, worker, span }: Part, signal: AbortSignal, looked: () => void): Promise<void> {
+    const { store, studio } = this.#services;
+    const { doc } = store;
+    const { sha256 } = doc.components[component].model ?? { sha256: '' };
+    const mesh = studio.meshOf(sha256);
+    const camera: CameraInput | null = cameraOf(doc, doc.frames[0] ?? null);
+    if (!mesh || !camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
+    const { first, last, given } = span;
+    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, film: filmNumbers(doc, component) };
+    await this.#look(worker, await worker.call('begin', begin), signal, looked);
+  }
+
+  async #sides({ worker }: Part, femurs: Femurs | null, signal: AbortSignal): Promise<void> {
+    if (!signal.aborted) await this.#look(worker, await worker.call('sides', { femurs }), signal, () => undefined);
+  }
+
+  /** Shows the frames that the worker asks for; stops between two of them. */
+  async #look(worker: Worker, first: number | null, signal: AbortSignal, looked: () => void): Promise<void> {
+    const { store, studio } = this.#services;
+    for (let next = first; next !== null && !signal.aborted; ) {
+      const frame = store.doc.frames[next];
+      const pixels = frame && studio.framePixels(frame.id);
+      if (!frame || !pixels) throw new Error(texts.follow.gone(next + 1));
+      const { width, height } = frame;
+      ({ next } = await worker.call('look', { pixels, width, height }, { transfer: [pixels.buffer] }));
+      looked();
+    }
+  }
+
+  async #posesOf({ worker }: Part): Promise<readonly (PoseNumbers | null)[]> {
+    const film = await worker.call('conclude', { otherDepths: new Float64Array() });
+    const shown = this.#shownPoses('femur');
+    return film.map(({ pose }, frame) => pose ?? shown[frame] ?? null);
+  }
+
+  #shownPoses(component: ComponentName): readonly (PoseNumbers | null)[] {
+    const { doc } = this.#services.store;
+    return doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
+  }
+
+  /** Null where the axes are not known: then edges alone decide. */
+  #known(poses: readonly (PoseNumbers | null)[]): Femurs | null {
+    const { femur, tibia } = this.#services.store.doc.components;
+    const areTold = femur.axes && tibia.axes && femur.axes.told !== 'nothing' && tibia.axes.told !== 'nothing';
+    if (!areTold || !femur.axes || !tibia.axes || poses.every((pose) => pose === null)) return null;
+    return { poses, axes: femur.axes.directions, own: tibia.axes.directions };
+  }
+
+  #answers({ component, span }: Part, film: readonly FollowedFrame[], stopped: boolean): readonly Followed[] {
+    const { doc } = this.#services.store;
+    return film.flatMap((one, index) => {
+      const frame = doc.frames[index];
+      const isInside = index >= span.first && index <= span.last && one.state !== 'fixed';
+      // What was not reached before somebody stopped it is as it was.
+      if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
+      const place: Place = { frameId: frame.id, component };
+      const { pose, deviations, residual, because } = one;
+      return [{ place, pose, deviations, residual, because, doubtful: one.state === 'doubtful', from: span.key(index) }];
+    });
+  }
+}
+
+function counting(report: (done: number, total: number) => void, total: number): () => void {
+  let done = 0;
+  return () => report(Math.min(++done, total), total);
+}
+
+function isDoubtful({ pose, doubtful }: Followed): boolean {
+  return pose !== null && doubtful;
+}

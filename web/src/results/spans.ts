@@ -1,0 +1,59 @@
+import { isFollowed, isFree } from '../document/followed';
+import { checkState, markOf } from '../document/marks';
+import { cellOf, chosenCandidate, type Doc } from '../document/types';
+import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
+
+/** Frames that a component is to be followed over, from those that a person set. */
+export interface Span {
+  readonly first: number;
+  readonly last: number;
+  /** Frames in it that nobody set. */
+  readonly free: number;
+  readonly given: readonly Given[];
+  /** What a frame is followed from, as text: where that has changed it is followed again. */
+  readonly key: (frame: number) => string;
+}
+
+export interface Given {
+  readonly frame: number;
+  readonly pose: PoseNumbers;
+}
+
+/** Null where nothing is to be done: no frame is set, or all that lies between is followed from those that are. */
+export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
+  const given = givenPoses(doc, component);
+  if (given.length === 0) return null;
+  const key = (frame: number) => {
+    const before = given.filter((one) => one.frame <= frame).at(-1);
+    const after = given.find((one) => one.frame >= frame);
+    return [before, after].flatMap((one) => (one ? [keyOf(one)] : [])).join(' and ');
+  };
+  const stale = doc.frames.flatMap(({ id }, frame) => {
+    const cell = cellOf(doc, id, component);
+    const isSet = given.some((one) => one.frame === frame);
+    const isDone = isFollowed(cell.result) && cell.result?.origin.endsWith(key(frame));
+    return isSet || !isFree(cell) || isDone ? [] : [frame];
+  });
+  const [from, to] = [stale[0], stale.at(-1)];
+  if (from === undefined || to === undefined) return null;
+  const first = given.filter((one) => one.frame < from).at(-1)?.frame ?? 0;
+  const last = given.find((one) => one.frame > to)?.frame ?? doc.frames.length - 1;
+  const inside = given.filter(({ frame }) => frame >= first && frame <= last);
+  return { first, last, free: stale.length, given: inside, key };
+}
+
+/** Poses that a person set, traced, opened or checked. */
+function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
+  return doc.frames.flatMap(({ id }, frame) => {
+    const cell = cellOf(doc, id, component);
+    const isChecked = checkState(cell, markOf(doc, { frameId: id, component })) === 'yes';
+    const pose = chosenCandidate(cell)?.pose;
+    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose }] : [];
+  });
+}
+
+function keyOf({ frame, pose }: Given): string {
+  const { x, y, z, zRot, xRot, yRot } = pose;
+  return `frame ${frame + 1} at ${[x, y, z, zRot, xRot, yRot].map((number) => number.toFixed(3)).join(' ')}`;
+}

@@ -1,0 +1,18 @@
+/** English of following a film. */
+export const follow = {
+  button: 'Follow',
+  stop: 'Stop',
+  title: 'Follow both components through the film from the frames that are set (Shift+F)',
+  stopTitle: 'Stop following, and keep what was found (Shift+F)',
+  job: 'Following the film',
+  unit: 'frames',
+  source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
+  oneFrame: 'There is no film to follow: open at least two frames.',
+  sizes: 'The frames have different sizes: a film has one.',
+  noCalibration: 'The calibration is missing: without it no pose can be followed.',
+  noneSet: 'Nothing to follow from: click the femur or the tibia in one frame first.',
+  allSet: 'Every frame is followed already from those that are set.',
+  gone: (frame: number) => `Frame ${frame} is gone: following stopped there.`,
+  done: (posed: number, doubtful: number, stopped: boolean) =>
+    `${stopped ? 'Stopped: ' : ''}${posed} ${posed === 1 ? 'pose' : 'poses'} found${doubtful > 0 ? `, ${doubtful} of them doubtful: N goes from one to the next` : ''}.`,
+};

@@ -1,0 +1,57 @@
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { Directions } from '../../geometry/axes';
+import type { ModelMesh } from './decode';
+import type { CameraInput } from './camera';
+import type { FramePixels } from './frame_pixels';
+
+/** Follows one component through a film: one worker a component. Frames are numbered from 0. */
+export interface FollowProtocol {
+  /** Gives the first frame that is to be looked at; null where there is none. */
+  begin: { input: FollowInput; output: number | null; progress: never };
+  /** Looks at the frame that was asked for. */
+  look: { input: FramePixels; output: Seen; progress: never };
+  /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
+  sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
+  /** Distances from the camera, mm; NaN where the component is not to be trusted. */
+  depths: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
+  conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
+}
+
+export interface FollowInput {
+  readonly mesh: ModelMesh;
+  readonly camera: CameraInput;
+  readonly frames: number;
+  readonly first: number;
+  readonly last: number;
+  /** Poses that a person set: they stay. */
+  readonly given: readonly { readonly frame: number; readonly pose: PoseNumbers }[];
+  /** What the film makes of the component; null where that is not known. */
+  readonly film: readonly number[] | null;
+}
+
+export interface Seen {
+  /** Where the component was found in the frame. */
+  readonly pose: PoseNumbers | null;
+  /** The frame that is to be looked at next; null where this part of the work is done. */
+  readonly next: number | null;
+}
+
+/** The femoral poses of all frames, and the axes of both models. */
+export interface Femurs {
+  readonly poses: readonly (PoseNumbers | null)[];
+  readonly axes: Directions;
+  readonly own: Directions;
+}
+
+export type FollowState = 'fixed' | 'followed' | 'interpolated' | 'doubtful' | 'untrackable' | 'unsolved';
+
+export interface FollowedFrame {
+  readonly state: FollowState;
+  /** A sentence without its full stop. */
+  readonly because: string;
+  readonly pose: PoseNumbers | null;
+  readonly deviations: PoseNumbers | null;
+  readonly residual: number | null;
+  /** How bad it is: above 1 it is doubtful. */
+  readonly badness: number;
+}
