@@ -12,6 +12,7 @@ import * as tracing from './support/tracing.mjs';
 const MOST_SECONDS = 60;
 const MOST_CLICKS = 12;
 const MOST_CLICKS_OF_A_POLYGON = 40;
+const FRAMES = 8;
 
 /** Some thirty clicks, each up to 2.5 px off. */
 const QUICK = { x: 0.6, y: 0.6, z: 12, zRot: 1.2, xRot: 1.5, yRot: 1.5 };
@@ -33,7 +34,10 @@ pageTest('a new user with one click', async (page, t) => {
   await until(() => panel.shownPose(page), (shown) => shown === null, 'outline and pose to be gone together');
   await page.keyboard.press('Control+y');
   await panel.waitForThePose(page, pose);
-  if (!IN_FIREFOX) await withTheOther(page, t);
+  if (!IN_FIREFOX) {
+    await step(page, t, 'the pose is followed through the film', () => followed(page, pose));
+    await withTheOther(page, t);
+  }
 });
 
 /** The film that both components tell corrects the pose that was there. @param {Page} page @param {import('node:test').TestContext} t */
@@ -86,6 +90,22 @@ if (!IN_FIREFOX) {
     await stage.learn();
     await pinch(page, stage);
   });
+}
+
+/** From the one frame that is set over all others, as one step back. @param {Page} page @param {import('./support/study.mjs').Pose} first */
+async function followed(page, first) {
+  await page.getByRole('button', { name: 'Follow', exact: true }).click();
+  const count = (/** @type {readonly string[]} */ cells) => cells.filter((cell) => /femur: followed/.test(cell)).length;
+  const followed = await until(() => panel.cells(page), (cells) => count(cells) > 0, 'frames to be followed');
+  assert.equal(count(followed), FRAMES - 1, followed.join('; '));
+  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
+  const last = await until(() => panel.shownPose(page), (shown) => shown !== null && shown.x !== first.x, 'the last pose');
+  assert(last);
+  panel.assertNear(last, await truePose('femur', FRAMES), tracing.BY_EDGES);
+  await page.getByRole('button', { name: 'Undo: follow through the film' }).click();
+  await until(() => panel.cells(page), (cells) => count(cells) === 0, 'followed poses to be gone together');
+  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('d');
+  await panel.waitForThePose(page, first);
 }
 
 /** Presses and seconds of a way through the page. @param {Page} page @param {() => Promise<import('./support/study.mjs').Pose>} way */

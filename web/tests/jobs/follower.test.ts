@@ -1,0 +1,136 @@
+import { describe, expect, it } from 'vitest';
+import { addFrames, setCalibration, setModel } from '../../src/document/commands';
+import { toggleChecked } from '../../src/document/marks';
+import { setPoseByHand } from '../../src/document/hand_poses';
+import { readSession, writeSession } from '../../src/document/session/session';
+import { Store } from '../../src/document/store';
+import { cellOf, chosenCandidate } from '../../src/document/types';
+import type { PoseNumbers } from '../../src/geometry/pose_numbers';
+import { Follower } from '../../src/jobs/follower';
+import type { FollowInput, FollowedFrame } from '../../src/workers/protocol/follow';
+
+const FRAMES = 6;
+const poseOf = (x: number): PoseNumbers => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
+const place = (frame: number) => ({ frameId: `f${frame}`, component: 'femur' as const });
+
+/** A worker that finds the component in every frame but those it is told, ten to the right of the first given pose. */
+function worker(missing: readonly number[]) {
+  const begun: FollowInput[] = [];
+  let input: FollowInput | null = null;
+  let seen: number[] = [];
+  const rest = () => {
+    const { first, last, given } = input!;
+    const isOpen = (frame: number) => !seen.includes(frame) && !given.some((one) => one.frame === frame);
+    return Array.from({ length: last - first + 1 }, (_, k) => first + k).find(isOpen) ?? null;
+  };
+  const answer = (frame: number): FollowedFrame => {
+    const given = input!.given.find((one) => one.frame === frame);
+    const isThere = seen.includes(frame) && !missing.includes(frame);
+    const state = given ? 'fixed' : isThere ? (frame === 4 ? 'doubtful' : 'followed') : seen.includes(frame) ? 'untrackable' : 'unsolved';
+    const pose = given?.pose ?? (isThere ? poseOf(10 + frame) : null);
+    return { state, because: `as ${state} says`, pose, deviations: null, residual: 0.2, badness: 0 };
+  };
+  const methods: Record<string, (given: never) => unknown> = {
+    begin: (given: FollowInput) => {
+      begun.push(given);
+      [input, seen] = [given, []];
+      return rest();
+    },
+    look: () => {
+      const frame = rest()!;
+      seen.push(frame);
+      return { pose: poseOf(10 + frame), next: rest() };
+    },
+    sides: () => null,
+    depths: () => new Float64Array(FRAMES),
+    conclude: () => Array.from({ length: FRAMES }, (_, frame) => answer(frame)),
+  };
+  let gate: { readonly frame: number; readonly then: () => void } | null = null;
+  const call = async (method: string, given: unknown) => {
+    const frame = method === 'look' ? rest() : null;
+    const answer = methods[method]!(given as never);
+    if (gate && frame === gate.frame) gate.then();
+    return answer;
+  };
+  return { begun, call, stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+}
+
+function bench(missing: readonly number[] = []) {
+  const store = new Store();
+  const frames = Array.from({ length: FRAMES }, (_, k) => ({ id: `f${k}`, name: `f${k}`, source: 's', indexInSource: k, width: 8, height: 8 }));
+  store.perform(addFrames(frames));
+  store.perform(setCalibration({ name: 'c', text: 'c' }));
+  store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
+  const mesh = { vertices: new Float32Array(), triangles: new Uint32Array() };
+  const studio = { framePixels: () => new Uint8Array(64), meshOf: () => mesh };
+  const femur = worker(missing);
+  const workers = { femur, tibia: worker([]) };
+  const follower = new Follower({ store, studio } as never, workers as never);
+  const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
+  return { store, follower, femur, xs };
+}
+
+describe('following', () => {
+  it('asks for a frame that is set, and changes nothing', async () => {
+    const { store, follower, xs } = bench();
+    await follower.follow();
+    expect(store.ui.notice?.text).toContain('click the femur or the tibia');
+    expect(xs()).toEqual(Array(FRAMES).fill(null));
+  });
+
+  it('fills the frames that nobody set as one step back, with verdicts and what was not found', async () => {
+    const { store, follower, xs } = bench([5]);
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    await follower.follow();
+    expect(xs()).toEqual([10, 0, 12, 13, 14, null]);
+    expect(store.ui.notice?.text).toBe('4 poses found, 1 of them doubtful: N goes from one to the next.');
+    expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' } });
+    expect(cellOf(store.doc, 'f5', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'As untrackable says.' });
+    store.undo();
+    expect(xs()).toEqual([null, 0, null, null, null, null]);
+    store.redo();
+    expect(xs()[2]).toBe(12);
+  });
+
+  it('does again only what lies beside a frame that was corrected', async () => {
+    const { store, follower, femur, xs } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    store.perform(setPoseByHand(place(3), poseOf(3)));
+    await follower.follow();
+    await follower.follow();
+    expect(store.ui.notice?.text).toBe('Every frame is followed already from those that are set.');
+    store.perform(setPoseByHand(place(5), poseOf(5)));
+    await follower.follow();
+    expect(femur.begun.map(({ first, last }) => [first, last])).toEqual([[0, 5], [3, 5]]);
+    expect(xs()).toEqual([0, 11, 12, 3, 14, 5]);
+  });
+
+  it('never changes a followed frame that somebody checked, and goes on from it', async () => {
+    const { store, follower, femur } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    await follower.follow();
+    store.perform(toggleChecked(place(2)));
+    await follower.follow();
+    expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([0, 2]);
+  });
+
+  it('keeps what there is when it is stopped', async () => {
+    const { store, follower, femur, xs } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    femur.stopAt(3, () => void follower.follow());
+    await follower.follow();
+    expect(store.ui.following).toBe(false);
+    expect(store.ui.notice?.text).toBe('Stopped: 3 poses found.');
+    expect(xs()).toEqual([0, 11, 12, 13, null, null]);
+    expect(cellOf(store.doc, 'f5', 'femur').result).toBeNull();
+  });
+
+  it('comes back from a session file', async () => {
+    const { store, follower } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    await follower.follow();
+    const view = { frameIndex: 0, component: 'femur', overlayOpacity: 0.5 } as const;
+    const text = writeSession({ doc: store.doc, view, files: [], audit: null }, 'test', new Date(0)).join('');
+    expect(cellOf(readSession(text).doc, 'f2', 'femur').result).toEqual(cellOf(store.doc, 'f2', 'femur').result);
+  });
+});
