@@ -97,14 +97,17 @@ impl<'a> Known<'a> {
     /// Disagreement between a view and the known outline: the length of the view's outline that lies in
     /// known pixels but not on the outline, and the length of the known outline that is not
     /// covered, as a fraction of the latter's length. 0 where they agree; distances count by their
-    /// square, up to `cap` pixel widths. Only one point in `every` is compared.
+    /// square, up to `cap` pixel widths. Only one point in `every` is compared. Infinite where it is certain to exceed `limit`.
     pub(super) fn disagreement(
         &self,
         view: &OutlinePoints<'_>,
         similarity: &Similarity,
         cap: f64,
         every: usize,
+        limit: f64,
     ) -> f64 {
+        // With some to spare for rounding.
+        let most = limit * self.outline.length * (1.0 + 1e-9);
         let scale = similarity.scale();
         let (mut wrong, mut right) = (0.0, 0.0);
         for piece in view.pieces() {
@@ -119,6 +122,9 @@ impl<'a> Known<'a> {
                     }
                 };
                 wrong += off * length;
+                if wrong > most {
+                    return f64::INFINITY;
+                }
                 right += (1.0 - off) * length;
             }
         }
@@ -295,16 +301,23 @@ mod tests {
             let hidden = hidden(from);
             let hidden = Mask::new(&hidden, SIDE, SIDE).expect("valid");
             with_known(&hidden, |known, view| {
-                let own = known.disagreement(view, &NOTHING, 5.0, 1);
+                let own = known.disagreement(view, &NOTHING, 5.0, 1, f64::INFINITY);
                 assert!(own < 0.05, "{own} of what is left of {from}");
                 let away = Similarity {
                     offset: [300.0, 0.0],
                     ..NOTHING
                 };
-                assert!((known.disagreement(view, &away, 5.0, 1) - 1.0).abs() < 1e-9);
+                assert!(
+                    (known.disagreement(view, &away, 5.0, 1, f64::INFINITY) - 1.0).abs() < 1e-9
+                );
                 for offset in [[3.0, 0.0], [0.0, -3.0]] {
                     let moved = Similarity { offset, ..NOTHING };
-                    let off = known.disagreement(view, &moved, 5.0, 1);
+                    let off = known.disagreement(view, &moved, 5.0, 1, f64::INFINITY);
+                    // What stays below a limit is what it is without one.
+                    for limit in [0.5 * off, off, 2.0 * off] {
+                        let within = known.disagreement(view, &moved, 5.0, 1, limit);
+                        assert!(within == off || (limit < off && within == f64::INFINITY));
+                    }
                     assert!(off > own + 0.1, "{off} at {offset:?}");
                 }
             });

@@ -89,8 +89,15 @@ impl PartialSearch<'_> {
         for piece in outline.pieces() {
             for window in self.levels.windows() {
                 for fit in self.places(view, &piece, window, numbers) {
-                    let hypothesis =
-                        self.judged(view, &outline, fit.similarity, self.units.wide, FIRST_LOOK);
+                    let (similarity, limit) = (fit.similarity, last_score(&rough));
+                    let hypothesis = self.judged(
+                        view,
+                        &outline,
+                        similarity,
+                        self.units.wide,
+                        FIRST_LOOK,
+                        limit,
+                    );
                     self.keep(&mut rough, hypothesis);
                 }
             }
@@ -99,7 +106,14 @@ impl PartialSearch<'_> {
             let improved = self.improved(view, &outline, hypothesis.similarity, &COARSE_CAPS);
             self.keep(
                 &mut refined,
-                self.judged(view, &outline, improved, self.units.narrow, 1),
+                self.judged(
+                    view,
+                    &outline,
+                    improved,
+                    self.units.narrow,
+                    1,
+                    f64::INFINITY,
+                ),
             );
         }
         refined
@@ -155,11 +169,15 @@ impl PartialSearch<'_> {
         similarity: Similarity,
         cap: f64,
         every: usize,
+        limit: f64,
     ) -> Hypothesis {
+        let score = self
+            .known
+            .disagreement(outline, &similarity, cap, every, limit);
         Hypothesis {
             view,
             similarity,
-            score: self.known.disagreement(outline, &similarity, cap, every),
+            score,
         }
     }
 
@@ -199,7 +217,8 @@ impl PartialSearch<'_> {
                 let (from, to) = (self.library.record(centre.view), self.library.record(view));
                 let start = transfer(&from, &to, &centre.similarity);
                 let improved = self.improved(view, &outline, start, &FINE_CAPS);
-                let hypothesis = self.judged(view, &outline, improved, self.units.narrow, 1);
+                let (cap, limit) = (self.units.narrow, best.score);
+                let hypothesis = self.judged(view, &outline, improved, cap, 1, limit);
                 if hypothesis.score < best.score {
                     best = hypothesis;
                 }
@@ -216,6 +235,12 @@ impl PartialSearch<'_> {
         let y = y.checked_add_signed(down).filter(|&y| y < grid.y.count)?;
         Some(grid.view(x, y))
     }
+}
+
+/// What the score of a hypothesis must be below to have a place in a list.
+fn last_score(list: &Vec<Hypothesis, PER_VIEW>) -> f64 {
+    let last = list.last().filter(|_| list.is_full());
+    last.map_or(f64::INFINITY, |last| last.score)
 }
 
 /// Samples by which two places along a view differ at least.

@@ -93,7 +93,12 @@ pub(super) fn slide<const K: usize>(
     let mut moments = Moments::new(view, count);
     for (shift, (&re, &im)) in re.iter().zip(&*im).enumerate() {
         let product = [f64::from(re), f64::from(im)];
-        let fit = moments.fit(shift, product, own, mean, how.stretch);
+        // What is no better than the last of a full list is not inserted, whatever is near it.
+        let limit = match best.last() {
+            Some(last) if best.is_full() => last.residual,
+            _ => f64::INFINITY,
+        };
+        let fit = moments.fit(shift, product, own, mean, how.stretch, limit);
         moments.advance(view, shift, count);
         if let Some(fit) = fit {
             insert(best, fit.scaled(scale), how.apart);
@@ -108,16 +113,43 @@ pub(super) fn slide<const K: usize>(
 fn correlate(z: Samples<'_>, mean: [f32; 2], w: Samples<'_>, re: &mut [f32], im: &mut [f32]) {
     re.fill(0.0);
     im.fill(0.0);
+    let (fours_x, rest_x) = z.x.as_chunks::<FOUR>();
+    let (fours_y, rest_y) = z.y.as_chunks::<FOUR>();
+    let centred = |x: f32, y: f32| [x - mean[0], y - mean[1]];
+    let mut index = 0;
+    for (x, y) in fours_x.iter().zip(fours_y) {
+        let z: [_; FOUR] = core::array::from_fn(|k| centred(x[k], y[k]));
+        add_products(z, w, index, re, im);
+        index += FOUR;
+    }
+    for (&x, &y) in rest_x.iter().zip(rest_y) {
+        add_products([centred(x, y)], w, index, re, im);
+        index += 1;
+    }
+}
+
+/// Samples of a window that are taken together, so that sums are read and written once for all of them.
+const FOUR: usize = 4;
+
+/// Adds the products of samples of a window, from number `index` on, to the sums of all places.
+#[inline(always)]
+fn add_products<const N: usize>(
+    z: [[f32; 2]; N],
+    w: Samples<'_>,
+    index: usize,
+    re: &mut [f32],
+    im: &mut [f32],
+) {
     let places = re.len();
-    for (index, (&x, &y)) in z.x.iter().zip(z.y).enumerate() {
-        let (x, y) = (x - mean[0], y - mean[1]);
-        let Some(w) = w.part(index, index + places) else {
-            return;
-        };
-        let sums = re.iter_mut().zip(im.iter_mut());
-        for ((re, im), (&u, &v)) in sums.zip(w.x.iter().zip(w.y)) {
-            *re += x * u + y * v;
-            *im += x * v - y * u;
+    let Some(w) = w.part(index, index + places + N - 1) else {
+        return;
+    };
+    let views = w.x.array_windows::<N>().zip(w.y.array_windows::<N>());
+    for ((re, im), (u, v)) in re.iter_mut().zip(im.iter_mut()).zip(views) {
+        for k in 0..N {
+            let [x, y] = z[k];
+            *re += x * u[k] + y * v[k];
+            *im += x * v[k] - y * u[k];
         }
     }
 }
@@ -168,7 +200,7 @@ impl Moments {
     }
 
     /// The best similarity at a place: `z -> a z + b` takes the window to the view with
-    /// `a = product / own`, and its inverse takes the view to the window.
+    /// `a = product / own`, and its inverse takes the view to the window. None where the residual is not below `limit`.
     fn fit(
         &self,
         shift: usize,
@@ -176,6 +208,7 @@ impl Moments {
         own: f64,
         mean: [f64; 2],
         stretch: f64,
+        limit: f64,
     ) -> Option<Fit> {
         let square = product[0] * product[0] + product[1] * product[1];
         let theirs =
@@ -184,12 +217,16 @@ impl Moments {
         if !(growth * stretch * stretch >= 1.0 && growth <= stretch * stretch) {
             return None;
         }
+        let residual = ((theirs - square / own) / self.count).max(0.0);
+        if residual >= limit {
+            return None;
+        }
         // 1 / a = own conj(product) / |product|^2
         let factor = [own * product[0] / square, -own * product[1] / square];
         let middle = times(factor, self.sum.map(|sum| sum / self.count));
         Some(Fit {
             shift,
-            residual: ((theirs - square / own) / self.count).max(0.0),
+            residual,
             similarity: Similarity {
                 factor,
                 offset: [mean[0] - middle[0], mean[1] - middle[1]],
@@ -265,7 +302,7 @@ mod tests {
         ((theirs - own * (a[0] * a[0] + a[1] * a[1])) / count, a)
     }
 
-    fn best_fits(window: &[[f64; 2]], view: &[[f64; 2]]) -> Vec<Fit, 40> {
+    fn best_fits<const K: usize>(window: &[[f64; 2]], view: &[[f64; 2]]) -> Vec<Fit, K> {
         let ((zx, zy), (wx, wy)) = (lists(window), lists(view));
         let (mut re, mut im) = ([0.0; 64], [0.0; 64]);
         let mut sums = Sums {
@@ -287,7 +324,7 @@ mod tests {
         ) {
             let view = curve(60, &harmonics);
             let window = curve(60, &others)[5..30].to_vec();
-            for fit in &best_fits(&window, &view) {
+            for fit in &best_fits::<40>(&window, &view) {
                 let under = &view[fit.shift..fit.shift + window.len()];
                 let (residual, a) = naive(&window, under);
                 prop_assert!((fit.residual - residual).abs() < 0.01 + 1e-3 * residual);
@@ -313,7 +350,9 @@ mod tests {
                 [u + x, v + y]
             };
             let window: Points = view[shift..shift + 28].iter().map(image).collect();
-            let best = best_fits(&window, &view);
+            let best = best_fits::<40>(&window, &view);
+            // A short list is the head of a long one.
+            prop_assert_eq!(&best_fits::<3>(&window, &view)[..], &best[..best.len().min(3)]);
             let fit = best.iter().find(|fit| fit.shift == shift).expect("among the best");
             prop_assert!(fit.residual < 0.01, "{}", fit.residual);
             prop_assert!(best[0].residual <= fit.residual);
@@ -327,17 +366,17 @@ mod tests {
     #[test]
     fn what_is_too_short_or_too_large_fits_nowhere() {
         let view = curve(40, &[(9.0, 1.0)]);
-        assert!(best_fits(&view[..2], &view).is_empty());
-        assert!(best_fits(&curve(41, &[]), &view).is_empty());
+        assert!(best_fits::<40>(&view[..2], &view).is_empty());
+        assert!(best_fits::<40>(&curve(41, &[]), &view).is_empty());
         let large: Points = view[..20].iter().map(|p| p.map(|v| 1.5 * v)).collect();
-        let fits = best_fits(&large, &view);
+        let fits = best_fits::<40>(&large, &view);
         assert!(
             fits.iter()
                 .all(|fit| fit.similarity.scale() <= HOW.stretch + 1e-6)
         );
         assert!(fits.iter().all(|fit| fit.shift != 0));
         let point: Points = std::vec![[1.0, 1.0]; 9];
-        assert!(best_fits(&point, &view).is_empty());
+        assert!(best_fits::<40>(&point, &view).is_empty());
     }
 
     #[test]
