@@ -1,6 +1,6 @@
 /** From the empty page to a refined pose, by one click and by a plain polygon; clicks and seconds counted. Fingers on the frame. */
 import assert from 'node:assert/strict';
-import { IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { truePose } from './support/study.mjs';
@@ -99,12 +99,13 @@ async function followed(page, first) {
   const followed = await until(() => panel.cells(page), (cells) => count(cells) > 0, 'frames to be followed');
   assert.equal(count(followed), FRAMES - 1, followed.join('; '));
   for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
-  const last = await until(() => panel.shownPose(page), (shown) => shown !== null && shown.x !== first.x, 'the last pose');
-  assert(last);
+  await atRest(page);
+  const last = await panel.waitForPose(page);
   panel.assertNear(last, await truePose('femur', FRAMES), tracing.BY_EDGES);
   await page.getByRole('button', { name: 'Undo: follow through the film' }).click();
   await until(() => panel.cells(page), (cells) => count(cells) === 0, 'followed poses to be gone together');
   for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('d');
+  await atRest(page);
   await panel.waitForThePose(page, first);
 }
 
