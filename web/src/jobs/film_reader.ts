@@ -4,7 +4,6 @@ import { CONSTANTS, withKnownFilm } from '../document/film';
 import { setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
-import type { PoseNumbers } from '../geometry/pose_numbers';
 import { corrected, isNear, isNews, meetsFrames, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
@@ -109,7 +108,8 @@ export class FilmReader {
   }
 
   #witnesses(): readonly Witness[] {
-    return witnesses(this.#services.store.doc, (component, frame) => this.#isReady(component, frame));
+    const { doc } = this.#services.store;
+    return witnesses(doc, (component, frame) => this.#isReady(component, frame), (key) => this.#entries.has(key));
   }
 
   #isReady(component: ComponentName, frame: FrameEntry): boolean {
@@ -118,10 +118,14 @@ export class FilmReader {
     return model !== null && store.ui.libraries[component].state === 'ready' && studio.hasFrame(frame.id);
   }
 
-  /** Is there a pose that was not asked, or was one asked that is gone? */
+  /** Are there poses enough that were not asked, one that lies elsewhere now, or was one asked that is gone? */
   #isOpen(here: readonly Witness[]): boolean {
-    const known = ({ key, pose }: Witness) => isNear(this.#entries.get(key)?.witness.pose ?? FAR, pose);
-    return here.some((witness) => !known(witness)) || this.#gone(here).length > 0;
+    const entries = [...this.#entries.values()];
+    const isMoved = ({ key, pose }: Witness) => !isNear(this.#entries.get(key)?.witness.pose ?? pose, pose);
+    const fresh = here.filter(({ key }) => !this.#entries.has(key));
+    const isFirst = ({ component }: Witness) => !entries.some(({ witness }) => witness.component === component);
+    const isEnough = fresh.length > 0 && fresh.length >= MORE * entries.length;
+    return isEnough || fresh.some(isFirst) || here.some(isMoved) || this.#gone(here).length > 0;
   }
 
   #gone(here: readonly Witness[]): readonly Witness[] {
@@ -230,7 +234,8 @@ export class FilmReader {
 
 const MEETING_FRAMES: readonly ToolName[] = ['one-click', 'pose'];
 
-const FAR: PoseNumbers = { x: NaN, y: NaN, z: NaN, zRot: NaN, xRot: NaN, yRot: NaN };
+/** So many more poses, of those that were asked, are worth asking: while a film is followed there is a new one every moment. */
+const MORE = 0.4;
 
 function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' | 'frame'> {
   return { component, frame };

@@ -30,7 +30,7 @@ export function meetsFrames(doc: Doc): boolean {
  * The cells that tell of the film. What somebody only placed by hand does not: it may lie anywhere. What is doubtful does where
  * nothing better does, unless somebody checked it: a tray on the wrong rim would bend the film to explain it.
  */
-export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean): readonly Witness[] {
+export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean, isKnown: (key: string) => boolean = () => false): readonly Witness[] {
   return COMPONENT_NAMES.flatMap((component) => {
     const found = doc.frames.flatMap((entry, frame): Witness[] => {
       const candidate = toldBy(doc, component, entry);
@@ -41,13 +41,16 @@ export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: F
       return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful }];
     });
     const good = found.filter(({ isDoubtful }) => !isDoubtful);
-    return (good.length > 0 ? good : found).slice(0, FRAMES);
+    const told = good.length > 0 ? good : found;
+    // Who was asked before stays, wherever others come.
+    return told.toSorted((a, b) => Number(isKnown(b.key)) - Number(isKnown(a.key))).slice(0, FRAMES);
   });
 }
 
 function toldBy(doc: Doc, component: ComponentName, frame: FrameEntry): Candidate | null {
   const { result, outline, resultOf } = cellOf(doc, frame.id, component);
-  if (result?.kind !== 'posed') return null;
+  // What was followed rests on the film as it was known then.
+  if (result?.kind !== 'posed' || result.from === 'film') return null;
   const candidate = result.candidates[result.chosen];
   if (!candidate || (candidate.residual === null && result.from !== 'file')) return null;
   const isCurrent = result.from !== 'outline' || (resultOf === outline && result.origin === poseKey(doc, component, frame));

@@ -105,6 +105,20 @@ describe('the reader of the film', () => {
     expect([asked.length, corrected.length]).toEqual([3, 4]);
   });
 
+  it('asks once two fifths more have come', async () => {
+    const { store, asked } = bench();
+    const ids = ['c', 'd', 'e', 'f', 'g'];
+    store.perform(addFrames(ids.map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 }))));
+    for (const id of ['a', 'b', 'c', 'd', 'e']) store.perform(clicked(store.doc, id));
+    await rest();
+    store.perform(clicked(store.doc, 'f'));
+    await rest();
+    expect(asked.map(({ read }) => read.length)).toEqual([5]);
+    store.perform(clicked(store.doc, 'g'));
+    await rest();
+    expect(asked.map(({ read }) => read.length)).toEqual([5, 2]);
+  });
+
   it('forgets a pose that is taken away, and goes back with undo', async () => {
     const { store, asked } = bench([0.026, 0.03, null, 0.03]);
     store.perform(clicked(store.doc));

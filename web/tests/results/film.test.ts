@@ -45,12 +45,22 @@ describe('who tells of the film', () => {
     expect(names(posed(BARE, 'a', { from: 'file', candidates: placed }))).toEqual(['a']);
     expect(names(posed(BARE, 'a', { origin: 'another library' }))).toEqual([]);
     expect(witnesses(posed(BARE, 'a'), () => false)).toEqual([]);
+    expect(names(posed(BARE, 'a', { from: 'film' }))).toEqual([]);
   });
 
   it('doubtful poses do where nothing better does', () => {
     const doubtful = posed(BARE, 'a', { verdict: RIVAL });
     expect(names(doubtful)).toEqual(['a']);
     expect(names(posed(doubtful, 'b'))).toEqual(['b']);
+  });
+
+  it('are sixteen of a component, and those that were asked stay', () => {
+    const ids = Array.from({ length: 20 }, (_, index) => `f${index}`);
+    const [frame] = BARE.frames;
+    const many = ids.reduce((doc, id) => posed(doc, id), { ...BARE, frames: ids.map((id) => ({ ...frame!, id })) });
+    expect(names(many)).toEqual(ids.slice(0, 16));
+    const last = cellKey('f19', 'femur');
+    expect(witnesses(many, () => true, (key) => key === last).map(({ frameId }) => frameId)).toEqual(['f19', ...ids.slice(0, 15)]);
   });
 
   it('a pose is asked again where it lies elsewhere', () => {
