@@ -57,7 +57,7 @@ describe('who tells of the film', () => {
   it('are sixteen of a component, and those that were asked stay', () => {
     const ids = Array.from({ length: 20 }, (_, index) => `f${index}`);
     const [frame] = BARE.frames;
-    const many = ids.reduce((doc, id) => posed(doc, id), { ...BARE, frames: ids.map((id) => ({ ...frame!, id })) });
+    const many = ids.reduce<Doc>((doc, id) => posed(doc, id), { ...BARE, frames: ids.map((id) => ({ ...frame!, id })) });
     expect(names(many)).toEqual(ids.slice(0, 16));
     const last = cellKey('f19', 'femur');
     expect(witnesses(many, () => true, (key) => key === last).map(({ frameId }) => frameId)).toEqual(['f19', ...ids.slice(0, 15)]);
