@@ -6,8 +6,8 @@ import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, polygonWithin, trueOutline, truePose } from './support/study.mjs';
 
-/** How far a point is dragged off the border, px of the frame. */
-const OFF = 6;
+/** How far a point is dragged off the border, px of the frame: it outweighs that another view may show the outline then. */
+const OFF = 28;
 
 pageTest('from the demonstration to a pose', async (page, t) => {
   const stage = new Stage(page);
