@@ -142,8 +142,7 @@ impl Following {
                 });
                 Ok(Some(own))
             }
-            Task::Walk(walk) => Ok(walk.take(subject, image, &self.middle, memory)),
-            Task::Span(span) => Ok(span.take(subject, image, &self.middle, memory)),
+            Task::Walk(_) | Task::Span(_) => Ok(task.go_on(subject, image, &self.middle, memory)),
         }
     }
 

@@ -92,7 +92,9 @@ pub fn mirrored_runs<'s>(
 }
 
 fn best_mirrored(samples: &[SideSample]) -> Option<Anchor> {
-    let mirrored = samples.iter().filter_map(|sample| {
+    // What a person gave stays, even where the film speaks for the other side.
+    let free = samples.iter().filter(|sample| !sample.fixed);
+    let mirrored = free.filter_map(|sample| {
         Some(Anchor {
             frame: sample.frame,
             found: sample.mirrored?,
@@ -111,4 +113,53 @@ pub fn side_margin(samples: &[SideSample], steps: &[SideStep], frame: usize) -> 
     samples[nearest]
         .has_other_side()
         .then(|| steps[nearest].margin)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::contrast::Contrast;
+    use crate::follow::sides::choose_sides;
+    use crate::math::rotation_by;
+    use crate::refine::Fit;
+    use std::vec::Vec;
+
+    fn pose(turn: f64, misfit_px: f64) -> FramePose {
+        FramePose {
+            pose: Pose {
+                rotation: rotation_by(&[0.0, turn, 0.0]),
+                translation: [0.0, 0.0, -1000.0],
+            },
+            covariance: None,
+            fit: Fit::default(),
+            misfit_px,
+            contrast: Contrast {
+                step: 50.0,
+                strength: 1.0,
+                known: 1.0,
+            },
+        }
+    }
+
+    /// A film that speaks for the other side in all frames but the one that a person gave.
+    #[test]
+    fn a_pose_that_a_person_gave_is_no_place_to_go_over() {
+        let samples: Vec<SideSample> = (0..6)
+            .map(|frame| SideSample {
+                frame: 4 * frame,
+                own: pose(0.0, 0.8),
+                // The given frame's mirror image fits best of all.
+                mirrored: Some(pose(0.3, if frame == 0 { 0.1 } else { 0.3 })),
+                fixed: frame == 0,
+            })
+            .collect();
+        let evidence: Vec<SideEvidence> = samples.iter().map(|s| s.evidence(|_| None)).collect();
+        let mut steps = [SideStep::default(); 6];
+        choose_sides(&evidence, &mut steps);
+        let runs: Vec<(Range<usize>, Anchor)> = mirrored_runs(&samples, &steps, 24).collect();
+        assert_eq!(runs.len(), 1);
+        assert_ne!(runs[0].1.frame, 0);
+        assert_eq!(side_margin(&samples, &steps, 1), None);
+        assert!(side_margin(&samples, &steps, 9).is_some());
+    }
 }

@@ -40,6 +40,36 @@ impl Task {
         }
     }
 
+    /// Looks at the next frame of a way; gives its pose, where one was found.
+    pub(super) fn go_on(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        middle: &Vector3,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let (way, which, frame) = self.next()?;
+        let looked = look(subject, image, frame, way.trail(), memory);
+        match self {
+            Self::Walk(walk) => walk.saw(frame, looked, middle),
+            Self::Span(span) => span.saw(which, frame, looked, middle),
+            Self::Given { .. } | Self::BothSides(_) => {}
+        }
+        looked.found.ok()
+    }
+
+    /// The way that goes on, which of both it is in a span, and its next frame.
+    fn next(&self) -> Option<(&Way, usize, usize)> {
+        match self {
+            Self::Walk(walk) => Some((&walk.way, 0, walk.way.next(walk.to)?)),
+            Self::Span(span) => {
+                let (which, frame) = span.next()?;
+                Some((&span.ways[which], which, frame))
+            }
+            Self::Given { .. } | Self::BothSides(_) => None,
+        }
+    }
+
     /// Writes what came of it.
     pub(super) fn write(self, cells: &mut [Cell]) {
         match self {
@@ -93,18 +123,9 @@ impl Walk {
         }
     }
 
-    pub(super) fn take(
-        &mut self,
-        subject: &Subject<'_>,
-        image: &ImageTarget<'_>,
-        middle: &Vector3,
-        memory: &mut RefineMemory<'_>,
-    ) -> Option<FramePose> {
-        let frame = self.way.next(self.to)?;
-        let looked = look(subject, image, frame, self.way.trail(), memory);
+    fn saw(&mut self, frame: usize, looked: Looked, middle: &Vector3) {
         self.way.take(frame, &looked, middle);
         self.seen.push((frame, looked));
-        looked.found.ok()
     }
 }
 
@@ -173,21 +194,14 @@ impl Span {
         }
     }
 
-    pub(super) fn take(
-        &mut self,
-        subject: &Subject<'_>,
-        image: &ImageTarget<'_>,
-        middle: &Vector3,
-        memory: &mut RefineMemory<'_>,
-    ) -> Option<FramePose> {
-        let (which, frame) = self.next()?;
-        let way = &mut self.ways[which];
-        let looked = look(subject, image, frame, way.trail(), memory);
-        way.take(frame, &looked, middle);
-        if let Some(seen) = self.seen.get_mut(frame - self.first) {
+    fn saw(&mut self, which: usize, frame: usize, looked: Looked, middle: &Vector3) {
+        self.ways[which].take(frame, &looked, middle);
+        let seen = frame
+            .checked_sub(self.first)
+            .and_then(|at| self.seen.get_mut(at));
+        if let Some(seen) = seen {
             seen[which] = Some(looked);
         }
-        looked.found.ok()
     }
 
     fn write(self, cells: &mut [Cell]) {
