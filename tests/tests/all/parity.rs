@@ -125,20 +125,10 @@ fn found(part: &Part, case: &Case) -> String {
     let _ = writeln!(text, "      \"verdict\": \"{}\",", decision.verdict.word());
     let _ = writeln!(text, "      \"because\": \"{}\",", decision.verdict);
     let _ = writeln!(text, "      \"chosen\": {},", decision.choice.index);
-    let poses = found.candidates.iter().map(|candidate| {
-        let EulerPose {
-            x_mm,
-            y_mm,
-            z_mm,
-            z_rot_deg,
-            x_rot_deg,
-            y_rot_deg,
-        } = candidate.pose.into();
-        format!(
-            "        {:?}",
-            [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]
-        )
-    });
+    let poses = found
+        .candidates
+        .iter()
+        .map(|candidate| format!("        {}", six(candidate.pose)));
     let _ = write!(
         text,
         "      \"candidates\": [\n{}\n      ]\n    }}",
@@ -195,4 +185,17 @@ fn what_the_native_program_finds() {
         image::found(femur, &on_a_frame)
     );
     assert_snapshot("parity.json", &text);
+}
+
+/// The six numbers of a pose, to the last digit.
+fn six(pose: Pose) -> String {
+    let EulerPose {
+        x_mm,
+        y_mm,
+        z_mm,
+        z_rot_deg,
+        x_rot_deg,
+        y_rot_deg,
+    } = pose.into();
+    format!("{:?}", [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg])
 }

@@ -18,7 +18,7 @@ use fluoropose::search::kernels::Kernels;
 use fluoropose::{Camera, Component, Model};
 use fluoropose_laboratory::files::MaskBuffer;
 
-use super::{Case, Part, SIDE, calibration};
+use super::{Case, Part, SIDE, calibration, six};
 
 /// What a person knows of the film.
 const GIVEN: [f64; 3] = [0.004, 0.8, 0.3];
@@ -42,18 +42,6 @@ fn frame_of(mask: &Mask<'_>) -> Vec<u8> {
         *pixel = 210 - 6 * covered as u8;
     }
     pixels
-}
-
-fn six(pose: Pose) -> String {
-    let EulerPose {
-        x_mm,
-        y_mm,
-        z_mm,
-        z_rot_deg,
-        x_rot_deg,
-        y_rot_deg,
-    } = pose.into();
-    format!("{:?}", [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg])
 }
 
 /// What is found on a frame.
