@@ -161,8 +161,10 @@ export class Follower {
       // What was not reached before somebody stopped it is as it was.
       if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
       const place: Place = { frameId: frame.id, component };
-      const { pose, deviations, residual, because } = one;
-      return [{ place, pose, deviations, residual, because, doubtful: one.state === 'doubtful', from: span.key(index) }];
+      const { pose, deviations, residual } = one;
+      const isLed = span.isDoubtful && one.state === 'followed';
+      const because = isLed ? texts.follow.fromDoubtful : one.because;
+      return [{ place, pose, deviations, residual, because, doubtful: isLed || one.state === 'doubtful', from: span.key(index) }];
     });
   }
 }

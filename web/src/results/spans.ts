@@ -1,6 +1,6 @@
 import { isFollowed, isFree } from '../document/followed';
 import { checkState, markOf } from '../document/marks';
-import { cellOf, chosenCandidate, type Doc } from '../document/types';
+import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 
@@ -11,6 +11,8 @@ export interface Span {
   /** Frames in it that nobody set. */
   readonly free: number;
   readonly given: readonly Given[];
+  /** All of them are doubtful, and so is what they lead to. */
+  readonly isDoubtful: boolean;
   /** What a frame is followed from, as text: where that has changed it is followed again. */
   readonly key: (frame: number) => string;
 }
@@ -18,6 +20,8 @@ export interface Span {
 export interface Given {
   readonly frame: number;
   readonly pose: PoseNumbers;
+  /** It may be wrong, and nobody checked it. */
+  readonly isDoubtful: boolean;
 }
 
 /** Null where nothing is to be done: no frame is set, or all that lies between is followed from those that are. */
@@ -40,17 +44,20 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const first = given.filter((one) => one.frame < from).at(-1)?.frame ?? 0;
   const last = given.find((one) => one.frame > to)?.frame ?? doc.frames.length - 1;
   const inside = given.filter(({ frame }) => frame >= first && frame <= last);
-  return { first, last, free: stale.length, given: inside, key };
+  return { first, last, free: stale.length, given: inside, isDoubtful: given.every((one) => one.isDoubtful), key };
 }
 
-/** Poses that a person set, traced, opened or checked. */
+/** Poses that a person set, traced, opened or checked. Those of a doubtful outline lead only where there is nothing better. */
 function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
-  return doc.frames.flatMap(({ id }, frame) => {
+  const all = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
     const isChecked = checkState(cell, markOf(doc, { frameId: id, component })) === 'yes';
     const pose = chosenCandidate(cell)?.pose;
-    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose }] : [];
+    const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
+    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose, isDoubtful }] : [];
   });
+  const trusted = all.filter(({ isDoubtful }) => !isDoubtful);
+  return trusted.length > 0 ? trusted : all;
 }
 
 function keyOf({ frame, pose }: Given): string {

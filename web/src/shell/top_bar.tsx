@@ -12,8 +12,6 @@ const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
 
 export function TopBar({ state }: { state: State }) {
   const { actions, services } = useApp();
-  const undoStep = nextUndo(state.history);
-  const redoStep = nextRedo(state.history);
   return (
     <header class="top-bar" aria-label={texts.top.region}>
       <h1 class="for-readers">{texts.program}</h1>
@@ -26,8 +24,7 @@ export function TopBar({ state }: { state: State }) {
       </div>
       <div class="bar-buttons">
         <FollowButton state={state} />
-        <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => services.store.undo()} />
-        <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => services.store.redo()} />
+        <UndoAndRedo state={state} />
         <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
           <Icon name="open" /> <span class="word">{texts.top.open}</span>
         </button>
@@ -72,6 +69,18 @@ export function TopBar({ state }: { state: State }) {
         </button>
       </div>
     </header>
+  );
+}
+
+function UndoAndRedo({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const undoStep = nextUndo(state.history);
+  const redoStep = nextRedo(state.history);
+  return (
+    <>
+      <IconButton icon="undo" label={texts.top.undo(undoStep?.label ?? null)} keys="Ctrl+Z" disabled={!undoStep} onClick={() => store.undo()} />
+      <IconButton icon="redo" label={texts.top.redo(redoStep?.label ?? null)} keys="Ctrl+Y" disabled={!redoStep} onClick={() => store.redo()} />
+    </>
   );
 }
 

@@ -7,6 +7,7 @@ export const follow = {
   job: 'Following the film',
   unit: 'frames',
   source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
+  fromDoubtful: 'it was followed from a pose that is doubtful itself: check that one, or set it by hand',
   oneFrame: 'There is no film to follow: open at least two frames.',
   sizes: 'The frames have different sizes: a film has one.',
   noCalibration: 'The calibration is missing: without it no pose can be followed.',

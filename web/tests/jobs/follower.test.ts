@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { addFrames, setCalibration, setModel } from '../../src/document/commands';
+import { addFrames, setCalibration, setModel, withCell } from '../../src/document/commands';
 import { toggleChecked } from '../../src/document/marks';
-import { setPoseByHand } from '../../src/document/hand_poses';
+import { bare, setPoseByHand } from '../../src/document/hand_poses';
 import { readSession, writeSession } from '../../src/document/session/session';
 import { Store } from '../../src/document/store';
-import { cellOf, chosenCandidate } from '../../src/document/types';
+import { cellOf, chosenCandidate, type Posed, verdictOf } from '../../src/document/types';
 import type { PoseNumbers } from '../../src/geometry/pose_numbers';
 import { Follower } from '../../src/jobs/follower';
 import type { FollowInput, FollowedFrame } from '../../src/workers/protocol/follow';
@@ -112,6 +112,21 @@ describe('following', () => {
     store.perform(toggleChecked(place(2)));
     await follower.follow();
     expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([0, 2]);
+  });
+
+  it('calls doubtful what a doubtful outline alone leads to, and leaves it out where there is better', async () => {
+    const { store, follower, femur } = bench();
+    const outline = { points: [], closed: true, unknownSides: [] };
+    const verdict = { word: 'doubtful', because: 'a part of it lies on no edge' } as const;
+    const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [bare(poseOf(0))], chosen: 0, reason: null, decided: true, verdict };
+    store.perform({ label: 'trace', apply: (doc) => withCell(doc, place(0), { outline, result, resultOf: outline }) });
+    await follower.follow();
+    const at = (frame: number) => verdictOf(cellOf(store.doc, `f${frame}`, 'femur').result);
+    expect(at(1)).toMatchObject({ word: 'doubtful', because: expect.stringContaining('followed from a pose that is doubtful') });
+    store.perform(setPoseByHand(place(5), poseOf(5)));
+    await follower.follow();
+    expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([5]);
+    expect(at(1)?.word).toBe('good');
   });
 
   it('keeps what there is when it is stopped', async () => {
