@@ -32,6 +32,8 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
   return (
     <section class="card pose" aria-label={texts.panel.pose.region}>
       {adjusting && <HandNumbers pose={pose} />}
+      {/* Above the verdict, which comes and goes in lines: a button must not move from under the hand. */}
+      {adjusting && <HandButtons cell={cell} adjusting />}
       {pose && !adjusting && (
         <dl class="numbers">
           {QUANTITIES.map((quantity) => (
@@ -50,7 +52,7 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
         <p class="card-note">{pose ? source : needs(cell, missing)}</p>
       </div>
       {cell.result?.kind === 'failed' && <Remedies cell={cell} />}
-      <HandButtons cell={cell} adjusting={adjusting} />
+      {!adjusting && <HandButtons cell={cell} adjusting={false} />}
     </section>
   );
 }
