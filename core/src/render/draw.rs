@@ -11,7 +11,6 @@ use crate::render::project::{Images, Projected, RenderError, VERTICES, project};
 use crate::render::winding;
 
 /// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
-/// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
 /// edges.
 #[must_use]
 pub fn scratch_needed(model: &Model<'_>) -> usize {

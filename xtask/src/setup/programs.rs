@@ -9,6 +9,7 @@ use super::{command, debian};
 struct Program {
     what: &'static str,
     names: &'static [&'static str],
+    /// Any one of these packages provides it; the first that can be had is taken.
     packages: &'static [&'static str],
     /// Environment variable that names the program, for those kept off the PATH.
     variable: &'static str,
@@ -17,12 +18,14 @@ struct Program {
 const CHROMIUM: Program = Program {
     what: "Chromium",
     names: &[
+        // The same engine without windows: a sixth less work.
+        "chromium-headless-shell",
         "chromium",
         "chromium-browser",
         "google-chrome",
         "google-chrome-stable",
     ],
-    packages: &["chromium"],
+    packages: &["chromium-headless-shell", "chromium"],
     variable: "FLUOROPOSE_CHROMIUM",
 };
 
@@ -63,13 +66,20 @@ impl Program {
         if let Some(found) = command::find(self.names) {
             return Ok(found);
         }
-        debian::install(self.what, self.packages)?;
+        self.install()?;
         command::find(self.names).ok_or_else(|| Missing {
             what: self.what.into(),
             why: "its package is installed but the program is not on the PATH".into(),
             remedy: format!("name the program in {}", self.variable),
             tried: true,
         })
+    }
+
+    fn install(&self) -> Result<(), Missing> {
+        let tried = self.packages.iter();
+        let mut tried = tried.map(|package| debian::install(self.what, &[package]));
+        let first = tried.next().unwrap_or(Ok(()));
+        first.or_else(|missing| tried.find(Result::is_ok).unwrap_or(Err(missing)))
     }
 
     fn check_named(&self, named: PathBuf) -> Result<PathBuf, Missing> {

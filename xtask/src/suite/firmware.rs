@@ -102,8 +102,13 @@ fn ensure_alike(host: &str, board: &str) -> Result<usize> {
     Ok(here)
 }
 
-/// The image for the board is united into one piece of code; here that is only waited for.
-const HOST: [&str; 4] = [
+/// The image for the board is optimised as one piece of code; here that would only be waited for, and how it is compiled
+/// must not matter.
+const HOST: [&str; 8] = [
+    "--config",
+    "profile.release.opt-level=0",
+    "--config",
+    "profile.release.debug=false",
     "--config",
     "profile.release.lto='off'",
     "--config",

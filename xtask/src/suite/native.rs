@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 
 use super::counts;
 use super::report::{Report, Said};
@@ -38,28 +38,13 @@ pub(crate) fn run(report: &mut Report) {
         components::ensure("fmt")?;
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
     });
-    report.step("native: lints", || {
+    report.step("native: compiled, with lints", || {
         components::ensure("clippy")?;
-        let lint = [
-            "clippy",
-            "--workspace",
-            "--all-targets",
-            "--release",
-            "--",
-            "-D",
-            "warnings",
-        ];
-        quiet(own_cargo().args(lint))
+        let everything = ["--all-targets", "--no-run"];
+        quiet(&mut checked(&everything)?)
     });
     report.step("native: tests", || {
-        let everything = [
-            "test",
-            "--workspace",
-            "--exclude",
-            "xtask",
-            "--no-fail-fast",
-        ];
-        tests(own_cargo().args(everything).args(CHECKED))
+        tests(&mut checked(&["--no-fail-fast"])?)
     });
     report.step("native: examples of the core", || {
         EXAMPLES.into_iter().try_for_each(|name| {
@@ -87,14 +72,29 @@ pub(crate) fn run(report: &mut Report) {
         ]);
         quiet(cargo.args(packages).env("RUSTDOCFLAGS", "-D warnings"))
     });
-    // By itself it shares with the program that runs here all that this was built from.
-    report.step("native: tests of this program", || {
-        tests(own_cargo().args(["test", "--package", "xtask", "--release"]))
-    });
 }
 
 fn quiet(command: &mut Command) -> Result<Said> {
     Ok(command::run(command)?.into())
+}
+
+/// `cargo test` of the whole workspace, compiled by the linter: it is the compiler with more warnings, so that nothing has
+/// to be compiled a second time for them. All warnings are errors.
+fn checked(options: &[&str]) -> Result<Command> {
+    let linter = command::find(&["clippy-driver"]);
+    let linter = linter.context("no clippy-driver on the PATH: it comes with `cargo clippy`")?;
+    let mut cargo = own_cargo();
+    cargo
+        .args(["test", "--workspace"])
+        .args(CHECKED)
+        .args(options);
+    cargo.env("RUSTC_WORKSPACE_WRAPPER", linter);
+    // As `cargo clippy -- -D warnings` hands it on.
+    cargo.env(
+        "CLIPPY_ARGS",
+        ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),
+    );
+    Ok(cargo)
 }
 
 /// Runs `cargo test` and counts what it ran, and what of that found nothing to check.
