@@ -32,6 +32,7 @@ pageTest('keys and mouse', async (page, t) => {
   });
 
   await step(page, t, 'Ctrl+Z and Ctrl+Y take points back and bring them again', async () => {
+    await page.keyboard.press('p');
     for (const corner of CORNERS) await stage.click(corner);
     await draftHas(page, 3);
     await page.keyboard.press('Control+z');

@@ -96,7 +96,7 @@ if (!IN_FIREFOX) {
 /** From the one frame that is set over all others, as one step back. @param {Page} page @param {import('./support/study.mjs').Pose} first */
 async function followed(page, first) {
   await page.getByRole('button', { name: 'Follow', exact: true }).click();
-  const count = (/** @type {readonly string[]} */ cells) => cells.filter((cell) => /femur: followed/.test(cell)).length;
+  const count = (/** @type {readonly string[]} */ cells) => cells.filter((cell) => /femur: followed(,|$)/.test(cell)).length;
   const followed = await until(() => panel.cells(page), (cells) => count(cells) > 0, 'frames to be followed');
   assert.equal(count(followed), FRAMES - 1, followed.join('; '));
   for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
@@ -134,6 +134,7 @@ async function pinch(page, stage) {
   assert(Math.abs(stage.view.scale / scale - 2) < 0.1, `two fingers twice as far apart zoom ${stage.view.scale / scale} times`);
   assert.equal((await panel.cells(page)).find((cell) => /^Frame 1, femur/.test(cell)), 'Frame 1, femur: empty', 'the first finger drew nothing');
   await page.keyboard.press('0');
+  await page.keyboard.press('p');
   await stage.learn();
   await touch('touchStart', [stage.toPage([400, 300])]);
   await touch('touchEnd', []);

@@ -20,6 +20,7 @@ pageTest('tools and the keyboard', async (page, t) => {
 
 /** @param {Page} page @param {Stage} stage */
 async function draftStays(page, stage) {
+  await page.keyboard.press('p');
   for (const point of /** @type {Point[]} */ ([[400, 400], [600, 400], [600, 600]])) await stage.click(point);
   await panel.waitForWords(page, /^3 points\./);
   for (const key of ['l', 't', 'b', 'k', 'm', 'o', 'v', 'Escape', 'p']) await page.keyboard.press(key);

@@ -161,6 +161,11 @@ impl FilmFollower {
         Ok(())
     }
 
+    /// Ends the work before all is done: what was seen until then counts.
+    pub fn stop(&mut self) {
+        self.following.stop();
+    }
+
     /// How far the component is from the camera in each frame where it is to be trusted, mm; not a number elsewhere.
     pub fn depths(&self) -> Vec<f64> {
         let depths = self.following.depths();

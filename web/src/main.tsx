@@ -33,6 +33,7 @@ import { decodeWorker, filmWorker, followWorker, poseWorker } from './workers/st
 import { texts } from './texts/texts';
 import { Actions } from './commands/actions';
 import { AppContext, type App } from './commands/app';
+import { takeFirstTool } from './commands/first_tool';
 import { guardAgainstLoss } from './keep/guard';
 import { HandActions } from './commands/hand_actions';
 import { Page } from './shell/page';
@@ -79,6 +80,7 @@ async function start(root: HTMLElement): Promise<void> {
     calibrator,
     videos,
   };
+  takeFirstTool(services.store);
   guardAgainstLoss(services.store, keeper);
   keepForOffline(services.store);
   rememberTheme(services.store, document.documentElement);

@@ -157,6 +157,14 @@ impl Following {
         self.tasks.extend(wanted.map(Task::BothSides));
     }
 
+    /// Ends the work before all is done: what its unfinished parts saw counts.
+    pub fn stop(&mut self) {
+        for task in self.tasks.drain(..) {
+            task.write(&mut self.cells);
+        }
+        self.phase = Phase::Over;
+    }
+
     /// The poses so far.
     #[must_use]
     pub fn cells(&self) -> &[Cell] {

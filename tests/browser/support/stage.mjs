@@ -94,8 +94,9 @@ export class Stage {
     await this.learn();
   }
 
-  /** Clicks around the points and closes with a click on the first. @param {Point[]} points */
+  /** With the tool that traces by hand: clicks around the points and closes with a click on the first. @param {Point[]} points */
   async trace(points) {
+    await this.page.keyboard.press('p');
     for (const point of points) await this.click(point);
     await this.click(points[0]);
   }

@@ -191,6 +191,11 @@ export class Actions {
     return true;
   }
 
+  /** What a click found is not right, or a click is not wanted: the next clicks go around the implant. */
+  traceInstead(): void {
+    if (!this.deleteOutline()) this.#store.show({ tool: 'trace' });
+  }
+
   /** The outline was of the other component. */
   giveOutline(to: ComponentName): void {
     const place = currentPlace(this.#store.state);

@@ -24,7 +24,7 @@ export const WORK_KEYS: readonly WorkKey[] = [
   { shown: 'Y', key: 'y', shift: false, command: 'toggle-checked' },
   { shown: 'Shift + Y', key: 'y', shift: true, command: 'toggle-flagged' },
   { shown: 'Shift + J', key: 'j', shift: true, command: 'write-note' },
-  { shown: 'Shift + F', key: 'f', shift: true, command: 'follow-film' },
+  { shown: 'Shift + G', key: 'g', shift: true, command: 'follow-film' },
   { shown: 'J', key: 'j', shift: false, command: 'work-list' },
   { shown: 'Shift + Alt + N', key: 'n', shift: true, alt: true, command: 'start-anew' },
 ];

@@ -2,13 +2,15 @@ import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
-import { type Cell, cellOf, type Doc, type Posed, type Result, type Verdict } from './types';
+import { type Candidate, type Cell, cellOf, type Doc, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 
 /** What following a film gives to cells that nobody worked on. */
 
 /** How the origin of such results begins; the frames that they were followed from come behind it. */
 const FOLLOWED = 'followed from';
+/** The same while the film is still followed: it has not been judged as a whole. */
+const SO_FAR = 'followed so far from';
 
 /** What became of a frame that was looked for a component. */
 export interface Followed {
@@ -35,6 +37,28 @@ export function isFollowed(result: Result | null): boolean {
   return result.kind === 'posed' ? result.from === 'film' : result.origin.startsWith(FOLLOWED);
 }
 
+/** Was it found by following that has not come to its end? */
+export function isSoFar(result: Result | null): boolean {
+  return result?.kind === 'posed' && result.from === 'film' && result.origin.startsWith(SO_FAR);
+}
+
+/** Where the component seems to be in a frame, while the others are looked at. No unit of undo. */
+export function withSoFar(doc: Doc, place: Place, pose: PoseNumbers, from: string): Doc {
+  const cell = cellOf(doc, place.frameId, place.component);
+  if (!isFree(cell)) return doc;
+  const because = texts.follow.soFar;
+  const result = posedBy(`${SO_FAR} ${from}`, bare(pose), { word: 'doubtful', because }, null);
+  return withCell(doc, place, { ...cell, result, resultOf: null });
+}
+
+/** The cells as they were before they were followed so far. */
+export function withoutSoFar(doc: Doc, before: readonly (readonly [Place, Result | null])[]): Doc {
+  return before.reduce((changed, [place, result]) => {
+    const cell = cellOf(changed, place.frameId, place.component);
+    return isSoFar(cell.result) ? withCell(changed, place, { ...cell, result, resultOf: null }) : changed;
+  }, doc);
+}
+
 /** Takes what following found: one step back for all of it. What a person did meanwhile stays. */
 export function takeFollowed(found: readonly Followed[]): Command {
   return { label: texts.steps.follow, apply: (doc) => found.reduce(withFollowed, doc) };
@@ -50,6 +74,9 @@ function resultOf({ pose, deviations, residual, doubtful, because, from }: Follo
   const sentence = `${because.charAt(0).toUpperCase()}${because.slice(1)}.`;
   if (!pose) return { kind: 'failed', origin, sentence };
   const verdict: Verdict = { word: doubtful ? 'doubtful' : 'good', because };
-  const candidates = [{ ...bare(pose), residual, deviations }];
-  return { kind: 'posed', from: 'film', origin, candidates, chosen: 0, reason: sentence, decided: true, verdict } satisfies Posed;
+  return posedBy(origin, { ...bare(pose), residual, deviations }, verdict, sentence);
+}
+
+function posedBy(origin: string, candidate: Candidate, verdict: Verdict, reason: string | null): Posed {
+  return { kind: 'posed', from: 'film', origin, candidates: [candidate], chosen: 0, reason, decided: true, verdict };
 }

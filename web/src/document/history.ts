@@ -70,6 +70,24 @@ export function amend(history: History, change: (doc: Doc) => Doc): History {
   return { ...history, present, gestureStart, saved: amended(history.saved) };
 }
 
+/** Changes every document that undo and redo lead to in the same way. */
+export function everywhere(history: History, change: (doc: Doc) => Doc): History {
+  const known = new Map<Doc, Doc>();
+  const changed = (doc: Doc): Doc => {
+    const after = known.get(doc) ?? change(doc);
+    known.set(doc, after);
+    return after;
+  };
+  const step = (one: Step): Step => ({ ...one, doc: changed(one.doc) });
+  return {
+    past: history.past.map(step),
+    present: changed(history.present),
+    future: history.future.map(step),
+    gestureStart: history.gestureStart && changed(history.gestureStart),
+    saved: changed(history.saved),
+  };
+}
+
 export function undo(history: History): History {
   const quiet = cancelPreview(history);
   const step = quiet.past.at(-1);

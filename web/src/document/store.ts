@@ -94,6 +94,8 @@ export interface Job {
   readonly unit: string;
   readonly startedAt: number;
   readonly cancel: () => void;
+  /** The cell that it is for; missing where it is for more than one. */
+  readonly place?: Place;
 }
 
 export type LibraryState =
@@ -174,6 +176,11 @@ export class Store {
 
   amend(change: (doc: Doc) => Doc): void {
     this.#toHistory(history.amend(this.#state.history, change));
+  }
+
+  /** Of what never was an undo unit: it is changed wherever undo and redo lead, too. */
+  amendEverywhere(change: (doc: Doc) => Doc): void {
+    this.#toHistory(history.everywhere(this.#state.history, change));
   }
 
   undo(): void {

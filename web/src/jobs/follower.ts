@@ -1,7 +1,7 @@
 import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
-import { type Followed, takeFollowed } from '../document/followed';
-import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
+import { type Followed, takeFollowed, withoutSoFar, withSoFar } from '../document/followed';
+import { cellOf, chosenCandidate, type FrameEntry, type Result } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { type Span, spanToFollow } from '../results/spans';
 import { cameraOf } from '../results/keys';
@@ -19,6 +19,8 @@ interface Part {
   readonly component: ComponentName;
   readonly worker: Worker;
   readonly span: Span;
+  /** What was there in frames that were looked at. */
+  readonly before: Map<string, readonly [Place, Result | null]>;
 }
 
 /**
@@ -49,6 +51,8 @@ export class Follower {
     const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
     try {
       const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
+      const before = parts.flatMap((part) => [...part.before.values()]);
+      store.amendEverywhere((doc) => withoutSoFar(doc, before));
       if (found.length > 0) store.perform(takeFollowed(found));
       store.say('info', texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted));
     } catch (error) {
@@ -81,7 +85,7 @@ export class Follower {
     return COMPONENT_NAMES.flatMap((component) => {
       const { model } = store.doc.components[component];
       const span = model && studio.meshOf(model.sha256) ? spanToFollow(store.doc, component) : null;
-      return span ? [{ component, span, worker: this.#workers[component] }] : [];
+      return span ? [{ component, span, worker: this.#workers[component], before: new Map() }] : [];
     });
   }
 
@@ -93,6 +97,7 @@ export class Follower {
     const femurs = femur ? await this.#posesOf(femur) : this.#shownPoses('femur');
     const tibia = parts.find(({ component }) => component === 'tibia');
     if (tibia) await this.#sides(tibia, this.#known(femurs), signal);
+    if (signal.aborted) await Promise.all(parts.map(({ worker }) => worker.call('stop', null)));
     const depths = new Map<ComponentName, Float64Array<ArrayBuffer>>();
     for (const { component, worker } of parts) depths.set(component, await worker.call('depths', null));
     const found: Followed[] = [];
@@ -105,7 +110,8 @@ export class Follower {
   }
 
   /** From the frames that are set over all others. */
-  async #through({ component, worker, span }: Part, signal: AbortSignal, looked: () => void): Promise<void> {
+  async #through(part: Part, signal: AbortSignal, looked: () => void): Promise<void> {
+    const { component, worker, span } = part;
     const { store, studio } = this.#services;
     const { doc } = store;
     const { sha256 } = doc.components[component].model ?? { sha256: '' };
@@ -114,24 +120,35 @@ export class Follower {
     if (!mesh || !camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
     const { first, last, given } = span;
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, film: filmNumbers(doc, component) };
-    await this.#look(worker, await worker.call('begin', begin), signal, looked);
+    await this.#look(part, await worker.call('begin', begin), signal, looked);
   }
 
-  async #sides({ worker }: Part, femurs: Femurs | null, signal: AbortSignal): Promise<void> {
-    if (!signal.aborted) await this.#look(worker, await worker.call('sides', { femurs }), signal, () => undefined);
+  async #sides(part: Part, femurs: Femurs | null, signal: AbortSignal): Promise<void> {
+    if (!signal.aborted) await this.#look(part, await part.worker.call('sides', { femurs }), signal, () => undefined);
   }
 
-  /** Shows the frames that the worker asks for; stops between two of them. */
-  async #look(worker: Worker, first: number | null, signal: AbortSignal, looked: () => void): Promise<void> {
+  /** Shows the frames that the worker asks for; stops between two of them. What is found fills its cell at once. */
+  async #look(part: Part, first: number | null, signal: AbortSignal, looked: () => void): Promise<void> {
     const { store, studio } = this.#services;
     for (let next = first; next !== null && !signal.aborted; ) {
       const frame = store.doc.frames[next];
       const pixels = frame && studio.framePixels(frame.id);
       if (!frame || !pixels) throw new Error(texts.follow.gone(next + 1));
       const { width, height } = frame;
-      ({ next } = await worker.call('look', { pixels, width, height }, { transfer: [pixels.buffer] }));
+      const at = next;
+      const seen = await part.worker.call('look', { pixels, width, height }, { transfer: [pixels.buffer] });
+      next = seen.next;
+      if (seen.pose) this.#fill(part, at, frame.id, seen.pose);
       looked();
     }
+  }
+
+  #fill({ component, span, before }: Part, frame: number, frameId: string, pose: PoseNumbers): void {
+    const { store } = this.#services;
+    if (span.given.some((one) => one.frame === frame)) return;
+    const place = { frameId, component };
+    if (!before.has(frameId)) before.set(frameId, [place, cellOf(store.doc, frameId, component).result]);
+    store.amend((doc) => withSoFar(doc, place, pose, span.key(frame)));
   }
 
   async #posesOf({ worker }: Part): Promise<readonly (PoseNumbers | null)[]> {

@@ -1,5 +1,5 @@
 import { Assets } from '../document/assets';
-import type { Store } from '../document/store';
+import type { Job, Store } from '../document/store';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
 import type { DecodeProtocol } from '../workers/protocol/decode';
@@ -18,17 +18,20 @@ let lastJob = 0;
 /** Shows a job in the page while `task` runs; `task` reports how far it is. */
 export async function asJob<T>(
   store: Store,
-  job: { readonly title: string; readonly unit: string; readonly total: number; readonly cancel: () => void },
+  job: Pick<Job, 'title' | 'unit' | 'total' | 'cancel' | 'place'>,
   task: (report: (done: number, total: number) => void, id: number) => Promise<T>,
 ): Promise<T> {
   const id = ++lastJob;
   const over = work.begin();
   const startedAt = performance.now();
-  const report = (done: number, total: number) => store.setJob({ ...job, id, startedAt, done, total });
+  let isOver = false;
+  // What comes late, of a call that was called off, makes no job anew.
+  const report = (done: number, total: number) => isOver || store.setJob({ ...job, id, startedAt, done, total });
   report(0, job.total);
   try {
     return await task(report, id);
   } finally {
+    isOver = true;
     over();
     store.endJob(id);
   }

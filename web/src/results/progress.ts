@@ -1,10 +1,11 @@
 import type { Place } from '../document/command';
+import { isSoFar } from '../document/followed';
 import { checkState, markOf, type CheckState } from '../document/marks';
 import { type Cell, cellOf, type Doc, type FrameEntry, isByHand, isRefined, type Mark, type Result, verdictOf } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 
 /** How far a cell is, from nothing to a refined pose. */
-export type Stage = 'empty' | 'draft' | 'traced' | 'posed' | 'refined' | 'by hand' | 'followed' | 'pose loaded' | 'no pose';
+export type Stage = 'empty' | 'draft' | 'traced' | 'posed' | 'refined' | 'by hand' | 'followed' | 'followed so far' | 'pose loaded' | 'no pose';
 
 /** All that a list says of a cell. */
 export interface Progress {
@@ -35,14 +36,14 @@ export function progressOf(cell: Cell, mark: Mark, key: string | null): Progress
   };
 }
 
-const POSED: readonly Stage[] = ['posed', 'refined', 'by hand', 'followed', 'pose loaded'];
+const POSED: readonly Stage[] = ['posed', 'refined', 'by hand', 'followed', 'followed so far', 'pose loaded'];
 
 function stageOf({ outline, result }: Cell): Stage {
   if (result?.kind === 'failed') return 'no pose';
   if (result?.kind !== 'posed') return outline ? (outline.closed ? 'traced' : 'draft') : 'empty';
   if (result.from === 'file') return 'pose loaded';
   if (isByHand(result)) return 'by hand';
-  if (result.from === 'film') return 'followed';
+  if (result.from === 'film') return isSoFar(result) ? 'followed so far' : 'followed';
   return isRefined(result) ? 'refined' : 'posed';
 }
 

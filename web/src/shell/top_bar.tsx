@@ -6,6 +6,8 @@ import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component
 import { useApp } from '../commands/app';
 import { Icon } from '../controls/icons';
 import { SavedState } from './saved_state';
+import { StepBar } from './step_bar';
+import { standingOf } from '../results/steps';
 import { texts } from '../texts/texts';
 
 const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
@@ -22,8 +24,9 @@ export function TopBar({ state }: { state: State }) {
           <ComponentChip key={component} state={state} component={component} />
         ))}
       </div>
+      {state.history.present.frames.length > 0 && <StepBar state={state} />}
       <div class="bar-buttons">
-        <FollowButton state={state} />
+        <WayOn state={state} />
         <UndoAndRedo state={state} />
         <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
           <Icon name="open" /> <span class="word">{texts.top.open}</span>
@@ -84,16 +87,25 @@ function UndoAndRedo({ state }: { state: State }) {
   );
 }
 
-/** The step after the first frame: from what is set there over all others. */
-function FollowButton({ state }: { state: State }) {
+/** The one button that leads on: follows the film, and once that is done goes through what is doubtful. */
+function WayOn({ state }: { state: State }) {
   const { actions } = useApp();
-  if (state.history.present.frames.length < 2) return null;
+  const doc = state.history.present;
   const { following } = state.ui;
+  const { step, doubtful } = standingOf(doc);
+  if (step === 'check' && !following) {
+    return (
+      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful)} onClick={() => actions.run({ name: 'work', command: 'next-unfinished' })}>
+        {texts.first.steps.check(doubtful)}
+      </button>
+    );
+  }
+  if (doc.frames.length < 2 || step === 'joint') return null;
   return (
     <button
       type="button"
       class={following ? 'button' : 'button primary'}
-      aria-keyshortcuts="Shift+F"
+      aria-keyshortcuts="Shift+G"
       title={following ? texts.follow.stopTitle : texts.follow.title}
       onClick={() => actions.run({ name: 'work', command: 'follow-film' })}
     >

@@ -11,7 +11,7 @@ import { useApp } from '../commands/app';
 /** One component's cells, a column a frame. */
 export function CellRow({ state, component }: { state: State; component: ComponentName }) {
   const doc = state.history.present;
-  const { frameIndex } = state.ui;
+  const { frameIndex, jobs } = state.ui;
   const keyOf = poseKeys(doc);
   return (
     <tr class={component}>
@@ -24,6 +24,7 @@ export function CellRow({ state, component }: { state: State; component: Compone
           cell={cellOf(doc, frame.id, component)}
           mark={markOf(doc, { frameId: frame.id, component })}
           poseKey={keyOf(component, frame)}
+          isBusy={jobs.some(({ place }) => place?.frameId === frame.id && place.component === component)}
           column={index === frameIndex}
           selected={index === frameIndex && component === state.ui.component}
         />
@@ -39,13 +40,15 @@ interface CellButtonProps {
   readonly cell: Cell;
   readonly mark: ReturnType<typeof markOf>;
   readonly poseKey: string | null;
+  /** Work for it is under way. */
+  readonly isBusy: boolean;
   /** In the current frame. */
   readonly column: boolean;
   readonly selected: boolean;
 }
 
 /** Made again only when something of it changes: a film has hundreds. */
-function CellButton({ component, index, cell, mark, poseKey, column, selected }: CellButtonProps) {
+function CellButton({ component, index, cell, mark, poseKey, isBusy, column, selected }: CellButtonProps) {
   const { store } = useApp().services;
   return useMemo(() => {
     const progress = progressOf(cell, mark, poseKey);
@@ -58,7 +61,8 @@ function CellButton({ component, index, cell, mark, poseKey, column, selected }:
       <td>
         <button
           type="button"
-          class={classOf(progress, column)}
+          class={classOf(progress, column, isBusy)}
+          aria-busy={isBusy}
           aria-label={name}
           aria-current={selected ? 'true' : undefined}
           title={[name, ...detailsOf(progress, cell)].join('; ')}
@@ -68,13 +72,13 @@ function CellButton({ component, index, cell, mark, poseKey, column, selected }:
         </button>
       </td>
     );
-  }, [store, component, index, cell, mark, poseKey, column, selected]);
+  }, [store, component, index, cell, mark, poseKey, isBusy, column, selected]);
 }
 
 /** Everything that is marked has a sign of its own: none is told by colour alone. */
 export function CellSigns({ progress }: { progress: Progress }) {
   const { stage, check, doubtful, outdated, flagged, note } = progress;
-  const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : doubtful ? '?' : outdated ? '!' : '';
+  const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : stage === 'followed so far' ? '…' : doubtful ? '?' : outdated ? '!' : '';
   return (
     <>
       {sign && <span class="cell-sign">{sign}</span>}
@@ -89,15 +93,15 @@ export function lookOf({ stage }: Pick<Progress, 'stage'>): string {
   return `is-${stage.replaceAll(' ', '-')}`;
 }
 
-function classOf(progress: Progress, column: boolean): string {
-  return ['cell', lookOf(progress), column ? 'column' : ''].filter(Boolean).join(' ');
+function classOf(progress: Progress, column: boolean, isBusy: boolean): string {
+  return ['cell', lookOf(progress), column ? 'column' : '', isBusy ? 'busy' : ''].filter(Boolean).join(' ');
 }
 
 /** Whether a pose was refined is a detail; that there is one, and a doubtful one, is what a list is looked through for. */
 function nameOf({ stage, check, doubtful, flagged }: Progress): string {
   const word = stage === 'refined' || stage === 'by hand' ? texts.work.stages.posed : texts.work.stages[stage];
   const checked = check === 'yes' ? texts.work.checked : check === 'changed since' ? texts.work.changedSince : null;
-  return [word, doubtful ? texts.work.marks.doubtful : null, checked, flagged ? texts.work.flagged : null].filter((part) => part !== null).join(', ');
+  return [word, doubtful && stage !== 'followed so far' ? texts.work.marks.doubtful : null, checked, flagged ? texts.work.flagged : null].filter((part) => part !== null).join(', ');
 }
 
 /** What the name leaves out, for the cell's description. */

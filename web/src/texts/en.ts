@@ -4,6 +4,7 @@ import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { files } from './en_files';
 import { film } from './en_film';
+import { first } from './en_first';
 import { follow } from './en_follow';
 import { hand } from './en_hand';
 import { keys } from './en_keys';
@@ -22,6 +23,7 @@ export const en = {
   calibrate,
   files,
   film,
+  first,
   follow,
   hand,
   keys,
@@ -259,6 +261,7 @@ export const en = {
       refined: 'refined',
       'by hand': 'posed by hand',
       followed: 'followed',
+      'followed so far': 'followed so far',
       'pose loaded': 'pose loaded',
       'no pose': 'no pose',
     },

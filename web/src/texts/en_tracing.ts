@@ -92,7 +92,7 @@ export const tracing = {
     noPixels: (frame: string) => `The pixels of ${frame} are not here: drop the file on the page.`,
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',
-    oneClickJob: (component: string) => `${component} by one click`,
+    oneClickJob: (component: string, frame: number) => `${component} of frame ${frame} by one click`,
     percent: '%',
     flat: 'Nothing stands out from its surroundings here: point inside the implant, or move the level by hand.',
     empty: (level: number) => `Nothing here is beyond the level of ${level}: point inside the implant, or move the level.`,

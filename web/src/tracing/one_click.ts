@@ -2,8 +2,9 @@ import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
 import { currentPlace } from '../document/store';
-import { cellOf, type FrameEntry } from '../document/types';
+import { cellKey, cellOf, type FrameEntry } from '../document/types';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
+import type { ComponentName } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -16,11 +17,21 @@ import { flat } from './pixels';
 /** A click inside the implant, or opposite corners of a rough box. */
 export type Prompt = readonly [FramePoint] | readonly [FramePoint, FramePoint];
 
-/** Asks the pose worker for a first outline and pose, one at a time; a newer click calls the older one off. */
+/** What was asked of a cell and is not answered yet. */
+interface Asked {
+  readonly prompt: Prompt;
+  readonly place: Place;
+  readonly frame: FrameEntry;
+  readonly bright: boolean;
+  readonly abort: AbortController;
+}
+
+/** Asks the pose worker for first outlines and poses, in the order of the clicks; a newer click into the same cell calls the older one off. */
 export class OneClick {
   readonly #services: Services;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
-  #running: AbortController | null = null;
+  readonly #asked = new Map<string, Asked>();
+  #turn: Promise<void> = Promise.resolve();
 
   constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
     this.#services = services;
@@ -30,34 +41,58 @@ export class OneClick {
   async ask(prompt: Prompt, frame: FrameEntry, bright: boolean): Promise<void> {
     const { store } = this.#services;
     const place = currentPlace(store.state);
-    this.#running?.abort();
     if (!place) return;
-    const running = new AbortController();
-    this.#running = running;
-    try {
-      await this.#find(prompt, place, frame, bright, running);
-    } catch (error) {
+    const key = cellKey(place.frameId, place.component);
+    this.#asked.get(key)?.abort.abort();
+    const asked = { prompt, place, frame, bright, abort: new AbortController() };
+    this.#asked.set(key, asked);
+    const before = this.#turn;
+    const answered = this.#answer(asked, before).catch((error: unknown) => {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
-    } finally {
-      if (this.#running === running) this.#running = null;
-    }
+    });
+    this.#turn = Promise.all([before, answered]).then(() => undefined);
+    await answered;
+    if (this.#asked.get(key) === asked) this.#asked.delete(key);
   }
 
-  async #find(prompt: Prompt, place: Place, frame: FrameEntry, bright: boolean, running: AbortController): Promise<void> {
+  /** Its job is shown from the click on; what it knows of the film it looks up when its turn comes. */
+  async #answer(asked: Asked, before: Promise<void>): Promise<void> {
+    const { place, abort } = asked;
+    const { store } = this.#services;
+    const number = 1 + store.doc.frames.findIndex(({ id }) => id === place.frameId);
+    const title = texts.tracing.said.oneClickJob(texts.componentTitle[place.component], number);
+    const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => abort.abort(), place };
+    await asJob(store, job, async (report) => {
+      await unlessAborted(Promise.all([before, this.#libraryIsThere(place.component)]), abort.signal);
+      await this.#find(asked, report);
+    });
+  }
+
+  /** A click on the way to a library that is being built waits for it: without it there would be an outline and no pose. */
+  #libraryIsThere(component: ComponentName): Promise<void> {
+    const { store } = this.#services;
+    return new Promise((resolve) => {
+      const isThere = () => store.ui.libraries[component].state !== 'building';
+      if (isThere()) return resolve();
+      const stop = store.subscribe(() => {
+        if (!isThere()) return;
+        stop();
+        resolve();
+      });
+    });
+  }
+
+  async #find({ prompt, place, frame, bright, abort }: Asked, report: (done: number, total: number) => void): Promise<void> {
     const { store } = this.#services;
     const { component } = place;
     const input = this.#input(prompt, place, frame, bright);
     const before = cellOf(store.doc, frame.id, component).outline;
     const key = input.withModel ? poseKey(store.doc, component, frame) : null;
-    const title = texts.tracing.said.oneClickJob(texts.componentTitle[component]);
-    const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => running.abort() };
-    const answer = await asJob(store, job, (report) =>
-      this.#worker.call('oneClick', input, {
-        signal: running.signal,
-        transfer: [input.frame.pixels.buffer],
-        onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
-      }),
-    );
+    const answer = await this.#worker.call('oneClick', input, {
+      signal: abort.signal,
+      transfer: [input.frame.pixels.buffer],
+      onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
+    });
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
     if (changed) return store.say('info', texts.tracing.said.changedMeanwhile);
     this.#take(answer, place, key, input.film);
@@ -100,4 +135,14 @@ function promptNumbers([a, b]: Prompt): Float64Array<ArrayBuffer> {
   const least = framePoint(Math.min(a.column, b.column), Math.min(a.row, b.row));
   const most = framePoint(Math.max(a.column, b.column), Math.max(a.row, b.row));
   return Float64Array.of(least.column, least.row, most.column, most.row);
+}
+
+/** Waits, unless it is called off first. */
+function unlessAborted<T>(waited: Promise<T>, signal: AbortSignal): Promise<T> {
+  const aborted = new Promise<never>((_, reject) => {
+    const give = () => reject(new Aborted());
+    if (signal.aborted) give();
+    else signal.addEventListener('abort', give, { once: true });
+  });
+  return Promise.race([waited, aborted]);
 }

@@ -8,6 +8,7 @@ import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { sentenceOf, type Services } from '../jobs/services';
+import { componentMeant } from '../results/steps';
 import { Host } from './host';
 import { OneClick } from './one_click';
 import { brushRefusal, paint } from './painting';
@@ -187,6 +188,7 @@ export class TracingTools {
     this.#box = intent.to === 'frame' ? { kind: 'box', from: intent.from, to: intent.at } : NO_PREVIEW;
     if (intent.to === 'frame' || !frame) return;
     const prompt = intent.to === 'box' ? ([intent.from, intent.at] as const) : ([intent.at] as const);
+    store.selectComponent(componentMeant(store.state, intent.at));
     void this.#oneClick.ask(prompt, frame, store.ui.tracing.bright);
   }
 

@@ -79,7 +79,14 @@ export class Bridge<P extends Protocol<P>> {
     const id = ++this.#lastId;
     this.#running = { id, call };
     const { method, input, options } = call;
-    this.#openPort().postMessage({ type: 'call', id, method, input }, options.transfer ?? []);
+    try {
+      this.#openPort().postMessage({ type: 'call', id, method, input }, options.transfer ?? []);
+    } catch (error) {
+      // It never reached the worker, which would never answer it.
+      this.#running = null;
+      call.reject(error instanceof Error ? error : new Error(String(error)));
+      this.#sendNext();
+    }
   }
 
   #openPort(): WorkerPort {
@@ -95,6 +102,7 @@ export class Bridge<P extends Protocol<P>> {
     const running = this.#running;
     if (!running || message.id !== running.id) return;
     if (message.type === 'progress') {
+      if (running.call.options.signal?.aborted) return;
       (running.call.options as CallOptions<unknown>).onProgress?.(message.progress);
       return;
     }

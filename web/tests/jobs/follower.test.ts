@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { addFrames, setCalibration, setModel, withCell } from '../../src/document/commands';
 import { toggleChecked } from '../../src/document/marks';
 import { bare, setPoseByHand } from '../../src/document/hand_poses';
+import { isSoFar } from '../../src/document/followed';
 import { readSession, writeSession } from '../../src/document/session/session';
 import { Store } from '../../src/document/store';
 import { cellOf, chosenCandidate, type Posed, verdictOf } from '../../src/document/types';
@@ -42,6 +43,7 @@ function worker(missing: readonly number[]) {
       return { pose: poseOf(10 + frame), next: rest() };
     },
     sides: () => null,
+    stop: () => null,
     depths: () => new Float64Array(FRAMES),
     conclude: () => Array.from({ length: FRAMES }, (_, frame) => answer(frame)),
   };
@@ -127,6 +129,29 @@ describe('following', () => {
     await follower.follow();
     expect(femur.begun.at(-1)?.given.map(({ frame }) => frame)).toEqual([5]);
     expect(at(1)?.word).toBe('good');
+  });
+
+  it('fills cells as it goes, beside what a person does, and leaves nothing of that behind', async () => {
+    const { store, follower, femur, xs } = bench();
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    await follower.follow();
+    const judged = cellOf(store.doc, 'f2', 'femur').result;
+    store.perform(setPoseByHand(place(0), poseOf(1)));
+    let seen: unknown[] = [];
+    femur.stopAt(4, () => {
+      seen = [1, 2, 3, 4, 5].map((frame) => cellOf(store.doc, `f${frame}`, 'femur').result).map((result) => result && 'origin' in result && /so far/.test(result.origin));
+      store.perform(setPoseByHand({ frameId: 'f0', component: 'tibia' }, poseOf(7)));
+    });
+    await follower.follow();
+    expect(seen).toEqual([true, true, true, false, false]);
+    expect(store.doc.frames.some(({ id }) => isSoFar(cellOf(store.doc, id, 'femur').result))).toBe(false);
+    store.undo();
+    expect(cellOf(store.doc, 'f2', 'femur').result).toBe(judged);
+    expect(chosenCandidate(cellOf(store.doc, 'f0', 'tibia'))?.pose.x).toBe(7);
+    store.undo();
+    expect(chosenCandidate(cellOf(store.doc, 'f0', 'tibia'))).toBeNull();
+    expect(cellOf(store.doc, 'f2', 'femur').result).toBe(judged);
+    expect(xs()).toEqual([1, 11, 12, 13, 14, 15]);
   });
 
   it('keeps what there is when it is stopped', async () => {

@@ -48,6 +48,35 @@ describe('bridge', () => {
     expect(await second).toBe(20);
   });
 
+  it('goes on after a call that could not be posted', async () => {
+    const { bridge, ports } = bench();
+    const first = bridge.call('echo', 1);
+    const refusing = ports[0]!;
+    const postMessage = vi.spyOn(refusing, 'postMessage').mockImplementationOnce(() => {
+      throw new Error('it cannot be cloned');
+    });
+    refusing.answer({ type: 'done', id: 1, output: 10 });
+    await first;
+    const second = bridge.call('echo', 2);
+    const third = bridge.call('echo', 3);
+    await expect(second).rejects.toThrow('it cannot be cloned');
+    expect(postMessage).toHaveBeenCalledTimes(2);
+    refusing.answer({ type: 'done', id: 3, output: 30 });
+    expect(await third).toBe(30);
+  });
+
+  it('drops the late progress of a call that was aborted', async () => {
+    const { bridge, ports } = bench();
+    const abort = new AbortController();
+    const onProgress = vi.fn();
+    const call = bridge.call('echo', 1, { signal: abort.signal, onProgress });
+    ports[0]?.answer({ type: 'progress', id: 1, progress: 1 as never });
+    abort.abort();
+    await expect(call).rejects.toThrow(Aborted);
+    ports[0]?.answer({ type: 'progress', id: 1, progress: 2 as never });
+    expect(onProgress).toHaveBeenCalledTimes(1);
+  });
+
   it('never sends a call that was aborted in the queue', async () => {
     const { bridge, ports } = bench();
     const first = bridge.call('echo', 1);

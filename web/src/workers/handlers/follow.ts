@@ -41,6 +41,10 @@ serve<FollowProtocol>({
     working().chooseSides(poses, axes, own);
     return working().wanted() ?? null;
   },
+  stop: () => {
+    working().stop();
+    return null;
+  },
   depths: () => working().depths() as Float64Array<ArrayBuffer>,
   conclude: ({ otherDepths }) => {
     const film = working().conclude(otherDepths);

@@ -12,6 +12,8 @@ export interface FollowProtocol {
   look: { input: FramePixels; output: Seen; progress: never };
   /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
   sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
+  /** Ends the work before all is done. */
+  stop: { input: null; output: null; progress: never };
   /** Distances from the camera, mm; NaN where the component is not to be trusted. */
   depths: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
   conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };

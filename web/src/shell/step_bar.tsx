@@ -1,0 +1,20 @@
+import type { State } from '../document/store';
+import { type Step, standingOf, STEPS } from '../results/steps';
+import { texts } from '../texts/texts';
+
+/** How far the work is, from opening files to the joint. */
+export function StepBar({ state }: { state: State }) {
+  const doc = state.history.present;
+  const { step } = standingOf(doc);
+  const shown: readonly Step[] = doc.frames.length > 1 ? STEPS : STEPS.filter((one) => one !== 'follow');
+  const at = shown.indexOf(step);
+  return (
+    <ol class="steps" aria-label={texts.first.steps.region}>
+      {shown.map((one, index) => (
+        <li key={one} class={index < at ? 'step done' : 'step'} aria-current={one === step ? 'step' : undefined}>
+          {texts.first.steps.names[one]}
+        </li>
+      ))}
+    </ol>
+  );
+}

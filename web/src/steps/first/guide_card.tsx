@@ -1,0 +1,56 @@
+import type { State } from '../../document/store';
+import { useApp } from '../../commands/app';
+import { type Guide, guideOf, standingOf } from '../../results/steps';
+import { texts } from '../../texts/texts';
+
+/** On the film while one click is the tool in hand: what to click next, and then the way on. It takes no click from the film. */
+export function GuideCard({ state }: { state: State }) {
+  const guide = guideOf(state);
+  if (!guide) return null;
+  return (
+    <section class={guide.ask === 'click' ? `guide ${guide.component}` : 'guide'} aria-label={texts.first.card.region}>
+      {guide.ask === 'click' ? <ClickCard guide={guide} state={state} /> : <FollowCard state={state} />}
+    </section>
+  );
+}
+
+function ClickCard({ guide: { component, isPreparing }, state }: { guide: Extract<Guide, { ask: 'click' }>; state: State }) {
+  const { card } = texts.first;
+  const name = texts.component[component];
+  const isSecond = isAnyPosed(state);
+  return (
+    <>
+      <p class="guide-title">{isSecond ? card.now(name) : card.click(name)}</p>
+      <p class="guide-text">{isPreparing ? card.preparing(name) : card.clickText}</p>
+      <TraceInstead words={isSecond ? card.notRight : card.trace} />
+    </>
+  );
+}
+
+function FollowCard({ state }: { state: State }) {
+  const { actions } = useApp();
+  const { card } = texts.first;
+  return (
+    <>
+      <button type="button" class="button primary" title={texts.follow.title} onClick={() => actions.run({ name: 'work', command: 'follow-film' })}>
+        {card.follow}
+      </button>
+      <p class="guide-text">{card.followText(standingOf(state.history.present).free)}</p>
+      <TraceInstead words={card.notRight} />
+    </>
+  );
+}
+
+function TraceInstead({ words }: { words: string }) {
+  const { actions } = useApp();
+  return (
+    <button type="button" class="guide-other" title={texts.first.card.traceTitle} aria-keyshortcuts="p" onClick={() => actions.traceInstead()}>
+      {words}
+    </button>
+  );
+}
+
+function isAnyPosed(state: State): boolean {
+  const doc = state.history.present;
+  return standingOf(doc).unposed.length < Object.values(doc.components).filter(({ model }) => model !== null).length;
+}

@@ -1,0 +1,21 @@
+/** English of the work's steps and of the card that leads through the first frame. */
+export const first = {
+  steps: {
+    region: 'Steps',
+    names: { open: 'Open', first: 'First frame', follow: 'Follow', check: 'Check', joint: 'Joint' },
+    check: (doubtful: number) => `Check ${doubtful}`,
+    checkTitle: (doubtful: number) => `${doubtful} ${doubtful === 1 ? 'pose is' : 'poses are'} doubtful: go through them, the worst first (N)`,
+  },
+  card: {
+    region: 'What to do next',
+    click: (component: string) => `Click the ${component}`,
+    now: (component: string) => `Now the ${component}`,
+    clickText: 'Anywhere inside it: outline and pose come by themselves.',
+    preparing: (component: string) => `The views of the ${component} are being prepared: a click waits for them.`,
+    followText: (frames: number) => `${frames} ${frames === 1 ? 'cell is' : 'cells are'} still empty; what you set stays as it is.`,
+    follow: 'Follow the film',
+    notRight: 'Not right? Trace it instead',
+    trace: 'Trace it instead',
+    traceTitle: 'Trace the outline by clicks around it (P)',
+  },
+};

@@ -1,0 +1,91 @@
+import { describe, expect, it } from 'vitest';
+import { addFrames, setCalibration, setModel } from '../../src/document/commands';
+import { Store } from '../../src/document/store';
+import { cellOf } from '../../src/document/types';
+import { framePoint } from '../../src/geometry/points';
+import { OneClick } from '../../src/tracing/one_click';
+import type { OneClickFacts, OneClickInput } from '../../src/workers/protocol/one_click';
+import { Aborted, type CallOptions } from '../../src/workers/bridge';
+
+const FRAME = { id: 'f', name: 'f', source: 's', indexInSource: 0, width: 8, height: 8 };
+const settle = () => new Promise((resolve) => setTimeout(resolve));
+
+/** Ready for clicks, and a worker that answers when the test says so. */
+function bench() {
+  const store = new Store();
+  store.perform(addFrames([FRAME]));
+  store.perform(setCalibration({ name: 'c', text: 'c' }));
+  store.perform(setModel('femur', { name: 'm', sha256: 'm' }));
+  const asked: { input: OneClickInput; report: (fraction: number) => void; answer: () => Promise<unknown> }[] = [];
+  const call = (_: string, input: OneClickInput, { signal, onProgress }: CallOptions<{ fraction: number }>) =>
+    new Promise<OneClickFacts>((resolve, reject) => {
+      signal?.addEventListener('abort', () => reject(new Aborted()));
+      const facts = { outlines: [Float64Array.of(1, 1, 5, 1, 5, 5)], supports: [], corrected: false, match: null, sentence: 'Found.' };
+      const report = (fraction: number) => onProgress?.({ fraction });
+      asked.push({ input, report, answer: () => (resolve(facts), settle()) });
+    });
+  const studio = { framePixels: () => new Uint8Array(64) };
+  const oneClick = new OneClick({ store, studio } as never, { call } as never);
+  const click = (column: number) => void oneClick.ask([framePoint(column, 1)], FRAME, false);
+  const outlineOf = (component: 'femur' | 'tibia') => cellOf(store.doc, 'f', component).outline;
+  return { store, asked, click, outlineOf };
+}
+
+describe('one click', () => {
+  it('waits for its turn, and sees what came of the clicks before', async () => {
+    const { store, asked, click, outlineOf } = bench();
+    click(1);
+    store.selectComponent('tibia');
+    click(2);
+    await settle();
+    expect(store.ui.jobs.map(({ title }) => title)).toEqual(['Femur of frame 1 by one click', 'Tibia of frame 1 by one click']);
+    expect(asked.map(({ input }) => input.component)).toEqual(['femur']);
+    await asked[0]!.answer();
+    await settle();
+    expect(asked[1]?.input).toMatchObject({ component: 'tibia', avoid: Float64Array.of(1, 1, 5, 1, 5, 5) });
+    await asked[1]!.answer();
+    expect([outlineOf('femur'), outlineOf('tibia')].map((outline) => outline?.closed)).toEqual([true, true]);
+    expect(store.ui.jobs).toEqual([]);
+  });
+
+  it('into the same cell takes the place of the one before, whose late progress shows nothing', async () => {
+    const { store, asked, click } = bench();
+    click(1);
+    await settle();
+    click(2);
+    await settle();
+    await settle();
+    expect(store.ui.jobs).toHaveLength(1);
+    asked[0]!.report(0.5);
+    expect(store.ui.jobs).toHaveLength(1);
+    expect([...(asked[1]?.input.prompt ?? [])]).toEqual([2, 1]);
+    await asked[1]!.answer();
+    expect(store.ui.jobs).toEqual([]);
+  });
+
+  it('can be called off while it waits, and the next one goes on', async () => {
+    const { store, asked, click, outlineOf } = bench();
+    click(1);
+    store.selectComponent('tibia');
+    click(2);
+    await settle();
+    store.ui.jobs[1]?.cancel();
+    await settle();
+    expect(store.ui.jobs).toHaveLength(1);
+    await asked[0]!.answer();
+    await settle();
+    expect(asked).toHaveLength(1);
+    expect(outlineOf('tibia')).toBeNull();
+  });
+
+  it('waits for a library that is being built', async () => {
+    const { store, asked, click } = bench();
+    store.setLibrary('femur', { state: 'building', key: 'k' });
+    click(1);
+    await settle();
+    expect(asked).toEqual([]);
+    store.setLibrary('femur', { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: 1 });
+    await settle();
+    expect(asked[0]?.input.withModel).toBe(true);
+  });
+});
