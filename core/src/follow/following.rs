@@ -14,6 +14,7 @@ use super::cell::{Anchor, Cell};
 use super::conclude::{conclude, trusted_depths};
 use super::conclusion::Conclusion;
 use super::frame_pose::FramePose;
+use super::search_order::{frames_to_search, run_to_search};
 use super::side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
 use super::sides::{SideEvidence, SideStep, choose_sides};
 use super::subject::Subject;
@@ -42,6 +43,8 @@ impl KnownFemur {
 enum Phase {
     /// From the poses that were given over all frames.
     Way,
+    /// Runs of frames in which it was not found are searched from this frame on.
+    Search(usize),
     /// Waits for [`Following::choose_sides`].
     Followed,
     Sides,
@@ -62,6 +65,8 @@ pub struct Following {
     anchors: Vec<Anchor>,
     tasks: VecDeque<Task>,
     phase: Phase,
+    /// The caller looks for the component in whole frames where nothing leads to it.
+    searches: bool,
     femur: Option<KnownFemur>,
     samples: Vec<SideSample>,
     steps: Vec<SideStep>,
@@ -78,6 +83,7 @@ impl Following {
             anchors: Vec::new(),
             tasks: VecDeque::new(),
             phase: Phase::Way,
+            searches: false,
             femur: None,
             samples: Vec::new(),
             steps: Vec::new(),
@@ -89,6 +95,31 @@ impl Following {
     pub fn give(&mut self, frame: usize, pose: Pose, fixed: bool) {
         if self.range.contains(&frame) {
             self.tasks.push_back(Task::Given { frame, pose, fixed });
+        }
+    }
+
+    /// From now on [`Self::wanted`] also asks for frames that are to be searched as a whole ([`Self::is_search`]), where the
+    /// component was not found in a run of them.
+    pub fn search_where_lost(&mut self) {
+        self.searches = true;
+    }
+
+    /// Whether the frame that [`Self::wanted`] asks for is to be searched as a whole: [`Self::searched`] takes the answer.
+    #[must_use]
+    pub fn is_search(&self) -> bool {
+        matches!(self.tasks.front(), Some(Task::Search { .. }))
+    }
+
+    /// What came of looking for the component in the whole frame that was asked for.
+    pub fn searched(&mut self, pose: Option<Pose>) {
+        let Some(Task::Search { run, frames }) = self.tasks.front_mut() else {
+            return;
+        };
+        let (Some(frame), run) = (frames.pop(), run.clone()) else {
+            return;
+        };
+        if let Some(pose) = pose {
+            self.tasks[0] = Task::Found { frame, pose, run };
         }
     }
 
@@ -142,6 +173,28 @@ impl Following {
                 });
                 Ok(Some(own))
             }
+            &mut Task::Found {
+                frame,
+                pose,
+                ref run,
+            } => {
+                let run = run.clone();
+                self.tasks.pop_front();
+                let found = task::given(subject, image, &pose, false, memory)?;
+                // What is still missing afterwards is searched too.
+                self.phase = Phase::Search(run.start);
+                self.go_through(
+                    &Anchor {
+                        frame,
+                        found,
+                        fixed: false,
+                    },
+                    &run,
+                );
+                Ok(Some(found))
+            }
+            // Its answer comes by another way.
+            Task::Search { .. } => Ok(None),
             Task::Walk(_) | Task::Span(_) => Ok(task.go_on(subject, image, &self.middle, memory)),
         }
     }
@@ -194,8 +247,12 @@ impl Following {
         match self.phase {
             Phase::Way => {
                 self.begin_ways();
-                self.phase = Phase::Followed;
+                self.phase = Phase::Search(self.range.start);
             }
+            Phase::Search(from) => match self.begin_search(from) {
+                Some(run) => self.phase = Phase::Search(run.end),
+                None => self.phase = Phase::Followed,
+            },
             Phase::Sides => {
                 self.begin_other_sides();
                 self.phase = Phase::GoOver;
@@ -225,6 +282,28 @@ impl Following {
         }
     }
 
+    /// The next run of frames in which it was not found, though it was in others.
+    fn begin_search(&mut self, from: usize) -> Option<Range<usize>> {
+        if !self.searches || self.anchors.is_empty() {
+            return None;
+        }
+        let run = run_to_search(&self.cells, &(from..self.range.end))?;
+        let frames = frames_to_search(&run).into_iter().rev().collect();
+        let search = Task::Search {
+            run: run.clone(),
+            frames,
+        };
+        self.tasks.push_back(search);
+        Some(run)
+    }
+
+    /// From a frame to both ends of a run of frames.
+    fn go_through(&mut self, anchor: &Anchor, run: &Range<usize>) {
+        self.cells[anchor.frame] = Cell::from(anchor);
+        let walks = [run.end - 1, run.start].map(|to| Walk::new(anchor, to));
+        self.tasks.extend(walks.map(Box::new).map(Task::Walk));
+    }
+
     fn begin_other_sides(&mut self) {
         let femur = self.femur.as_ref();
         let tilt = |frame: usize, pose: &Pose| femur.and_then(|femur| femur.tilt_deg(frame, pose));
@@ -235,7 +314,9 @@ impl Following {
         let evidence: Vec<SideEvidence> = evidence.collect();
         self.steps = vec![SideStep::default(); evidence.len()];
         choose_sides(&evidence, &mut self.steps);
-        for (run, anchor) in mirrored_runs(&self.samples, &self.steps, self.cells.len()) {
+        let runs: Vec<(Range<usize>, Anchor)> =
+            mirrored_runs(&self.samples, &self.steps, self.cells.len()).collect();
+        for (run, anchor) in runs {
             let run = run.start.max(self.range.start)..run.end.min(self.range.end);
             // What is there is of the wrong side; what a person gave stays.
             for cell in self.cells[run.clone()]
@@ -244,9 +325,7 @@ impl Following {
             {
                 *cell = Cell::default();
             }
-            self.cells[anchor.frame] = Cell::from(&anchor);
-            let walks = [run.end - 1, run.start].map(|to| Walk::new(&anchor, to));
-            self.tasks.extend(walks.map(Box::new).map(Task::Walk));
+            self.go_through(&anchor, &run);
         }
     }
 }

@@ -1,3 +1,4 @@
+import type { FramePoint } from '../geometry/points';
 import type { Viewport } from '../geometry/viewport';
 import { type TracingOptions, USUAL_OPTIONS } from '../terms/tracing';
 import type { ToolName } from '../terms/tool';
@@ -96,6 +97,8 @@ export interface Job {
   readonly cancel: () => void;
   /** The cell that it is for; missing where it is for more than one. */
   readonly place?: Place;
+  /** The point of the frame that somebody clicked. */
+  readonly at?: FramePoint;
 }
 
 export type LibraryState =

@@ -18,7 +18,7 @@ let lastJob = 0;
 /** Shows a job in the page while `task` runs; `task` reports how far it is. */
 export async function asJob<T>(
   store: Store,
-  job: Pick<Job, 'title' | 'unit' | 'total' | 'cancel' | 'place'>,
+  job: Pick<Job, 'title' | 'unit' | 'total' | 'cancel' | 'place' | 'at'>,
   task: (report: (done: number, total: number) => void, id: number) => Promise<T>,
 ): Promise<T> {
   const id = ++lastJob;

@@ -18,6 +18,8 @@ export interface Standing {
   readonly unposed: readonly ComponentName[];
   /** Frames that following would fill, of all components. */
   readonly free: number;
+  /** Components that would be followed from doubtful poses alone. */
+  readonly shaky: readonly ComponentName[];
   /** Cells whose pose may be wrong, and nobody checked it. */
   readonly doubtful: number;
 }
@@ -35,11 +37,13 @@ export function standingOf(doc: Doc): Standing {
 function lookedUp(doc: Doc): Standing {
   const modelled = COMPONENT_NAMES.filter((component) => doc.components[component].model !== null);
   const unposed = modelled.filter((component) => doc.frames.every(({ id }) => !chosenCandidate(cellOf(doc, id, component))));
-  const free = doc.frames.length < 2 ? 0 : modelled.reduce((sum, component) => sum + (spanToFollow(doc, component)?.free ?? 0), 0);
+  const spans = doc.frames.length < 2 ? [] : modelled.flatMap((component) => ({ component, span: spanToFollow(doc, component) }));
+  const free = spans.reduce((sum, { span }) => sum + (span?.free ?? 0), 0);
+  const shaky = spans.flatMap(({ component, span }) => (span?.isDoubtful ? [component] : []));
   const doubtful = COMPONENT_NAMES.reduce((sum, component) => sum + doc.frames.filter(({ id }) => isOpen(doc, id, component)).length, 0);
   const isAny = doc.frames.some(({ id }) => COMPONENT_NAMES.some((component) => chosenCandidate(cellOf(doc, id, component))));
   const step = !isReady(doc) && !isAny ? 'open' : unposed.length > 0 || !isAny ? 'first' : free > 0 ? 'follow' : doubtful > 0 ? 'check' : 'joint';
-  return { step, unposed, free, doubtful };
+  return { step, unposed, free, shaky, doubtful };
 }
 
 /** Nothing is missing for a pose by one click. */
@@ -53,16 +57,32 @@ function isOpen(doc: Doc, frameId: string, component: ComponentName): boolean {
 }
 
 /**
- * The component that a click means: the selected one, but where that has its pose and the other has none in the whole film, a
- * click beside the outline there is means the other.
+ * The component that a click means: the selected one, but where that has its pose, or was just clicked, and the other has
+ * neither in the whole film, a click beside it means the other.
  */
 export function componentMeant(state: State, at: FramePoint): ComponentName {
-  const { component, frameIndex } = state.ui;
+  const { component, frameIndex, jobs } = state.ui;
   const doc = state.history.present;
+  const frame = doc.frames[frameIndex];
   const other = component === 'femur' ? 'tibia' : 'femur';
-  const { outline, result } = cellOf(doc, doc.frames[frameIndex]?.id, component);
-  const isDone = result?.kind === 'posed' && outline !== null && !isInside(outline.points, at);
-  return isDone && standingOf(doc).unposed.includes(other) ? other : component;
+  if (!frame || !awaitsClick(state).includes(other)) return component;
+  const clicked = jobs.find(({ place, at }) => at && place?.frameId === frame.id && place.component === component)?.at;
+  if (clicked) return isSame(clicked, at, frame.width) ? component : other;
+  const { outline, result } = cellOf(doc, frame.id, component);
+  return result?.kind === 'posed' && outline !== null && !isInside(outline.points, at) ? other : component;
+}
+
+/** A second click this near to the first, as a part of the frame, is the same once more. */
+const SAME = 0.03;
+
+function isSame(a: FramePoint, b: FramePoint, width: number): boolean {
+  return Math.hypot(a.column - b.column, a.row - b.row) < SAME * width;
+}
+
+/** Components without a pose that nobody has clicked just now. */
+function awaitsClick(state: State): readonly ComponentName[] {
+  const { jobs } = state.ui;
+  return standingOf(state.history.present).unposed.filter((component) => !jobs.some(({ place, at }) => at && place?.component === component));
 }
 
 /** What the card on the film asks for; null where it has nothing to say. */
@@ -73,7 +93,8 @@ export function guideOf(state: State): Guide | null {
   const { tool, component, following, libraries } = state.ui;
   if (tool !== 'one-click' || following || !isReady(doc)) return null;
   const { unposed, free } = standingOf(doc);
-  const wanted = unposed.includes(component) ? component : unposed[0];
+  const awaited = awaitsClick(state);
+  const wanted = awaited.includes(component) ? component : awaited[0];
   if (wanted) return { ask: 'click', component: wanted, isPreparing: libraries[wanted].state === 'building' };
-  return free > 0 ? { ask: 'follow' } : null;
+  return free > 0 && unposed.length === 0 ? { ask: 'follow' } : null;
 }

@@ -9,7 +9,7 @@ export function StepBar({ state }: { state: State }) {
   const shown: readonly Step[] = doc.frames.length > 1 ? STEPS : STEPS.filter((one) => one !== 'follow');
   const at = shown.indexOf(step);
   return (
-    <ol class="steps" aria-label={texts.first.steps.region}>
+    <ol class="way" aria-label={texts.first.steps.region}>
       {shown.map((one, index) => (
         <li key={one} class={index < at ? 'step done' : 'step'} aria-current={one === step ? 'step' : undefined}>
           {texts.first.steps.names[one]}

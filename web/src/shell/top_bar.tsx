@@ -29,7 +29,7 @@ export function TopBar({ state }: { state: State }) {
         <WayOn state={state} />
         <UndoAndRedo state={state} />
         <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
-          <Icon name="open" /> <span class="word">{texts.top.open}</span>
+          <Icon name="open" /> <span class="word first-to-go">{texts.top.open}</span>
         </button>
         <button
           type="button"

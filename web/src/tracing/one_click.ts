@@ -57,11 +57,11 @@ export class OneClick {
 
   /** Its job is shown from the click on; what it knows of the film it looks up when its turn comes. */
   async #answer(asked: Asked, before: Promise<void>): Promise<void> {
-    const { place, abort } = asked;
+    const { place, abort, prompt } = asked;
     const { store } = this.#services;
     const number = 1 + store.doc.frames.findIndex(({ id }) => id === place.frameId);
     const title = texts.tracing.said.oneClickJob(texts.componentTitle[place.component], number);
-    const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => abort.abort(), place };
+    const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => abort.abort(), place, at: prompt[0] };
     await asJob(store, job, async (report) => {
       await unlessAborted(Promise.all([before, this.#libraryIsThere(place.component)]), abort.signal);
       await this.#find(asked, report);

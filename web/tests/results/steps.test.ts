@@ -91,9 +91,21 @@ describe('a click', () => {
     expect(componentMeant(store.state, framePoint(4, 4))).toBe('femur');
     store.goTo(1);
     expect(componentMeant(store.state, framePoint(7, 7))).toBe('femur');
+    store.goTo(0);
     clicked(store, 1, 'tibia');
     store.goTo(0);
     expect(componentMeant(store.state, framePoint(7, 7))).toBe('femur');
+  });
+});
+
+describe('a click while the one before is worked on', () => {
+  it('means the other component, unless it is the same place', () => {
+    const store = ready();
+    const at = framePoint(4, 4);
+    store.setJob({ id: 1, title: 'j', done: 0, total: 0, unit: '', startedAt: 0, cancel: () => undefined, place: place(0, 'femur'), at });
+    expect(guideOf(store.state)).toMatchObject({ ask: 'click', component: 'tibia' });
+    expect(componentMeant(store.state, framePoint(7, 7))).toBe('tibia');
+    expect(componentMeant(store.state, framePoint(4.1, 4))).toBe('femur');
   });
 });
 

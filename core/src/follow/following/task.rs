@@ -3,6 +3,7 @@
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::follow::cell::{Anchor, Cell};
 use crate::follow::frame_pose::{FramePose, frame_pose_at};
@@ -26,6 +27,17 @@ pub(super) enum Task {
     },
     Walk(Box<Walk>),
     Span(Box<Span>),
+    /// A run of frames in which the component is not: the caller looks for it in the whole of some of them, the last first.
+    Search {
+        run: Range<usize>,
+        frames: Vec<usize>,
+    },
+    /// A pose that the caller found there is looked at in its frame.
+    Found {
+        frame: usize,
+        pose: Pose,
+        run: Range<usize>,
+    },
     /// A frame is seen from the other side of the mirror too.
     BothSides(usize),
 }
@@ -34,7 +46,10 @@ impl Task {
     /// The frame that is to be looked at; `None` where it is done.
     pub(super) fn wanted(&mut self) -> Option<usize> {
         match self {
-            Self::Given { frame, .. } | Self::BothSides(frame) => Some(*frame),
+            Self::Given { frame, .. } | Self::Found { frame, .. } | Self::BothSides(frame) => {
+                Some(*frame)
+            }
+            Self::Search { frames, .. } => frames.last().copied(),
             Self::Walk(walk) => walk.way.next(walk.to),
             Self::Span(span) => span.wanted(),
         }
@@ -53,7 +68,7 @@ impl Task {
         match self {
             Self::Walk(walk) => walk.saw(frame, looked, middle),
             Self::Span(span) => span.saw(which, frame, looked, middle),
-            Self::Given { .. } | Self::BothSides(_) => {}
+            _ => {}
         }
         looked.found.ok()
     }
@@ -66,7 +81,7 @@ impl Task {
                 let (which, frame) = span.next()?;
                 Some((&span.ways[which], which, frame))
             }
-            Self::Given { .. } | Self::BothSides(_) => None,
+            _ => None,
         }
     }
 
@@ -82,7 +97,7 @@ impl Task {
                 }
             }
             Self::Span(span) => span.write(cells),
-            Self::Given { .. } | Self::BothSides(_) => {}
+            _ => {}
         }
     }
 }

@@ -1,4 +1,5 @@
-import type { State } from '../../document/store';
+import { currentCell, type State } from '../../document/store';
+import type { ComponentName } from '../../terms/component';
 import { useApp } from '../../commands/app';
 import { type Guide, guideOf, standingOf } from '../../results/steps';
 import { texts } from '../../texts/texts';
@@ -17,12 +18,12 @@ export function GuideCard({ state }: { state: State }) {
 function ClickCard({ guide: { component, isPreparing }, state }: { guide: Extract<Guide, { ask: 'click' }>; state: State }) {
   const { card } = texts.first;
   const name = texts.component[component];
-  const isSecond = isAnyPosed(state);
+  const isSecond = isBegun(state, component);
   return (
     <>
       <p class="guide-title">{isSecond ? card.now(name) : card.click(name)}</p>
       <p class="guide-text">{isPreparing ? card.preparing(name) : card.clickText}</p>
-      <TraceInstead words={isSecond ? card.notRight : card.trace} />
+      <TraceInstead words={currentCell(state).outline ? card.notRight : card.trace} />
     </>
   );
 }
@@ -30,12 +31,14 @@ function ClickCard({ guide: { component, isPreparing }, state }: { guide: Extrac
 function FollowCard({ state }: { state: State }) {
   const { actions } = useApp();
   const { card } = texts.first;
+  const { free, shaky } = standingOf(state.history.present);
+  const [first] = shaky;
   return (
     <>
       <button type="button" class="button primary" title={texts.follow.title} onClick={() => actions.run({ name: 'work', command: 'follow-film' })}>
         {card.follow}
       </button>
-      <p class="guide-text">{card.followText(standingOf(state.history.present).free)}</p>
+      <p class="guide-text">{first ? card.shaky(texts.listed(shaky.map((name) => texts.component[name]))) : card.followText(free)}</p>
       <TraceInstead words={card.notRight} />
     </>
   );
@@ -50,7 +53,10 @@ function TraceInstead({ words }: { words: string }) {
   );
 }
 
-function isAnyPosed(state: State): boolean {
-  const doc = state.history.present;
-  return standingOf(doc).unposed.length < Object.values(doc.components).filter(({ model }) => model !== null).length;
+/** Has the other component been clicked, or its pose? */
+function isBegun(state: State, component: ComponentName): boolean {
+  const { present: doc } = state.history;
+  const other = component === 'femur' ? 'tibia' : 'femur';
+  const isClicked = state.ui.jobs.some(({ place, at }) => at && place?.component === other);
+  return isClicked || (doc.components[other].model !== null && !standingOf(doc).unposed.includes(other));
 }

@@ -1,7 +1,9 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result, ensure};
-use fluoropose::follow::{Anchor, Cell, FramePose, frame_pose_at, settled};
+use fluoropose::follow::{
+    Anchor, Cell, FramePose, frame_pose_at, frames_to_search, run_to_search, settled,
+};
 use fluoropose::pose::Pose;
 
 use super::follow::{follow, mark};
@@ -9,13 +11,6 @@ use super::part::Part;
 use super::run::Run;
 use super::search::{clicked, searched};
 use crate::files::read_poses;
-
-/// In so many frames at most a component is searched that nobody pointed at.
-const TRIES: usize = 3;
-/// Frames between those that are searched, at least.
-const SPACING: usize = 6;
-/// Shorter runs of frames without a pose are not searched.
-const RUN: usize = 8;
 
 /// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
 fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
@@ -92,7 +87,7 @@ pub(super) fn begin(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
     if !anchors.is_empty() {
         return Ok(anchors);
     }
-    for frame in spread(&(0..run.film.count())) {
+    for frame in frames_to_search(&(0..run.film.count())) {
         if let Some(found) = searched(run, part, frame)? {
             run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
             return Ok(vec![Anchor {
@@ -141,12 +136,9 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
         return Ok(());
     }
     let mut from = 0;
-    while let Some(gap) = missing(cells, from) {
+    while let Some(gap) = run_to_search(cells, &(from..cells.len())) {
         from = gap.end;
-        if gap.len() < RUN {
-            continue;
-        }
-        for frame in spread(&gap) {
+        for frame in frames_to_search(&gap) {
             let Some(found) = searched(run, part, frame)? else {
                 continue;
             };
@@ -162,29 +154,4 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
         }
     }
     Ok(())
-}
-
-/// The next run of frames without a pose.
-fn missing(cells: &[Cell], from: usize) -> Option<std::ops::Range<usize>> {
-    let start = (from..cells.len()).find(|&frame| cells[frame].found().is_none())?;
-    let end = (start..cells.len()).find(|&frame| cells[frame].found().is_some());
-    Some(start..end.unwrap_or(cells.len()))
-}
-
-/// Frames of a run in the order in which they are searched: its middle first, then between those before.
-fn spread(gap: &std::ops::Range<usize>) -> Vec<usize> {
-    let mut frames: Vec<usize> = Vec::new();
-    let mut parts = 2;
-    while frames.len() < TRIES && parts <= 16 {
-        for k in (1..parts).step_by(2) {
-            let frame = gap.start + k * gap.len() / parts;
-            let near = |other: &usize| other.abs_diff(frame) < SPACING;
-            if frame < gap.end && !frames.iter().any(near) {
-                frames.push(frame);
-            }
-        }
-        parts *= 2;
-    }
-    frames.truncate(TRIES);
-    frames
 }

@@ -1,0 +1,98 @@
+//! Which frames a component is looked for in as a whole, where nothing leads to it.
+
+use core::ops::Range;
+
+use heapless::Vec;
+
+use super::cell::Cell;
+
+/// In so many frames of a run at most a component is searched.
+pub const TRIES: usize = 3;
+/// Frames between those that are searched, at least.
+const SPACING: usize = 6;
+/// Shorter runs of frames without a pose are not searched.
+const RUN: usize = 8;
+
+/// Frames of a run in the order in which they are searched: its middle first, then between those before.
+#[must_use]
+pub fn frames_to_search(run: &Range<usize>) -> Vec<usize, TRIES> {
+    let mut frames: Vec<usize, TRIES> = Vec::new();
+    let mut parts = 2;
+    while !frames.is_full() && parts <= 16 {
+        for k in (1..parts).step_by(2) {
+            let frame = run.start + k * run.len() / parts;
+            let near = |other: &usize| other.abs_diff(frame) < SPACING;
+            if frame < run.end && !frames.iter().any(near) {
+                // Those that find no room are of later parts, and not wanted.
+                let _ = frames.push(frame);
+            }
+        }
+        parts *= 2;
+    }
+    frames
+}
+
+/// The first run of frames of `range` in which a component was looked for or passed over, and not found, that is worth searching.
+#[must_use]
+pub fn run_to_search(cells: &[Cell], range: &Range<usize>) -> Option<Range<usize>> {
+    let end = range.end.min(cells.len());
+    let mut at = range.start;
+    while at < end {
+        let start = (at..end).find(|&frame| cells[frame].found().is_none())?;
+        let next = (start..end).find(|&frame| cells[frame].found().is_some());
+        let run = start..next.unwrap_or(end);
+        if run.len() >= RUN {
+            return Some(run);
+        }
+        at = run.end;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::look::{Looked, Missing};
+    use crate::follow::{Contrast, FramePose};
+    use crate::pose::Pose;
+    use crate::refine::Fit;
+    use std::vec::Vec;
+
+    #[test]
+    fn the_middle_comes_first_and_short_films_are_searched_once() {
+        assert_eq!(frames_to_search(&(0..120))[..], [60, 30, 90]);
+        assert_eq!(frames_to_search(&(10..14))[..], [12]);
+        assert!(frames_to_search(&(5..5)).is_empty());
+    }
+
+    #[test]
+    fn runs_that_are_long_enough_are_searched() {
+        let found = Ok(FramePose {
+            pose: Pose::IDENTITY,
+            covariance: None,
+            fit: Fit::default(),
+            misfit_px: 0.3,
+            contrast: Contrast {
+                step: 1.0,
+                strength: 1.0,
+                known: 1.0,
+            },
+        });
+        let looked = |found| Looked {
+            found,
+            ordinary: true,
+            searched: false,
+            known: 1.0,
+        };
+        let cell = |frame| Cell::on_the_way(looked(frame));
+        let cells: Vec<Cell> = (0..40)
+            .map(|frame| match frame {
+                5..=9 | 20..=29 => cell(Err(Missing::Hidden)),
+                _ => cell(found),
+            })
+            .collect();
+        assert_eq!(run_to_search(&cells, &(0..40)), Some(20..30));
+        assert_eq!(run_to_search(&cells, &(23..40)), None);
+        assert_eq!(run_to_search(&cells, &(30..40)), None);
+    }
+}
