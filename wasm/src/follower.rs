@@ -84,6 +84,28 @@ impl FilmFollower {
         Ok(())
     }
 
+    /// From now on frames are also asked for that are to be searched as a whole, where the component was lost.
+    #[wasm_bindgen(js_name = searchWhereLost)]
+    pub fn search_where_lost(&mut self) {
+        self.following.search_where_lost();
+    }
+
+    /// Whether the frame that is wanted is to be searched as a whole: `searched` takes the answer, not `take`.
+    #[wasm_bindgen(getter, js_name = isSearch)]
+    pub fn is_search(&self) -> bool {
+        self.following.is_search()
+    }
+
+    /// What came of searching the frame that was asked for: the six numbers of the pose that was found there, or nothing.
+    ///
+    /// # Errors
+    /// A sentence where they are not six finite numbers.
+    pub fn searched(&mut self, pose: Option<Vec<f64>>) -> Result<(), JsError> {
+        let pose = pose.map(|pose| from_numbers(&pose)).transpose()?;
+        self.following.searched(pose.map(Pose::from));
+        Ok(())
+    }
+
     /// The frame that is to be looked at next; nothing where this part of the work is done.
     pub fn wanted(&mut self) -> Option<usize> {
         self.following.wanted()

@@ -12,6 +12,7 @@ mod exchange;
 mod film;
 mod follower;
 mod found;
+mod frame_search;
 mod library;
 mod matcher;
 mod working_model;
@@ -23,6 +24,7 @@ pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask
 pub use film::{FilmFacts, FilmStudy};
 pub use follower::{FilmFollower, FollowedFilm};
 pub use found::Match;
+pub use frame_search::{FrameSearch, frames_to_search};
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{
     Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,

@@ -36,12 +36,20 @@ use fluoropose_page::traced::Traced;
 
 self_cell::self_cell!(
     /// A library with its bytes, checked once.
-    struct OpenLibrary {
+    pub(crate) struct OpenLibrary {
         owner: Vec<u8>,
         #[covariant]
         dependent: Library,
     }
 );
+
+impl OpenLibrary {
+    /// # Errors
+    /// The core's sentence about what is damaged.
+    pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, JsError> {
+        Self::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))
+    }
+}
 
 /// Local minima of the score surface that are looked at without a model.
 const MINIMA: usize = 4;
@@ -69,9 +77,8 @@ impl Matcher {
     /// The core's sentence about what is damaged.
     #[wasm_bindgen(constructor)]
     pub fn new(bytes: Vec<u8>) -> Result<Matcher, JsError> {
-        let library = OpenLibrary::try_new(bytes, |bytes| Library::open(bytes).map_err(sentence))?;
         Ok(Self {
-            library,
+            library: OpenLibrary::of(bytes)?,
             model: None,
             buffers: FinderBuffers::default(),
         })
@@ -91,6 +98,12 @@ impl Matcher {
         }
         self.model = Some(model);
         Ok(())
+    }
+
+    /// A copy of the library's bytes.
+    #[wasm_bindgen(getter)]
+    pub fn bytes(&self) -> Vec<u8> {
+        self.library.borrow_owner().clone()
     }
 
     /// Number of views.

@@ -13,7 +13,8 @@
 //! - [`threshold`] outlines the region around the cursor at a grey level; [`smoothed`] prepares its frame.
 //! - [`wire`] is the live-wire: cheapest paths along edges. [`costs`] prepares them, [`follow`] holds the path's end
 //!   under the cursor, [`cooling`] tells which part of the path may be fixed.
-//! - [`one_click`] needs one click inside the implant or a rough box around it.  [`seeds`] are clicks worth trying where there is none.
+//! - [`one_click`] needs one click inside the implant or a rough box around it.  [`seeds`] are clicks worth trying where there is none,
+//!   [`whole_frame`] tries them.
 //! - [`snap`](mod@snap) pulls a rough outline onto edges, [`soften`](mod@soften) takes the shaking of the hand from
 //!   it, [`simplify`](mod@simplify) leaves out points, [`brush`](mod@brush) adds to it and erases from it.
 //!
@@ -84,6 +85,7 @@ pub mod wire;
 
 pub mod one_click;
 pub mod seeds;
+pub mod whole_frame;
 
 pub mod brush;
 pub mod morphology;

@@ -4,12 +4,14 @@ import { type Followed, takeFollowed, withoutSoFar, withSoFar } from '../documen
 import { cellOf, chosenCandidate, type FrameEntry, type Result } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { type Span, spanToFollow } from '../results/spans';
+import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { CameraInput } from '../workers/protocol/camera';
 import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/follow';
+import type { FirstPoses } from './first_poses';
 import { asJob, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
@@ -29,12 +31,16 @@ interface Part {
  */
 export class Follower {
   readonly #services: Services;
+  readonly #first: Pick<FirstPoses, 'open' | 'find'>;
+  readonly #film: { ready(): Promise<void> };
   readonly #workers: Readonly<Record<ComponentName, Worker>>;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>) {
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find'>, film: { ready(): Promise<void> }) {
     this.#services = services;
     this.#workers = workers;
+    this.#first = first;
+    this.#film = film;
   }
 
   /** Begins, or where it is under way stops and keeps what there is. */
@@ -43,24 +49,43 @@ export class Follower {
     const { store } = this.#services;
     const refusal = this.#refusal();
     if (refusal !== null) return store.say('info', refusal);
-    const parts = this.#parts();
-    if (parts.length === 0) return store.say('info', this.#nothingToDo());
     const abort = (this.#abort = new AbortController());
     store.show({ following: true });
-    const total = parts.reduce((sum, { span }) => sum + span.free, 0);
-    const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
     try {
-      const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
-      const before = parts.flatMap((part) => [...part.before.values()]);
-      store.amendEverywhere((doc) => withoutSoFar(doc, before));
-      if (found.length > 0) store.perform(takeFollowed(found));
-      store.say('info', texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted));
+      const missing = await this.#begin(abort);
+      if (!abort.signal.aborted) await this.#follow(missing, abort);
     } catch (error) {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
     } finally {
       this.#abort = null;
       store.show({ following: false });
     }
+  }
+
+  /** Finds what is set in no frame; gives what is nowhere. Waits for what the film tells of itself. */
+  async #begin(abort: AbortController): Promise<readonly ComponentName[]> {
+    const { store, studio } = this.#services;
+    const isHere = (component: ComponentName) => studio.meshOf(store.doc.components[component].model?.sha256 ?? '') !== null;
+    const unposed = standingOf(store.doc).unposed.filter(isHere);
+    const cancel = () => abort.abort();
+    const found = await Promise.all(unposed.map((component) => this.#first.find(component, this.#workers[component], abort.signal, cancel)));
+    await this.#film.ready();
+    return unposed.filter((_, index) => !found[index]);
+  }
+
+  async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
+    const { store } = this.#services;
+    const parts = this.#parts();
+    const notFound = missing.map((component) => texts.follow.notFound(texts.component[component]));
+    if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
+    const total = parts.reduce((sum, { span }) => sum + span.free, 0);
+    const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
+    const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
+    const before = parts.flatMap((part) => [...part.before.values()]);
+    store.amendEverywhere((doc) => withoutSoFar(doc, before));
+    if (found.length > 0) store.perform(takeFollowed(found));
+    const done = texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted);
+    store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '));
   }
 
   /** Why the film cannot be followed; null where it can. */
@@ -119,7 +144,8 @@ export class Follower {
     const camera: CameraInput | null = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
     const { first, last, given } = span;
-    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, film: filmNumbers(doc, component) };
+    const searches = (await this.#first.open(component, worker)).length > 0;
+    const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), signal, looked);
   }
 
@@ -136,7 +162,8 @@ export class Follower {
       if (!frame || !pixels) throw new Error(texts.follow.gone(next + 1));
       const { width, height } = frame;
       const at = next;
-      const seen = await part.worker.call('look', { pixels, width, height }, { transfer: [pixels.buffer] });
+      const seen = await part.worker.call('look', { pixels, width, height }, { signal, transfer: [pixels.buffer] }).catch(unlessAborted);
+      if (!seen) return;
       next = seen.next;
       if (seen.pose) this.#fill(part, at, frame.id, seen.pose);
       looked();
@@ -189,6 +216,12 @@ export class Follower {
 function counting(report: (done: number, total: number) => void, total: number): () => void {
   let done = 0;
   return () => report(Math.min(++done, total), total);
+}
+
+/** Who stops keeps what there is. */
+function unlessAborted(error: unknown): null {
+  if (error instanceof Aborted) return null;
+  throw error;
 }
 
 function isDoubtful({ pose, doubtful }: Followed): boolean {

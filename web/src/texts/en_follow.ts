@@ -2,9 +2,12 @@
 export const follow = {
   button: 'Follow',
   stop: 'Stop',
-  title: 'Follow both components through the film from the frames that are set (Shift+G)',
+  title: 'Follow both components through the film from the frames that are set; what is set in none is looked for first (Shift+G)',
   stopTitle: 'Stop following, and keep what was found (Shift+G)',
   job: 'Following the film',
+  looking: (component: string, frame: number) => `Looking for the ${component} in frame ${frame}`,
+  notFound: (component: string) =>
+    `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,
   unit: 'frames',
   source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
   soFar: 'the film has not been judged as a whole yet: it is being followed, or that was broken off, and Follow goes on',

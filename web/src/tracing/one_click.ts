@@ -1,14 +1,13 @@
 import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
-import { currentPlace } from '../document/store';
 import { cellKey, cellOf, type FrameEntry } from '../document/types';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
-import type { ComponentName } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { OneClickFacts, OneClickInput } from '../workers/protocol/one_click';
+import { libraryReady } from '../jobs/library_ready';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
@@ -38,10 +37,10 @@ export class OneClick {
     this.#worker = worker;
   }
 
-  async ask(prompt: Prompt, frame: FrameEntry, bright: boolean): Promise<void> {
+  async ask(prompt: Prompt, place: Place, bright: boolean): Promise<void> {
     const { store } = this.#services;
-    const place = currentPlace(store.state);
-    if (!place) return;
+    const frame = store.doc.frames.find(({ id }) => id === place.frameId);
+    if (!frame) return;
     const key = cellKey(place.frameId, place.component);
     this.#asked.get(key)?.abort.abort();
     const asked = { prompt, place, frame, bright, abort: new AbortController() };
@@ -63,22 +62,9 @@ export class OneClick {
     const title = texts.tracing.said.oneClickJob(texts.componentTitle[place.component], number);
     const job = { title, unit: texts.tracing.said.percent, total: 0, cancel: () => abort.abort(), place, at: prompt[0] };
     await asJob(store, job, async (report) => {
-      await unlessAborted(Promise.all([before, this.#libraryIsThere(place.component)]), abort.signal);
+      // Without the library that is being built there would be an outline and no pose.
+      await unlessAborted(Promise.all([before, libraryReady(store, place.component)]), abort.signal);
       await this.#find(asked, report);
-    });
-  }
-
-  /** A click on the way to a library that is being built waits for it: without it there would be an outline and no pose. */
-  #libraryIsThere(component: ComponentName): Promise<void> {
-    const { store } = this.#services;
-    return new Promise((resolve) => {
-      const isThere = () => store.ui.libraries[component].state !== 'building';
-      if (isThere()) return resolve();
-      const stop = store.subscribe(() => {
-        if (!isThere()) return;
-        stop();
-        resolve();
-      });
     });
   }
 

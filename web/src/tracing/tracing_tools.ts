@@ -5,12 +5,10 @@ import type { TracingIntent } from '../interaction/tracing_intent';
 import type { ToolName } from '../terms/tool';
 import type { FrameImage } from '../pkg/page/fluoropose_page.js';
 import { texts } from '../texts/texts';
-import type { Bridge } from '../workers/bridge';
-import type { PoseProtocol } from '../workers/protocol/pose';
 import { sentenceOf, type Services } from '../jobs/services';
 import { componentMeant } from '../results/steps';
 import { Host } from './host';
-import { OneClick } from './one_click';
+import type { OneClick } from './one_click';
 import { brushRefusal, paint } from './painting';
 import { coolingOf, regionOf, wireOf } from './pixels';
 import { NO_PREVIEW, type Preview } from './preview';
@@ -39,9 +37,9 @@ export class TracingTools {
   /** How many CSS pixels a frame pixel is; the stage tells. */
   scale = 1;
 
-  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+  constructor(services: Services, oneClick: OneClick) {
     this.#services = services;
-    this.#oneClick = new OneClick(services, worker);
+    this.#oneClick = oneClick;
     services.store.subscribe(() => this.#watch());
   }
 
@@ -189,7 +187,7 @@ export class TracingTools {
     if (intent.to === 'frame' || !frame) return;
     const prompt = intent.to === 'box' ? ([intent.from, intent.at] as const) : ([intent.at] as const);
     store.selectComponent(componentMeant(store.state, intent.at));
-    void this.#oneClick.ask(prompt, frame, store.ui.tracing.bright);
+    void this.#oneClick.ask(prompt, { frameId: frame.id, component: store.ui.component }, store.ui.tracing.bright);
   }
 
   /** The stroke so far on the outline from before it. */

@@ -67,17 +67,37 @@ function bench(missing: readonly number[] = []) {
   const studio = { framePixels: () => new Uint8Array(64), meshOf: () => mesh };
   const femur = worker(missing);
   const workers = { femur, tibia: worker([]) };
-  const follower = new Follower({ store, studio } as never, workers as never);
+  const searched: string[] = [];
+  const first = {
+    open: async () => [],
+    find: async (component: 'femur' | 'tibia') => {
+      searched.push(component);
+      const at = discoveries[component];
+      if (at !== undefined) store.perform(setPoseByHand(place(at), poseOf(0)));
+      return at !== undefined;
+    },
+  };
+  const discoveries: { femur?: number; tibia?: number } = {};
+  const follower = new Follower({ store, studio } as never, workers as never, first, { ready: async () => undefined });
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, xs };
+  return { store, follower, femur, xs, searched, discoveries };
 }
 
 describe('following', () => {
-  it('asks for a frame that is set, and changes nothing', async () => {
-    const { store, follower, xs } = bench();
+  it('looks for a component that is set nowhere, and says so where it is not found', async () => {
+    const { store, follower, xs, searched } = bench();
     await follower.follow();
-    expect(store.ui.notice?.text).toContain('click the femur or the tibia');
+    expect(searched).toEqual(['femur']);
+    expect(store.ui.notice).toMatchObject({ kind: 'error', text: expect.stringContaining('The femur was not found') });
     expect(xs()).toEqual(Array(FRAMES).fill(null));
+    expect(store.ui.following).toBe(false);
+  });
+
+  it('goes on from where it found a component', async () => {
+    const { follower, xs, discoveries } = bench();
+    discoveries.femur = 2;
+    await follower.follow();
+    expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
   });
 
   it('fills the frames that nobody set as one step back, with verdicts and what was not found', async () => {

@@ -1,22 +1,32 @@
-import { FilmFollower } from '../../pkg/core/fluoropose_wasm.js';
+import { FilmFollower, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
+import type { FramePixels } from '../protocol/frame_pixels';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
 import { imageOf } from './frame_pixels';
-import { serve } from './serve';
+import { type Context, serve } from './serve';
 
 /** Follows one component, beside the worker that finds poses: the person goes on working. */
 const ready = loadCore();
 let follower: FilmFollower | null = null;
+let search: FrameSearch | null = null;
 let frames = 0;
 
 const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 const NONE = new Float64Array();
 
 serve<FollowProtocol>({
-  begin: async ({ mesh, camera, first, last, given, film, ...input }) => {
+  openSearch: async ({ mesh, camera: { text, width, height }, library, bright, ...film }) => {
+    await ready;
+    search?.free();
+    search = null;
+    search = new FrameSearch(library, mesh.vertices, mesh.triangles, text, width, height, bright);
+    return [...framesToSearch(film.frames)];
+  },
+  find: (pixels, context) => withImage(pixels, (image) => searched(image, context)),
+  begin: async ({ mesh, camera, first, last, given, film, searches, ...input }) => {
     await ready;
     follower?.free();
     follower = null;
@@ -24,18 +34,23 @@ serve<FollowProtocol>({
     const { text, width, height } = camera;
     const begun = new FilmFollower(mesh.vertices, mesh.triangles, text, width, height, frames, first, last, Float64Array.from(film ?? []));
     for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)), true);
+    if (searches && search) {
+      search.knowFilm(Float64Array.from(film ?? []));
+      begun.searchWhereLost();
+    }
     follower = begun;
     return begun.wanted() ?? null;
   },
-  look: (pixels) => {
-    const image = imageOf(pixels);
-    try {
+  look: (pixels, context) =>
+    withImage(pixels, async (image) => {
+      if (working().isSearch) {
+        await searched(image, context);
+        working().searched(search?.pose);
+        return { pose: null, next: working().wanted() ?? null };
+      }
       const pose = working().take(image);
       return { pose: pose ? poseFrom(pose) : null, next: working().wanted() ?? null };
-    } finally {
-      image.free();
-    }
-  },
+    }),
   sides: ({ femurs }) => {
     const [poses, axes, own] = femurs ? numbers(femurs) : [NONE, NONE, NONE];
     working().chooseSides(poses, axes, own);
@@ -60,6 +75,25 @@ serve<FollowProtocol>({
     return found;
   },
 });
+
+async function withImage<T>(pixels: FramePixels, work: (image: FrameImage) => Promise<T>): Promise<T> {
+  const image = imageOf(pixels);
+  try {
+    return await work(image);
+  } finally {
+    image.free();
+  }
+}
+
+/** Searches the whole frame in steps of some tens of milliseconds, so that it can be called off between them. */
+async function searched(image: FrameImage, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Float64Array<ArrayBuffer> | null> {
+  if (!search) throw new Error('nothing is looked for');
+  for (let more = search.step(image, true); more; more = search.step(image, false)) {
+    report({ fraction: search.progress });
+    await breathe();
+  }
+  return (search.place as Float64Array<ArrayBuffer> | undefined) ?? null;
+}
 
 function working(): FilmFollower {
   if (!follower) throw new Error('nothing is followed');

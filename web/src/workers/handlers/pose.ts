@@ -28,6 +28,7 @@ serve<PoseProtocol>({
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
   },
+  library: async ({ component }) => (await matcherOf(component)).bytes as Uint8Array<ArrayBuffer>,
   axes: async ({ component, mesh }) => {
     await ready;
     const found = shapeAxes(mesh.vertices, mesh.triangles, component === 'femur');

@@ -6,10 +6,14 @@ import type { FramePixels } from './frame_pixels';
 
 /** Follows one component through a film: one worker a component. Frames are numbered from 0. */
 export interface FollowProtocol {
+  /** What whole frames are searched with, until the next one; gives the frames of the film that are to be searched, in their order. */
+  openSearch: { input: SearchInput; output: readonly number[]; progress: never };
+  /** Looks for the component in a whole frame, and gives a point of it; null where it is nowhere. */
+  find: { input: FramePixels; output: Float64Array<ArrayBuffer> | null; progress: { readonly fraction: number } };
   /** Gives the first frame that is to be looked at; null where there is none. */
   begin: { input: FollowInput; output: number | null; progress: never };
-  /** Looks at the frame that was asked for. */
-  look: { input: FramePixels; output: Seen; progress: never };
+  /** Looks at the frame that was asked for, or searches it as a whole: it can be called off then. */
+  look: { input: FramePixels; output: Seen; progress: { readonly fraction: number } };
   /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
   sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
   /** Ends the work before all is done. */
@@ -17,6 +21,15 @@ export interface FollowProtocol {
   /** Distances from the camera, mm; NaN where the component is not to be trusted. */
   depths: { input: null; output: Float64Array<ArrayBuffer>; progress: never };
   conclude: { input: { readonly otherDepths: Float64Array<ArrayBuffer> }; output: readonly FollowedFrame[]; progress: never };
+}
+
+export interface SearchInput {
+  readonly mesh: ModelMesh;
+  readonly camera: CameraInput;
+  readonly library: Uint8Array<ArrayBuffer>;
+  readonly frames: number;
+  /** Metal is brighter than what surrounds it. */
+  readonly bright: boolean;
 }
 
 export interface FollowInput {
@@ -27,6 +40,8 @@ export interface FollowInput {
   readonly last: number;
   /** Poses that a person set: they stay. */
   readonly given: readonly { readonly frame: number; readonly pose: PoseNumbers }[];
+  /** Where it is lost it is looked for in whole frames, with what was opened for that. */
+  readonly searches: boolean;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
 }

@@ -5,14 +5,17 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use fluoropose::camera::Camera;
 use fluoropose::finder::{Candidate, Component, FinderBuffers};
+use fluoropose::follow::Subject;
 use fluoropose::image::frame::Grey;
 use fluoropose::library::Library;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
-use fluoropose::refine::Polarity;
+use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start, candidates,
 };
+use fluoropose_tracing::seeds::seeds_needed;
+use fluoropose_tracing::whole_frame::{Discovery, WholeFrame};
 
 /// What came of a prompt.
 pub struct Clicked {
@@ -70,20 +73,6 @@ impl<'l> Clicker<'l> {
         prompt: Prompt,
         polarity: Polarity,
     ) -> Result<Clicked, OneClickError> {
-        self.click_while(frame, prompt, polarity, |_| true)
-    }
-
-    /// The same, given up where `go_on` says so of the work so far.
-    ///
-    /// # Errors
-    /// Those of [`Self::click`].
-    pub fn click_while(
-        &mut self,
-        frame: &dyn Grey,
-        prompt: Prompt,
-        polarity: Polarity,
-        go_on: impl Fn(&OneClick) -> bool,
-    ) -> Result<Clicked, OneClickError> {
         let begin = Instant::now();
         let observation = Observation {
             frame,
@@ -107,7 +96,7 @@ impl<'l> Clicker<'l> {
             let step = Instant::now();
             let more = work.step(&observation, Some(&component), &mut memory)?;
             longest = longest.max(step.elapsed());
-            if !more || !go_on(&work) {
+            if !more {
                 break;
             }
         }
@@ -121,5 +110,32 @@ impl<'l> Clicker<'l> {
             took,
             longest,
         })
+    }
+
+    /// Looks for the component in a whole frame.
+    ///
+    /// # Errors
+    /// Those of [`WholeFrame::step`].
+    pub fn search(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+    ) -> Result<Option<Discovery>, OneClickError> {
+        let component = Component {
+            library: &self.library,
+            model: &self.mesh,
+            planes: &self.planes,
+        };
+        let camera = &self.camera;
+        let mut sums = vec![0.0; seeds_needed(camera)];
+        let polarity = image.polarity;
+        let mut search = WholeFrame::new(image.frame, &component, camera, polarity, &mut sums)?;
+        let kernels = fluoropose_kernels::fastest();
+        while let Some(needs) = search.needs(camera) {
+            let finder = self.finder.borrow(&component, camera, kernels);
+            let mut memory = self.own.borrow(&needs, finder.workspace, finder.refine);
+            search.step(subject, image, &component, &mut memory)?;
+        }
+        Ok(search.found().copied())
     }
 }

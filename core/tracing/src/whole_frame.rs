@@ -1,0 +1,191 @@
+//! A component looked for in a whole frame, where nobody points at it: clicks at the places that [`seeds`] gives, most of which
+//! lead nowhere and are soon given up.
+
+use fluoropose::camera::Camera;
+use fluoropose::finder::Component;
+use fluoropose::follow::{FramePose, From, Subject, refined_on_frame};
+use fluoropose::image::contour::Point;
+use fluoropose::image::frame::Grey;
+use fluoropose::memory::TooLittleMemory;
+use fluoropose::refine::{ImageTarget, Polarity, RefineMemory};
+use heapless::Vec;
+
+use crate::one_click::{
+    Answer, Observation, OneClick, OneClickError, OneClickMemory, OneClickNeeds, Progress, Prompt,
+};
+use crate::seeds::{SEEDS, expected_size, seeds};
+
+/// Of the answers to a click so many are refined once more and compared.
+const ANSWERS: usize = 4;
+/// A pose that nobody pointed at must have answers at least so good, its outline met by this part, its edges nearer than
+/// this and seen by this part.
+const LEAST_SCORE: f64 = 0.5;
+const LEAST_MET: f64 = 0.9;
+const MOST_PX: f64 = 1.5;
+const LEAST_KNOWN: f64 = 0.7;
+/// A place is left where its best answer has a smaller score than this before its surroundings are searched once more, and
+/// before poses around that answer are tried; how far the work is then.
+const WORTH: f64 = 0.2;
+const AGAIN: f64 = 0.575;
+const WORTH_MUCH: f64 = 0.45;
+const AROUND: f64 = 0.655;
+/// Better ones are not looked for beyond this score.
+const ENOUGH: f64 = 0.75;
+
+/// Where a component was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Discovery {
+    /// A click there leads to it.
+    pub place: Point,
+    /// The pose, and what the frame says of it.
+    pub pose: FramePose,
+}
+
+/// The search of a frame, in steps between which it can be called off.
+#[derive(Debug)]
+pub struct WholeFrame {
+    places: Vec<Point, SEEDS>,
+    /// Number of the place that is tried.
+    at: usize,
+    click: Option<OneClick>,
+    found: Option<Discovery>,
+}
+
+impl WholeFrame {
+    /// Begins the search of a frame. `sums` are [`crate::seeds::seeds_needed`] numbers.
+    ///
+    /// # Errors
+    /// [`TooLittleMemory`] where there are fewer.
+    pub fn new(
+        frame: &dyn Grey,
+        component: &Component<'_>,
+        camera: &Camera,
+        polarity: Polarity,
+        sums: &mut [f64],
+    ) -> Result<Self, TooLittleMemory> {
+        let size = expected_size(component, camera);
+        let mut search = Self {
+            places: seeds(frame, camera, size, polarity, sums)?,
+            at: 0,
+            click: None,
+            found: None,
+        };
+        search.begin(camera, component);
+        Ok(search)
+    }
+
+    /// Lengths of the memory that the next [`Self::step`] borrows; `None` where nothing is left to do.
+    #[must_use]
+    pub fn needs(&self, camera: &Camera) -> Option<OneClickNeeds> {
+        Some(self.click.as_ref()?.needs(camera))
+    }
+
+    /// The part of the work that is done, 0 to 1.
+    #[must_use]
+    pub fn progress(&self) -> f64 {
+        let of_click = match self.click.as_ref().map(OneClick::progress) {
+            None => return 1.0,
+            Some(Progress::Regions(part) | Progress::Poses(part)) => part,
+            Some(Progress::Done) => 1.0,
+        };
+        (self.at as f64 + of_click) / self.places.len().max(1) as f64
+    }
+
+    /// The best that was found so far, where it is good.
+    #[must_use]
+    pub fn found(&self) -> Option<&Discovery> {
+        self.found.as_ref()
+    }
+
+    /// The next part of the work. Returns whether there is more to do.
+    ///
+    /// # Errors
+    /// Where memory is too short.
+    pub fn step(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        component: &Component<'_>,
+        memory: &mut OneClickMemory<'_>,
+    ) -> Result<bool, OneClickError> {
+        let Some(click) = &mut self.click else {
+            return Ok(false);
+        };
+        let observation = Observation {
+            frame: image.frame,
+            camera: subject.camera,
+            polarity: image.polarity,
+            excluded: None,
+            film: None,
+        };
+        match click.step(&observation, Some(component), memory) {
+            Ok(true) if is_worth_it(click) => return Ok(true),
+            Ok(_) => self.compare(subject, image, &mut memory.refine),
+            Err(OneClickError::Memory(error)) => return Err(error.into()),
+            // A click that leads nowhere.
+            Err(_) => {}
+        }
+        self.at += 1;
+        self.click = None;
+        let is_enough = |found: &Discovery| found.pose.score() >= ENOUGH;
+        if !self.found.as_ref().is_some_and(is_enough) {
+            self.begin(subject.camera, component);
+        }
+        Ok(self.click.is_some())
+    }
+
+    /// The click at the next place that has room for one.
+    fn begin(&mut self, camera: &Camera, component: &Component<'_>) {
+        while let Some(&place) = self.places.get(self.at) {
+            self.click = OneClick::new(Prompt::Click(place), camera, Some(component)).ok();
+            if self.click.is_some() {
+                return;
+            }
+            self.at += 1;
+        }
+    }
+
+    /// Takes the best of a click's answers, refined once more, where it is good and better than what there is.
+    fn compare(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) {
+        let answers = self.click.as_ref().map_or(&[][..], OneClick::answers);
+        let good = answers
+            .iter()
+            .filter(|answer: &&Answer| answer.score >= LEAST_SCORE);
+        let mut best: Option<FramePose> = None;
+        for answer in good.take(ANSWERS) {
+            let start = (&answer.refined.pose, From::Far);
+            let Ok(one) = refined_on_frame(subject, image, start, memory) else {
+                continue;
+            };
+            if best.is_none_or(|best| one.score() > best.score()) {
+                best = Some(one);
+            }
+        }
+        let (Some(pose), Some(&place)) = (best.filter(is_good), self.places.get(self.at)) else {
+            return;
+        };
+        let is_better = |found: &Discovery| pose.score() > found.pose.score();
+        if self.found.as_ref().is_none_or(is_better) {
+            self.found = Some(Discovery { place, pose });
+        }
+    }
+}
+
+/// Whether a click at a place that nobody chose is worth going on with: most lead nowhere.
+fn is_worth_it(click: &OneClick) -> bool {
+    let best = click.answers().first().map_or(0.0, |best| best.score);
+    match click.progress() {
+        Progress::Poses(part) if part >= AROUND => best >= WORTH_MUCH,
+        Progress::Poses(part) if part >= AGAIN => best >= WORTH,
+        _ => true,
+    }
+}
+
+fn is_good(found: &FramePose) -> bool {
+    found.fit.met >= LEAST_MET && found.misfit_px <= MOST_PX && found.fit.known >= LEAST_KNOWN
+}

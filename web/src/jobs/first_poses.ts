@@ -1,0 +1,79 @@
+import type { Place } from '../document/command';
+import { cellOf } from '../document/types';
+import { type FramePoint, framePoint } from '../geometry/points';
+import { cameraOf } from '../results/keys';
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import type { Bridge } from '../workers/bridge';
+import type { FollowProtocol } from '../workers/protocol/follow';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import { libraryReady } from './library_ready';
+import { asJob, type Services } from './services';
+
+type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+
+/** What a click would do. */
+interface Clicks {
+  ask(prompt: readonly [FramePoint], place: Place, bright: boolean): Promise<void>;
+}
+
+/**
+ * Finds components that nobody pointed at: their workers look for them in some whole frames, and where one is found it is clicked
+ * there, so that its pose is found, judged and corrected as that of any click.
+ */
+export class FirstPoses {
+  readonly #services: Services;
+  readonly #poser: Pick<Bridge<PoseProtocol>, 'call'>;
+  readonly #clicks: Clicks;
+
+  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks) {
+    this.#services = services;
+    this.#poser = poser;
+    this.#clicks = clicks;
+  }
+
+  /** Opens what whole frames are searched with; gives the frames that are worth it, none where there is no library. */
+  async open(component: ComponentName, worker: Worker): Promise<readonly number[]> {
+    const { store, studio } = this.#services;
+    await libraryReady(store, component);
+    const { doc, ui } = store;
+    const { model } = doc.components[component];
+    const mesh = model && studio.meshOf(model.sha256);
+    const camera = cameraOf(doc, doc.frames[0] ?? null);
+    if (!mesh || !camera || ui.libraries[component].state !== 'ready') return [];
+    const library = await this.#poser.call('library', { component });
+    const input = { mesh, camera, library, frames: doc.frames.length, bright: ui.tracing.bright };
+    return worker.call('openSearch', input, { transfer: [library.buffer] });
+  }
+
+  /** Looks for a component in the whole of some frames. False where it is in none of them. */
+  async find(component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
+    const { store } = this.#services;
+    for (const number of await this.open(component, worker)) {
+      const frame = store.doc.frames[number];
+      if (!frame) continue;
+      const place = { frameId: frame.id, component };
+      const at = await this.#search(place, number, worker, signal, cancel);
+      if (!at) continue;
+      await this.#clicks.ask([at], place, store.ui.tracing.bright);
+      if (cellOf(store.doc, frame.id, component).result?.kind === 'posed') return true;
+    }
+    return false;
+  }
+
+  async #search(place: Place, number: number, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<FramePoint | null> {
+    const { store, studio } = this.#services;
+    const frame = store.doc.frames[number];
+    const pixels = frame && studio.framePixels(frame.id);
+    if (!frame || !pixels) throw new Error(texts.follow.gone(number + 1));
+    const job = { title: texts.follow.looking(texts.component[place.component], number + 1), unit: texts.tracing.said.percent, total: 100, cancel, place };
+    const found = await asJob(store, job, (report) =>
+      worker.call('find', { pixels, width: frame.width, height: frame.height }, {
+        signal,
+        transfer: [pixels.buffer],
+        onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
+      }),
+    );
+    return found && framePoint(found[0] ?? 0, found[1] ?? 0);
+  }
+}
