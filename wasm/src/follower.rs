@@ -2,7 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
-use fluoropose::follow::{Conclusion, Following, KnownFemur, Subject, contrast};
+use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, Subject, contrast};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
@@ -188,6 +188,12 @@ impl FilmFollower {
         self.following.stop();
     }
 
+    /// Begins to look at frames from the other side of the mirror too, once all else is done: the answer has it as their rival.
+    #[wasm_bindgen(js_name = compareSides)]
+    pub fn compare_sides(&mut self, frames: Vec<usize>) {
+        self.following.compare_sides(frames.into_iter());
+    }
+
     /// How far the component is from the camera in each frame where it is to be trusted, mm; not a number elsewhere.
     pub fn depths(&self) -> Vec<f64> {
         let depths = self.following.depths();
@@ -212,6 +218,9 @@ impl FilmFollower {
                 .map(|cell| cell.found().map(|found| found.fit.residual_px))
                 .collect(),
             deviations: deviations.collect(),
+            rivals: (0..cells.len())
+                .map(|frame| self.following.rival(frame).copied())
+                .collect(),
             frames,
         }
     }
@@ -242,6 +251,7 @@ pub struct FollowedFilm {
     frames: Vec<Conclusion>,
     residuals: Vec<Option<f64>>,
     deviations: Vec<Option<Vec<f64>>>,
+    rivals: Vec<Option<FramePose>>,
 }
 
 #[wasm_bindgen]
@@ -270,6 +280,18 @@ impl FollowedFilm {
     /// Root mean square of what remains between outline and edges, pixels.
     pub fn residual(&self, frame: usize) -> Option<f64> {
         *self.residuals.get(frame)?
+    }
+
+    /// Six numbers of the pose on the other side of the mirror, where it was compared.
+    pub fn rival(&self, frame: usize) -> Option<Vec<f64>> {
+        let rival = (*self.rivals.get(frame)?)?;
+        Some(to_numbers(&EulerPose::from(rival.pose)).to_vec())
+    }
+
+    /// What remains between that one's outline and edges, pixels.
+    #[wasm_bindgen(js_name = rivalResidual)]
+    pub fn rival_residual(&self, frame: usize) -> Option<f64> {
+        Some((*self.rivals.get(frame)?)?.fit.residual_px)
     }
 
     /// How bad a frame is: above 1 it is doubtful, and the worst have the most.

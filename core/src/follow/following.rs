@@ -51,6 +51,8 @@ enum Phase {
     /// To the other side, where that is the right one.
     GoOver,
     Over,
+    /// Frames are seen from the other side too, for who compares.
+    Compare,
 }
 
 /// Follows one component over some frames of a film. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at
@@ -69,6 +71,8 @@ pub struct Following {
     searches: bool,
     femur: Option<KnownFemur>,
     samples: Vec<SideSample>,
+    /// Other sides of frames that somebody wants to compare.
+    rivals: Vec<SideSample>,
     steps: Vec<SideStep>,
 }
 
@@ -86,6 +90,7 @@ impl Following {
             searches: false,
             femur: None,
             samples: Vec::new(),
+            rivals: Vec::new(),
             steps: Vec::new(),
         }
     }
@@ -165,12 +170,16 @@ impl Following {
                 let Some(&own) = self.cells[frame].found() else {
                     return Ok(None);
                 };
-                self.samples.push(SideSample {
+                let sample = SideSample {
                     frame,
                     own,
                     mirrored: super::mirrored_pose(subject, image, &own, memory),
                     fixed: self.cells[frame].fixed,
-                });
+                };
+                match self.phase {
+                    Phase::Compare => self.rivals.push(sample),
+                    _ => self.samples.push(sample),
+                }
                 Ok(Some(own))
             }
             &mut Task::Found {
@@ -208,6 +217,22 @@ impl Following {
         self.femur = femur;
         let wanted = frames_for_sides(&self.cells).filter(|frame| self.range.contains(frame));
         self.tasks.extend(wanted.map(Task::BothSides));
+    }
+
+    /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
+    pub fn compare_sides(&mut self, frames: impl Iterator<Item = usize>) {
+        if self.phase == Phase::Over {
+            self.phase = Phase::Compare;
+            let wanted = frames.filter(|frame| self.range.contains(frame));
+            self.tasks.extend(wanted.map(Task::BothSides));
+        }
+    }
+
+    /// What the other side of the mirror looks like in a frame, where it was compared and there is one.
+    #[must_use]
+    pub fn rival(&self, frame: usize) -> Option<&FramePose> {
+        let compared = self.rivals.iter().find(|sample| sample.frame == frame)?;
+        compared.mirrored.as_ref()
     }
 
     /// Ends the work before all is done: what its unfinished parts saw counts.
@@ -258,7 +283,7 @@ impl Following {
                 self.phase = Phase::GoOver;
             }
             Phase::GoOver => self.phase = Phase::Over,
-            Phase::Followed | Phase::Over => return None,
+            Phase::Followed | Phase::Over | Phase::Compare => return None,
         }
         Some(())
     }

@@ -265,6 +265,7 @@ export class Actions {
   #leave(): boolean {
     const { ui } = this.#store;
     if (ui.popover) this.#store.show({ popover: null });
+    else if (ui.checking) this.#store.show({ checking: false });
     else if (ui.selectedPoint !== null) this.#store.show({ selectedPoint: null });
     else this.#store.show({ tool: 'edit' });
     return true;

@@ -76,6 +76,8 @@ export const BINDINGS: readonly Binding[] = [
   binding('Working', ['F', 'Page Down'], texts.keys.nextFrame, plainly('f', 'pagedown'), { name: 'next-frame' }),
   binding('Working', ['C'], texts.keys.otherComponent, plainly('c'), { name: 'other-component' }),
   ...WORK_KEYS.map(workKey),
+  told(['1', '2', '3'], texts.check.keys.take),
+  told(['E'], texts.check.keys.edit),
   binding('Working', ['Ctrl + Z'], texts.keys.undo, (key) => key.ctrl && !key.shift && is(key, 'z'), { name: 'undo' }),
   binding(
     'Working',
@@ -121,6 +123,11 @@ function binding(
   action: Action,
 ): Binding {
   return { group, shown, does, matches, action };
+}
+
+/** A key that something else runs. */
+function told(shown: readonly string[], does: string): Binding {
+  return { group: 'Working', shown, does, matches: () => false, action: null };
 }
 
 function mouse(shown: string, does: string): Binding {

@@ -1,5 +1,7 @@
 import { canBeChecked, checkState, markOf, setNote, toggleChecked, toggleFlagged } from '../document/marks';
+import { nextDoubt } from '../results/doubts';
 import { nextTask } from '../results/progress';
+import { standingOf } from '../results/steps';
 import type { Place } from '../document/command';
 import { currentPlace, type Store } from '../document/store';
 import { cellOf } from '../document/types';
@@ -57,9 +59,13 @@ export class WorkActions {
       this.#store.say('info', texts.work.nothingToCheck);
       return true;
     }
+    const next = this.#store.ui.checking ? nextDoubt(doc, place, 1) : null;
     this.#store.perform(toggleChecked(place));
     const now = checkState(cell, markOf(this.#store.doc, place)) === 'yes';
     this.#say(place, now ? texts.work.saidChecked : texts.work.saidUnchecked);
+    // Who goes through what is doubtful goes on.
+    if (now && next) this.goTo(next.place);
+    if (standingOf(this.#store.doc).doubtful === 0) this.#store.show({ checking: false });
     return true;
   }
 
@@ -78,15 +84,28 @@ export class WorkActions {
     this.#store.selectComponent(component);
   }
 
+  /** To the worst of the doubtful poses, or on from one of them. False where there is none. */
+  check(step: 1 | -1 = 1): boolean {
+    const { doc, state, ui } = this.#store;
+    const next = nextDoubt(doc, ui.checking ? currentPlace(state) : null, step);
+    this.#store.show({ checking: next !== null });
+    if (!next) return false;
+    this.goTo(next.place);
+    this.#store.say('info', texts.work.nextDoubtful(next.index + 1, texts.component[next.place.component]));
+    return true;
+  }
+
   #goToNext(step: 1 | -1): boolean {
     const { doc, ui } = this.#store;
     if (doc.frames.length === 0) return false;
+    if (ui.checking && this.check(step)) return true;
     const next = nextTask(doc, poseKeys(doc), { index: ui.frameIndex, component: ui.component }, step);
     if (!next) {
       this.#store.say('info', texts.work.allDone);
       return true;
     }
     const { place, index, progress } = next.entry;
+    if (next.filter === 'doubtful' && this.check(step)) return true;
     this.goTo(place);
     const component = texts.component[place.component];
     const unfinished = texts.work.nextUnfinished(index + 1, component, texts.work.stages[progress.stage]);

@@ -20,6 +20,10 @@ export interface Followed {
   readonly deviations: PoseNumbers | null;
   readonly residual: number | null;
   readonly doubtful: boolean;
+  /** Above 1 it is doubtful, and the worst have the most. */
+  readonly badness: number;
+  /** From the other side of the mirror, where somebody may compare both. */
+  readonly rival: Pick<Candidate, 'pose' | 'residual'> | null;
   /** A sentence without its full stop. */
   readonly because: string;
   /** The frames that it was followed from. */
@@ -31,10 +35,10 @@ export function isFree({ outline, result }: Cell): boolean {
   return outline === null && (result === null || isFollowed(result));
 }
 
-/** Whether following said what is there. */
+/** Whether following said what is there, and nobody took another pose. */
 export function isFollowed(result: Result | null): boolean {
   if (result === null) return false;
-  return result.kind === 'posed' ? result.from === 'film' : result.origin.startsWith(FOLLOWED);
+  return result.kind === 'posed' ? result.from === 'film' && result.chosen === 0 : result.origin.startsWith(FOLLOWED);
 }
 
 /** Was it found by following that has not come to its end? */
@@ -69,12 +73,14 @@ function withFollowed(doc: Doc, one: Followed): Doc {
   return isFree(cell) ? withCell(doc, one.place, { ...cell, result: resultOf(one), resultOf: null }) : doc;
 }
 
-function resultOf({ pose, deviations, residual, doubtful, because, from }: Followed): Result {
+function resultOf({ pose, deviations, residual, doubtful, badness, rival, because, from }: Followed): Result {
   const origin = `${FOLLOWED} ${from}`;
   const sentence = `${because.charAt(0).toUpperCase()}${because.slice(1)}.`;
   if (!pose) return { kind: 'failed', origin, sentence };
   const verdict: Verdict = { word: doubtful ? 'doubtful' : 'good', because };
-  return posedBy(origin, { ...bare(pose), residual, deviations }, verdict, sentence);
+  const rivals = rival ? [{ ...bare(rival.pose), residual: rival.residual }] : [];
+  const posed = posedBy(origin, { ...bare(pose), residual, deviations }, verdict, sentence);
+  return { ...posed, candidates: [...posed.candidates, ...rivals], doubt: badness };
 }
 
 function posedBy(origin: string, candidate: Candidate, verdict: Verdict, reason: string | null): Posed {

@@ -19,6 +19,8 @@ export interface State {
 export interface Ui {
   readonly frameIndex: number;
   readonly component: ComponentName;
+  /** Doubtful poses are gone through, one by one. */
+  readonly checking: boolean;
   /** The film is being followed. */
   readonly following: boolean;
   readonly tool: ToolName;
@@ -110,6 +112,7 @@ export type LibraryState =
 const EMPTY_UI: Ui = {
   frameIndex: 0,
   component: 'femur',
+  checking: false,
   following: false,
   tool: 'trace',
   viewport: null,

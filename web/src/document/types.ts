@@ -193,6 +193,8 @@ export interface Posed {
   readonly decided: boolean;
   /** On the first candidate, with what the others say; null where none was given: see `verdictOf`. */
   readonly verdict: Verdict | null;
+  /** How bad a followed pose is: above 1 it is doubtful, and the worst have the most. */
+  readonly doubt?: number;
   /** The version of this program that worked it out; missing for what did not come from it. */
   readonly program?: string;
   /** Missing where the poses were brought onto an outline, not onto the edges of the frame itself. */

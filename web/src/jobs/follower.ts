@@ -128,10 +128,19 @@ export class Follower {
     const found: Followed[] = [];
     for (const part of parts) {
       const other = depths.get(part.component === 'femur' ? 'tibia' : 'femur') ?? new Float64Array();
-      const film = await part.worker.call('conclude', { otherDepths: other });
+      const film = await this.#compared(part, other, signal);
       found.push(...this.#answers(part, film, signal.aborted));
     }
     return found;
+  }
+
+  /** The answer, doubtful frames with what they look like from the other side of the mirror. */
+  async #compared(part: Part, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<readonly FollowedFrame[]> {
+    const film = await part.worker.call('conclude', { otherDepths });
+    const frames = film.flatMap(({ state }, frame) => (state === 'doubtful' ? [frame] : []));
+    if (frames.length === 0 || signal.aborted) return film;
+    await this.#look(part, await part.worker.call('compare', { frames }), signal, () => undefined);
+    return part.worker.call('conclude', { otherDepths });
   }
 
   /** From the frames that are set over all others. */
@@ -205,10 +214,10 @@ export class Follower {
       // What was not reached before somebody stopped it is as it was.
       if (!frame || !isInside || (stopped && one.state === 'unsolved')) return [];
       const place: Place = { frameId: frame.id, component };
-      const { pose, deviations, residual } = one;
+      const { pose, deviations, residual, badness, rival } = one;
       const isLed = span.isDoubtful && one.state === 'followed';
       const because = isLed ? texts.follow.fromDoubtful : one.because;
-      return [{ place, pose, deviations, residual, because, doubtful: isLed || one.state === 'doubtful', from: span.key(index) }];
+      return [{ place, pose, deviations, residual, badness, rival, because, doubtful: isLed || one.state === 'doubtful', from: span.key(index) }];
     });
   }
 }

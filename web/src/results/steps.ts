@@ -1,9 +1,9 @@
-import { checkState, markOf } from '../document/marks';
 import type { State } from '../document/store';
-import { cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
+import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import type { FramePoint } from '../geometry/points';
 import { isInside } from '../geometry/rings';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { doubtsOf } from './doubts';
 import { spanToFollow } from './spans';
 
 /** The work's steps, and what the next one needs. */
@@ -40,7 +40,7 @@ function lookedUp(doc: Doc): Standing {
   const spans = doc.frames.length < 2 ? [] : modelled.flatMap((component) => ({ component, span: spanToFollow(doc, component) }));
   const free = spans.reduce((sum, { span }) => sum + (span?.free ?? 0), 0);
   const shaky = spans.flatMap(({ component, span }) => (span?.isDoubtful ? [component] : []));
-  const doubtful = COMPONENT_NAMES.reduce((sum, component) => sum + doc.frames.filter(({ id }) => isOpen(doc, id, component)).length, 0);
+  const doubtful = doubtsOf(doc).length;
   const isAny = doc.frames.some(({ id }) => COMPONENT_NAMES.some((component) => chosenCandidate(cellOf(doc, id, component))));
   const step = !isReady(doc) && !isAny ? 'open' : unposed.length > 0 || !isAny ? 'first' : free > 0 ? 'follow' : doubtful > 0 ? 'check' : 'joint';
   return { step, unposed, free, shaky, doubtful };
@@ -49,11 +49,6 @@ function lookedUp(doc: Doc): Standing {
 /** Nothing is missing for a pose by one click. */
 export function isReady(doc: Doc): boolean {
   return doc.frames.length > 0 && doc.calibration !== null && COMPONENT_NAMES.some((component) => doc.components[component].model !== null);
-}
-
-function isOpen(doc: Doc, frameId: string, component: ComponentName): boolean {
-  const cell = cellOf(doc, frameId, component);
-  return verdictOf(cell.result)?.word === 'doubtful' && checkState(cell, markOf(doc, { frameId, component })) !== 'yes';
 }
 
 /**
@@ -90,8 +85,8 @@ export type Guide = { readonly ask: 'click'; readonly component: ComponentName; 
 
 export function guideOf(state: State): Guide | null {
   const doc = state.history.present;
-  const { tool, component, following, libraries } = state.ui;
-  if (tool !== 'one-click' || following || !isReady(doc)) return null;
+  const { tool, component, following, checking, libraries } = state.ui;
+  if (tool !== 'one-click' || following || checking || !isReady(doc)) return null;
   const { unposed, free } = standingOf(doc);
   const awaited = awaitsClick(state);
   const wanted = awaited.includes(component) ? component : awaited[0];

@@ -1,5 +1,6 @@
 import { useEffect } from 'preact/hooks';
 import { actionFor } from '../commands/bindings';
+import { runCheckKey } from '../commands/check_keys';
 import { texts } from '../texts/texts';
 import { useApp, useAppState } from '../commands/app';
 import { useDropTarget } from '../steps/open/drop';
@@ -60,6 +61,7 @@ function useKeys(): void {
     const onBlur = () => store.ui.overlaysHidden && store.show({ overlaysHidden: false });
     const handle = (event: KeyboardEvent): boolean => {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
+      if (!typing(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
       if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
       const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
       if (!action) return false;

@@ -95,7 +95,7 @@ function WayOn({ state }: { state: State }) {
   const { step, doubtful } = standingOf(doc);
   if (step === 'check' && !following) {
     return (
-      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful)} onClick={() => actions.run({ name: 'work', command: 'next-unfinished' })}>
+      <button type="button" class="button primary" aria-keyshortcuts="n" title={texts.first.steps.checkTitle(doubtful)} onClick={() => actions.work.check()}>
         {texts.first.steps.check(doubtful)}
       </button>
     );

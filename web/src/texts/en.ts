@@ -2,6 +2,7 @@ import type { ComponentName } from '../terms/component';
 import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
+import { check } from './en_check';
 import { files } from './en_files';
 import { film } from './en_film';
 import { first } from './en_first';
@@ -21,6 +22,7 @@ export const en = {
   study,
   tracing,
   calibrate,
+  check,
   files,
   film,
   first,
@@ -308,6 +310,7 @@ export const en = {
     marks: { checked: 'checked', changed: 'changed since', doubtful: 'doubtful', flagged: 'flagged', noted: 'has a note', outdated: 'outdated' },
     allDone: 'Nothing is left to do: every cell has a pose and was checked.',
     nextUnfinished: (frame: number, component: string, state: string) => `Frame ${frame}, ${component}: ${state}.`,
+    nextDoubtful: (frame: number, component: string) => `Doubtful: frame ${frame}, ${component}. Y accepts it and goes on, N leaves it for later.`,
     nextUnchecked: (frame: number, component: string) => `Every cell has a pose. Next to check: frame ${frame}, ${component} (Y marks it as checked).`,
     nothingToCheck: 'Nothing to check here yet: there is neither an outline nor a pose.',
     saidChecked: (frame: number, component: string) => `Frame ${frame}, ${component}: checked.`,

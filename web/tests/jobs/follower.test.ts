@@ -19,6 +19,7 @@ function worker(missing: readonly number[]) {
   const begun: FollowInput[] = [];
   let input: FollowInput | null = null;
   let seen: number[] = [];
+  let compared: readonly number[] = [];
   const rest = () => {
     const { first, last, given } = input!;
     const isOpen = (frame: number) => !seen.includes(frame) && !given.some((one) => one.frame === frame);
@@ -29,7 +30,7 @@ function worker(missing: readonly number[]) {
     const isThere = seen.includes(frame) && !missing.includes(frame);
     const state = given ? 'fixed' : isThere ? (frame === 4 ? 'doubtful' : 'followed') : seen.includes(frame) ? 'untrackable' : 'unsolved';
     const pose = given?.pose ?? (isThere ? poseOf(10 + frame) : null);
-    return { state, because: `as ${state} says`, pose, deviations: null, residual: 0.2, badness: 0 };
+    return { state, because: `as ${state} says`, pose, deviations: null, residual: 0.2, badness: state === 'doubtful' ? 2 : 0, rival: compared.includes(frame) ? { pose: poseOf(-frame), residual: 0.3 } : null };
   };
   const methods: Record<string, (given: never) => unknown> = {
     begin: (given: FollowInput) => {
@@ -44,6 +45,10 @@ function worker(missing: readonly number[]) {
     },
     sides: () => null,
     stop: () => null,
+    compare: ({ frames }: { readonly frames: readonly number[] }) => {
+      compared = frames;
+      return null;
+    },
     depths: () => new Float64Array(FRAMES),
     conclude: () => Array.from({ length: FRAMES }, (_, frame) => answer(frame)),
   };
@@ -106,7 +111,7 @@ describe('following', () => {
     await follower.follow();
     expect(xs()).toEqual([10, 0, 12, 13, 14, null]);
     expect(store.ui.notice?.text).toBe('4 poses found, 1 of them doubtful: N goes from one to the next.');
-    expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' } });
+    expect(cellOf(store.doc, 'f4', 'femur').result).toMatchObject({ from: 'film', verdict: { word: 'doubtful' }, doubt: 2, candidates: [{ pose: poseOf(14) }, { pose: poseOf(-4), residual: 0.3 }] });
     expect(cellOf(store.doc, 'f5', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'As untrackable says.' });
     store.undo();
     expect(xs()).toEqual([null, 0, null, null, null, null]);

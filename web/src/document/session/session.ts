@@ -159,7 +159,7 @@ const readCandidate: Reader<Candidate> = (value, path) => {
   return { ...readCandidateParts(value, path), ...(support !== null && { support }) };
 };
 
-const readPosedParts = object<Omit<Posed, 'program' | 'onFrame'>>({
+const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt'>>({
   kind: oneOf('posed'),
   from: oneOf('outline', 'file', 'hand', 'film'),
   origin: text,
@@ -171,16 +171,16 @@ const readPosedParts = object<Omit<Posed, 'program' | 'onFrame'>>({
 });
 
 const readPosed: Reader<Posed> = (value, path) => {
-  const { program, onFrame } = object({ program: optional(text), onFrame: optional(readOnFrame) })(value, path);
+  const { program, onFrame, doubt } = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number) })(value, path);
   const parts = readPosedParts(value, path);
   const found = onFrame ?? (isByClick(parts) ? { film: null } : null);
-  return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }) };
+  return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }) };
 };
 
 const readOnFrame = object<OnFrame>({ film: nullable(list(number)) });
 
 /** Sessions of versions 1 to 4 do not say it: what was refined and never drawn against an outline came of one click. */
-function isByClick({ from, candidates }: Omit<Posed, 'program' | 'onFrame'>): boolean {
+function isByClick({ from, candidates }: Pick<Posed, 'from' | 'candidates'>): boolean {
   return from === 'outline' && candidates.length > 0 && candidates.every(({ residual, drawn, unmatched }) => residual !== null && drawn === null && unmatched === null);
 }
 

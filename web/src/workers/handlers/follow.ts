@@ -1,4 +1,4 @@
-import { FilmFollower, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
+import { FilmFollower, type FollowedFilm, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
@@ -56,6 +56,10 @@ serve<FollowProtocol>({
     working().chooseSides(poses, axes, own);
     return working().wanted() ?? null;
   },
+  compare: ({ frames }) => {
+    working().compareSides(Uint32Array.from(frames));
+    return working().wanted() ?? null;
+  },
   stop: () => {
     working().stop();
     return null;
@@ -70,6 +74,7 @@ serve<FollowProtocol>({
       deviations: posed(film.deviations(frame)),
       residual: film.residual(frame) ?? null,
       badness: film.badness(frame) ?? 0,
+      rival: rivalOf(film, frame),
     }));
     film.free();
     return found;
@@ -93,6 +98,11 @@ async function searched(image: FrameImage, { report, breathe }: Context<{ readon
     await breathe();
   }
   return (search.place as Float64Array<ArrayBuffer> | undefined) ?? null;
+}
+
+function rivalOf(film: FollowedFilm, frame: number): FollowedFrame['rival'] {
+  const pose = posed(film.rival(frame));
+  return pose && { pose, residual: film.rivalResidual(frame) ?? null };
 }
 
 function working(): FilmFollower {

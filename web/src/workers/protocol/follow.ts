@@ -1,3 +1,4 @@
+import type { Candidate } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { Directions } from '../../geometry/axes';
 import type { ModelMesh } from './decode';
@@ -16,6 +17,8 @@ export interface FollowProtocol {
   look: { input: FramePixels; output: Seen; progress: { readonly fraction: number } };
   /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
   sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
+  /** Begins to look at frames from the other side of the mirror; gives the first one. */
+  compare: { input: { readonly frames: readonly number[] }; output: number | null; progress: never };
   /** Ends the work before all is done. */
   stop: { input: null; output: null; progress: never };
   /** Distances from the camera, mm; NaN where the component is not to be trusted. */
@@ -71,4 +74,6 @@ export interface FollowedFrame {
   readonly residual: number | null;
   /** How bad it is: above 1 it is doubtful. */
   readonly badness: number;
+  /** From the other side of the mirror, where that was compared and there is one. */
+  readonly rival: Pick<Candidate, 'pose' | 'residual'> | null;
 }

@@ -1,0 +1,100 @@
+/** From an opened study to a checked film: one click into each component, Follow, and the doubtful poses one by one. */
+import assert from 'node:assert/strict';
+import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import * as panel from './support/panel.mjs';
+import { Stage } from './support/stage.mjs';
+import { trueOutline } from './support/study.mjs';
+import * as tracing from './support/tracing.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+
+const FRAMES = 8;
+const AGAIN = { x: 0.2, y: 0.2, z: 5, zRot: 0.3, xRot: 0.3, yRot: 0.6 };
+
+if (!IN_FIREFOX) {
+  pageTest('one click each, then the film', async (page, t) => {
+    await tracing.openDemonstration(page);
+    await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
+    await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
+    await step(page, t, 'doubtful poses are gone through by keys', () => checked(page, t));
+  });
+
+  pageTest('a component that nobody clicked is looked for', async (page, t) => {
+    await tracing.openDemonstration(page);
+    await page.getByRole('radio', { name: 'Tibia' }).click();
+    await tracing.byOneClick(page, 'tibia');
+    await page.keyboard.press('Shift+G');
+    await page.getByRole('progressbar', { name: /^Looking for the femur in frame \d$/ }).waitFor();
+    const found = await until(() => panel.cells(page), (cells) => cells.some((cell) => /femur: posed/.test(cell)), 'the femur to be found');
+    t.diagnostic(found.find((cell) => /femur: posed/.test(cell)) ?? '');
+    await until(() => panel.cells(page), (cells) => cells.some((cell) => /femur: followed so far/.test(cell)), 'it to be followed from there');
+    await page.keyboard.press('Shift+G');
+    const said = await panel.waitForWords(page, /^Stopped: \d+ poses? found/);
+    const cells = await panel.cells(page);
+    assert.equal(cells.filter((cell) => /: followed(,|$)/.test(cell)).length, Number(/\d+/.exec(said)?.[0]), `${said}; ${cells.join('; ')}`);
+  });
+}
+
+/** @param {Page} page */
+function card(page) {
+  return page.getByRole('region', { name: 'What to do next' });
+}
+
+/** @param {Page} page */
+async function twoClicks(page) {
+  await tracing.toolInHand(page, 'One click');
+  await card(page).getByText('Click the femur').waitFor();
+  const stage = new Stage(page);
+  await stage.learn();
+  await stage.click(tracing.insideOf(await trueOutline('femur', 1)));
+  await card(page).getByText('Now the tibia').waitFor();
+  // The femur is still being found.
+  await stage.click(tracing.insideOf(await trueOutline('tibia', 1)));
+  await card(page).getByRole('button', { name: 'Follow the film' }).waitFor();
+  await atRest(page);
+  const cells = await panel.cells(page);
+  assert(cells.some((cell) => cell.startsWith('Frame 1, femur: posed')), cells.join('; '));
+  assert(cells.some((cell) => cell.startsWith('Frame 1, tibia: posed')), cells.join('; '));
+  await screenshot(page, 'first frame');
+}
+
+/** @param {Page} page @param {import('node:test').TestContext} t */
+async function followed(page, t) {
+  const count = (/** @type {readonly string[]} */ cells, /** @type {RegExp} */ pattern) => cells.filter((cell) => pattern.test(cell)).length;
+  await card(page).getByRole('button', { name: 'Follow the film' }).click();
+  await until(() => panel.cells(page), (cells) => count(cells, /: followed so far/) > 0, 'cells to fill');
+  const done = await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) > 0, 'the film to be followed');
+  t.diagnostic(done.join('; '));
+  assert.equal(count(done, /: followed(,|$)/), 2 * (FRAMES - 1), done.join('; '));
+  assert.equal(count(done, /so far/), 0);
+  await page.keyboard.press('Control+z');
+  await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
+  await page.keyboard.press('Control+y');
+  await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) === 2 * (FRAMES - 1), 'all of it to be back');
+}
+
+/** @param {Page} page @param {import('node:test').TestContext} t */
+async function checked(page, t) {
+  const check = page.getByRole('button', { name: /^Check \d+$/ });
+  await check.waitFor();
+  await check.click();
+  const doubt = page.getByRole('region', { name: 'A doubtful pose' });
+  await doubt.getByText(/^Doubtful 1 of \d+$/).waitFor();
+  const rivals = doubt.getByRole('radiogroup', { name: 'Poses to choose from' });
+  assert((await rivals.getByRole('radio').count()) >= 2, 'the worst has a rival');
+  assert.match((await rivals.getByRole('radio').first().getAttribute('aria-label')) ?? '', /flexion \S+, abduction \S+, internal rotation/);
+  await screenshot(page, 'check');
+  const before = await panel.shownPose(page);
+  assert(before);
+  await page.keyboard.press('2');
+  const taken = await panel.waitForOtherPose(page, before);
+  t.diagnostic(`a rival taken: ${panel.differences(taken, before)}`);
+  await page.keyboard.press('1');
+  // The rival told another film, which corrects the first a little.
+  panel.assertNear(await panel.waitForOtherPose(page, taken), before, AGAIN);
+  await page.keyboard.press('y');
+  await until(() => panel.cells(page), (cells) => cells.some((cell) => /checked/.test(cell)), 'the pose to be accepted');
+  await doubt.getByText(/^Doubtful \d+ of \d+$/).waitFor();
+  await page.keyboard.press('Escape');
+  await doubt.waitFor({ state: 'hidden' });
+}

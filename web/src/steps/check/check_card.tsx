@@ -1,0 +1,134 @@
+import { useEffect, useRef } from 'preact/hooks';
+import { useApp } from '../../commands/app';
+import { edit, isInCheck } from '../../commands/check_keys';
+import { knownAxes } from '../../document/axes';
+import { currentCell, currentFrame, currentPlace, type State } from '../../document/store';
+import { type Candidate, cellOf, chosenCandidate, type Posed, verdictOf } from '../../document/types';
+import type { Studio } from '../../films/studio';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import { doubtsOf } from '../../results/doubts';
+import { cameraOf } from '../../results/keys';
+import type { Motion } from '../../results/motion';
+import { formatNumber } from '../../texts/numbers';
+import { texts } from '../../texts/texts';
+import { drawRival, type RivalScene } from './rival_picture';
+
+/** On the film while somebody goes through what is doubtful: why it is, its rivals with the joint that each makes, and what can be done. */
+export function CheckCard({ state }: { state: State }) {
+  const { result } = currentCell(state);
+  if (!isInCheck(state) || state.ui.overlaysHidden || result?.kind !== 'posed') return null;
+  const place = currentPlace(state);
+  const doubts = doubtsOf(state.history.present);
+  const at = doubts.findIndex((doubt) => doubt.place.frameId === place?.frameId && doubt.place.component === place.component);
+  const words = texts.check;
+  return (
+    <section class={`guide check ${state.ui.component}`} aria-label={words.region}>
+      <p class="guide-title">{at < 0 ? words.taken : words.title(at + 1, doubts.length)}</p>
+      <p class="guide-text check-why">{sentence(verdictOf(result)?.because ?? '')}</p>
+      {result.candidates.length > 1 && <Rivals state={state} result={result} />}
+      {result.reason !== null && result.candidates.length > 1 && result.from === 'outline' && <p class="guide-text quiet check-why">{result.reason}</p>}
+      <CheckButtons />
+    </section>
+  );
+}
+
+function CheckButtons() {
+  const { actions, services } = useApp();
+  const words = texts.check;
+  return (
+    <div class="check-buttons">
+      <button type="button" class="button small primary" aria-keyshortcuts="y" title={words.acceptTitle} onClick={() => actions.run({ name: 'work', command: 'toggle-checked' })}>
+        {words.accept} <kbd aria-hidden="true">Y</kbd>
+      </button>
+      <button type="button" class="button small" aria-keyshortcuts="e" title={words.editTitle} onClick={() => edit(services.store)}>
+        {words.edit} <kbd aria-hidden="true">E</kbd>
+      </button>
+      <button type="button" class="button small" aria-keyshortcuts="n" title={words.nextTitle} onClick={() => actions.work.check()}>
+        {words.next} <kbd aria-hidden="true">N</kbd>
+      </button>
+      <span class="guide-text quiet check-why">{words.blink}</span>
+    </div>
+  );
+}
+
+/** Keys for more there are not. */
+const MOST = 3;
+
+function Rivals({ state, result }: { state: State; result: Posed }) {
+  const { services } = useApp();
+  const { present: doc } = state.history;
+  const { component } = state.ui;
+  const frame = currentFrame(state);
+  const camera = cameraOf(doc, frame);
+  const model = doc.components[component].model?.sha256;
+  const window = doc.window ?? (frame && services.studio.frameFacts(frame.id)?.window) ?? null;
+  const scene = frame && camera && model && window ? { frame, camera, component, model, window } : null;
+  return (
+    <div class="check-rivals" role="radiogroup" aria-label={texts.check.rivals}>
+      {result.candidates.slice(0, MOST).map((candidate, index) => (
+        <Rival key={index} index={index} candidate={candidate} chosen={index === result.chosen} scene={scene} motion={motionWith(state, candidate.pose, services.studio)} />
+      ))}
+    </div>
+  );
+}
+
+interface RivalProps {
+  readonly index: number;
+  readonly candidate: Candidate;
+  readonly chosen: boolean;
+  readonly scene: RivalScene | null;
+  readonly motion: Motion | null;
+}
+
+function Rival({ index, candidate, chosen, scene, motion }: RivalProps) {
+  const { actions } = useApp();
+  const words = texts.check;
+  const angles = motion && ([motion.flexion, motion.abduction, motion.internal].map((value) => formatNumber(value, 1)) as [string, string, string]);
+  const misfit = candidate.judged?.misfit ?? candidate.residual;
+  return (
+    <button
+      type="button"
+      role="radio"
+      class="check-rival"
+      aria-checked={chosen}
+      aria-label={[words.rival(index + 1, chosen), angles ? words.joint(...angles) : words.noJoint].join(': ')}
+      aria-keyshortcuts={String(index + 1)}
+      title={words.rivalTitle(index + 1)}
+      onClick={() => !chosen && actions.chooseCandidate(index)}
+    >
+      <RivalPicture scene={scene} pose={candidate.pose} />
+      <span class="check-rival-name">
+        <kbd aria-hidden="true">{index + 1}</kbd> {misfit === null ? '' : words.misfit(misfit.toFixed(2))}
+      </span>
+      {(angles ? words.jointShort(...angles) : []).map((angle) => (
+        <span key={angle}>{angle}</span>
+      ))}
+    </button>
+  );
+}
+
+const SIDE = 110;
+
+function RivalPicture({ scene, pose }: { scene: RivalScene | null; pose: PoseNumbers }) {
+  const { studio } = useApp().services;
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const { frame, model, window } = scene ?? {};
+  useEffect(() => {
+    if (canvas.current && scene) drawRival(canvas.current, studio, scene, pose);
+  }, [studio, frame, model, window, pose]);
+  return <canvas ref={canvas} class="check-picture" width={SIDE} height={SIDE} aria-hidden="true" />;
+}
+
+/** The joint with a component at a pose, where all else of it is known. */
+function motionWith({ history: { present: doc }, ui: { component, frameIndex } }: State, pose: PoseNumbers, studio: Pick<Studio, 'motionOf'>): Motion | null {
+  const other = component === 'femur' ? 'tibia' : 'femur';
+  const there = chosenCandidate(cellOf(doc, doc.frames[frameIndex]?.id, other));
+  const [own, its] = [knownAxes(doc.components[component]), knownAxes(doc.components[other])];
+  if (doc.side === 'unknown' || !there || !own || !its) return null;
+  const [mine, theirs] = [{ pose, axes: own }, { pose: there.pose, axes: its }];
+  return component === 'femur' ? studio.motionOf(mine, theirs, doc.side) : studio.motionOf(theirs, mine, doc.side);
+}
+
+function sentence(because: string): string {
+  return because === '' ? '' : `${because.charAt(0).toUpperCase()}${because.slice(1)}${/[.?!]$/.test(because) ? '' : '.'}`;
+}

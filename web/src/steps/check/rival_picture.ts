@@ -1,0 +1,63 @@
+import { COMPONENT_COLOURS } from '../../controls/colours';
+import type { FrameEntry, GreyWindow } from '../../document/types';
+import type { Studio } from '../../films/studio';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
+import type { CameraInput } from '../../workers/protocol/camera';
+
+/** What a rival is drawn with. */
+export interface RivalScene {
+  readonly frame: FrameEntry;
+  readonly camera: CameraInput;
+  readonly component: ComponentName;
+  /** SHA-256. */
+  readonly model: string;
+  readonly window: GreyWindow;
+}
+
+/** Around the model, as a part of its size. */
+const MARGIN = 0.2;
+
+/** Draws the part of the frame that a model covers, with its border there. Nothing where it cannot be drawn. */
+export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: RivalScene, pose: PoseNumbers): void {
+  const context = canvas.getContext('2d');
+  const { frame, camera, component, model, window } = scene;
+  if (!context || !studio.hasFrame(frame.id)) return;
+  const whole = scratch(frame);
+  if (!whole) return;
+  const { rgb, light } = COMPONENT_COLOURS[component];
+  const painted = studio.paintSilhouette(() => whole, model, camera, pose, rgb);
+  if (!painted) return;
+  const border = Array.from(painted.border);
+  const [left, top, size] = squareAround(border);
+  studio.paintFrame(whole, frame.id, window);
+  const scale = canvas.width / size;
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  context.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
+  context.drawImage(whole.canvas, 0, 0);
+  context.beginPath();
+  for (let at = 0; at + 1 < border.length; at += 2) context.lineTo(border[at]!, border[at + 1]!);
+  context.closePath();
+  context.lineWidth = 1.5 / scale;
+  context.strokeStyle = light;
+  context.stroke();
+}
+
+/** Upper left corner and side of a square that holds columns and rows by turns. */
+function squareAround(border: readonly number[]): readonly [number, number, number] {
+  const [columns, rows] = [0, 1].map((axis) => border.filter((_, at) => at % 2 === axis)) as [number[], number[]];
+  const ends = [columns, rows].map((all) => [all.reduce((a, b) => Math.min(a, b), Infinity), all.reduce((a, b) => Math.max(a, b), -Infinity)] as const);
+  const [[left, right], [top, bottom]] = ends as [readonly [number, number], readonly [number, number]];
+  const size = (1 + 2 * MARGIN) * Math.max(right - left, bottom - top, 1);
+  return [(left + right - size) / 2, (top + bottom - size) / 2, size];
+}
+
+let shared: HTMLCanvasElement | null = null;
+
+function scratch({ width, height }: FrameEntry): CanvasRenderingContext2D | null {
+  shared ??= document.createElement('canvas');
+  if (shared.width !== width) shared.width = width;
+  if (shared.height !== height) shared.height = height;
+  return shared.getContext('2d');
+}
