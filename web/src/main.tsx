@@ -25,6 +25,7 @@ import { Landscapes } from './jobs/landscape';
 import { Librarian } from './jobs/librarian';
 import { Keeper } from './keep/keeper';
 import { restoreWork, workToRestore } from './keep/restore';
+import { tellLostJobs } from './keep/lost_jobs';
 import { keepForOffline } from './keep/offline';
 import { Poser } from './jobs/poser';
 import type { Services } from './jobs/services';
@@ -96,6 +97,7 @@ async function start(root: HTMLElement): Promise<void> {
   );
   Object.assign(globalThis, { fluoropose: { atRest, shown } });
   if (kept) await restoreWork(services, keeper, kept);
+  tellLostJobs(services.store, sessionStorage);
 }
 
 const root = document.getElementById('page');

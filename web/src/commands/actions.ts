@@ -309,6 +309,10 @@ export class Actions {
   }
 
   async saveSession(includeFiles = true): Promise<void> {
+    await this.#telling(() => this.#writeSession(includeFiles));
+  }
+
+  async #writeSession(includeFiles: boolean): Promise<void> {
     const { store } = this.#services;
     const doc = store.doc;
     download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');

@@ -292,6 +292,8 @@ async function openFrames(
   };
   await asJob(services.store, job, async (report) => {
     for (const [index, file] of files.entries()) {
+      // What was decoded until then stays.
+      if (abort.signal.aborted) break;
       const reportFrames = (done: number, total: number) => files.length === 1 && report(done, total);
       await attempt(
         file,

@@ -7,7 +7,7 @@ import { COMPONENT_NAMES } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { FitFacts, OnFrame } from '../workers/protocol/by_hand';
-import { cameraOf } from '../results/keys';
+import { cameraOf, poseKey } from '../results/keys';
 import { flatten } from './poser';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { asJob, sentenceOf, type Services } from './services';
@@ -47,11 +47,20 @@ export class FromHere {
     const abort = (this.#abort = new AbortController());
     try {
       const { locks } = store.ui.hand;
+      const by = this.#by(place);
       const fit = await this.#ask(place, start, locks, abort);
+      if (this.#by(place) !== by) return store.say('info', texts.hand.said.changed);
       this.#take(place, start, fit);
     } catch (error) {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
     }
+  }
+
+  /** With which model and calibration. */
+  #by({ frameId, component }: Place): string | null {
+    const { doc } = this.#services.store;
+    const frame = frameOf(doc, { frameId, component });
+    return frame && poseKey(doc, component, frame);
   }
 
   #ask(place: Place, start: Candidate, locks: Locks, abort: AbortController): Promise<HandFit> {

@@ -4,7 +4,7 @@ import { currentCell, currentFrame, currentPlace, type Store } from '../document
 import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Result } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { work } from '../workers/activity';
-import { Aborted, type Bridge } from '../workers/bridge';
+import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
 import { PROGRAM } from '../terms/program';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -60,6 +60,8 @@ export const PACE = 33;
 export class Poser {
   readonly #store: Store;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  /** Outlines that a worker stopped at. */
+  readonly #stoppedAt = new WeakSet<Outline>();
   readonly #findings = new WeakMap<Outline, Findings>();
   #busy = false;
   #shownOutline: Outline | null = null;
@@ -195,7 +197,7 @@ export class Poser {
       const match = await (method === 'match' ? this.#worker.call('match', { ...input, before }) : this.#worker.call('refine', { ...input, around }));
       this.#take(task, match);
     } catch (error) {
-      if (!(error instanceof Aborted)) this.#refuse(task, sentenceOf(error));
+      if (!(error instanceof Aborted) && !this.#isTriedAgain(error, outline)) this.#refuse(task, sentenceOf(error));
     } finally {
       this.#busy = false;
       queueMicrotask(() => this.#next());
@@ -226,6 +228,13 @@ export class Poser {
   }
 
   /** Nothing was found, or refined. */
+  /** Once: what stops the worker twice is refused. */
+  #isTriedAgain(error: unknown, outline: Outline): boolean {
+    if (!(error instanceof WorkerStopped) || this.#stoppedAt.has(outline)) return false;
+    this.#stoppedAt.add(outline);
+    return true;
+  }
+
   #refuse(task: Task, sentence: string): void {
     const { method, outline, key } = task;
     if (method === 'match') {

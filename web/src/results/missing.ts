@@ -15,7 +15,8 @@ export function missingForPose(state: State, component: ComponentName): readonly
   if (!model && !libraryFile) missing.push(texts.said.missing.model(texts.component[component]));
   if (library.state === 'building') missing.push(texts.said.missing.building);
   if (library.state === 'stopped') missing.push(texts.said.missing.stopped(library.reason));
-  if (!outline) missing.push(texts.said.missing.outline(texts.component[component]));
+  const { outline: anOutline, click } = texts.said.missing;
+  if (!outline) missing.push((library.state === 'ready' && model ? click : anOutline)(texts.component[component]));
   else if (!outline.closed) missing.push(texts.said.missing.closed);
   return missing;
 }

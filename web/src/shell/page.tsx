@@ -27,6 +27,10 @@ export function Page() {
   };
   // Before there is a frame there is nothing to do it with.
   const empty = state.history.present.frames.length === 0;
+  useEffect(() => {
+    // What had the focus is gone with the empty page.
+    if (!empty && (document.activeElement === null || document.activeElement === document.body)) actions.stage?.focus();
+  }, [empty]);
   return (
     <div class={['page', dropping ? 'dropping' : '', empty ? 'empty-page' : ''].filter(Boolean).join(' ')} data-drop={texts.stage.drop} onClick={giveBack}>
       <TopBar state={state} />

@@ -7,11 +7,10 @@ export function StepBar({ state }: { state: State }) {
   const doc = state.history.present;
   const { step } = standingOf(doc);
   const shown: readonly Step[] = doc.frames.length > 1 ? STEPS : STEPS.filter((one) => one !== 'follow');
-  const at = shown.indexOf(step);
   return (
     <ol class="way" aria-label={texts.first.steps.region}>
-      {shown.map((one, index) => (
-        <li key={one} class={index < at ? 'step done' : 'step'} aria-current={one === step ? 'step' : undefined}>
+      {shown.map((one) => (
+        <li key={one} class="step" aria-current={one === step ? 'step' : undefined}>
           {texts.first.steps.names[one]}
         </li>
       ))}

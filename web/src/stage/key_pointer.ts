@@ -25,12 +25,12 @@ export function pointByKey(
   view.setPointer(kept);
 }
 
-/** A click; where a stretch, a stroke or a box has to be drawn, the next press lets go. */
+/** A click; where a stretch or a stroke has to be drawn, the next press lets go. */
 export function pressByKey(app: App, view: StageView, controller: Controller): void {
   const at = view.pointer;
   if (!at) return;
   const { tool } = app.services.store.ui;
-  const draws = tool === 'brush' || tool === 'stretch' || tool === 'one-click';
+  const draws = tool === 'brush' || tool === 'stretch';
   if (controller.busy) return send(app, view, controller, 'up', at);
   send(app, view, controller, 'down', at);
   if (!draws) send(app, view, controller, 'up', at);

@@ -81,7 +81,7 @@ export function CellSigns({ progress }: { progress: Progress }) {
   const sign = check === 'yes' ? '✓' : check === 'changed since' ? '≠' : stage === 'no pose' ? '✕' : stage === 'followed so far' ? '…' : doubtful ? '?' : outdated ? '!' : '';
   return (
     <>
-      {sign && <span class="cell-sign">{sign}</span>}
+      {sign && <span class={check === 'yes' ? 'cell-sign is-checked' : 'cell-sign'}>{sign}</span>}
       {flagged && <span class="cell-flag" />}
       {note !== '' && <span class="cell-note" />}
     </>

@@ -8,13 +8,16 @@ import { CellSide } from './cell_side';
 import { Icon } from '../controls/icons';
 import { hasBothComponents, MotionCurve } from '../steps/joint/motion_curve';
 
+/** More cells than this are as narrow as the whole film wants them, and their signs are bars. */
+const MANY = 40;
+
 /** The frames in time, what is done in each for each component, and the joint's motion below. */
 export function Timeline({ state }: { state: State }) {
   const { frames } = state.history.present;
   const scroll = useRef<HTMLDivElement>(null);
   useEffect(() => showFrame(scroll.current, state.ui.frameIndex, frames.length), [state.ui.frameIndex, frames.length]);
   return (
-    <section class="timeline" aria-label={texts.work.region} style={{ '--count': Math.max(1, frames.length) }}>
+    <section class={frames.length > MANY ? 'timeline dense' : 'timeline'} aria-label={texts.work.region} style={{ '--count': Math.max(1, frames.length) }}>
       <div class="timeline-scroll" ref={scroll}>
         <div class="timeline-track">
           <FrameSlider state={state} />

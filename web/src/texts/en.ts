@@ -225,6 +225,7 @@ export const en = {
     notRestored: (name: string, why: string) => `${name || 'The work'} of last time could not be brought back: ${why}. It stays in this browser, under Save, Earlier work.`,
     newer: (program: string) => `it was written by ${program}, which is newer than this page: reload the page`,
     place: 'kept work',
+    lost: (titles: string) => `The page was left while this was under way, and it came to no end: ${titles}.`,
     damaged: (name: string) => `${name}: its copy in this browser is damaged (its SHA-256 differs); drop the original on the page.`,
     missing: (names: string, count: number) => `Not kept in this browser: ${names}. Drop ${count === 1 ? 'it' : 'them'} on the page.`,
     job: 'Bringing the work back',

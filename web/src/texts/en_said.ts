@@ -42,6 +42,7 @@ export const said = {
     building: 'its library (being built)',
     stopped: (reason: string) => `its library (${reason})`,
     outline: (component: string) => `an outline of the ${component}`,
+    click: (component: string) => `a click inside the ${component} (O), or its outline`,
     closed: 'the outline closed',
   },
 

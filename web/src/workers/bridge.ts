@@ -31,6 +31,9 @@ export class Aborted extends Error {
   }
 }
 
+/** The worker stopped by itself while it worked on a call, or with calls waiting: nothing was found out about them. */
+export class WorkerStopped extends Error {}
+
 /**
  * Calls into a worker, one at a time in the order asked. A call aborted in the queue never reaches the worker; one
  * that is running is told, and what it still sends is dropped.
@@ -122,7 +125,7 @@ export class Bridge<P extends Protocol<P>> {
   #crashed(reason: string): void {
     this.#port?.terminate();
     this.#port = null;
-    this.#failAll(new Error(texts.said.workerStopped(reason)));
+    this.#failAll(new WorkerStopped(texts.said.workerStopped(reason)));
     this.onCrash();
   }
 

@@ -5,6 +5,7 @@ import { Store } from '../../src/document/store';
 import { cellOf, type Result } from '../../src/document/types';
 import { PACE, Poser, REST } from '../../src/jobs/poser';
 import type { Match, MatchInput, Refined } from '../../src/workers/protocol/match';
+import { WorkerStopped } from '../../src/workers/bridge';
 import { framePoint } from '../../src/geometry/points';
 
 interface Asked {
@@ -12,6 +13,8 @@ interface Asked {
   readonly input: MatchInput & { readonly before?: readonly Refined[] };
   readonly answer: (match: Match) => Promise<void>;
   readonly fail: (sentence: string) => Promise<void>;
+  /** The worker stops by itself. */
+  readonly stop: () => Promise<void>;
 }
 
 const PLACE: Place = { frameId: 'f', component: 'femur' };
@@ -36,6 +39,7 @@ function bench() {
         input,
         answer: async (match) => (resolve(match), void (await settle())),
         fail: async (sentence) => (reject(new Error(sentence)), void (await settle())),
+        stop: async () => (reject(new WorkerStopped('it stopped')), void (await settle())),
       });
     });
   const poser = new Poser(store, { call } as unknown as ConstructorParameters<typeof Poser>[1]);
@@ -93,6 +97,16 @@ describe('poser', () => {
     expect(last().input.before).toEqual([]);
     await last().answer(matchOf(3, null));
     expect(shown()).toEqual({ x: 3, residual: null });
+  });
+
+  it('asks once more where the worker stopped by itself, and not for ever', async () => {
+    const { store, last, methods } = bench();
+    await last().stop();
+    await vi.advanceTimersByTimeAsync(PACE);
+    expect(methods()).toEqual(['match', 'match']);
+    expect(cellOf(store.doc, 'f', 'femur').result).toBeNull();
+    await last().stop();
+    expect(cellOf(store.doc, 'f', 'femur').result).toMatchObject({ kind: 'failed', sentence: 'it stopped' });
   });
 
   it('takes a refused pose away when the one before had fitted and followed', async () => {
