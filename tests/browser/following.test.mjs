@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
-import { trueOutline } from './support/study.mjs';
+import { trueOutline, truePose } from './support/study.mjs';
 import * as tracing from './support/tracing.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -67,6 +67,10 @@ async function followed(page, t) {
   t.diagnostic(done.join('; '));
   assert.equal(count(done, /: followed(,|$)/), 2 * (FRAMES - 1), done.join('; '));
   assert.equal(count(done, /so far/), 0);
+  await page.getByRole('radio', { name: 'Femur' }).click();
+  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
+  await atRest(page);
+  panel.assertNear(await panel.waitForPose(page), await truePose('femur', FRAMES), tracing.BY_EDGES);
   await page.keyboard.press('Control+z');
   await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
   await page.keyboard.press('Control+y');

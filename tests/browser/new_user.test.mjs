@@ -1,6 +1,6 @@
 /** From the empty page to a refined pose, by one click and by a plain polygon; clicks and seconds counted. Fingers on the frame. */
 import assert from 'node:assert/strict';
-import { atRest, IN_FIREFOX, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { IN_FIREFOX, pageTest, screenshot, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { truePose } from './support/study.mjs';
@@ -12,8 +12,6 @@ import * as tracing from './support/tracing.mjs';
 const MOST_SECONDS = 60;
 const MOST_CLICKS = 12;
 const MOST_CLICKS_OF_A_POLYGON = 40;
-const FRAMES = 8;
-const SAME = { x: 0.05, y: 0.05, z: 1, zRot: 0.05, xRot: 0.05, yRot: 0.1 };
 
 /** Some thirty clicks, each up to 2.5 px off. */
 const QUICK = { x: 0.6, y: 0.6, z: 12, zRot: 1.2, xRot: 1.5, yRot: 1.5 };
@@ -35,10 +33,7 @@ pageTest('a new user with one click', async (page, t) => {
   await until(() => panel.shownPose(page), (shown) => shown === null, 'outline and pose to be gone together');
   await page.keyboard.press('Control+y');
   await panel.waitForThePose(page, pose);
-  if (!IN_FIREFOX) {
-    await step(page, t, 'the pose is followed through the film', () => followed(page, pose));
-    await withTheOther(page, t);
-  }
+  if (!IN_FIREFOX) await withTheOther(page, t);
 });
 
 /** The film that both components tell corrects the pose that was there. @param {Page} page @param {import('node:test').TestContext} t */
@@ -91,24 +86,6 @@ if (!IN_FIREFOX) {
     await stage.learn();
     await pinch(page, stage);
   });
-}
-
-/** From the one frame that is set over all others, as one step back. @param {Page} page @param {import('./support/study.mjs').Pose} first */
-async function followed(page, first) {
-  await page.getByRole('button', { name: 'Follow', exact: true }).click();
-  const count = (/** @type {readonly string[]} */ cells) => cells.filter((cell) => /femur: followed(,|$)/.test(cell)).length;
-  const followed = await until(() => panel.cells(page), (cells) => count(cells) > 0, 'frames to be followed');
-  assert.equal(count(followed), FRAMES - 1, followed.join('; '));
-  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
-  await atRest(page);
-  const last = await panel.waitForPose(page);
-  panel.assertNear(last, await truePose('femur', FRAMES), tracing.BY_EDGES);
-  await page.getByRole('button', { name: 'Undo: follow through the film' }).click();
-  await until(() => panel.cells(page), (cells) => count(cells) === 0, 'followed poses to be gone together');
-  for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('d');
-  await atRest(page);
-  // What was followed may tell of the film too, and corrects it.
-  panel.assertNear(await panel.waitForPose(page), first, SAME);
 }
 
 /** Presses and seconds of a way through the page. @param {Page} page @param {() => Promise<import('./support/study.mjs').Pose>} way */

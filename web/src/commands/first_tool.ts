@@ -1,8 +1,8 @@
-import { currentCell, type Store } from '../document/store';
+import type { Store } from '../document/store';
 import { isReady } from '../results/steps';
 
 /**
- * One click is the tool in hand as soon as it has all that it needs, unless somebody is tracing already; tracing is the first
+ * One click is the tool in hand as soon as it has all that it needs, unless somebody has begun otherwise; tracing is the first
  * tool where there is nothing but frames.
  */
 export function takeFirstTool(store: Store): void {
@@ -12,7 +12,8 @@ export function takeFirstTool(store: Store): void {
     if (ready === wasReady) return;
     wasReady = ready;
     const { tool } = store.ui;
-    if (ready && tool === 'trace' && currentCell(store.state).outline === null) store.show({ tool: 'one-click' });
+    const isBegun = Object.keys(store.doc.cells).length > 0;
+    if (ready && tool === 'trace' && !isBegun) store.show({ tool: 'one-click' });
     if (!ready && tool === 'one-click') store.show({ tool: 'trace' });
   });
 }
