@@ -9,20 +9,26 @@ import * as tracing from './support/tracing.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 const FRAMES = 8;
-const AGAIN = { x: 0.2, y: 0.2, z: 5, zRot: 0.3, xRot: 0.3, yRot: 0.6 };
 
 if (!IN_FIREFOX) {
   pageTest('one click each, then the film', async (page, t) => {
     await tracing.openDemonstration(page);
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
-    await step(page, t, 'doubtful poses are gone through by keys', () => checked(page, t));
   });
 
   pageTest('a component that nobody clicked is looked for', async (page, t) => {
     await tracing.openDemonstration(page);
     await page.getByRole('radio', { name: 'Tibia' }).click();
-    await tracing.byOneClick(page, 'tibia');
+    const stage = new Stage(page);
+    const outline = await trueOutline('tibia', 1);
+    await stage.zoomTo(outline);
+    await stage.trace(outline);
+    await panel.waitForPose(page);
+    // Its mirror image is open while nothing is known of the femur.
+    assert.match(await panel.verdict(page), /^Doubtful/);
+    await page.keyboard.press('o');
+    await step(page, t, 'a doubtful pose is looked at and accepted by keys', () => checked(page, t));
     await page.keyboard.press('Shift+G');
     await page.getByRole('progressbar', { name: /^Looking for the femur in frame \d$/ }).waitFor();
     const found = await until(() => panel.cells(page), (cells) => cells.some((cell) => /femur: posed/.test(cell)), 'the femur to be found');
@@ -79,14 +85,12 @@ async function followed(page, t) {
 
 /** @param {Page} page @param {import('node:test').TestContext} t */
 async function checked(page, t) {
-  const check = page.getByRole('button', { name: /^Check \d+$/ });
-  await check.waitFor();
-  await check.click();
+  await card(page).getByRole('button', { name: 'Doubtful: look at it' }).click();
   const doubt = page.getByRole('region', { name: 'A doubtful pose' });
   await doubt.getByText(/^Doubtful 1 of \d+$/).waitFor();
   const rivals = doubt.getByRole('radiogroup', { name: 'Poses to choose from' });
   assert((await rivals.getByRole('radio').count()) >= 2, 'the worst has a rival');
-  assert.match((await rivals.getByRole('radio').first().getAttribute('aria-label')) ?? '', /flexion \S+, abduction \S+, internal rotation/);
+  assert.match((await rivals.getByRole('radio').first().getAttribute('aria-label')) ?? '', /^Pose 1, chosen: no joint angles/);
   await screenshot(page, 'check');
   const before = await panel.shownPose(page);
   assert(before);
@@ -94,11 +98,8 @@ async function checked(page, t) {
   const taken = await panel.waitForOtherPose(page, before);
   t.diagnostic(`a rival taken: ${panel.differences(taken, before)}`);
   await page.keyboard.press('1');
-  // The rival told another film, which corrects the first a little.
-  panel.assertNear(await panel.waitForOtherPose(page, taken), before, AGAIN);
+  await panel.waitForThePose(page, before);
   await page.keyboard.press('y');
   await until(() => panel.cells(page), (cells) => cells.some((cell) => /checked/.test(cell)), 'the pose to be accepted');
-  await doubt.getByText(/^Doubtful \d+ of \d+$/).waitFor();
-  await page.keyboard.press('Escape');
   await doubt.waitFor({ state: 'hidden' });
 }

@@ -61,7 +61,7 @@ async function start(root: HTMLElement): Promise<void> {
   new Chooser(services.store, matcher);
   new HandJudge(services, matcher);
   const film = new FilmReader(services, matcher, filmWorker());
-  const oneClick = new OneClick(services, matcher);
+  const oneClick = new OneClick(services, matcher, film);
   const tracingTools = new TracingTools(services, oneClick);
   const landscapes = new Landscapes(services.store, matcher);
   const hand = new HandActions(services, new FromHere(services, matcher, film), landscapes);

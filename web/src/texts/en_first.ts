@@ -14,6 +14,7 @@ export const first = {
     preparing: (component: string) => `The views of the ${component} are being prepared: a click waits for them.`,
     followText: (frames: number) => `${frames} ${frames === 1 ? 'cell is' : 'cells are'} still empty; what you set stays as it is.`,
     shaky: (components: string) => `The pose of the ${components} is doubtful, and so would be what follows from it: look at it first.`,
+    look: 'Doubtful: look at it',
     follow: 'Follow the film',
     notRight: 'Not right? Trace it instead',
     trace: 'Trace it instead',

@@ -30,11 +30,13 @@ export class OneClick {
   readonly #services: Services;
   readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #asked = new Map<string, Asked>();
+  readonly #film: { ready(): Promise<void> };
   #turn: Promise<void> = Promise.resolve();
 
-  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>, film: { ready(): Promise<void> }) {
     this.#services = services;
     this.#worker = worker;
+    this.#film = film;
   }
 
   async ask(prompt: Prompt, place: Place, bright: boolean): Promise<void> {
@@ -64,6 +66,8 @@ export class OneClick {
     await asJob(store, job, async (report) => {
       // Without the library that is being built there would be an outline and no pose.
       await unlessAborted(Promise.all([before, libraryReady(store, place.component)]), abort.signal);
+      // What the clicks before tell of the film tells a tray's outer rim from its inner one.
+      await unlessAborted(this.#film.ready(), abort.signal);
       await this.#find(asked, report);
     });
   }

@@ -25,7 +25,7 @@ function bench() {
       asked.push({ input, report, answer: () => (resolve(facts), settle()) });
     });
   const studio = { framePixels: () => new Uint8Array(64) };
-  const oneClick = new OneClick({ store, studio } as never, { call } as never);
+  const oneClick = new OneClick({ store, studio } as never, { call } as never, { ready: async () => undefined });
   const click = (column: number) => void oneClick.ask([framePoint(column, 1)], { frameId: 'f', component: store.ui.component }, false);
   const outlineOf = (component: 'femur' | 'tibia') => cellOf(store.doc, 'f', component).outline;
   return { store, asked, click, outlineOf };

@@ -1,6 +1,7 @@
 import { currentCell, type State } from '../../document/store';
 import type { ComponentName } from '../../terms/component';
 import { useApp } from '../../commands/app';
+import { verdictOf } from '../../document/types';
 import { type Guide, guideOf, standingOf } from '../../results/steps';
 import { texts } from '../../texts/texts';
 
@@ -19,10 +20,12 @@ function ClickCard({ guide: { component, isPreparing }, state }: { guide: Extrac
   const { card } = texts.first;
   const name = texts.component[component];
   const isSecond = isBegun(state, component);
+  const isDoubtful = verdictOf(currentCell(state).result)?.word === 'doubtful';
   return (
     <>
       <p class="guide-title">{isSecond ? card.now(name) : card.click(name)}</p>
       <p class="guide-text">{isPreparing ? card.preparing(name) : card.clickText}</p>
+      {isDoubtful && <LookAtIt />}
       <TraceInstead words={currentCell(state).outline ? card.notRight : card.trace} />
     </>
   );
@@ -39,8 +42,19 @@ function FollowCard({ state }: { state: State }) {
         {card.follow}
       </button>
       <p class="guide-text">{first ? card.shaky(texts.listed(shaky.map((name) => texts.component[name]))) : card.followText(free)}</p>
+      {first && <LookAtIt />}
       <TraceInstead words={card.notRight} />
     </>
+  );
+}
+
+/** Its rivals, side by side. */
+function LookAtIt() {
+  const { actions } = useApp();
+  return (
+    <button type="button" class="button small" onClick={() => actions.work.check()}>
+      {texts.first.card.look}
+    </button>
   );
 }
 
