@@ -2,12 +2,12 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
-use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, Subject, contrast};
+use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, Subject};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{
-    Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions,
+    Effort, ImageTarget, Polarity, RefineBuffers, RefineOptions, polarity_at,
 };
 use wasm_bindgen::prelude::*;
 
@@ -140,7 +140,8 @@ impl FilmFollower {
                 film: self.film,
             };
             if let (None, Some((_, pose))) = (&polarity, given) {
-                *polarity = Some(polarity_at(&subject, &image, pose, &mut memory)?);
+                let told = polarity_at(&model, &self.camera, pose, frame, &mut memory);
+                *polarity = Some(told.map_err(sentence)?);
             }
             let image = ImageTarget {
                 polarity: polarity.unwrap_or(Polarity::DarkImplant),
@@ -224,25 +225,6 @@ impl FilmFollower {
             frames,
         }
     }
-}
-
-/// Whether the implant is darker or brighter than what surrounds it.
-fn polarity_at(
-    subject: &Subject<'_>,
-    image: &ImageTarget<'_>,
-    pose: &Pose,
-    memory: &mut RefineMemory<'_>,
-) -> Result<Polarity, JsError> {
-    let mut step = |polarity| {
-        let image = ImageTarget { polarity, ..*image };
-        let seen = contrast(subject, &image, pose, memory).map_err(sentence)?;
-        Ok::<f64, JsError>(seen.step)
-    };
-    let dark: f64 = step(Polarity::DarkImplant)?;
-    Ok(match step(Polarity::BrightImplant)? > dark {
-        true => Polarity::BrightImplant,
-        false => Polarity::DarkImplant,
-    })
 }
 
 /// What became of every frame.

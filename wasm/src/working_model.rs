@@ -18,16 +18,13 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
     CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
-    correct, film_profiles, fit_at, outline_samples, refine, refine_traced,
+    correct, film_profiles, fit_at, polarity_at, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::JsError;
 
 use fluoropose_page::error::sentence;
-
-/// So far from the outline a pixel is surely inside or outside of an implant that was set by hand, px.
-const ASIDE: f64 = 5.0;
 
 /// A pose that explains an outline.
 #[derive(Clone, Copy)]
@@ -333,20 +330,7 @@ impl WorkingModel {
     ) -> Result<Polarity, JsError> {
         let model = self.owned.as_model();
         let mut memory = self.buffers.refine().borrow(&model, camera);
-        let mut darker_inside = 0.0;
-        outline_samples(&model, camera, pose, &mut memory, |sample| {
-            let [right, down] = sample.normal;
-            let grey = |away: f64| frame.at(sample.column + away * right, sample.row + away * down);
-            if let (Some(inside), Some(outside)) = (grey(-ASIDE), grey(ASIDE)) {
-                darker_inside += sample.length * (outside - inside).signum();
-            }
-        })
-        .map_err(sentence)?;
-        Ok(if darker_inside < 0.0 {
-            Polarity::BrightImplant
-        } else {
-            Polarity::DarkImplant
-        })
+        polarity_at(&model, camera, pose, frame, &mut memory).map_err(sentence)
     }
 
     /// The model's silhouette at a pose.

@@ -128,7 +128,7 @@ impl Short {
             out: self.folder.join(out),
             clicks: Vec::new(),
             fixed: files.collect::<anyhow::Result<_>>()?,
-            bright_implant: false,
+            polarity: None,
             interpolate: 0,
             anew: false,
             quiet: true,

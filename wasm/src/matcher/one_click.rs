@@ -59,7 +59,8 @@ pub struct OneClick {
 
 #[wasm_bindgen]
 impl OneClick {
-    /// Begins with a film, its calibration and a click (column, row) or a rough box (left, top, right, bottom).
+    /// Begins with a film, its calibration and a click (column, row) or a rough box (left, top, right, bottom). Where it is not said
+    /// whether metal is brighter than what surrounds it, the film tells it there.
     ///
     /// # Errors
     /// A sentence about the calibration or the prompt.
@@ -68,18 +69,19 @@ impl OneClick {
         film: &FrameImage,
         calibration: &str,
         prompt: &[f64],
-        bright_implant: bool,
+        bright_implant: Option<bool>,
     ) -> Result<OneClick, JsError> {
         let (width, height) = film.size();
+        let prompt = prompt_of(prompt)?;
         Ok(Self {
             film: film.shared(),
             camera: camera(calibration, width as u32, height as u32)?,
-            polarity: if bright_implant {
-                Polarity::BrightImplant
-            } else {
-                Polarity::DarkImplant
+            polarity: match bright_implant {
+                Some(true) => Polarity::BrightImplant,
+                Some(false) => Polarity::DarkImplant,
+                None => film.look(|frame| Ok(prompt.polarity(frame)))?,
             },
-            prompt: prompt_of(prompt)?,
+            prompt,
             excluded: None,
             work: None,
             buffers: OneClickBuffers::default(),
@@ -117,6 +119,12 @@ impl OneClick {
     pub fn know_film(&mut self, film: &[f64]) -> Result<(), JsError> {
         self.known = film_model(film)?;
         Ok(())
+    }
+
+    /// Whether metal is taken to be brighter than what surrounds it.
+    #[wasm_bindgen(getter, js_name = brightImplant)]
+    pub fn bright_implant(&self) -> bool {
+        self.polarity == Polarity::BrightImplant
     }
 
     /// Part of the work that is done, 0 to 1.

@@ -108,7 +108,7 @@ export class TracingActions {
     const outline = this.#closedOutline();
     if (!place || !outline) return true;
     if (!image) return this.#say(texts.tracing.said.noPixels(frame?.name ?? ''));
-    const { points, unknownSides, greatest, rms } = snappedOutline(image, outline, !ui.tracing.bright, ui.tracing.reach);
+    const { points, unknownSides, greatest, rms } = snappedOutline(image, outline, ui.tracing.bright !== true, ui.tracing.reach);
     if (points.length === 0 || greatest === 0) return this.#say(texts.tracing.said.noEdge);
     store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
     store.show({ selectedPoint: null });

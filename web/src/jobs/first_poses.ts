@@ -14,7 +14,7 @@ type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
 
 /** What a click would do. */
 interface Clicks {
-  ask(prompt: readonly [FramePoint], place: Place, bright: boolean): Promise<void>;
+  ask(prompt: readonly [FramePoint], place: Place, bright: boolean | null): Promise<void>;
 }
 
 /**
@@ -42,7 +42,7 @@ export class FirstPoses {
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera || ui.libraries[component].state !== 'ready') return [];
     const library = await this.#poser.call('library', { component });
-    const input = { mesh, camera, library, frames: doc.frames.length, bright: ui.tracing.bright };
+    const input = { mesh, camera, library, frames: doc.frames.length, bright: ui.tracing.bright ?? false };
     return worker.call('openSearch', input, { transfer: [library.buffer] });
   }
 

@@ -140,9 +140,9 @@ function Polarity({ state }: { state: State }) {
       <span class="tool-strip-segments-label" aria-hidden="true">
         {strip.polarity}
       </span>
-      {([false, true] as const).map((value) => (
+      {([null, false, true] as const).map((value) => (
         <button key={String(value)} type="button" role="radio" class="tool-strip-segment" aria-checked={bright === value} onClick={() => store.setTracing({ bright: value })}>
-          {value ? strip.bright : strip.dark}
+          {value === null ? strip.told : value ? strip.bright : strip.dark}
         </button>
       ))}
     </div>

@@ -1,7 +1,7 @@
 /** How the tools work; set in the strip above the frame, kept while the page is open. */
 export interface TracingOptions {
-  /** Metal is brighter than what surrounds it. */
-  readonly bright: boolean;
+  /** Metal is brighter than what surrounds it; null until a click or a person tells it. */
+  readonly bright: boolean | null;
   /** Of the brush, frame pixels. */
   readonly radius: number;
   readonly erase: boolean;
@@ -16,7 +16,7 @@ export interface TracingOptions {
 }
 
 export const USUAL_OPTIONS: TracingOptions = {
-  bright: false,
+  bright: null,
   radius: 8,
   erase: false,
   level: null,

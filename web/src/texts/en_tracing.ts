@@ -29,9 +29,10 @@ export const tracing = {
   strip: {
     region: 'Tool options',
     polarity: 'Metal',
+    told: 'by itself',
     dark: 'dark',
     bright: 'bright',
-    polarityTitle: 'Is the implant darker or brighter than what surrounds it?',
+    polarityTitle: 'Is the implant darker or brighter than what surrounds it? The first click tells.',
     radius: 'Brush radius',
     radiusShort: 'Radius',
     pixels: (value: number) => `${value} px`,

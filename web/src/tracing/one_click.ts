@@ -21,7 +21,7 @@ interface Asked {
   readonly prompt: Prompt;
   readonly place: Place;
   readonly frame: FrameEntry;
-  readonly bright: boolean;
+  readonly bright: boolean | null;
   readonly abort: AbortController;
 }
 
@@ -39,7 +39,7 @@ export class OneClick {
     this.#film = film;
   }
 
-  async ask(prompt: Prompt, place: Place, bright: boolean): Promise<void> {
+  async ask(prompt: Prompt, place: Place, bright: boolean | null): Promise<void> {
     const { store } = this.#services;
     const frame = store.doc.frames.find(({ id }) => id === place.frameId);
     if (!frame) return;
@@ -85,10 +85,12 @@ export class OneClick {
     });
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
     if (changed) return store.say('info', texts.tracing.said.changedMeanwhile);
+    // What a good click tells of the film holds for the next, and for the other tools.
+    if (store.ui.tracing.bright === null && answer.match?.verdict?.word === 'good') store.setTracing({ bright: answer.bright });
     this.#take(answer, place, key, input.film);
   }
 
-  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean): OneClickInput {
+  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null): OneClickInput {
     const { store, studio } = this.#services;
     const camera = cameraOf(store.doc, frame);
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);

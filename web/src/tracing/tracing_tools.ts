@@ -225,7 +225,7 @@ export class TracingTools {
     const { store, studio } = this.#services;
     const frame = currentFrame(store.state);
     const image = frame && studio.imageOf(frame.id);
-    const { bright } = store.ui.tracing;
+    const bright = store.ui.tracing.bright ?? false;
     if (held && held.image === image && held.bright === bright) return held.tool;
     held?.tool.free();
     const made = image && { image, bright, tool: make(image, bright) };

@@ -20,7 +20,7 @@ function bench() {
   const call = (_: string, input: OneClickInput, { signal, onProgress }: CallOptions<{ fraction: number }>) =>
     new Promise<OneClickFacts>((resolve, reject) => {
       signal?.addEventListener('abort', () => reject(new Aborted()));
-      const facts = { outlines: [Float64Array.of(1, 1, 5, 1, 5, 5)], supports: [], corrected: false, match: null, sentence: 'Found.' };
+      const facts = { outlines: [Float64Array.of(1, 1, 5, 1, 5, 5)], supports: [], corrected: false, bright: false, match: null, sentence: 'Found.' };
       const report = (fraction: number) => onProgress?.({ fraction });
       asked.push({ input, report, answer: () => (resolve(facts), settle()) });
     });

@@ -5,7 +5,53 @@ use std::str::FromStr;
 use anyhow::{Context, Result, bail};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use fluoropose::library::ViewAxis;
+use fluoropose::refine::Polarity;
 use fluoropose_phantom::implant::Side;
+
+/// How frames show metal; where it is not said, they tell it themselves.
+#[derive(clap::Args, Clone, Copy, Debug, Default)]
+pub struct Shown {
+    /// Implants are brighter than what surrounds them, as on a radiograph's film [default: told by the frames]
+    #[arg(long)]
+    pub bright_implant: bool,
+    /// Implants are darker than what surrounds them [default: told by the frames]
+    #[arg(long, conflicts_with = "bright_implant")]
+    pub dark_implant: bool,
+}
+
+impl Shown {
+    /// What was said, if anything.
+    #[must_use]
+    pub fn stated(self) -> Option<Polarity> {
+        match (self.bright_implant, self.dark_implant) {
+            (true, _) => Some(Polarity::BrightImplant),
+            (false, true) => Some(Polarity::DarkImplant),
+            (false, false) => None,
+        }
+    }
+
+    /// What frames told.
+    #[must_use]
+    pub fn told(polarity: Polarity) -> Self {
+        Self {
+            bright_implant: polarity == Polarity::BrightImplant,
+            dark_implant: polarity == Polarity::DarkImplant,
+        }
+    }
+}
+
+/// What most of them say; nothing of none.
+pub fn most(votes: impl IntoIterator<Item = Polarity>) -> Option<Polarity> {
+    let (mut bright, mut all) = (0, 0);
+    for vote in votes {
+        all += 1;
+        bright += usize::from(vote == Polarity::BrightImplant);
+    }
+    (all > 0).then(|| match 2 * bright > all {
+        true => Polarity::BrightImplant,
+        false => Polarity::DarkImplant,
+    })
+}
 
 /// A range of rotations, `first:last:step` in degrees.
 #[derive(Clone, Copy, Debug)]

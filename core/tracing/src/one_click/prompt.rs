@@ -8,7 +8,9 @@ use super::opening::Opening;
 use super::window::{BLOCKED, LEVELS, Window};
 use fluoropose::camera::Camera;
 use fluoropose::image::contour::Point;
+use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
+use fluoropose::refine::{Polarity, polarity_inside, polarity_near};
 
 /// The greatest number of seeds.
 pub(super) const SEEDS: usize = 4;
@@ -40,6 +42,24 @@ pub enum Prompt {
 }
 
 impl Prompt {
+    /// Whether the frame shows metal darker or brighter than what surrounds it, by what was pointed at.
+    #[must_use]
+    pub fn polarity(&self, frame: &dyn Grey) -> Polarity {
+        match *self {
+            Self::Click(Point { column, row }) => polarity_near(frame, [column, row]),
+            Self::Box(a, b) => {
+                let ([left, right], [top, bottom]) = ([a.column, b.column], [a.row, b.row]);
+                let area = [
+                    left.min(right),
+                    top.min(bottom),
+                    left.max(right),
+                    top.max(bottom),
+                ];
+                polarity_inside(frame, area)
+            }
+        }
+    }
+
     /// The part of the frame to search, for a component that reaches no farther than `extent` pixels from the click.
     pub(super) fn window(&self, camera: &Camera, extent: f64) -> Result<Window, OneClickError> {
         let size = (camera.width(), camera.height());

@@ -34,7 +34,7 @@ type Progress = Context<OneClickProtocol['oneClick']['progress']>;
 
 async function search(held: Held, input: OneClickInput, image: FrameImage, matcher: Matcher | null, context: Progress): Promise<OneClickFacts> {
   const startedAt = performance.now();
-  const work = new OneClick(image, input.camera.text, input.prompt, input.bright);
+  const work = new OneClick(image, input.camera.text, input.prompt, input.bright ?? undefined);
   try {
     if (input.avoid) work.avoid(input.avoid);
     work.knowFilm(filmArray(input.film));
@@ -45,13 +45,13 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
     const answer = matcher
       ? held.withSurroundings(input.component, input.around, (raw) => work.finish(matcher, raw))
       : work.finishAlone();
-    return facts(held, answer, matcher, performance.now() - startedAt);
+    return { ...facts(held, answer, matcher, performance.now() - startedAt), bright: work.brightImplant };
   } finally {
     work.free();
   }
 }
 
-function facts(held: Held, answer: OneClickAnswer, matcher: Matcher | null, milliseconds: number): OneClickFacts {
+function facts(held: Held, answer: OneClickAnswer, matcher: Matcher | null, milliseconds: number): Omit<OneClickFacts, 'bright'> {
   try {
     const outlines = Array.from({ length: answer.count }, (_, index) => answer.outline(index) as Float64Array<ArrayBuffer> | undefined);
     const match = answer.fromModel && matcher ? answer.takeMatch() : undefined;

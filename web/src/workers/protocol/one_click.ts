@@ -10,8 +10,8 @@ export interface OneClickInput {
   readonly frame: FramePixels;
   /** Column and row of a click inside the implant, or left, top, right and bottom of a rough box. */
   readonly prompt: Float64Array<ArrayBuffer>;
-  /** Metal is brighter than what surrounds it. */
-  readonly bright: boolean;
+  /** Metal is brighter than what surrounds it; null where the frame is to tell. */
+  readonly bright: boolean | null;
   /** The outline of the other component, whose pixels are left out; columns and rows by turns. */
   readonly avoid: Float64Array<ArrayBuffer> | null;
   /** Without library and model only the region and its edges lead to an outline. */
@@ -30,6 +30,8 @@ export interface OneClickFacts {
   readonly corrected: boolean;
   /** The candidates' poses; null where no model led to the outline. */
   readonly match: Match | null;
+  /** Metal was taken to be brighter than what surrounds it. */
+  readonly bright: boolean;
   /** What was done and how sure it is. */
   readonly sentence: string;
 }

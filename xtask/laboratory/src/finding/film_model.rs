@@ -1,6 +1,6 @@
 //! The constants of a film from the frames at hand, and poses corrected by them.
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
@@ -8,12 +8,15 @@ use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{correct_candidates, onto_image};
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
-use fluoropose::refine::{CameraView, RefineBuffers, RefineOptions, film_profiles};
+use fluoropose::refine::{
+    CameraView, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
+};
 use rayon::prelude::*;
 
 use super::film::FrameFound;
 use super::finder::{EdgeOptions, image};
 use crate::files::StatedFilm;
+use crate::options::{Shown, most};
 use crate::sequence::{Seen, Sequence};
 
 /// Rounds of estimating the film from poses and correcting these by it.
@@ -47,6 +50,7 @@ pub fn bring_onto_frames(
     parts: &mut [Filmed<'_>],
     stated: Option<&[Option<FilmModel>]>,
 ) -> KnownFilm {
+    tell_polarity(parts);
     let mut known = film_of(parts, stated);
     for (part, film) in parts.iter_mut().zip(&known.models) {
         *part.found = part.brought(*film);
@@ -63,6 +67,18 @@ pub fn bring_onto_frames(
         }
     }
     known
+}
+
+/// How the frames show metal, by the poses that outlines led to, unless that was said.
+fn tell_polarity(parts: &mut [Filmed<'_>]) {
+    if parts.iter().any(|part| part.edges.shown.stated().is_some()) {
+        return;
+    }
+    let votes = parts.iter().flat_map(Filmed::polarities);
+    let Some(told) = most(votes) else { return };
+    for part in parts {
+        part.edges.shown = Shown::told(told);
+    }
 }
 
 fn film_of(parts: &[Filmed<'_>], stated: Option<&[Option<FilmModel>]>) -> KnownFilm {
@@ -137,6 +153,29 @@ fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
 }
 
 impl Filmed<'_> {
+    /// How each frame shows metal, by its best pose.
+    fn polarities(&self) -> Vec<Polarity> {
+        let camera = self.sequence.camera();
+        let tell = |buffers: &mut RefineBuffers, (frame, found): (usize, &FrameFound)| {
+            let best = found.candidates.first()?;
+            let look = |seen: &Seen<'_>| {
+                let grey = seen.frame.context("there is no frame")?;
+                let mut memory = buffers.borrow(&self.model, &camera);
+                Ok(polarity_at(
+                    &self.model,
+                    &camera,
+                    &best.pose,
+                    grey,
+                    &mut memory,
+                )?)
+            };
+            self.sequence.look(frame, look).ok()
+        };
+        let frames = self.found.par_iter().enumerate();
+        let told: Vec<_> = frames.map_init(RefineBuffers::default, tell).collect();
+        told.into_iter().flatten().collect()
+    }
+
     fn profiles(
         &self,
         seen: &Seen<'_>,

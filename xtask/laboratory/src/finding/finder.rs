@@ -14,9 +14,10 @@ use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
-use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, Refined, uncertainty};
+use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, Refined, uncertainty};
 use serde::Serialize;
 
+use crate::options::Shown;
 use crate::sequence::Seen;
 
 /// How poses are found.
@@ -46,23 +47,13 @@ impl Method {
 /// How edges are looked for and understood.
 #[derive(clap::Args, Clone, Copy, Debug, Default)]
 pub struct EdgeOptions {
-    /// The implant is brighter than what surrounds it, as on a radiograph's film (method image)
-    #[arg(long)]
-    pub bright_implant: bool,
+    /// How frames show metal (method image).
+    #[command(flatten)]
+    pub shown: Shown,
     /// Estimate with each pose how far the edges lie outside the model's outline, where the data
     /// can tell that from depth (methods refined and image)
     #[arg(long)]
     pub edge_offset: bool,
-}
-
-impl EdgeOptions {
-    fn polarity(self) -> Polarity {
-        if self.bright_implant {
-            Polarity::BrightImplant
-        } else {
-            Polarity::DarkImplant
-        }
-    }
 }
 
 /// A frame as a target of refinement; what is unknown of the silhouette is unknown there.
@@ -80,7 +71,7 @@ pub(super) fn image<'a>(
     Ok(ImageTarget {
         frame,
         unknown: seen.silhouette.unknown(),
-        polarity: edges.polarity(),
+        polarity: edges.shown.stated().unwrap_or_default(),
         film,
     })
 }

@@ -11,7 +11,6 @@ use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Mask;
 use fluoropose::mesh::Model;
 use fluoropose::pose::Pose;
-use fluoropose::refine::Polarity;
 use fluoropose::render::{Projected, render, scratch_needed};
 use serde::Serialize;
 
@@ -25,7 +24,7 @@ use crate::finding::{Clicked, Clicker, ViewOptions, build_library};
 
 use crate::measure::accuracy::{Errors, is_wrong_side, median_absolute};
 
-use crate::options::Pair;
+use crate::options::{Pair, Shown};
 
 use crate::sequence::{Folders, Source};
 use known::Known;
@@ -50,9 +49,8 @@ pub struct Args {
     /// Source of the masks
     #[arg(long, value_name = "NAME", default_value = "labels")]
     source: String,
-    /// The implant is brighter than what surrounds it
-    #[arg(long)]
-    bright_implant: bool,
+    #[command(flatten)]
+    shown: Shown,
     /// The femoral component's reference poses are known: of a tibia
     #[arg(long)]
     femur_known: bool,
@@ -247,11 +245,8 @@ impl Trial<'_> {
         let frames = self.source.frames.as_ref().context("there are no frames")?;
         let decoded = frames.decode(frame)?;
         let grey = grey(&decoded)?;
-        let polarity = if self.args.bright_implant {
-            Polarity::BrightImplant
-        } else {
-            Polarity::DarkImplant
-        };
+        let stated = self.args.shown.stated();
+        let polarity = stated.unwrap_or_else(|| prompt.polarity(&*grey));
         let clicked = match self.clicker.click(&*grey, prompt, polarity) {
             Ok(clicked) => clicked,
             Err(error) => {

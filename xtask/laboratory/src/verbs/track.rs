@@ -6,6 +6,7 @@ mod film;
 mod follow;
 mod journal;
 mod judge;
+mod metal;
 mod part;
 mod record;
 mod request;
@@ -17,6 +18,8 @@ mod table;
 use std::path::PathBuf;
 
 use anyhow::Result;
+
+use crate::options::Shown;
 
 pub use film::{Tracked, track};
 pub use request::{Click, FixedPoses, Request};
@@ -49,9 +52,8 @@ pub struct Args {
     /// Poses that a person fixed: a row a frame, NaN where it did not
     #[arg(long, value_name = "COMPONENT=FILE")]
     fixed: Vec<FixedPoses>,
-    /// The implant is brighter than what surrounds it, as on a radiograph's film
-    #[arg(long)]
-    bright_implant: bool,
+    #[command(flatten)]
+    shown: Shown,
     /// Fill gaps of at most so many frames between followed ones
     #[arg(long, value_name = "FRAMES", default_value_t = 0)]
     interpolate: usize,
@@ -70,7 +72,7 @@ pub fn run(args: Args) -> Result<()> {
         out: args.out,
         clicks: args.click,
         fixed: args.fixed,
-        bright_implant: args.bright_implant,
+        polarity: args.shown.stated(),
         interpolate: args.interpolate,
         anew: args.anew,
         quiet: false,

@@ -12,9 +12,9 @@ use super::run::Run;
 use super::search::{clicked, searched};
 use crate::files::read_poses;
 
-/// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
-fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
-    let mut anchors = Vec::new();
+/// The frames whose pose a person fixed.
+pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<(usize, Pose)>> {
+    let mut fixed_poses = Vec::new();
     for fixed in run
         .request
         .fixed
@@ -29,11 +29,17 @@ fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
             poses.len(),
             run.film.count()
         );
-        for (frame, pose) in poses.iter().enumerate() {
-            if let Some(pose) = pose {
-                anchors.push(of_person(run, part, frame, pose)?);
-            }
-        }
+        let poses = poses.into_iter().enumerate();
+        fixed_poses.extend(poses.filter_map(|(frame, pose)| Some((frame, pose?))));
+    }
+    Ok(fixed_poses)
+}
+
+/// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
+fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+    let mut anchors = Vec::new();
+    for (frame, pose) in fixed_poses(run, part)? {
+        anchors.push(of_person(run, part, frame, &pose)?);
     }
     for click in run
         .request
@@ -115,7 +121,7 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
         if anchor.fixed {
             return of_person(run, part, frame, &pose);
         }
-        let key = format!("again/{}/{}", part.number, mark(anchor));
+        let key = format!("again/{}/{}/{}", part.number, part.phase(), mark(anchor));
         let found: Option<FramePose> = run.journal.step(&key, || {
             part.see(run.film, frame, |subject, image, memory| {
                 Some(settled(subject, image, &anchor.found, memory))

@@ -10,11 +10,12 @@ use fluoropose::refine::Polarity;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use super::anchors::{again, begin, fill};
+use super::anchors::{again, fill};
 use super::constants::learn_film;
 use super::follow::follow;
 use super::journal::Journal;
 use super::judge::judge;
+use super::metal::begun;
 use super::part::{Part, read_models};
 use super::request::Request;
 use super::run::Run;
@@ -71,7 +72,11 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
             component.nominal, component.distance_mm
         ));
     }
-    inputs.update([u8::from(request.bright_implant)]);
+    inputs.update([match request.polarity {
+        Some(Polarity::DarkImplant) => 0,
+        Some(Polarity::BrightImplant) => 1,
+        None => 2,
+    }]);
     let digest: [u8; 32] = inputs.finalize().into();
     let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
     let journal = request.out.join("journal.txt");
@@ -81,23 +86,14 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         journal: Journal::open(&journal, &digest, request.anew)?,
         saying: std::sync::Mutex::default(),
     };
-    let polarity = match request.bright_implant {
-        true => Polarity::BrightImplant,
-        false => Polarity::DarkImplant,
-    };
-    let parts: Vec<Part<'_>> = study
-        .components
-        .iter()
-        .zip(&models)
-        .enumerate()
-        .map(|(number, (component, model))| {
+    let components = || study.components.iter().zip(&models).enumerate();
+    let parts = |polarity| -> Result<Vec<Part<'_>>> {
+        let part = |(number, (component, model))| {
             Part::new(number, component, model, &calibration, camera, polarity)
-        })
-        .collect::<Result<_>>()?;
-    let anchors: Vec<Vec<Anchor>> = parts
-        .par_iter()
-        .map(|part| begin(&run, part))
-        .collect::<Result<_>>()?;
+        };
+        components().map(part).collect()
+    };
+    let (parts, anchors) = begun(&run, parts)?;
     learn_film(&run, &parts, &anchors)?;
     let mut films: Vec<Vec<Cell>> = parts
         .par_iter()

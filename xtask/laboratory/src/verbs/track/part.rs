@@ -109,10 +109,11 @@ impl<'s> Part<'s> {
 
     /// Tells steps with the film's constants from those without.
     pub(super) fn phase(&self) -> &'static str {
-        if self.film.get().is_some() {
-            "film"
-        } else {
-            "bare"
+        match (self.film.get().is_some(), self.polarity) {
+            (true, Polarity::DarkImplant) => "film",
+            (false, Polarity::DarkImplant) => "bare",
+            (true, Polarity::BrightImplant) => "bright-film",
+            (false, Polarity::BrightImplant) => "bright-bare",
         }
     }
 

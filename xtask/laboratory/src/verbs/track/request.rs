@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use anyhow::{Context, Result, ensure};
+use fluoropose::refine::Polarity;
 
 use crate::options::Pair;
 
@@ -17,8 +18,8 @@ pub struct Request {
     pub clicks: Vec<Click>,
     /// Poses that a person fixed.
     pub fixed: Vec<FixedPoses>,
-    /// Whether implants are brighter than what surrounds them.
-    pub bright_implant: bool,
+    /// Whether implants are darker or brighter than what surrounds them; the film tells it where it is not said.
+    pub polarity: Option<Polarity>,
     /// Longest gap that is filled, frames.
     pub interpolate: usize,
     /// Whether what was done before is left out.
