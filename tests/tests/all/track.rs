@@ -79,6 +79,11 @@ fn frame(parts: [(&Triangles, EulerPose, f64); 2], number: usize) -> Vec<u8> {
 }
 
 fn short(name: &str) -> Short {
+    shown(name, |grey| grey)
+}
+
+/// The same film as `show` displays it.
+fn shown(name: &str, show: fn(u8) -> u8) -> Short {
     let folder =
         std::env::temp_dir().join(format!("fluoropose-track-{name}-{}", std::process::id()));
     fs::create_dir_all(folder.join("frames")).expect("a folder");
@@ -90,7 +95,8 @@ fn short(name: &str) -> Short {
             (&tray, position.tibia, 70.0),
         ];
         let path = folder.join("frames").join(format!("{number:02}.png"));
-        write_grey(&path, (SIDE, SIDE), &frame(parts, number)).expect("a frame");
+        let grey: Vec<u8> = frame(parts, number).into_iter().map(show).collect();
+        write_grey(&path, (SIDE, SIDE), &grey).expect("a frame");
     }
     for (part, name) in [(&thigh, "femur.stl"), (&tray, "tibia.stl")] {
         stl::write_file(part, &folder.join(name)).expect("a model");
@@ -135,6 +141,23 @@ impl Short {
         })
     }
 
+    /// All frames but the first, whose pose was fixed, are followed to within 2 degrees.
+    fn assert_followed_from_the_first(&self, tracked: &[Tracked]) {
+        for (tracked, truth) in tracked.iter().zip(&self.truth) {
+            for (row, truth) in tracked.rows.iter().zip(truth) {
+                let pose = Pose::from(row.pose.expect("every frame is visible"));
+                let turn = geodesic_deg(&pose.rotation, &Pose::from(*truth).rotation);
+                let state = if row.frame == 1 {
+                    State::Fixed
+                } else {
+                    State::Followed
+                };
+                let what = (tracked.component.as_str(), row.frame, turn, &row.because);
+                assert!(turn < 2.0 && row.state == state, "{what:?}");
+            }
+        }
+    }
+
     fn bytes(&self, out: &str) -> Vec<Vec<u8>> {
         let read = |name: &str| fs::read(self.folder.join(out).join(name)).expect("written");
         ["femur.jts", "tibia.jts", "track.csv"].map(read).to_vec()
@@ -160,19 +183,7 @@ fn copy(from: &Path, to: &Path, bytes: usize) {
 fn a_short_film_is_followed_from_one_frame_and_the_same_where_it_was_stopped() {
     let film = short("resumed");
     let whole = film.track("whole", &[0]).expect("a film");
-    for (tracked, truth) in whole.iter().zip(&film.truth) {
-        for (row, truth) in tracked.rows.iter().zip(truth) {
-            let pose = Pose::from(row.pose.expect("every frame is visible"));
-            let turn = geodesic_deg(&pose.rotation, &Pose::from(*truth).rotation);
-            let state = if row.frame == 1 {
-                State::Fixed
-            } else {
-                State::Followed
-            };
-            let what = (tracked.component.as_str(), row.frame, turn, &row.because);
-            assert!(turn < 2.0 && row.state == state, "{what:?}");
-        }
-    }
+    film.assert_followed_from_the_first(&whole);
     // Stopped twice, once in the middle of a line.
     let length = fs::metadata(film.journal("whole")).expect("written").len() as usize;
     for (out, bytes) in [("early", length / 5), ("late", 4 * length / 5)] {
@@ -183,6 +194,13 @@ fn a_short_film_is_followed_from_one_frame_and_the_same_where_it_was_stopped() {
     let done = film.lines("whole");
     film.track("whole", &[0]).expect("nothing is left to do");
     assert_eq!(film.lines("whole"), done);
+}
+
+#[test]
+fn a_negative_is_followed_and_nobody_says_that_it_is_one() {
+    let film = shown("negative", |grey| 255 - grey);
+    let tracked = film.track("whole", &[0]).expect("a film");
+    film.assert_followed_from_the_first(&tracked);
 }
 
 #[test]
