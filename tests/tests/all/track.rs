@@ -13,7 +13,7 @@ use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineBuffers, RefineOpt
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::write_poses;
 use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
-use fluoropose_phantom::film::motion::deep_knee_bend;
+use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
 use fluoropose_phantom::picture::write_grey;
 use fluoropose_phantom::stl;
@@ -21,6 +21,8 @@ use fluoropose_tests::{femur, surface, tibia};
 
 const SIDE: usize = 512;
 const FRAMES: usize = 6;
+/// Grey value of a frame in which nothing is.
+const EMPTY: u8 = 200;
 const CALIBRATION: &str = "JT_INTCALIB\n1200\n0\n0\n0.746\n";
 const STUDY: &str = "name = 'short'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
 [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
@@ -103,7 +105,7 @@ fn shown(name: &str, show: fn(u8) -> u8) -> Short {
     }
     fs::write(folder.join("calibration.txt"), CALIBRATION).expect("a calibration");
     fs::write(folder.join("study.toml"), STUDY).expect("a study");
-    let truth = |of: fn(usize, &[fluoropose_phantom::film::motion::Position]) -> EulerPose| {
+    let truth = |of: fn(usize, &[Position]) -> EulerPose| {
         (0..FRAMES).map(|number| of(number, &film)).collect()
     };
     Short {
@@ -231,11 +233,29 @@ struct Given<'f> {
     part: &'f Triangles,
     frames: &'f [Vec<u8>],
     asked: Vec<usize>,
+    /// Frames that were searched as a whole, and what is found in those that are not empty.
+    searched: Vec<usize>,
+    there: Option<Pose>,
 }
 
-impl Given<'_> {
+impl<'f> Given<'f> {
+    fn new(part: &'f Triangles, frames: &'f [Vec<u8>]) -> Self {
+        Self {
+            part,
+            frames,
+            asked: Vec::new(),
+            searched: Vec::new(),
+            there: None,
+        }
+    }
+
     /// Gives all frames that are asked for.
     fn go_on(&mut self, following: &mut Following) {
+        self.give(following, usize::MAX);
+    }
+
+    /// Gives so many of the frames that are asked for.
+    fn give(&mut self, following: &mut Following, most: usize) {
         let model = surface(self.part.clone());
         let model = model.as_model();
         let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
@@ -251,7 +271,16 @@ impl Given<'_> {
             },
         };
         let mut buffers = RefineBuffers::default();
-        while let Some(number) = following.wanted() {
+        for _ in 0..most {
+            let Some(number) = following.wanted() else {
+                return;
+            };
+            if following.is_search() {
+                self.searched.push(number);
+                let is_empty = self.frames[number].iter().all(|&grey| grey == EMPTY);
+                following.searched(self.there.filter(|_| !is_empty));
+                continue;
+            }
             self.asked.push(number);
             let frame = Frame::new(&self.frames[number], SIDE, SIDE, SIDE).expect("fits");
             let image = ImageTarget {
@@ -294,7 +323,7 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
             frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], number)
         })
         .collect();
-    let truth = |of: fn(usize, &[fluoropose_phantom::film::motion::Position]) -> EulerPose| {
+    let truth = |of: fn(usize, &[Position]) -> EulerPose| {
         let poses = (0..FRAMES).map(|number| of(number, &motion));
         poses.collect::<Vec<EulerPose>>()
     };
@@ -306,11 +335,7 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
         for &frame in fixed {
             following.give(frame, truth[frame].into(), true);
         }
-        let mut given = Given {
-            part,
-            frames: &frames,
-            asked: Vec::new(),
-        };
+        let mut given = Given::new(part, &frames);
         given.go_on(&mut following);
         let mut first = given.asked.clone();
         first.sort_unstable();
@@ -329,4 +354,56 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     };
     let tibia = follow(&tray, &tibiae, &[0, FRAMES - 1], Some(known));
     assert_followed(&tibia.conclude(&femur.depths()), &tibiae, &[0, FRAMES - 1]);
+}
+
+/// A femur that rests for some frames, is gone for ten, and rests elsewhere for eight; its poses before and after.
+fn interrupted(before: usize) -> (Triangles, [Pose; 2], Vec<Vec<u8>>) {
+    let (thigh, tray) = (femur(), tibia());
+    let motion = deep_knee_bend(80, Side::Left, &thigh, 70.0, 1);
+    let [first, last] = [&motion[0], &motion[60]];
+    let seen = |at: &Position| frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], 0);
+    let mut frames = vec![seen(first); before];
+    frames.extend(vec![vec![EMPTY; SIDE * SIDE]; 10]);
+    frames.extend(vec![seen(last); 8]);
+    let poses = [first.femur.into(), last.femur.into()];
+    (thigh, poses, frames)
+}
+
+#[test]
+fn what_was_lost_is_looked_for_in_whole_frames_and_followed_from_there() {
+    let (thigh, [before, after], frames) = interrupted(2);
+    let middle = surface(thigh.clone()).as_model().bounds().centre;
+    let mut following = Following::new(middle, frames.len(), 0..frames.len());
+    following.give(0, before, true);
+    following.search_where_lost();
+    let mut given = Given::new(&thigh, &frames);
+    given.there = Some(after);
+    given.go_on(&mut following);
+    assert_eq!(given.searched, [11, 4, 17, 7]);
+    let found: Vec<usize> = (0..frames.len())
+        .filter(|&frame| following.cells()[frame].found().is_some())
+        .collect();
+    assert_eq!(found, [0, 1, 12, 13, 14, 15, 16, 17, 18, 19]);
+    following.choose_sides(None);
+    given.go_on(&mut following);
+    following.compare_sides([17].into_iter());
+    given.go_on(&mut following);
+    assert_eq!(given.asked.last(), Some(&17));
+    assert!(following.rival(14).is_none());
+}
+
+#[test]
+fn who_stops_keeps_what_was_seen() {
+    let (thigh, [before, _], frames) = interrupted(6);
+    let middle = surface(thigh.clone()).as_model().bounds().centre;
+    let mut following = Following::new(middle, frames.len(), 0..frames.len());
+    following.give(0, before, true);
+    let mut given = Given::new(&thigh, &frames);
+    given.give(&mut following, 4);
+    following.stop();
+    assert_eq!(following.wanted(), None);
+    let conclusions = following.conclude(&[]);
+    let posed = conclusions.iter().filter(|one| one.pose.is_some()).count();
+    assert_eq!(posed, 4);
+    assert_eq!(conclusions[4].state, State::Unsolved);
 }
