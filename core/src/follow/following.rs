@@ -151,12 +151,16 @@ impl Following {
         image: &ImageTarget<'_>,
         memory: &mut RefineMemory<'_>,
     ) -> Result<Option<FramePose>, RefineError> {
-        let Some(task) = self.tasks.front_mut() else {
-            return Ok(None);
+        let task = match self.tasks.front_mut() {
+            Some(task @ (Task::Walk(_) | Task::Span(_))) => {
+                return Ok(task.go_on(subject, image, &self.middle, memory));
+            }
+            // The answer of a search comes by another way.
+            None | Some(Task::Search { .. }) => return Ok(None),
+            Some(_) => self.tasks.pop_front(),
         };
         match task {
-            &mut Task::Given { frame, pose, fixed } => {
-                self.tasks.pop_front();
+            Some(Task::Given { frame, pose, fixed }) => {
                 let found = task::given(subject, image, &pose, fixed, memory)?;
                 self.anchors.push(Anchor {
                     frame,
@@ -165,47 +169,43 @@ impl Following {
                 });
                 Ok(Some(found))
             }
-            &mut Task::BothSides(frame) => {
-                self.tasks.pop_front();
-                let Some(&own) = self.cells[frame].found() else {
-                    return Ok(None);
-                };
-                let sample = SideSample {
-                    frame,
-                    own,
-                    mirrored: super::mirrored_pose(subject, image, &own, memory),
-                    fixed: self.cells[frame].fixed,
-                };
-                match self.phase {
-                    Phase::Compare => self.rivals.push(sample),
-                    _ => self.samples.push(sample),
-                }
-                Ok(Some(own))
-            }
-            &mut Task::Found {
-                frame,
-                pose,
-                ref run,
-            } => {
-                let run = run.clone();
-                self.tasks.pop_front();
+            Some(Task::Found { frame, pose, run }) => {
                 let found = task::given(subject, image, &pose, false, memory)?;
+                let fixed = false;
+                let anchor = Anchor {
+                    frame,
+                    found,
+                    fixed,
+                };
                 // What is still missing afterwards is searched too.
                 self.phase = Phase::Search(run.start);
-                self.go_through(
-                    &Anchor {
-                        frame,
-                        found,
-                        fixed: false,
-                    },
-                    &run,
-                );
+                self.go_through(&anchor, &run);
                 Ok(Some(found))
             }
-            // Its answer comes by another way.
-            Task::Search { .. } => Ok(None),
-            Task::Walk(_) | Task::Span(_) => Ok(task.go_on(subject, image, &self.middle, memory)),
+            Some(Task::BothSides(frame)) => Ok(self.see_both_sides(subject, image, frame, memory)),
+            _ => Ok(None),
         }
+    }
+
+    fn see_both_sides(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        frame: usize,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let &own = self.cells[frame].found()?;
+        let sample = SideSample {
+            frame,
+            own,
+            mirrored: super::mirrored_pose(subject, image, &own, memory),
+            fixed: self.cells[frame].fixed,
+        };
+        match self.phase {
+            Phase::Compare => self.rivals.push(sample),
+            _ => self.samples.push(sample),
+        }
+        Some(own)
     }
 
     /// Begins to choose the sides of the mirror, for a tibia with its femur, where that is known.

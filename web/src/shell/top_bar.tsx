@@ -48,30 +48,39 @@ export function TopBar({ state }: { state: State }) {
             {texts.top.update}
           </button>
         ) : null}
-        <button
-          type="button"
-          class="button square"
-          aria-label={texts.top.theme}
-          aria-pressed={state.ui.theme === 'light'}
-          aria-keyshortcuts="Shift+L"
-          title={texts.top.themeTitle}
-          onClick={() => actions.run({ name: 'theme' })}
-        >
-          <Icon name="theme" />
-        </button>
-        <button
-          type="button"
-          class="button round"
-          aria-label={texts.top.keys}
-          title={texts.top.keysTitle}
-          aria-haspopup="dialog"
-          aria-expanded={state.ui.popover === 'keys'}
-          onClick={() => toggle(services.store, 'keys')}
-        >
-          {texts.top.keysSign}
-        </button>
+        <ThemeAndKeys state={state} />
       </div>
     </header>
+  );
+}
+
+function ThemeAndKeys({ state }: { state: State }) {
+  const { actions, services } = useApp();
+  return (
+    <>
+      <button
+        type="button"
+        class="button square"
+        aria-label={texts.top.theme}
+        aria-pressed={state.ui.theme === 'light'}
+        aria-keyshortcuts="Shift+L"
+        title={texts.top.themeTitle}
+        onClick={() => actions.run({ name: 'theme' })}
+      >
+        <Icon name="theme" />
+      </button>
+      <button
+        type="button"
+        class="button round"
+        aria-label={texts.top.keys}
+        title={texts.top.keysTitle}
+        aria-haspopup="dialog"
+        aria-expanded={state.ui.popover === 'keys'}
+        onClick={() => toggle(services.store, 'keys')}
+      >
+        {texts.top.keysSign}
+      </button>
+    </>
   );
 }
 
