@@ -154,6 +154,12 @@ impl FilmFollower {
         })
     }
 
+    /// Begins to look at frames from both sides of the mirror, which `chooseSides` goes on from.
+    #[wasm_bindgen(js_name = seeSides)]
+    pub fn see_sides(&mut self) {
+        self.following.see_sides();
+    }
+
     /// Begins the second part: which side of the mirror is the right one. A tibia is told by the femoral poses (six numbers a
     /// frame, not finite where there is none) with the axes of both (nine numbers each, as `axes_from` takes them); without them
     /// the edges alone decide.

@@ -69,6 +69,8 @@ pub struct Following {
     phase: Phase,
     /// The caller looks for the component in whole frames where nothing leads to it.
     searches: bool,
+    /// [`Self::choose_sides`] was called.
+    may_choose: bool,
     femur: Option<KnownFemur>,
     samples: Vec<SideSample>,
     /// Other sides of frames that somebody wants to compare.
@@ -88,6 +90,7 @@ impl Following {
             tasks: VecDeque::new(),
             phase: Phase::Way,
             searches: false,
+            may_choose: false,
             femur: None,
             samples: Vec::new(),
             rivals: Vec::new(),
@@ -210,13 +213,20 @@ impl Following {
 
     /// Begins to choose the sides of the mirror, for a tibia with its femur, where that is known.
     pub fn choose_sides(&mut self, femur: Option<KnownFemur>) {
-        if self.phase != Phase::Followed {
-            return;
+        self.see_sides();
+        if self.phase == Phase::Sides {
+            self.femur = femur;
+            self.may_choose = true;
         }
-        self.phase = Phase::Sides;
-        self.femur = femur;
-        let wanted = frames_for_sides(&self.cells).filter(|frame| self.range.contains(frame));
-        self.tasks.extend(wanted.map(Task::BothSides));
+    }
+
+    /// Begins to see frames from both sides of the mirror, which needs no femur: [`Self::choose_sides`] goes on from there.
+    pub fn see_sides(&mut self) {
+        if self.phase == Phase::Followed {
+            self.phase = Phase::Sides;
+            let wanted = frames_for_sides(&self.cells).filter(|frame| self.range.contains(frame));
+            self.tasks.extend(wanted.map(Task::BothSides));
+        }
     }
 
     /// Begins to look at frames from the other side of the mirror, for somebody who compares both; see [`Self::rival`].
@@ -278,6 +288,7 @@ impl Following {
                 Some(run) => self.phase = Phase::Search(run.end),
                 None => self.phase = Phase::Followed,
             },
+            Phase::Sides if !self.may_choose => return None,
             Phase::Sides => {
                 self.begin_other_sides();
                 self.phase = Phase::GoOver;

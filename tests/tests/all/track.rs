@@ -329,22 +329,28 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     };
     let femurs = truth(|number, film| film[number].femur);
     let tibiae = truth(|number, film| film[number].tibia);
-    let follow = |part: &Triangles, truth: &[EulerPose], fixed: &[usize], femur| {
-        let middle = surface(part.clone()).as_model().bounds().centre;
-        let mut following = Following::new(middle, FRAMES, 0..FRAMES);
-        for &frame in fixed {
-            following.give(frame, truth[frame].into(), true);
-        }
-        let mut given = Given::new(part, &frames);
-        given.go_on(&mut following);
-        let mut first = given.asked.clone();
-        first.sort_unstable();
-        first.dedup();
-        assert_eq!(first, (0..FRAMES).collect::<Vec<_>>());
-        following.choose_sides(femur);
-        given.go_on(&mut following);
-        following
-    };
+    let follow =
+        |part: &Triangles, truth: &[EulerPose], fixed: &[usize], femur: Option<KnownFemur>| {
+            let middle = surface(part.clone()).as_model().bounds().centre;
+            let mut following = Following::new(middle, FRAMES, 0..FRAMES);
+            for &frame in fixed {
+                following.give(frame, truth[frame].into(), true);
+            }
+            let mut given = Given::new(part, &frames);
+            given.go_on(&mut following);
+            let mut first = given.asked.clone();
+            first.sort_unstable();
+            first.dedup();
+            assert_eq!(first, (0..FRAMES).collect::<Vec<_>>());
+            // At once, or after both sides were seen.
+            if femur.is_some() {
+                following.see_sides();
+                given.go_on(&mut following);
+            }
+            following.choose_sides(femur);
+            given.go_on(&mut following);
+            following
+        };
     // From one end; from both, so that two ways meet.
     let femur = follow(&thigh, &femurs, &[0], None);
     assert_followed(&femur.conclude(&[]), &femurs, &[0]);

@@ -156,6 +156,8 @@ export class Follower {
     const searches = (await this.#first.open(component, worker)).length > 0;
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
     await this.#look(part, await worker.call('begin', begin), signal, looked);
+    // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.
+    if (!signal.aborted) await this.#look(part, await worker.call('seeSides', null), signal, () => undefined);
   }
 
   async #sides(part: Part, femurs: Femurs | null, signal: AbortSignal): Promise<void> {

@@ -43,6 +43,7 @@ function worker(missing: readonly number[]) {
       seen.push(frame);
       return { pose: poseOf(10 + frame), next: rest() };
     },
+    seeSides: () => null,
     sides: () => null,
     stop: () => null,
     compare: ({ frames }: { readonly frames: readonly number[] }) => {

@@ -51,6 +51,10 @@ serve<FollowProtocol>({
       const pose = working().take(image);
       return { pose: pose ? poseFrom(pose) : null, next: working().wanted() ?? null };
     }),
+  seeSides: () => {
+    working().seeSides();
+    return working().wanted() ?? null;
+  },
   sides: ({ femurs }) => {
     const [poses, axes, own] = femurs ? numbers(femurs) : [NONE, NONE, NONE];
     working().chooseSides(poses, axes, own);

@@ -15,6 +15,8 @@ export interface FollowProtocol {
   begin: { input: FollowInput; output: number | null; progress: never };
   /** Looks at the frame that was asked for, or searches it as a whole: it can be called off then. */
   look: { input: FramePixels; output: Seen; progress: { readonly fraction: number } };
+  /** Begins to look at frames from both sides of the mirror; gives the first one. */
+  seeSides: { input: null; output: number | null; progress: never };
   /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
   sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
   /** Begins to look at frames from the other side of the mirror; gives the first one. */
