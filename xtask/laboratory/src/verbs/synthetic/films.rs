@@ -2,6 +2,8 @@
 
 mod draw;
 mod kinds;
+mod outcome;
+mod study;
 mod table;
 mod trial;
 
@@ -17,10 +19,12 @@ use crate::finding::{ViewOptions, build_library};
 use crate::progress::progress;
 use draw::{Film, Number, draw};
 pub use kinds::FilmKind;
+use outcome::Outcome;
+use study::Study;
 pub use table::FilmRow;
 use table::{print, print_heading, print_legend};
 pub use trial::FilmWay;
-use trial::{Bench, Outcome};
+use trial::{Attempt, Bench};
 
 /// Side of the square frames (pixels), focus to detector and pitch of its pixels (mm), distance of the libraries' views (mm).
 const FRAME: usize = 1024;
@@ -41,6 +45,9 @@ pub(super) struct FilmArgs {
     /// With --films: only kinds whose name holds this
     #[arg(long, value_name = "WORDS")]
     only: Option<String>,
+    /// With --films: how poses are come by [default: all]
+    #[arg(long, value_enum, value_name = "WAY")]
+    way: Vec<FilmWay>,
 }
 
 /// What is measured.
@@ -69,7 +76,10 @@ pub(super) fn run(args: &FilmArgs, seed: u64, json: Option<&Path>) -> Result<()>
         kinds: &kinds,
         count: args.count,
         seed,
-        ways: &FilmWay::ALL,
+        ways: match &args.way[..] {
+            [] => &FilmWay::ALL,
+            ways => ways,
+        },
     };
     print_heading();
     let rows = measure_films(&what, print)?;
@@ -97,21 +107,43 @@ pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<Fi
         false => None,
     };
     let mut rows = Vec::new();
+    let mut all = vec![Vec::new(); what.ways.len()];
     for kind in what.kinds {
         let films = films_of(kind, &implants, camera, what)?;
-        for &way in what.ways {
-            let outcomes = outcomes_of(&films, way, &|| {
-                Bench::open(libraries.as_ref(), models, camera)
-            })?;
-            for (part, name) in PARTS.into_iter().enumerate() {
-                let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
-                let row = FilmRow::of(&kind.name, [name, way.word()], &column);
-                each(&row);
-                rows.push(row);
-            }
+        for (&way, all) in what.ways.iter().zip(&mut all) {
+            let open = || Bench::open(libraries.as_ref(), models, camera);
+            let study = Study {
+                attempts: attempts_of(&films, way, &open)?,
+                films: &films,
+                models,
+                camera,
+            };
+            let outcomes = study.outcomes(way)?;
+            add_rows(&kind.name, way, &outcomes, &each, &mut rows);
+            all.extend(outcomes);
+        }
+    }
+    if what.kinds.len() > 1 {
+        for (way, outcomes) in what.ways.iter().zip(&all) {
+            add_rows("all of these", *way, outcomes, &each, &mut rows);
         }
     }
     Ok(rows)
+}
+
+fn add_rows(
+    films: &str,
+    way: FilmWay,
+    outcomes: &[[Outcome; 2]],
+    each: &impl Fn(&FilmRow),
+    rows: &mut Vec<FilmRow>,
+) {
+    for (part, name) in PARTS.into_iter().enumerate() {
+        let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
+        let row = FilmRow::of(films, [name, way.word()], &column);
+        each(&row);
+        rows.push(row);
+    }
 }
 
 /// The films of a kind: a study, as it were.
@@ -136,22 +168,22 @@ fn films_of(
     films
 }
 
-/// What comes of each film, by component.
-fn outcomes_of<'b>(
+/// Poses in each film, by component, before anything is known of the film.
+fn attempts_of<'b>(
     films: &[Film],
     way: FilmWay,
     open: &(impl Fn() -> Result<Bench<'b>> + Sync),
-) -> Result<Vec<[Outcome; 2]>> {
+) -> Result<Vec<[Attempt; 2]>> {
     let bar = progress(films.len(), "found");
     let run = |bench: &mut Result<Bench<'b>>, film: &Film| match bench {
         Ok(bench) => {
-            let outcome = bench.run(film, way);
+            let attempt = bench.attempt(film, way);
             bar.inc(1);
-            outcome
+            attempt
         }
         Err(error) => anyhow::bail!("{error:#}"),
     };
-    let outcomes = films.par_iter().map_init(open, run).collect();
+    let attempts = films.par_iter().map_init(open, run).collect();
     bar.finish_and_clear();
-    outcomes
+    attempts
 }

@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
+use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::Mask;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_phantom::film::motion::{DEEPEST_DEG, knee};
@@ -29,6 +30,17 @@ pub(super) struct Film {
     pub(super) truth: [Pose; 2],
     /// Where a person clicks: where each component is thickest.
     pub(super) clicks: [Prompt; 2],
+}
+
+impl Film {
+    /// Its only frame.
+    ///
+    /// # Errors
+    /// For a camera of another size.
+    pub(super) fn frame(&self, camera: &Camera) -> Result<Frame<'_, u8>> {
+        let (width, height) = (camera.width(), camera.height());
+        Ok(Frame::new(&self.pixels, width, height, width)?)
+    }
 }
 
 /// Number of a film: the same seed and number show the same knee in every kind of film.

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::trial::{Found, Outcome};
+use super::outcome::{Found, Outcome};
+use crate::choice::report::Numbers;
 use crate::measure::accuracy::{Errors, mean, median_absolute, rms};
 use crate::verbs::synthetic::ranges::FAILURE_DEG;
 
@@ -13,7 +14,7 @@ pub struct FilmRow {
     pub films: String,
     /// `femur` or `tibia`.
     pub component: &'static str,
-    /// `click` or `image`.
+    /// `click`, `image` or `alone`.
     pub way: &'static str,
     /// Films.
     pub frames: usize,
@@ -35,9 +36,11 @@ pub struct FilmRow {
     pub told_z_mm: f64,
     /// Poses more than three standard deviations off in depth or rotation, and called good.
     pub wrong_but_good: usize,
-    /// Of the poses not more than 4 degrees off, the parts with the truth inside the regions of 68 and 95 %.
-    pub z_inside: [f64; 2],
-    /// The same of the rotation.
+    /// Poses more than 2 degrees or 5 mm of depth off, and called good.
+    pub far_but_good: usize,
+    /// Of the poses not more than 4 degrees off, the parts with the truth inside the regions of 68 and 95 % of each number.
+    pub inside: [Numbers; 2],
+    /// The same of the rotation as a whole.
     pub rotation_inside: [f64; 2],
     /// Median time of a pose, ms.
     pub median_ms: f64,
@@ -82,7 +85,18 @@ impl FilmRow {
             good_rms: Errors::summarise(&good_errors, rms),
             told_z_mm: median_absolute(&told),
             wrong_but_good: good.iter().filter(|found| found.wrong).count(),
-            z_inside: [0, 1].map(|k| part(&|found| found.z_inside[k])),
+            far_but_good: good.iter().filter(|found| found.far).count(),
+            inside: [0, 1].map(|region| {
+                let number = |number: usize| part(&|found| found.inside[number][region]);
+                Numbers {
+                    x_mm: number(0),
+                    y_mm: number(1),
+                    z_mm: number(2),
+                    z_rot_deg: number(3),
+                    x_rot_deg: number(4),
+                    y_rot_deg: number(5),
+                }
+            }),
             rotation_inside: [0, 1].map(|k| part(&|found| found.rotation_inside[k])),
             median_ms: median_absolute(&times),
         }
@@ -91,7 +105,7 @@ impl FilmRow {
 
 pub(super) fn print_heading() {
     println!(
-        "{:<36} {:<5} {:<5} {:>6} {:>5} {:>5} {:>5} {:>6} | {:>7} {:>7} {:>7} {:>7} {:>7} | {:>6} {:>7} {:>7} {:>7} {:>7} {:>6}",
+        "{:<36} {:<5} {:<5} {:>6} {:>4} {:>5} {:>4} {:>6} | {:>6} {:>6} {:>6} {:>7} {:>6} | {:>6} {:>5} | {:<27} | {:<27} | {:>5}",
         "films",
         "part",
         "way",
@@ -106,19 +120,23 @@ pub(super) fn print_heading() {
         "rot RMS",
         "xy RMS",
         "wrong*",
-        "z 68 %",
-        "z 95 %",
-        "r 68 %",
-        "r 95 %",
+        "far**",
+        "68 %: x, y, z, rot. z, x, y",
+        "95 %: x, y, z, rot. z, x, y",
         "ms"
     );
 }
 
 pub(super) fn print(row: &FilmRow) {
     let (bias, rms) = (&row.bias, &row.rms);
-    let percent = |part: f64| 100.0 * part;
+    let percent = |numbers: &Numbers| {
+        let cells = numbers
+            .all()
+            .map(|part| format!("{:>4.0}", 100.0 * part));
+        cells.concat()
+    };
     println!(
-        "{:<36} {:<5} {:<5} {:>6} {:>5} {:>5} {:>5} {:>6} | {:7.2} {:7.2} {:7.2} {:7.3} {:7.3} | {:>6} {:7.0} {:7.0} {:7.0} {:7.0} {:6.0}",
+        "{:<36} {:<5} {:<5} {:>6} {:>4} {:>5} {:>4} {:>6} | {:6.2} {:6.2} {:6.2} {:7.3} {:6.3} | {:>6} {:>5} | {:<27} | {:<27} | {:5.0}",
         row.films,
         row.component,
         row.way,
@@ -133,10 +151,9 @@ pub(super) fn print(row: &FilmRow) {
         rms.geodesic_deg,
         rms.x_mm.hypot(rms.y_mm),
         row.wrong_but_good,
-        percent(row.z_inside[0]),
-        percent(row.z_inside[1]),
-        percent(row.rotation_inside[0]),
-        percent(row.rotation_inside[1]),
+        row.far_but_good,
+        percent(&row.inside[0]),
+        percent(&row.inside[1]),
         row.median_ms
     );
 }
@@ -144,6 +161,7 @@ pub(super) fn print(row: &FilmRow) {
 pub(super) fn print_legend() {
     println!(
         "mm and degrees, of poses at most 4 degrees off; told: the median standard deviation of z; wrong*: more than 3 standard \
-deviations off in depth or rotation and called good; 68 and 95 %: percent of poses whose region holds the truth, of z and of the rotation."
+deviations off in depth or rotation and called good; far**: more than 2 degrees or 5 mm of depth off and called good; 68 and 95 %: \
+percent of poses whose region of that size holds the truth, number by number."
     );
 }

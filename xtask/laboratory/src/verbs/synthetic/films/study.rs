@@ -1,0 +1,169 @@
+//! Films of one kind as one study: its constants are estimated from poses found without them, which are then corrected.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use fluoropose::camera::Camera;
+use fluoropose::film::pool::profiles_of_each;
+use fluoropose::film::{FilmModel, FilmPool, FilmProfile, GivenFilm};
+use fluoropose::finder::choice::{ChoiceContext, Counterpart};
+use fluoropose::finder::correct_candidates;
+use fluoropose::mesh::Model;
+use fluoropose::pose::Pose;
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles};
+use rayon::prelude::*;
+
+use super::draw::Film;
+use super::outcome::{Outcome, chosen};
+use super::trial::{Attempt, FilmWay};
+
+/// Rounds of estimating the constants and correcting poses by them.
+const ROUNDS: usize = 2;
+
+/// Films of one kind, and the poses of both components in each.
+pub(super) struct Study<'s> {
+    pub(super) films: &'s [Film],
+    pub(super) models: [Model<'s>; 2],
+    pub(super) camera: Camera,
+    pub(super) attempts: Vec<[Attempt; 2]>,
+}
+
+impl Study<'_> {
+    /// What comes of each film, by component, once poses are corrected.
+    ///
+    /// # Errors
+    /// For a film of another size.
+    pub(super) fn outcomes(mut self, way: FilmWay) -> Result<Vec<[Outcome; 2]>> {
+        for _ in 0..ROUNDS {
+            let profiles = self.profiles(way)?;
+            let known = known_films(&profiles, way);
+            self.correct(&known)?;
+        }
+        let middles = self.models.map(|model| model.bounds().centre);
+        let films = self.films.iter().zip(&self.attempts);
+        let outcomes = films.map(|(film, attempts)| {
+            let outcome = |part: usize, context: ChoiceContext<'_>| {
+                let Attempt { candidates, ms } = &attempts[part];
+                Outcome::of(candidates, &context, &film.truth[part], &middles[part], *ms)
+            };
+            let femur = outcome(0, ChoiceContext::default());
+            let known = femur.found.map(|found| Counterpart::Femur(found.pose));
+            [femur, outcome(1, with_femur(known))]
+        });
+        Ok(outcomes.collect())
+    }
+
+    /// The pose of a component that profiles are read at.
+    fn pose(&self, frame: usize, part: usize) -> Option<Pose> {
+        let [femur, tibia] = &self.attempts[frame];
+        let (femur, _) = chosen(&femur.candidates, &ChoiceContext::default())?;
+        if part == 0 {
+            return Some(femur.pose);
+        }
+        let context = with_femur(Some(Counterpart::Femur(femur.pose)));
+        chosen(&tibia.candidates, &context).map(|(tibia, _)| tibia.pose)
+    }
+
+    /// Profiles of each film and component.
+    fn profiles(&self, way: FilmWay) -> Result<Vec<[Vec<FilmProfile>; 2]>> {
+        let each = match way {
+            FilmWay::Alone => profiles_of_each(1),
+            FilmWay::Click | FilmWay::Image => profiles_of_each(2 * self.films.len()),
+        };
+        let read = |buffers: &mut RefineBuffers, (number, film): (usize, &Film)| {
+            let frame = film.frame(&self.camera)?;
+            let image = image(&frame, None);
+            Ok([0, 1].map(|part| {
+                let Some(pose) = self.pose(number, part) else {
+                    return Vec::new();
+                };
+                let model = &self.models[part];
+                let mut memory = buffers.borrow(model, &self.camera);
+                let mut read = vec![FilmProfile::default(); each];
+                let names = (part as u8, number as u16);
+                let (camera, memory) = (&self.camera, &mut memory);
+                let count = film_profiles(model, camera, &pose, &image, names, memory, &mut read);
+                read.truncate(count.unwrap_or(0));
+                read
+            }))
+        };
+        let films = self.films.par_iter().enumerate();
+        films.map_init(RefineBuffers::default, read).collect()
+    }
+
+    /// Corrects all poses by what is known of the film.
+    fn correct(&mut self, known: &[[Option<FilmModel>; 2]]) -> Result<()> {
+        let (models, camera) = (self.models, self.camera);
+        let correct = |buffers: &mut RefineBuffers, (film, (attempts, known)): (&Film, Of<'_>)| {
+            let frame = film.frame(&camera)?;
+            for ((model, attempt), known) in models.iter().zip(attempts).zip(known) {
+                let begin = Instant::now();
+                let image = image(&frame, *known);
+                let mut memory = buffers.borrow(model, &camera);
+                let (candidates, options) = (&attempt.candidates, RefineOptions::default());
+                if known.is_none() || candidates.is_empty() {
+                    continue;
+                }
+                let corrected =
+                    correct_candidates(model, &camera, image, candidates, options, &mut memory);
+                if let Ok(corrected) = corrected {
+                    attempt.candidates = corrected.to_vec();
+                }
+                attempt.ms += begin.elapsed().as_secs_f64() * 1e3;
+            }
+            Ok(())
+        };
+        let of = self.attempts.par_iter_mut().zip(known);
+        let films = self.films.par_iter().zip(of);
+        films
+            .map_init(RefineBuffers::default, correct)
+            .collect::<Result<()>>()
+    }
+}
+
+/// Poses of both components in a film, and what is known of it.
+type Of<'a> = (&'a mut [Attempt; 2], &'a [Option<FilmModel>; 2]);
+
+fn with_femur(counterpart: Option<Counterpart>) -> ChoiceContext<'static> {
+    ChoiceContext {
+        counterpart,
+        ..ChoiceContext::default()
+    }
+}
+
+fn image<'a>(
+    frame: &'a fluoropose::image::frame::Frame<'a, u8>,
+    film: Option<FilmModel>,
+) -> ImageTarget<'a> {
+    ImageTarget {
+        frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film,
+    }
+}
+
+/// What the profiles tell of the film of each component in each frame: those of all frames, or of it alone.
+fn known_films(profiles: &[[Vec<FilmProfile>; 2]], way: FilmWay) -> Vec<[Option<FilmModel>; 2]> {
+    let take = |pool: &mut FilmPool, frame: usize, part: usize| {
+        pool.take(part as u8, frame as u16, profiles[frame][part].clone());
+    };
+    if way == FilmWay::Alone {
+        let alone = |frame: usize, part: usize| {
+            let mut pool = FilmPool::default();
+            take(&mut pool, frame, part);
+            Some(pool.estimate(GivenFilm::default())?.model(part))
+        };
+        let frames = (0..profiles.len()).into_par_iter();
+        return frames
+            .map(|frame| [0, 1].map(|part| alone(frame, part)))
+            .collect();
+    }
+    let mut pool = FilmPool::default();
+    for frame in 0..profiles.len() {
+        (0..2).for_each(|part| take(&mut pool, frame, part));
+    }
+    let film = pool.estimate(GivenFilm::default());
+    let known = [0, 1].map(|part| film.map(|film| film.model(part)));
+    vec![known; profiles.len()]
+}
