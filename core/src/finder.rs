@@ -4,6 +4,7 @@
 //! them and says how far the choice is to be trusted. Whoever wants a step alone finds it beside them: first poses,
 //! refinement of several rivals, starts round a pose that is roughly known, choice over a whole film.
 
+mod around;
 #[cfg(feature = "alloc")]
 mod buffers;
 mod candidate;
@@ -16,8 +17,10 @@ mod first;
 mod memory;
 pub mod nearby;
 pub mod rivals;
+mod usual;
 mod verdict;
 
+pub use around::look_around;
 #[cfg(feature = "alloc")]
 pub use buffers::FinderBuffers;
 pub use candidate::{CANDIDATES, Candidate};
@@ -27,4 +30,5 @@ pub use error::FindError;
 pub use find::{Found, Goal, find};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 pub use memory::FinderMemory;
+pub use usual::FilmMisfits;
 pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};

@@ -226,7 +226,7 @@ impl Chosen {
     /// The same choice with a verdict: that on the chosen pose alone, and what other poses do.
     pub(crate) fn judged(self, alone: Verdict) -> Self {
         Self {
-            verdict: Some(alone.or_open(self.doubt)),
+            verdict: Some(alone.or_doubt(self.doubt)),
             ..self
         }
     }

@@ -66,6 +66,13 @@ pub enum Doubt {
     },
     /// The outline does not determine the pose.
     Undetermined,
+    /// On its film other poses leave less: it may lie on other edges, or on the wrong side of the mirror.
+    Unusual {
+        /// What it leaves, pixels.
+        px: f64,
+        /// What is usual at most, pixels.
+        limit_px: f64,
+    },
     /// Another pose fits as well, and nothing tells which is right.
     Open {
         /// Turn from the chosen pose to that one, degrees.
@@ -109,11 +116,14 @@ impl Verdict {
         }
     }
 
-    /// The verdict where another pose is open too. What speaks against the fit itself comes first.
+    /// The verdict where there is another doubt, as that another pose is open too. What speaks against the fit itself comes
+    /// first.
     #[must_use]
-    pub fn or_open(self, open: Option<Doubt>) -> Self {
-        match (self, open) {
-            (Self::Good | Self::Doubtful(Doubt::Undetermined), Some(open)) => Self::Doubtful(open),
+    pub fn or_doubt(self, doubt: Option<Doubt>) -> Self {
+        match (self, doubt) {
+            (Self::Good | Self::Doubtful(Doubt::Undetermined), Some(doubt)) => {
+                Self::Doubtful(doubt)
+            }
             _ => self,
         }
     }
@@ -148,6 +158,10 @@ impl fmt::Display for Doubt {
                 write!(f, "only {percent:.0} % of the model's outline is known")
             }
             Self::Undetermined => f.write_str("the outline does not determine the pose"),
+            Self::Unusual { px, limit_px } => write!(
+                f,
+                "{px:.2} px remain, on this film at most {limit_px:.2} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
+            ),
             Self::Open { turn_deg, other_px } => write!(
                 f,
                 "another pose, {turn_deg:.0} degrees away, fits as well ({other_px:.2} px), and nothing tells which is right"
@@ -203,7 +217,7 @@ pub fn judge(candidates: &[Candidate], choice: &Choice, limits: &Limits) -> Opti
         })
     });
     let determined = chosen.refined.is_none() || chosen.covariance.is_some();
-    Some(judge_fit(&chosen.fit, determined, limits).or_open(open))
+    Some(judge_fit(&chosen.fit, determined, limits).or_doubt(open))
 }
 
 /// How far a pose is to be trusted by itself, whatever other poses do; `determined` where its uncertainty is known, or was

@@ -7,6 +7,7 @@ mod clicker;
 mod film;
 mod film_model;
 mod finder;
+pub mod misfits;
 pub mod prompts;
 mod refiner;
 mod views;

@@ -3,6 +3,7 @@
 
 use fluoropose_laboratory::finding::Method;
 use fluoropose_laboratory::verbs::evaluate::{Request, evaluate};
+use fluoropose_laboratory::verbs::synthetic::{FilmKind, FilmWay, Films, measure_films};
 use fluoropose_phantom::implant::Side;
 use fluoropose_phantom::sequence::{Options, write};
 
@@ -29,4 +30,29 @@ fn poses_on_the_built_in_film_have_their_true_depth() {
         assert!(film.starts_with("logarithmic film"), "{film}");
     }
     assert_eq!(table.rows.len(), 2);
+}
+
+/// In the second of these films the click takes the tray's inner rim, 15 degrees and 33 mm off, where the right pose leaves a third
+/// of what remains there.
+#[test]
+fn a_tray_on_its_inner_rim_is_told_by_its_film() {
+    let mut kinds = FilmKind::all();
+    kinds.retain(|kind| kind.name == "linear, sharp, much");
+    let what = Films {
+        kinds: &kinds,
+        count: 2,
+        seed: 1,
+        ways: &[FilmWay::Click],
+    };
+    let rows = measure_films(&what, |_| ()).unwrap();
+    assert_eq!(rows.len(), 2);
+    for (row, z_mm) in rows.iter().zip([1.5, 3.0]) {
+        let name = row.component;
+        assert_eq!(
+            [row.good, row.failures, row.far_but_good],
+            [2, 0, 0],
+            "{name}"
+        );
+        assert!(row.rms.z_mm < z_mm, "{name}: {:?}", row.rms);
+    }
 }

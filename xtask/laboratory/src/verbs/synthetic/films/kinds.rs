@@ -1,6 +1,8 @@
 //! The kinds of films that are measured.
 
-use fluoropose_phantom::film::{Alloys, Blur, Display, Physics, Sampling, Scatter, Unsharp};
+use fluoropose_phantom::film::{
+    Alloys, Blur, Display, Physics, Sampling, Scatter, Surroundings, Unsharp,
+};
 
 /// Blur of a sharp film and of a soft one, standard deviations in pixels.
 const BLURS: [(&str, f64); 2] = [("sharp", 0.7), ("soft", 1.4)];
@@ -25,7 +27,7 @@ pub struct FilmKind {
 
 impl FilmKind {
     /// Logarithmic and linear display, sharp and soft, with little scatter and much: eight kinds; then a linear display
-    /// with an unsharp mask, and a square-root one.
+    /// with an unsharp mask, a square-root one, and cement and screws beside the implants.
     pub fn all() -> Vec<Self> {
         let mut all = Vec::new();
         for display in [Display::Logarithmic, Display::Linear] {
@@ -49,6 +51,18 @@ impl FilmKind {
         all.push(Self {
             name: "square-root, soft, little".to_owned(),
             physics: physics(Display::SquareRoot, BLURS[1].1, SCATTERS[0].1),
+        });
+        let disturbed = physics(Display::Linear, BLURS[1].1, SCATTERS[0].1);
+        all.push(Self {
+            name: "linear, soft, little, cement, screws".to_owned(),
+            physics: Physics {
+                surroundings: Surroundings {
+                    cement: true,
+                    screws: true,
+                    ..Surroundings::default()
+                },
+                ..disturbed
+            },
         });
         all
     }

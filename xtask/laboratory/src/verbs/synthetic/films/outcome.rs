@@ -1,7 +1,7 @@
 //! A pose against the truth, and whether what was said of it holds.
 
 use fluoropose::finder::choice::{ChoiceContext, choose};
-use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
+use fluoropose::finder::{Candidate, Doubt, Limits, Verdict, contenders, judge};
 use fluoropose::math::solve_spd;
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{Pose, Quaternion};
@@ -47,16 +47,17 @@ pub(super) struct Found {
 }
 
 impl Outcome {
-    /// Chooses among candidates by what else is known, and compares the choice with the truth; `middle` is that of the model's
-    /// box.
+    /// Chooses among candidates by what else is known, and compares the choice with the truth; `unusual` tells what its film
+    /// makes doubtful of a pose, `middle` is that of the model's box.
     pub(super) fn of(
         candidates: &[Candidate],
-        context: &ChoiceContext<'_>,
+        (context, unusual): (&ChoiceContext<'_>, &dyn Fn(&Candidate) -> Option<Doubt>),
         truth: &Pose,
         middle: &[f64; 3],
         ms: f64,
     ) -> Self {
-        let chosen = chosen(candidates, context);
+        let chosen = chosen(candidates, context)
+            .map(|(candidate, verdict)| (candidate, verdict.or_doubt(unusual(&candidate))));
         Self {
             verdict: chosen.map_or("none", |(_, verdict)| verdict.word()),
             found: chosen
@@ -90,8 +91,7 @@ impl Found {
             errors,
             sd,
             inside: inside(&errors, sd.as_ref()),
-            rotation_inside: OF_THREE
-                .map(|radius| rotation.is_some_and(|square| square <= radius)),
+            rotation_inside: OF_THREE.map(|radius| rotation.is_some_and(|square| square <= radius)),
             wrong: sd.is_none_or(|sd| {
                 beyond(errors.z_mm, sd.z_mm) || beyond(errors.geodesic_deg, sd.rotation_deg)
             }),

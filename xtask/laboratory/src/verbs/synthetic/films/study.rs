@@ -7,15 +7,16 @@ use fluoropose::camera::Camera;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::choice::{ChoiceContext, Counterpart};
-use fluoropose::finder::correct_candidates;
+use fluoropose::finder::{Candidate, correct_candidates, look_around};
 use fluoropose::mesh::Model;
-use fluoropose::pose::Pose;
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles};
 use rayon::prelude::*;
 
 use super::draw::Film;
 use super::outcome::{Outcome, chosen};
 use super::trial::{Attempt, FilmWay};
+use crate::finding::misfits::Misfits;
 
 /// Rounds of estimating the constants and correcting poses by them.
 const ROUNDS: usize = 2;
@@ -35,16 +36,21 @@ impl Study<'_> {
     /// For a film of another size.
     pub(super) fn outcomes(mut self, way: FilmWay) -> Result<Vec<[Outcome; 2]>> {
         for _ in 0..ROUNDS {
-            let profiles = self.profiles(way)?;
-            let known = known_films(&profiles, way);
+            let known = known_films(&self.profiles(way)?, way);
             self.correct(&known)?;
+            if way == FilmWay::Click {
+                self.look_around(&known)?;
+            }
         }
         let middles = self.models.map(|model| model.bounds().centre);
-        let films = self.films.iter().zip(&self.attempts);
-        let outcomes = films.map(|(film, attempts)| {
+        let misfits = self.misfits();
+        let films = self.films.iter().zip(&self.attempts).enumerate();
+        let outcomes = films.map(|(frame, (film, attempts))| {
             let outcome = |part: usize, context: ChoiceContext<'_>| {
                 let Attempt { candidates, ms } = &attempts[part];
-                Outcome::of(candidates, &context, &film.truth[part], &middles[part], *ms)
+                let unusual = |pose: &Candidate| misfits.beside(part, frame).doubt(pose.misfit());
+                let truth = &film.truth[part];
+                Outcome::of(candidates, (&context, &unusual), truth, &middles[part], *ms)
             };
             let femur = outcome(0, ChoiceContext::default());
             let known = femur.found.map(|found| Counterpart::Femur(found.pose));
@@ -53,15 +59,57 @@ impl Study<'_> {
         Ok(outcomes.collect())
     }
 
-    /// The pose of a component that profiles are read at.
-    fn pose(&self, frame: usize, part: usize) -> Option<Pose> {
+    /// The pose of a component that is chosen in a frame.
+    fn chosen(&self, frame: usize, part: usize) -> Option<Candidate> {
         let [femur, tibia] = &self.attempts[frame];
         let (femur, _) = chosen(&femur.candidates, &ChoiceContext::default())?;
         if part == 0 {
-            return Some(femur.pose);
+            return Some(femur);
         }
         let context = with_femur(Some(Counterpart::Femur(femur.pose)));
-        chosen(&tibia.candidates, &context).map(|(tibia, _)| tibia.pose)
+        chosen(&tibia.candidates, &context).map(|(tibia, _)| tibia)
+    }
+
+    fn misfits(&self) -> Misfits {
+        let misfit = |frame: usize, part: usize| Some(self.chosen(frame, part)?.misfit());
+        let frames = 0..self.films.len();
+        Misfits(
+            (0..2)
+                .map(|part| frames.clone().map(|frame| misfit(frame, part)).collect())
+                .collect(),
+        )
+    }
+
+    /// Looks around poses that leave more than is usual on their film.
+    fn look_around(&mut self, known: &[[Option<FilmModel>; 2]]) -> Result<()> {
+        let (misfits, camera) = (self.misfits(), self.camera);
+        let parts = self
+            .models
+            .map(|model| (model, symmetry_planes(model.mesh())));
+        let look = |buffers: &mut RefineBuffers, (frame, (film, attempts)): (usize, Seen<'_>)| {
+            let pixels = film.frame(&camera)?;
+            for (part, (model, planes)) in parts.iter().enumerate() {
+                let begin = Instant::now();
+                let attempt = &mut attempts[part];
+                let misfit = misfits.0[part][frame];
+                let limit = misfit.and_then(|px| misfits.beside(part, frame).exceeded(px));
+                let (Some(limit), Some(film)) = (limit, known[frame][part]) else {
+                    continue;
+                };
+                let seen = (&camera, image(&pixels, Some(film)));
+                let how = (RefineOptions::default(), limit);
+                let mut memory = buffers.borrow(model, &camera);
+                let candidates = &attempt.candidates;
+                let found = look_around(model, seen, planes, candidates, how, &mut memory)?;
+                attempt.candidates = found.to_vec();
+                attempt.ms += begin.elapsed().as_secs_f64() * 1e3;
+            }
+            Ok(())
+        };
+        let films = self.films.par_iter().zip(&mut self.attempts).enumerate();
+        films
+            .map_init(RefineBuffers::default, look)
+            .collect::<Result<()>>()
     }
 
     /// Profiles of each film and component.
@@ -74,7 +122,7 @@ impl Study<'_> {
             let frame = film.frame(&self.camera)?;
             let image = image(&frame, None);
             Ok([0, 1].map(|part| {
-                let Some(pose) = self.pose(number, part) else {
+                let Some(Candidate { pose, .. }) = self.chosen(number, part) else {
                     return Vec::new();
                 };
                 let model = &self.models[part];
@@ -120,6 +168,9 @@ impl Study<'_> {
             .collect::<Result<()>>()
     }
 }
+
+/// A film and the poses of both components in it.
+type Seen<'a> = (&'a Film, &'a mut [Attempt; 2]);
 
 /// Poses of both components in a film, and what is known of it.
 type Of<'a> = (&'a mut [Attempt; 2], &'a [Option<FilmModel>; 2]);

@@ -130,9 +130,7 @@ pub(super) fn print_heading() {
 pub(super) fn print(row: &FilmRow) {
     let (bias, rms) = (&row.bias, &row.rms);
     let percent = |numbers: &Numbers| {
-        let cells = numbers
-            .all()
-            .map(|part| format!("{:>4.0}", 100.0 * part));
+        let cells = numbers.all().map(|part| format!("{:>4.0}", 100.0 * part));
         cells.concat()
     };
     println!(

@@ -1,0 +1,195 @@
+//! Other poses around one that a known film explains badly.
+//!
+//! A tray's wall is thin, and in a soft or scattered frame the strongest edges along it are those of its recess: a model farther
+//! away and turned lies on them. Where the film is known the model as drawn has those edges too, so that little remains at the
+//! right pose, and several times as much at the others. Starts nearer and farther, turned to all sides, and mirrored, are
+//! compared with the frame; the best of each distance are refined, and it is seen what leaves least.
+
+use heapless::Vec;
+
+use super::candidate::{CANDIDATES, Candidate};
+use super::nearby::about;
+use super::rivals::SAME_DEG;
+use crate::camera::Camera;
+use crate::math::{radians, scale};
+use crate::mesh::Model;
+use crate::mesh::mirror::mirror_pose;
+use crate::mesh::symmetry::SymmetryPlane;
+use crate::pose::{Pose, geodesic_deg};
+use crate::refine::{
+    CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined, assess, fit_at,
+    refine,
+};
+use crate::shortlist::keep;
+
+/// Starts lie at these multiples of a pose's distance: an inner rim puts it up to a tenth too far.
+const DISTANCES: [f64; 5] = [1.0, 0.98, 0.96, 0.94, 1.02];
+/// And are turned about the camera's x and y axes by up to this number of steps to either side, each of so many degrees.
+const TURNS: i32 = 2;
+const TURN_DEG: [f64; 2] = [4.0, 5.0];
+/// Starts of one distance that are refined, and those of all.
+const OF_A_DISTANCE: usize = 2;
+const STARTS: usize = 24;
+/// Poses that are found, at most.
+const FOUND: usize = 4;
+
+/// Looks for a pose around the best of the candidates that its film, which `image` has, explains better; gives all of them, best
+/// first. At a misfit of `enough_px` no farther start is tried.
+///
+/// # Errors
+/// [`RefineError`] where memory is too short.
+pub fn look_around(
+    model: &Model<'_>,
+    (camera, image): (&Camera, ImageTarget<'_>),
+    planes: &[SymmetryPlane],
+    candidates: &[Candidate],
+    (options, enough_px): (RefineOptions, f64),
+    memory: &mut RefineMemory<'_>,
+) -> Result<Vec<Candidate, CANDIDATES>, RefineError> {
+    let mut all: Vec<Candidate, CANDIDATES> = Vec::new();
+    for candidate in candidates {
+        keep(&mut all, *candidate, Candidate::misfit);
+    }
+    let Some(best) = all.first().copied() else {
+        return Ok(all);
+    };
+    let mut around = Around {
+        model,
+        view: CameraView::only(camera, image),
+        planes,
+        options,
+        memory,
+        found: Vec::new(),
+    };
+    for start in around.starts(&best.pose) {
+        around.refine(&start);
+        if around
+            .found
+            .first()
+            .is_some_and(|(_, least)| misfit(least) <= enough_px)
+        {
+            break;
+        }
+    }
+    around.refine_mirror_images();
+    let found = around.assessed(&best)?;
+    for candidate in found {
+        let same = |other: &Candidate| is_same(&candidate.pose, &other.pose);
+        if !all
+            .iter()
+            .any(|other| same(other) && other.misfit() <= candidate.misfit())
+        {
+            all.retain(|other| !same(other));
+            keep(&mut all, candidate, Candidate::misfit);
+        }
+    }
+    Ok(all)
+}
+
+fn misfit(refined: &Refined) -> f64 {
+    crate::math::sqrt(2.0 * refined.loss)
+}
+
+fn is_same(one: &Pose, other: &Pose) -> bool {
+    geodesic_deg(&one.rotation, &other.rotation) < SAME_DEG
+}
+
+struct Around<'a, 'm> {
+    model: &'a Model<'a>,
+    view: CameraView<'a>,
+    planes: &'a [SymmetryPlane],
+    options: RefineOptions,
+    memory: &'a mut RefineMemory<'m>,
+    /// Starts and what became of them, by rising loss, each pose once.
+    found: Vec<(Pose, Refined), FOUND>,
+}
+
+impl Around<'_, '_> {
+    /// Starts around a pose and its mirror images, the best fits first.
+    fn starts(&mut self, pose: &Pose) -> Vec<Pose, STARTS> {
+        let mut starts: Vec<(f64, Pose), STARTS> = Vec::new();
+        let bases =
+            core::iter::once(*pose).chain(self.planes.iter().map(|plane| mirror_pose(pose, plane)));
+        for base in bases {
+            for distance in DISTANCES {
+                for start in self.of_a_distance(&base, distance) {
+                    keep(&mut starts, start, |&(misfit_px, _)| misfit_px);
+                }
+            }
+        }
+        starts.into_iter().map(|(_, pose)| pose).collect()
+    }
+
+    fn of_a_distance(&mut self, base: &Pose, distance: f64) -> Vec<(f64, Pose), OF_A_DISTANCE> {
+        let middle = self.model.bounds().centre;
+        let shift = scale(&base.transform(&middle), distance - 1.0);
+        let mut best = Vec::new();
+        for x in -TURNS..=TURNS {
+            for y in -TURNS..=TURNS {
+                let turn = [
+                    radians(TURN_DEG[0] * f64::from(x)),
+                    radians(TURN_DEG[1] * f64::from(y)),
+                    0.0,
+                ];
+                let start = about(&middle, base, &turn, shift);
+                // Where the model cannot be drawn is no start.
+                if let Ok(fit) = fit_at(self.model, &[self.view], &start, self.memory) {
+                    keep(&mut best, (fit.misfit_px, start), |&(misfit_px, _)| {
+                        misfit_px
+                    });
+                }
+            }
+        }
+        best
+    }
+
+    /// Refines a start; one that leads nowhere is no rival.
+    fn refine(&mut self, start: &Pose) {
+        let views = [self.view];
+        let Ok(refined) = refine(self.model, &views, start, self.options, self.memory) else {
+            return;
+        };
+        let same = |(_, other): &(Pose, Refined)| is_same(&other.pose, &refined.pose);
+        if self
+            .found
+            .iter()
+            .any(|other| same(other) && other.1.loss <= refined.loss)
+        {
+            return;
+        }
+        self.found.retain(|other| !same(other));
+        keep(&mut self.found, (*start, refined), |(_, refined)| {
+            refined.loss
+        });
+    }
+
+    fn refine_mirror_images(&mut self) {
+        if let Some((_, best)) = self.found.first().copied() {
+            for plane in self.planes {
+                self.refine(&mirror_pose(&best.pose, plane));
+            }
+        }
+    }
+
+    fn assessed(&mut self, best: &Candidate) -> Result<Vec<Candidate, FOUND>, RefineError> {
+        let Self {
+            model,
+            view,
+            memory,
+            ..
+        } = self;
+        let found = self.found.iter();
+        let one = |(start, refined): &(Pose, Refined)| {
+            let assessment = assess(model, &[*view], refined, memory)?;
+            Ok(Candidate {
+                pose: refined.pose,
+                start: *start,
+                located: best.located,
+                refined: Some(*refined),
+                covariance: assessment.covariance,
+                fit: assessment.fit,
+            })
+        };
+        found.map(one).collect()
+    }
+}

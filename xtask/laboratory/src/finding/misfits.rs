@@ -1,0 +1,48 @@
+//! What remains at the poses of several components on one film: what is usual there.
+
+use fluoropose::finder::{Doubt, FilmMisfits};
+
+/// Misfits in pixels, of each component in each frame, where there is a pose.
+pub struct Misfits(pub Vec<Vec<Option<f64>>>);
+
+/// Those that a frame's pose of a component is compared with.
+pub struct Beside {
+    own: Vec<f64>,
+    others: Vec<f64>,
+}
+
+impl Misfits {
+    /// The misfits of all frames and components but this one.
+    pub fn beside(&self, component: usize, frame: usize) -> Beside {
+        let (mut own, mut others) = (Vec::new(), Vec::new());
+        for (number, misfits) in self.0.iter().enumerate() {
+            let misfits = misfits.iter().enumerate();
+            if number == component {
+                let rest = misfits.filter(|&(other, _)| other != frame);
+                own.extend(rest.filter_map(|(_, misfit)| *misfit));
+            } else {
+                others.extend(misfits.filter_map(|(_, misfit)| *misfit));
+            }
+        }
+        Beside { own, others }
+    }
+}
+
+impl Beside {
+    fn misfits(&self) -> FilmMisfits<'_> {
+        FilmMisfits {
+            own: &self.own,
+            others: &self.others,
+        }
+    }
+
+    /// What is doubtful of a pose with this misfit.
+    pub fn doubt(&self, px: f64) -> Option<Doubt> {
+        self.misfits().doubt(px)
+    }
+
+    /// What is usual at most, where this misfit exceeds it.
+    pub fn exceeded(&self, px: f64) -> Option<f64> {
+        self.misfits().limit_px().filter(|&limit| px > limit)
+    }
+}
