@@ -11,6 +11,7 @@ mod unknowns;
 
 use core::fmt;
 
+use guards::Confirmed;
 use solver::Fit;
 use unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
@@ -67,12 +68,15 @@ impl fmt::Display for FilmEstimate {
             (DisplayKnowledge::Untold, _) => {
                 "film taken to be linear, because its frames do not tell"
             }
+            (DisplayKnowledge::Either, _) => {
+                "film linear with enhanced edges or logarithmic, which one component alone does not tell: depth lies between the two"
+            }
             (DisplayKnowledge::Stated, DisplayKind::Linear) => "linear film, as stated",
             (_, DisplayKind::Linear) => "nearly linear film",
             (_, DisplayKind::Between) => "film between linear and logarithmic",
             (_, DisplayKind::Logarithmic) => "logarithmic film",
         })?;
-        if kind == DisplayKind::Logarithmic {
+        if kind == DisplayKind::Logarithmic && self.display != DisplayKnowledge::Either {
             write!(f, ", {:.0} grey values for a factor of e", 1.0 / curvature)?;
         }
         write!(f, ", blur {blur_px:.1} px")
@@ -109,7 +113,7 @@ pub fn estimate_with(
     if fit.leave_out_costly(&at) {
         fit.improve(&mut at, 6)?;
     }
-    let display = fit.confirmed(&mut at)?;
+    let Confirmed { display, half } = fit.confirmed(&mut at)?;
     let sums = fit.look(&at)?;
     if sums.count < LEAST_PROFILES {
         return None;
@@ -122,6 +126,7 @@ pub fn estimate_with(
     (0..UNKNOWNS).for_each(|k| covariance[k][k] += least(k) * least(k));
     for (k, row) in covariance.iter_mut().enumerate() {
         for (other, value) in row.iter_mut().enumerate() {
+            *value += half[k] * half[other];
             *value /= if k == CURVATURE { contrast } else { 1.0 };
             *value /= if other == CURVATURE { contrast } else { 1.0 };
         }

@@ -3,7 +3,7 @@
 use heapless::Vec;
 
 use super::solver::{Fit, UNEXPLAINED};
-use super::unknowns::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, Vector};
+use super::unknowns::{CURVATURE, DisplayKnowledge, MOST_COMPONENTS, UNKNOWNS, Vector};
 use crate::film::profile::FilmProfile;
 
 /// A frame whose profiles cost more than this many times the mean of the better half of a component's frames is left out: its
@@ -63,16 +63,39 @@ impl Fit<'_> {
         sum / count.max(1.0)
     }
 
-    /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike. Else the film
-    /// is taken to be linear.
-    pub(super) fn confirmed(&mut self, at: &mut Vector) -> Option<DisplayKnowledge> {
+    /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike. Where they contradict
+    /// each other the film is taken to be linear; where there is one alone, to be in the middle between that and what it tells.
+    pub(super) fn confirmed(&mut self, at: &mut Vector) -> Option<Confirmed> {
         if self.given.display.is_some() {
-            return Some(DisplayKnowledge::Stated);
+            return Some(Confirmed::by(DisplayKnowledge::Stated));
         }
         if at[CURVATURE] < DOUBTED {
-            return Some(DisplayKnowledge::Told);
+            return Some(Confirmed::by(DisplayKnowledge::Told));
         }
-        let mut told: Vec<f64, MOST_COMPONENTS> = Vec::new();
+        let told = self.told_by_each(at);
+        let [least, most] = told.iter().fold([f64::MAX, f64::MIN], |[least, most], &x| {
+            [least.min(x), most.max(x)]
+        });
+        if told.len() >= 2 && most - least <= AGREE * most {
+            self.find_shifts(at);
+            return Some(Confirmed::by(DisplayKnowledge::Told));
+        }
+        let curved = *at;
+        self.hold_curvature(0.0, at)?;
+        if told.len() >= 2 {
+            return Some(Confirmed::by(DisplayKnowledge::Untold));
+        }
+        let half = core::array::from_fn(|k| (curved[k] - at[k]) / 2.0);
+        self.hold_curvature(half[CURVATURE], at)?;
+        Some(Confirmed {
+            display: DisplayKnowledge::Either,
+            half,
+        })
+    }
+
+    /// The curvature that each component tells by itself, where it does.
+    fn told_by_each(&mut self, at: &Vector) -> Vec<f64, MOST_COMPONENTS> {
+        let mut told = Vec::new();
         for component in 0..self.components as u8 {
             self.only = Some(component);
             let mut alone = *at;
@@ -82,16 +105,27 @@ impl Fit<'_> {
             }
         }
         self.only = None;
-        let [least, most] = told.iter().fold([f64::MAX, f64::MIN], |[least, most], &x| {
-            [least.min(x), most.max(x)]
-        });
-        if told.len() >= 2 && most - least <= AGREE * most {
-            self.find_shifts(at);
-            return Some(DisplayKnowledge::Told);
-        }
-        (at[CURVATURE], self.hold) = (0.0, true);
+        told
+    }
+
+    fn hold_curvature(&mut self, curvature: f64, at: &mut Vector) -> Option<()> {
+        (at[CURVATURE], self.hold) = (curvature, true);
         self.find_shifts(at);
-        self.improve(at, 8)?;
-        Some(DisplayKnowledge::Untold)
+        self.improve(at, 8).map(|_| ())
+    }
+}
+
+/// What is known of the display, and half of what lies between the films that it may be.
+pub(super) struct Confirmed {
+    pub(super) display: DisplayKnowledge,
+    pub(super) half: Vector,
+}
+
+impl Confirmed {
+    fn by(display: DisplayKnowledge) -> Self {
+        Self {
+            display,
+            half: [0.0; UNKNOWNS],
+        }
     }
 }

@@ -19,9 +19,11 @@ pub(super) const LEAST_PROFILES: usize = 40;
 pub enum DisplayKnowledge {
     /// The profiles tell it.
     Told,
-    /// They do not: components contradict each other, or there is one alone, and an unsharp mask may pass for a curve. The
-    /// film is taken to be linear.
+    /// They do not: components contradict each other, and an unsharp mask may pass for a curve. The film is taken to be linear.
     Untold,
+    /// One component alone tells of a curve, or of an unsharp mask that passes for one. The film is taken to be in the middle, and
+    /// both are covered by its covariance.
+    Either,
     /// A person stated it.
     Stated,
 }

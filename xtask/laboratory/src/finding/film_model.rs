@@ -5,8 +5,9 @@ use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
-use fluoropose::finder::{correct_candidates, onto_image};
+use fluoropose::finder::{correct_candidates, look_around, onto_image};
 use fluoropose::mesh::Model;
+use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
     CameraView, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 
 use super::film::FrameFound;
 use super::finder::{EdgeOptions, image};
+use super::misfits::Misfits;
 use crate::files::StatedFilm;
 use crate::options::{Shown, most};
 use crate::sequence::{Seen, Sequence};
@@ -66,6 +68,7 @@ pub fn bring_onto_frames(
             }
         }
     }
+    look_around_unusual(parts, &known);
     known
 }
 
@@ -78,6 +81,25 @@ fn tell_polarity(parts: &mut [Filmed<'_>]) {
     let Some(told) = most(votes) else { return };
     for part in parts {
         part.edges.shown = Shown::told(told);
+    }
+}
+
+/// Looks around poses that leave more than is usual on their film.
+fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
+    let best = |found: &FrameFound| Some(found.candidates.first()?.misfit());
+    let misfits = Misfits(
+        parts
+            .iter()
+            .map(|part| part.found.iter().map(best).collect())
+            .collect(),
+    );
+    for (number, (part, film)) in parts.iter_mut().zip(&known.models).enumerate() {
+        let exceeded = |frame: usize| {
+            misfits.0[number][frame].and_then(|px| misfits.beside(number, frame).exceeded(px))
+        };
+        if let Some(film) = film {
+            part.look_around(*film, &exceeded);
+        }
     }
 }
 
@@ -273,6 +295,38 @@ impl Filmed<'_> {
         };
         let frames = self.found.par_iter_mut().enumerate();
         frames.for_each_init(RefineBuffers::default, correct);
+    }
+
+    /// Looks around the poses of frames that leave more than is usual there, which `exceeded` gives then.
+    fn look_around(&mut self, film: FilmModel, exceeded: &(impl Fn(usize) -> Option<f64> + Sync)) {
+        let (camera, options) = (self.sequence.camera(), self.options());
+        let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
+        let planes = symmetry_planes(model.mesh());
+        let look = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
+            let Some(limit_px) = exceeded(frame) else {
+                return;
+            };
+            let around = sequence.look(frame, |seen| {
+                let seen = (&camera, image(seen, edges, Some(film))?);
+                let how = (options, limit_px);
+                let mut memory = buffers.borrow(model, &camera);
+                let candidates = &found.candidates;
+                Ok(look_around(
+                    model,
+                    seen,
+                    &planes,
+                    candidates,
+                    how,
+                    &mut memory,
+                )?)
+            });
+            match around {
+                Ok(around) => found.candidates = around.to_vec(),
+                Err(error) => eprintln!("around frame {} nothing is found: {error:#}", frame + 1),
+            }
+        };
+        let frames = self.found.par_iter_mut().enumerate();
+        frames.for_each_init(RefineBuffers::default, look);
     }
 
     /// Brings a pose onto the edges of a frame, by the film's model where there is one; best first.

@@ -20,6 +20,7 @@ use super::reference::{Reference, in_front};
 use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
+use crate::finding::misfits::Misfits;
 use crate::finding::{
     Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
     build_library, find_poses, first_poses, stated_model,
@@ -53,6 +54,7 @@ pub(super) struct Found {
     pub(super) from_reference: Option<Vec<Option<Pose>>>,
     /// Of the method `image`: what is known of the film, in words.
     pub(super) film: Option<String>,
+    film_is_known: bool,
     /// Masks and frames.
     files: Source,
     /// Pixels of each mask that say nothing.
@@ -119,7 +121,38 @@ pub(super) fn find_parts<'s>(
             found.decide_with(known, &axes)?;
         }
     }
+    if request.method == Method::Image {
+        doubt_unusual(&mut parts);
+    }
     Ok(parts)
+}
+
+/// Doubts poses that leave more than is usual on their film.
+fn doubt_unusual(parts: &mut [Part<'_>]) {
+    for name in sources_of(parts) {
+        let of = parts.iter_mut().flat_map(|part| &mut part.found);
+        let mut found: Vec<&mut Found> = of.filter(|found| found.source == name).collect();
+        if !found.iter().all(|found| found.film_is_known) {
+            continue;
+        }
+        let misfit = |decision: &Option<Decision>| Some(decision.as_ref()?.chosen.misfit());
+        let misfits = |found: &&mut Found| found.decisions.iter().map(misfit).collect();
+        let misfits = Misfits(found.iter().map(misfits).collect());
+        for (number, found) in found.iter_mut().enumerate() {
+            for (frame, decision) in found.decisions.iter_mut().enumerate() {
+                if let Some(decision) = decision {
+                    let beside = misfits.beside(number, frame);
+                    let doubt = beside.doubt(decision.chosen.misfit());
+                    decision.verdict = decision.verdict.or_doubt(doubt);
+                }
+            }
+        }
+    }
+}
+
+fn sources_of(parts: &[Part<'_>]) -> BTreeSet<String> {
+    let sources = parts.iter().flat_map(|part| &part.found);
+    sources.map(|found| found.source.clone()).collect()
 }
 
 impl Found {
@@ -277,6 +310,7 @@ impl<'s> Part<'s> {
             femur: None,
             from_reference: None,
             film: None,
+            film_is_known: false,
             files,
             hidden,
         })
@@ -321,9 +355,7 @@ fn from_reference(
 
 /// Brings the poses of each source onto the grey frames, by what these tell of the film.
 fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Result<()> {
-    let sources = parts.iter().flat_map(|part| &part.found);
-    let names: BTreeSet<String> = sources.map(|found| found.source.clone()).collect();
-    for name in names {
+    for name in sources_of(parts) {
         let mut filmed = Vec::new();
         let mut rest = Vec::new();
         for part in &mut *parts {
@@ -348,16 +380,17 @@ fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Resu
             rest.push((
                 stated,
                 reference,
-                &mut found.film,
+                (&mut found.film, &mut found.film_is_known),
                 &mut found.from_reference,
             ));
         }
         let stated: Vec<_> = rest.iter().map(|(stated, ..)| *stated).collect();
         let known = bring_onto_frames(&mut filmed, study.film.map(|_| &stated[..]));
-        for ((part, (_, reference, film, starts)), model) in
+        for ((part, (_, reference, (film, is_known), starts)), model) in
             filmed.iter().zip(rest).zip(&known.models)
         {
             *film = Some(known.words.clone());
+            *is_known = model.is_some();
             *starts = reference
                 .as_ref()
                 .map(|reference| from_reference(part, reference, *model));
