@@ -4,6 +4,7 @@ use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{
     DisplayKind, FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm,
 };
+use fluoropose::finder::FilmMisfits;
 use wasm_bindgen::prelude::*;
 
 /// The profiles of a study, and what they tell of its film.
@@ -20,6 +21,14 @@ impl FilmStudy {
     #[must_use]
     pub fn new() -> FilmStudy {
         Self::default()
+    }
+
+    /// The largest usual misfit of a component's poses on a film, pixels, by those of the same component in other frames and those
+    /// of other components; nothing where they do not tell.
+    #[wasm_bindgen(js_name = usualMisfit)]
+    #[must_use]
+    pub fn usual_misfit(own: &[f64], others: &[f64]) -> Option<f64> {
+        FilmMisfits { own, others }.limit_px()
     }
 
     /// Takes the profiles of a component (0 femur, 1 tibia) and a frame, as `filmProfiles` gives them; they take the place of

@@ -4,7 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmProfile;
 use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
-    find, first_poses, judge_fit,
+    find, first_poses, judge_fit, look_around,
 };
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
@@ -287,6 +287,40 @@ impl WorkingModel {
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         let options = RefineOptions::default();
         correct(&model, &[view], refined, options, &mut memory).map_err(sentence)
+    }
+
+    /// Other poses around one that leaves more than is usual on its film, best first: where another leaves less it is among them.
+    /// At `enough_px` no farther one is looked for.
+    ///
+    /// # Errors
+    /// The core's sentence about the model.
+    pub(crate) fn look_around(
+        &mut self,
+        refined: &Refined,
+        view: CameraView<'_>,
+        enough_px: f64,
+    ) -> Result<Vec<Candidate>, JsError> {
+        let Target::Image(image) = view.target else {
+            return Ok(Vec::new());
+        };
+        let model = self.owned.as_model();
+        let planes = self
+            .planes
+            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
+        let mut memory = self.buffers.refine().borrow(&model, view.camera);
+        let known = Candidate {
+            pose: refined.pose,
+            start: refined.pose,
+            located: None,
+            refined: Some(*refined),
+            covariance: None,
+            fit: OutlineFit::default(),
+        };
+        let seen = (view.camera, image);
+        let how = (RefineOptions::default(), enough_px);
+        let found = look_around(&model, seen, planes, &[known], how, &mut memory);
+        let found = found.map_err(sentence)?.into_iter();
+        Ok(found.filter(|found| found.pose != refined.pose).collect())
     }
 
     /// Reads profiles of a frame across the model's outline at a pose; gives how many.

@@ -3,6 +3,8 @@
 use fluoropose::camera::Camera;
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{FilmModel, FilmProfile, pool::profiles_of_each};
+use fluoropose::finder::choice::DECISIVE_RATIO;
+use fluoropose::finder::{Candidate as FinderCandidate, Doubt};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::Contour;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
@@ -37,9 +39,17 @@ pub(super) struct Seen<'s> {
     pub(super) unknown: Option<&'s [Word]>,
     /// What its film makes of the implant.
     pub(super) film: Option<FilmModel>,
+    /// The largest usual misfit on it, pixels.
+    pub(super) usual: Option<f64>,
 }
 
 impl Seen<'_> {
+    /// What is doubtful of a pose that leaves more than is usual.
+    fn doubt(&self, refined: &Refined) -> Option<Doubt> {
+        let (limit_px, px) = (self.usual?, misfit(refined));
+        (px > limit_px).then_some(Doubt::Unusual { px, limit_px })
+    }
+
     /// Calls `with` with what the camera saw.
     pub(super) fn look<T>(
         &self,
@@ -96,7 +106,8 @@ impl Matcher {
     }
 
     /// Brings a pose that was refined on a frame to where its film puts the edges (`film` as `FilmFacts.model` gives it): the
-    /// pose, its outline, how sure it is and how far to be trusted. `support` is the part of its outline on edges.
+    /// pose, its outline, how sure it is and how far to be trusted. `support` is the part of its outline on edges. Where more remains
+    /// than is `usual` (as `usualMisfit` gives it), and another pose around leaves clearly less, it is that one.
     ///
     /// # Errors
     /// The core's sentence about why it cannot be corrected.
@@ -108,17 +119,25 @@ impl Matcher {
         pose: &[f64],
         support: f64,
         film: &[f64],
+        usual: Option<f64>,
     ) -> Result<OneClickAnswer, JsError> {
         let start = Pose::from(from_numbers(pose)?);
-        let seen = self.seen(frame, hidden, &start, film_model(film)?)?;
+        let seen = Seen {
+            usual,
+            ..self.seen(frame, hidden, &start, film_model(film)?)?
+        };
         let refined = self.corrected(&Refined::at(start), &seen)?;
         let one = OnFrame {
             refined,
             start,
             support,
         };
+        let around = self.around(&one, &seen)?.into_iter().next();
+        let clearly = |other: &OnFrame| DECISIVE_RATIO * misfit(&other.refined) <= misfit(&refined);
+        let one = around.filter(clearly).unwrap_or(one);
+        let support = one.support;
         let candidate = self.on_frame(&one, &seen)?;
-        let outline = self.outline_at(&refined.pose, seen.camera)?;
+        let outline = self.outline_at(&one.refined.pose, seen.camera)?;
         let matched = Match {
             candidates: vec![candidate],
             compared: 1,
@@ -146,6 +165,7 @@ impl Matcher {
             camera,
             unknown: Some(&hidden.words),
             film,
+            usual: None,
         })
     }
 
@@ -160,6 +180,28 @@ impl Matcher {
         }
         let model = model_of(&mut self.model)?;
         seen.look(|view| model.correct(refined, view))
+    }
+
+    /// Poses around one that leaves more than is usual on its film; none of one that does not.
+    pub(super) fn around(
+        &mut self,
+        one: &OnFrame,
+        seen: &Seen<'_>,
+    ) -> Result<Vec<OnFrame>, JsError> {
+        let unusual = seen.usual.filter(|&usual| misfit(&one.refined) > usual);
+        let (Some(usual), Some(_)) = (unusual, seen.film) else {
+            return Ok(Vec::new());
+        };
+        let model = model_of(&mut self.model)?;
+        let found = seen.look(|view| model.look_around(&one.refined, view, usual))?;
+        let on_frame = |found: &FinderCandidate| {
+            Some(OnFrame {
+                refined: found.refined?,
+                start: found.start,
+                support: found.fit.met,
+            })
+        };
+        Ok(found.iter().filter_map(on_frame).collect())
     }
 
     /// A refined pose as the page reads it.
@@ -179,7 +221,7 @@ impl Matcher {
             drawn: None,
             residual_px: Some(one.refined.residual_px),
             misfit: Some(misfit(&one.refined)),
-            verdict: Some(assessed.verdict()),
+            verdict: Some(assessed.verdict().or_doubt(seen.doubt(&one.refined))),
             deviations: assessed.deviations.as_ref().map(deviation_numbers),
             start: Some(to_numbers(&EulerPose::from(one.start))),
             view,

@@ -53,8 +53,9 @@ pub struct OneClick {
     excluded: Option<Vec<Word>>,
     work: Option<Work>,
     buffers: OneClickBuffers,
-    /// What the film makes of the component.
+    /// What the film makes of the component, and the largest usual misfit on it, pixels.
     known: Option<FilmModel>,
+    usual: Option<f64>,
 }
 
 #[wasm_bindgen]
@@ -86,6 +87,7 @@ impl OneClick {
             work: None,
             buffers: OneClickBuffers::default(),
             known: None,
+            usual: None,
         })
     }
 
@@ -111,13 +113,15 @@ impl OneClick {
         Ok(())
     }
 
-    /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then where it puts the edges.
+    /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then where it puts the edges. Around one
+    /// that leaves more than is `usual` (as `usualMisfit` gives it) others are looked for.
     ///
     /// # Errors
     /// A sentence about the numbers.
     #[wasm_bindgen(js_name = knowFilm)]
-    pub fn know_film(&mut self, film: &[f64]) -> Result<(), JsError> {
+    pub fn know_film(&mut self, film: &[f64], usual: Option<f64>) -> Result<(), JsError> {
         self.known = film_model(film)?;
+        self.usual = usual;
         Ok(())
     }
 
@@ -220,18 +224,26 @@ impl OneClick {
         let answers = self.work.as_ref().map_or(&[][..], Work::answers);
         let strongest = answers.first().map_or(0.0, |best| best.score);
         let rivals = |answer: &&Answer| answer.score >= RIVAL_STRENGTH * strongest;
-        let answers: Vec<OnFrame> = answers.iter().filter(rivals).map(OnFrame::from).collect();
+        let mut answers: Vec<OnFrame> = answers.iter().filter(rivals).map(OnFrame::from).collect();
         let seen = Seen {
             frame: &self.film,
             camera: &self.camera,
             polarity: self.polarity,
             unknown: self.excluded.as_deref(),
             film: self.known,
+            usual: self.usual,
         };
-        let contenders: Vec<Contender> = answers.iter().map(contender).collect();
-        let Some(chosen) = Chosen::among(&contenders, around) else {
-            return Err(JsError::new("The first outline is not worked out yet"));
+        let among = |answers: &[OnFrame]| {
+            let contenders: Vec<Contender> = answers.iter().map(contender).collect();
+            Chosen::among(&contenders, around)
+                .ok_or_else(|| JsError::new("The first outline is not worked out yet"))
         };
+        let mut chosen = among(&answers)?;
+        let others = matcher.around(&answers[chosen.index()], &seen)?;
+        if !others.is_empty() {
+            answers.extend(others);
+            chosen = among(&answers)?;
+        }
         let mut answer = OneClickAnswer {
             outlines: Vec::new(),
             supports: Vec::new(),

@@ -4,7 +4,7 @@ import { CONSTANTS, withKnownFilm } from '../document/film';
 import { setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
-import { corrected, isNear, isNews, meetsFrames, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
+import { corrected, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
@@ -215,18 +215,18 @@ export class FilmReader {
 
   async #correct(place: Place, result: Posed): Promise<void> {
     const input = onFrameInput(this.#services, place);
-    const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
+    const misfits = misfitsBeside(this.#services.store.doc, place);
+    const candidates = result.candidates.map(({ pose, support = null }, at) => ({ pose, support, misfits: at === result.chosen ? misfits : null }));
     const answers = await this.#poses.call('correct', { ...input, candidates }, { transfer: [input.frame.pixels.buffer] });
-    const [chosen, first] = [answers[result.chosen], answers[0]];
-    const [firstThen] = result.candidates;
-    if (!chosen || !first || !firstThen || !input.film) return void this.#refused.add(result);
+    const chosen = answers[result.chosen];
+    if (!chosen || !input.film) return void this.#refused.add(result);
     const film = input.film.slice(0, CONSTANTS);
     this.#services.store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
-      const candidates = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null, [firstThen, first]));
+      const candidates = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null));
       const outline = outlineOf(chosen);
-      const verdict = verdictAfter(result, candidates[0]);
+      const verdict = verdictAfter(result, candidates);
       return withCell(doc, place, { outline, result: { ...result, candidates, verdict, onFrame: { film } }, resultOf: outline });
     });
   }
@@ -242,9 +242,9 @@ function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' 
 }
 
 /** The candidate with its new numbers, and the outline that they draw. */
-function correctedBy(candidate: Candidate, answer: Corrected | null, first: Parameters<typeof corrected>[2]): Candidate {
+function correctedBy(candidate: Candidate, answer: Corrected | null): Candidate {
   if (!answer) return candidate;
-  const after = corrected(candidate, answer, first);
+  const after = corrected(candidate, answer);
   setItsOutline(after, outlineOf(answer));
   return after;
 }

@@ -1,8 +1,11 @@
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictOf } from '../document/types';
+import type { Place } from '../document/command';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import type { FilmMisfits } from '../workers/protocol/film';
 import { poseKey } from './keys';
 
 /** What the study's own frames tell of their film, and which poses it concerns. */
@@ -103,22 +106,36 @@ export function needsCorrection(doc: Doc, component: ComponentName, frame: Frame
   return isChecked ? null : { ...cell, result };
 }
 
-/**
- * A candidate after its correction. Which of several is likelier was found with all evidence at hand and is no matter of the
- * correction: what rivals are compared by keeps its ratio to the first's.
- */
-export function corrected(before: Candidate, after: Pick<Candidate, 'pose' | 'residual' | 'deviations' | 'judged'>, first: readonly [Candidate, Pick<Candidate, 'judged'>]): Candidate {
-  const [then, now] = [first[0].judged?.misfit, first[1].judged?.misfit];
-  const { judged } = after;
-  const ratio = before.judged && then ? before.judged.misfit / then : NaN;
-  const misfit = now === undefined || !Number.isFinite(ratio) ? judged?.misfit : ratio * now;
-  const { pose, residual, deviations } = after;
-  return { ...before, pose, residual, deviations, judged: judged && misfit !== undefined ? { ...judged, misfit } : judged };
+/** What remains at the poses that were found on frames by their film, but for one: what is usual there. */
+export function misfitsBeside(doc: Doc, { frameId, component }: Place): FilmMisfits {
+  const of = (wanted: (place: Place) => boolean) =>
+    doc.frames.flatMap(({ id }) =>
+      COMPONENT_NAMES.flatMap((other) => {
+        const { result } = cellOf(doc, id, other);
+        const misfit = result?.kind === 'posed' && result.onFrame?.film ? result.candidates[result.chosen]?.judged?.misfit : undefined;
+        return misfit !== undefined && wanted({ frameId: id, component: other }) ? [misfit] : [];
+      }),
+    );
+  return {
+    own: of((place) => place.component === component && place.frameId !== frameId),
+    others: of((place) => place.component !== component),
+  };
 }
 
-/** The verdict on a corrected pose: its own, or that a rival is open, which the chooser asks again. */
-export function verdictAfter(before: Posed, first: Candidate | undefined): Verdict | null {
+/** A candidate after its correction: on a known film poses are compared by what they leave there. */
+export function corrected(before: Candidate, { pose, residual, deviations, judged }: Pick<Candidate, 'pose' | 'residual' | 'deviations' | 'judged'>): Candidate {
+  return { ...before, pose, residual, deviations, judged };
+}
+
+/** So many times what another pose leaves rules a pose out, as the core has it. */
+const DECISIVE = 1.3;
+
+/** The verdict on corrected poses, the chosen one first: its own, or that another is open or leaves clearly less. */
+export function verdictAfter(before: Posed, [first, ...others]: readonly Candidate[]): Verdict | null {
   const own = first?.judged?.verdict ?? null;
+  const misfit = first?.judged?.misfit ?? 0;
+  const least = Math.min(...others.map(({ judged }) => judged?.misfit ?? Infinity));
+  if (own?.word === 'good' && DECISIVE * least < misfit) return { word: 'doubtful', because: texts.film.another(misfit, least) };
   const isRival = before.verdict?.word === 'doubtful' && before.candidates[0]?.judged?.verdict.word === 'good';
   return isRival && own?.word === 'good' ? before.verdict : own;
 }

@@ -8,6 +8,7 @@ export const film = {
   known: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`,
   unknown: 'The film is not known yet: depth may be off by many millimetres, and ± says so.',
   stays: 'You checked this pose before that was known; it stays as it was.',
+  another: (px: number, other: number) => `another pose leaves less on this film (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
   before: 'This pose was refined before that was known; it stays as it was.',
   about:
     'Where metal is thin, a frame darkens late; a logarithmic display and blur move its edges too. From the frames that have a pose the page learns by how much, so that depth from grey frames has no bias. Poses found on a frame follow; what you set or checked stays.',

@@ -9,6 +9,7 @@ import type { PoseProtocol } from '../workers/protocol/pose';
 import type { OneClickFacts, OneClickInput } from '../workers/protocol/one_click';
 import { libraryReady } from '../jobs/library_ready';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
+import { misfitsBeside } from '../results/film';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
 import { flat } from './pixels';
@@ -108,6 +109,7 @@ export class OneClick {
       withModel: store.ui.libraries[component].state === 'ready',
       around: surroundingsOf(store.doc, frame.id, component),
       film: filmNumbers(store.doc, component),
+      misfits: misfitsBeside(store.doc, { frameId: frame.id, component }),
     };
   }
 

@@ -3,7 +3,7 @@ import { filmNumbers, stateFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
 import { cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
-import { corrected, isNear, isNews, needsCorrection, verdictAfter, witnesses } from '../../src/results/film';
+import { corrected, isNear, isNews, misfitsBeside, needsCorrection, verdictAfter, witnesses } from '../../src/results/film';
 import { poseKey } from '../../src/results/keys';
 
 const GOOD: Verdict = { word: 'good', because: 'it fits' };
@@ -115,20 +115,35 @@ describe('what a known film changes', () => {
     expect(filmNumbers({ ...told(BARE), components: { ...BARE.components, femur: other } }, 'femur')).toBeNull();
   });
 
-  it('not which of several poses is likelier', () => {
+  it('each of several poses by itself: what they leave on a known film tells which is likelier', () => {
     const [first, rival] = [candidate(0.6), candidate(0.75)];
     const after = { ...candidate(0.3), pose: { ...first.pose, z: -985 } };
-    expect(corrected(first, after, [first, after]).judged?.misfit).toBeCloseTo(0.3);
-    expect(corrected(rival, candidate(0.2), [first, after]).judged?.misfit).toBeCloseTo(0.375);
-    expect(corrected(first, after, [first, after]).pose.z).toBe(-985);
+    expect(corrected(first, after).judged?.misfit).toBeCloseTo(0.3);
+    expect(corrected(rival, candidate(0.2)).judged?.misfit).toBeCloseTo(0.2);
+    expect(corrected(first, after).pose.z).toBe(-985);
   });
 
   it('the verdict is that of the corrected pose, and a rival that was open stays open', () => {
     const before = (posed(BARE, 'a', { verdict: RIVAL }).cells[cellKey('a', 'femur')]!.result as Posed);
-    expect(verdictAfter(before, candidate(0.3))).toEqual(RIVAL);
+    expect(verdictAfter(before, [candidate(0.3)])).toEqual(RIVAL);
     const weak: Verdict = { word: 'doubtful', because: 'little of it is met' };
-    expect(verdictAfter(before, candidate(0.3, weak))).toEqual(weak);
-    expect(verdictAfter({ ...before, verdict: GOOD }, candidate(0.3))).toEqual(GOOD);
+    expect(verdictAfter(before, [candidate(0.3, weak)])).toEqual(weak);
+    expect(verdictAfter({ ...before, verdict: GOOD }, [candidate(0.3)])).toEqual(GOOD);
+  });
+
+  it('a pose that leaves clearly more than another is not good', () => {
+    const before = posed(BARE, 'a', { verdict: GOOD }).cells[cellKey('a', 'femur')]!.result as Posed;
+    expect(verdictAfter(before, [candidate(0.44), candidate(0.13)])?.word).toBe('doubtful');
+    expect(verdictAfter(before, [candidate(0.13), candidate(0.44)])).toEqual(GOOD);
+    expect(verdictAfter(before, [candidate(0.5), candidate(0.45)])).toEqual(GOOD);
+  });
+
+  it('with what is usual beside it: other frames of the component, and other components', () => {
+    const found = posed(posed(BARE, 'a', { onFrame: { film: K } }), 'b', { onFrame: { film: K } });
+    const { own, others } = misfitsBeside(found, { frameId: 'a', component: 'femur' });
+    expect([own.length, others]).toEqual([1, []]);
+    expect(misfitsBeside(found, { frameId: 'a', component: 'tibia' }).others).toHaveLength(2);
+    expect(misfitsBeside(posed(BARE, 'b'), { frameId: 'a', component: 'femur' }).own).toEqual([]);
   });
 });
 

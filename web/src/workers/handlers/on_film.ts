@@ -2,7 +2,7 @@ import type { FrameImage, HiddenPixels, Match as RawMatch, Matcher } from '../..
 import type { Match } from '../protocol/match';
 import { poseArray } from '../protocol/pose_array';
 import type { Corrected, OnFilmProtocol, Uncorrected } from '../protocol/film';
-import { filmArray, type MatcherOf, onFrame } from './on_frame';
+import { filmArray, type MatcherOf, onFrame, usualMisfit } from './on_frame';
 import type { Handlers } from './serve';
 
 /** What the handlers share with those that hold the libraries. */
@@ -21,8 +21,9 @@ export function onFilm({ matcherOf, read }: Held): Handlers<OnFilmProtocol> {
 }
 
 function corrected(matcher: Matcher, image: FrameImage, hidden: HiddenPixels, one: Uncorrected, film: Float64Array, read: Held['read']): Corrected | null {
+  const usual = one.misfits ? usualMisfit(one.misfits) : undefined;
   try {
-    const answer = matcher.correctOnFrame(image, hidden, Float64Array.from(poseArray(one.pose)), one.support ?? 1, film);
+    const answer = matcher.correctOnFrame(image, hidden, Float64Array.from(poseArray(one.pose)), one.support ?? 1, film, usual);
     const outline = answer.outline(0) as Float64Array<ArrayBuffer>;
     const match = answer.takeMatch();
     answer.free();

@@ -1,6 +1,7 @@
-import { type FrameImage, HiddenPixels, type Matcher } from '../../pkg/core/fluoropose_wasm.js';
+import { FilmStudy, type FrameImage, HiddenPixels, type Matcher } from '../../pkg/core/fluoropose_wasm.js';
 import type { ComponentName } from '../../terms/component';
 import type { OnFrame } from '../protocol/by_hand';
+import type { FilmMisfits } from '../protocol/film';
 import { poseArray } from '../protocol/pose_array';
 import { imageOf } from './frame_pixels';
 
@@ -27,4 +28,9 @@ export async function onFrame<T>(
 /** What the film makes of a component, as WASM takes it. */
 export function filmArray(film: readonly number[] | null): Float64Array {
   return Float64Array.from(film ?? []);
+}
+
+/** From where on what remains at a pose is unusual on its film, px; nothing where other poses do not tell. */
+export function usualMisfit({ own, others }: FilmMisfits): number | undefined {
+  return FilmStudy.usualMisfit(Float64Array.from(own), Float64Array.from(others));
 }

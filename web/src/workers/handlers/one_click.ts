@@ -3,7 +3,7 @@ import type { ComponentName } from '../../terms/component';
 import type { OneClickFacts, OneClickInput, OneClickProtocol } from '../protocol/one_click';
 import type { Match, Surroundings } from '../protocol/match';
 import { imageOf } from './frame_pixels';
-import { filmArray } from './on_frame';
+import { filmArray, usualMisfit } from './on_frame';
 import type { Context, Handlers } from './serve';
 
 /** What the handler shares with those that hold the libraries. */
@@ -37,7 +37,7 @@ async function search(held: Held, input: OneClickInput, image: FrameImage, match
   const work = new OneClick(image, input.camera.text, input.prompt, input.bright ?? undefined);
   try {
     if (input.avoid) work.avoid(input.avoid);
-    work.knowFilm(filmArray(input.film));
+    work.knowFilm(filmArray(input.film), usualMisfit(input.misfits));
     while (matcher ? work.step(matcher) : work.stepAlone()) {
       context.report({ fraction: work.progress, doing: work.doing });
       await context.breathe();

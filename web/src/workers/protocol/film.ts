@@ -15,10 +15,18 @@ export interface OnFilmProtocol {
   };
 }
 
+/** What remains at other poses on the same film, px: of the same component in other frames, and of other components. */
+export interface FilmMisfits {
+  readonly own: readonly number[];
+  readonly others: readonly number[];
+}
+
 export interface Uncorrected {
   readonly pose: PoseNumbers;
   /** Part of the outline that lies on edges; null where that was not kept. */
   readonly support: number | null;
+  /** Of the chosen pose: where it leaves more than is usual, a better one is looked for around it. Null of the others. */
+  readonly misfits: FilmMisfits | null;
 }
 
 export interface Corrected {

@@ -2,6 +2,7 @@ import type { ComponentName } from '../../terms/component';
 import type { FramePixels } from './frame_pixels';
 import type { Match, Surroundings } from './match';
 import type { CameraInput } from './camera';
+import type { FilmMisfits } from './film';
 
 /** A first outline and pose from a click or a box. */
 export interface OneClickInput {
@@ -19,6 +20,7 @@ export interface OneClickInput {
   readonly around: Surroundings;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
+  readonly misfits: FilmMisfits;
 }
 
 export interface OneClickFacts {
