@@ -29,7 +29,7 @@ export const tracing = {
   strip: {
     region: 'Tool options',
     polarity: 'Metal',
-    told: 'by itself',
+    told: 'auto',
     dark: 'dark',
     bright: 'bright',
     polarityTitle: 'Is the implant darker or brighter than what surrounds it? The first click tells.',
