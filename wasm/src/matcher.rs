@@ -16,12 +16,13 @@ pub use one_click::OneClick;
 
 use fluoropose::canonical::reverse;
 use fluoropose::finder::{FinderBuffers, Goal, Verdict};
-use fluoropose::image::mask::Word;
+use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::{Mask, Word};
 use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::{Located, locate};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity};
+use fluoropose::refine::{ImageTarget, Polarity, polarity_inside};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::prelude::*;
 
@@ -162,7 +163,8 @@ impl Matcher {
     }
 
     /// The same, and then brings the poses onto the edges of the grey frame that was traced. `film` is what the film makes of the
-    /// component, as `FilmFacts.model` gives it, or empty: then depth is uncertain by millimetres.
+    /// component, as `FilmFacts.model` gives it, or empty: then depth is uncertain by millimetres. Where it is not said whether metal is
+    /// brighter than what surrounds it, the frame tells it.
     ///
     /// # Errors
     /// Those of `refine_outline`, and a sentence about the film.
@@ -172,15 +174,16 @@ impl Matcher {
         traced: &Traced,
         frame: &FrameImage,
         film: &[f64],
-        bright_implant: bool,
+        bright_implant: Option<bool>,
         around: &Surroundings,
     ) -> Result<Match, JsError> {
-        let polarity = match bright_implant {
-            true => Polarity::BrightImplant,
-            false => Polarity::DarkImplant,
-        };
         let film = film_model(film)?;
         frame.look(|frame| {
+            let polarity = match bright_implant {
+                Some(true) => Polarity::BrightImplant,
+                Some(false) => Polarity::DarkImplant,
+                None => traced.look(|silhouette| Ok(told_inside(frame, &silhouette.mask())))?,
+            };
             let image = ImageTarget {
                 frame,
                 unknown: None,
@@ -397,4 +400,11 @@ fn within<T: Copy>(items: &[T], score: impl Fn(&T) -> f64) -> Vec<T> {
         .copied()
         .filter(|item| score(item) <= limit)
         .collect()
+}
+
+/// Whether a frame shows metal darker or brighter than what surrounds it, by an implant's silhouette.
+fn told_inside(frame: &dyn Grey, silhouette: &Mask<'_>) -> Polarity {
+    let (columns, rows) = silhouette.bounds();
+    let area = [columns.start, rows.start, columns.end, rows.end];
+    polarity_inside(frame, area.map(|at| at as f64))
 }

@@ -49,7 +49,7 @@ export class Implant {
   pose(outline: readonly Point[], hints: Hints = {}): FoundPose {
     const around = surroundings(hints);
     try {
-      const { image, film, bright = false } = hints;
+      const { image, film, bright } = hints;
       return this.#look(outline, hints, (traced) =>
         image
           ? withImage(image, this.#frame, (frame) => this.#matcher.refineImage(traced, frame, filmNumbers(film, this), bright, around))

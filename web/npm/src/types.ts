@@ -107,7 +107,7 @@ export interface Hints {
   readonly neighbours?: readonly Pose[];
   /** The frame that was traced: poses are then brought onto its edges. */
   readonly image?: Grey;
-  /** Metal is brighter in it than what surrounds it. */
+  /** Metal is brighter in it than what surrounds it; the frame tells where this is left out. */
   readonly bright?: boolean;
   /** What the film makes of the implant: without it depth from `image` is uncertain by millimetres. */
   readonly film?: Film | FilmConstants;
