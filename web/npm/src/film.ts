@@ -18,8 +18,8 @@ const MOST = 2;
 
 /**
  * What the frames of a study tell of their film: all of one film, one or two implants. Null where they do not tell. One implant
- * alone does not tell a logarithmic display from a sharpened picture: the film is then taken to be linear, and depth is shown
- * as that uncertain.
+ * alone does not tell a logarithmic display from a sharpened picture: the film is then taken to be in the middle, and depth is
+ * shown as that uncertain.
  */
 export function estimateFilm(sources: readonly FilmSource[], stated: StatedFilm = {}): FilmConstants | null {
   const implants = [...new Set(sources.map(({ implant }) => implant))];
