@@ -16,12 +16,12 @@ impl Misfits {
     pub fn beside(&self, component: usize, frame: usize) -> Beside {
         let (mut own, mut others) = (Vec::new(), Vec::new());
         for (number, misfits) in self.0.iter().enumerate() {
-            let misfits = misfits.iter().enumerate();
             if number == component {
-                let rest = misfits.filter(|&(other, _)| other != frame);
+                let rest = misfits.iter().enumerate();
+                let rest = rest.filter(|&(other, _)| other != frame);
                 own.extend(rest.filter_map(|(_, misfit)| *misfit));
             } else {
-                others.extend(misfits.filter_map(|(_, misfit)| *misfit));
+                others.extend(misfits.iter().flatten());
             }
         }
         Beside { own, others }

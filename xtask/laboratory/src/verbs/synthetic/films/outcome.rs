@@ -1,11 +1,12 @@
 //! A pose against the truth, and whether what was said of it holds.
 
 use fluoropose::finder::choice::{ChoiceContext, choose};
-use fluoropose::finder::{Candidate, Doubt, Limits, Verdict, contenders, judge};
+use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
 use fluoropose::math::solve_spd;
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{Pose, Quaternion};
 
+use crate::finding::misfits::Beside;
 use crate::measure::accuracy::Errors;
 
 /// Squared radii that hold 68.3 and 95 % of a normal distribution in three dimensions.
@@ -47,17 +48,21 @@ pub(super) struct Found {
 }
 
 impl Outcome {
-    /// Chooses among candidates by what else is known, and compares the choice with the truth; `unusual` tells what its film
-    /// makes doubtful of a pose, `middle` is that of the model's box.
+    /// Chooses among candidates by what else is known, and compares the choice with the truth; `beside` are the misfits of
+    /// other poses on the film, `middle` is that of the model's box.
     pub(super) fn of(
         candidates: &[Candidate],
-        (context, unusual): (&ChoiceContext<'_>, &dyn Fn(&Candidate) -> Option<Doubt>),
+        (context, beside): (&ChoiceContext<'_>, &Beside),
         truth: &Pose,
         middle: &[f64; 3],
         ms: f64,
     ) -> Self {
-        let chosen = chosen(candidates, context)
-            .map(|(candidate, verdict)| (candidate, verdict.or_doubt(unusual(&candidate))));
+        let chosen = chosen(candidates, context).map(|(candidate, verdict)| {
+            (
+                candidate,
+                verdict.or_doubt(beside.doubt(candidate.misfit())),
+            )
+        });
         Self {
             verdict: chosen.map_or("none", |(_, verdict)| verdict.word()),
             found: chosen

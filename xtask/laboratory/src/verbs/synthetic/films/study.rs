@@ -48,9 +48,9 @@ impl Study<'_> {
         let outcomes = films.map(|(frame, (film, attempts))| {
             let outcome = |part: usize, context: ChoiceContext<'_>| {
                 let Attempt { candidates, ms } = &attempts[part];
-                let unusual = |pose: &Candidate| misfits.beside(part, frame).doubt(pose.misfit());
+                let beside = misfits.beside(part, frame);
                 let truth = &film.truth[part];
-                Outcome::of(candidates, (&context, &unusual), truth, &middles[part], *ms)
+                Outcome::of(candidates, (&context, &beside), truth, &middles[part], *ms)
             };
             let femur = outcome(0, ChoiceContext::default());
             let known = femur.found.map(|found| Counterpart::Femur(found.pose));
