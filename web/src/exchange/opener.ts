@@ -2,6 +2,7 @@ import { decodeFrames, holdModel } from './bring_files';
 import type { Incoming } from './incoming';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
+import { distinct } from '../document/same_frames';
 import { componentIn, takeStudy, type Study } from '../document/study';
 import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
@@ -309,7 +310,7 @@ async function openFrames(
     }
   });
   if (entries.length === 0) return;
-  addToDocument(services, entries);
+  addToDocument(services, distinct(entries));
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 

@@ -1,3 +1,4 @@
+import { pictureOf } from '../document/same_frames';
 import init, {
   CalibrationText,
   checkLibrary,
@@ -89,13 +90,13 @@ export class Studio {
   // --- Frames -------------------------------------------------------------------------------------------------
 
   addFrame(id: string, frame: DecodedFrame): void {
-    if (this.#frames.has(id)) return;
+    if (this.#frames.has(pictureOf(id))) return;
     const { pixels, width, height } = frame;
     const image =
       pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
     const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = image.greyRange();
     const window = frame.window ?? { centre, width: windowWidth };
-    this.#frames.set(id, { image, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
+    this.#frames.set(pictureOf(id), { image, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
   }
 
   /** Frames are shown undistorted from now on, or as they were taken. */
@@ -110,11 +111,11 @@ export class Studio {
 
   /** What the file of a frame says of sizes and distances. */
   statedGeometry(id: string): StatedGeometry | null {
-    return this.#frames.get(id)?.stated ?? null;
+    return this.#frames.get(pictureOf(id))?.stated ?? null;
   }
 
   #shown(id: string): FrameImage | null {
-    const held = this.#frames.get(id);
+    const held = this.#frames.get(pictureOf(id));
     return held ? this.#undistorted.shown(id, held.image, held.size) : null;
   }
 
@@ -124,15 +125,15 @@ export class Studio {
   }
 
   hasFrame(id: string): boolean {
-    return this.#frames.has(id);
+    return this.#frames.has(pictureOf(id));
   }
 
   frameFacts(id: string): FrameFacts | null {
-    return this.#frames.get(id)?.facts ?? null;
+    return this.#frames.get(pictureOf(id))?.facts ?? null;
   }
 
   paintFrame(context: CanvasRenderingContext2D, id: string, window: GreyWindow, preprocessing: Preprocessing = 'original'): void {
-    const held = this.#frames.get(id);
+    const held = this.#frames.get(pictureOf(id));
     const image = this.#shown(id);
     if (held && image) paintPreprocessed(image, held.facts.window, context, window, preprocessing);
   }
@@ -144,7 +145,7 @@ export class Studio {
 
   /** The same of the frame as it was taken, whether it is shown undistorted or not. */
   takenPixels(id: string): FramePixels['pixels'] | null {
-    return pixelsOf(this.#frames.get(id)?.image ?? null);
+    return pixelsOf(this.#frames.get(pictureOf(id))?.image ?? null);
   }
 
   greyAt(id: string, column: number, row: number): number | null {
