@@ -17,8 +17,7 @@ import { Calibrator } from './jobs/calibrator';
 import { Chooser } from './jobs/chooser';
 import { Convergence } from './jobs/convergence';
 import { FilmReader } from './jobs/film_reader';
-import { FirstPoses } from './jobs/first_poses';
-import { Follower } from './jobs/follower';
+import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
 import { Landscapes } from './jobs/landscape';
@@ -32,7 +31,7 @@ import type { Services } from './jobs/services';
 import { Studio } from './films/studio';
 import { Videos } from './exchange/videos';
 import { atRest, shown } from './workers/activity';
-import { decodeWorker, filmWorker, followWorker, poseWorker } from './workers/start';
+import { decodeWorker, filmWorker, poseWorker } from './workers/start';
 import { texts } from './texts/texts';
 import { Actions } from './commands/actions';
 import { AppContext, type App } from './commands/app';
@@ -67,8 +66,7 @@ async function start(root: HTMLElement): Promise<void> {
   const hand = new HandActions(services, new FromHere(services, matcher, film), landscapes);
   rememberTaste(services.store);
   const actions = new Actions(services, tracingTools);
-  const first = new FirstPoses(services, matcher, oneClick);
-  actions.work.follower = new Follower(services, { femur: followWorker(), tibia: followWorker() }, first, film);
+  actions.work.follower = new FollowLater(services, matcher, oneClick, film);
   const videos = new Videos(services, (files) => actions.open(files));
   actions.videos = videos;
   const app: App = {

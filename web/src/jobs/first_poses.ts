@@ -13,7 +13,7 @@ import { asJob, type Services } from './services';
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
 
 /** What a click would do. */
-interface Clicks {
+export interface Clicks {
   ask(prompt: readonly [FramePoint], place: Place, bright: boolean | null): Promise<void>;
 }
 

@@ -11,7 +11,7 @@ import { TOOLS } from '../interaction/tools';
 import { texts } from '../texts/texts';
 import { useApp, type App } from '../commands/app';
 import { EmptyState } from '../steps/open/empty_state';
-import { CheckCard } from '../steps/check/check_card';
+import { CheckLater } from '../steps/check/check_later';
 import { GuideCard } from '../steps/first/guide_card';
 import { pointByKey, pressByKey } from './key_pointer';
 import { ScaleBar } from './scale_bar';
@@ -43,7 +43,7 @@ export function Stage({ state }: { state: State }) {
       <div ref={glass} class="glass" style={{ cursor }} tabIndex={0} role="application" aria-label={words.canvas(label, titleOf(component))} />
       {frame && <ScaleBar state={state} />}
       {frame && <GuideCard state={state} />}
-      {frame && <CheckCard state={state} />}
+      {frame && <CheckLater state={state} />}
       {!frame && <EmptyState />}
       {frame && !app.services.studio.hasFrame(frame.id) && (
         <p class="absent">{words.absent(frame.name)}</p>
