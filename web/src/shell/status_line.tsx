@@ -4,6 +4,7 @@ import { chosenCandidate } from '../document/types';
 import type { Motion } from '../interaction/adjust';
 import { handHint } from '../commands/hand_bindings';
 import { hint } from '../interaction/hints';
+import { guideOf } from '../results/steps';
 import { useApp } from '../commands/app';
 import { usePointer } from '../commands/pointer';
 import { texts } from '../texts/texts';
@@ -44,7 +45,10 @@ function message(state: State, hit: Parameters<typeof hint>[3], motion: Motion |
   if (result?.kind === 'failed' && outline?.closed) return { text: result.sentence, kind: 'error' };
   if (!currentFrame(state)) return { text: texts.status.begin, kind: 'hint' };
   if (tool === 'pose') return { text: handHint(component, chosenCandidate(currentCell(state)) !== null, motion), kind: 'hint' };
-  return { text: hint(tool, component, outline, hit, { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null }), kind: 'hint' };
+  // The card on the film may ask for the other one.
+  const guide = guideOf(state);
+  const asked = guide?.ask === 'click' ? guide.component : component;
+  return { text: hint(tool, asked, outline, hit, { erase: state.ui.tracing.erase, adjusting: state.ui.thresholdLevel !== null }), kind: 'hint' };
 }
 
 /** News passes; errors stay until something is done. */
