@@ -182,7 +182,7 @@ impl Matcher {
             let polarity = match bright_implant {
                 Some(true) => Polarity::BrightImplant,
                 Some(false) => Polarity::DarkImplant,
-                None => traced.look(|silhouette| Ok(told_inside(frame, &silhouette.mask())))?,
+                None => traced.look(|silhouette| Ok(told_inside(frame, silhouette.mask())))?,
             };
             let image = ImageTarget {
                 frame,
