@@ -33,7 +33,7 @@ export class FirstPoses {
   }
 
   /** Opens what whole frames are searched with; gives the frames that are worth it, none where there is no library. */
-  async open(component: ComponentName, worker: Worker): Promise<readonly number[]> {
+  async open(component: ComponentName, worker: Worker, bright = this.#services.store.ui.tracing.bright ?? false): Promise<readonly number[]> {
     const { store, studio } = this.#services;
     await libraryReady(store, component);
     const { doc, ui } = store;
@@ -42,20 +42,33 @@ export class FirstPoses {
     const camera = cameraOf(doc, doc.frames[0] ?? null);
     if (!mesh || !camera || ui.libraries[component].state !== 'ready') return [];
     const library = await this.#poser.call('library', { component });
-    const input = { mesh, camera, library, frames: doc.frames.length, bright: ui.tracing.bright ?? false };
+    const input = { mesh, camera, library, frames: doc.frames.length, bright };
     return worker.call('openSearch', input, { transfer: [library.buffer] });
   }
 
-  /** Looks for a component in the whole of some frames. False where it is in none of them. */
+  /**
+   * Looks for a component in the whole of some frames: for dark metal, as a fluoroscope shows it, and then for bright, where nobody
+   * has said which. False where it is in none of them.
+   */
   async find(component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
     const { store } = this.#services;
-    for (const number of await this.open(component, worker)) {
+    for (const shown of [false, true]) {
+      // The other component may have told meanwhile.
+      const isAsShown = (store.ui.tracing.bright ?? shown) === shown;
+      if (isAsShown && (await this.#findAs(shown, component, worker, signal, cancel))) return true;
+    }
+    return false;
+  }
+
+  async #findAs(bright: boolean, component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
+    const { store } = this.#services;
+    for (const number of await this.open(component, worker, bright)) {
       const frame = store.doc.frames[number];
       if (!frame) continue;
       const place = { frameId: frame.id, component };
       const at = await this.#search(place, number, worker, signal, cancel);
       if (!at) continue;
-      await this.#clicks.ask([at], place, store.ui.tracing.bright);
+      await this.#clicks.ask([at], place, bright);
       if (cellOf(store.doc, frame.id, component).result?.kind === 'posed') return true;
     }
     return false;
