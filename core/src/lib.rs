@@ -75,6 +75,6 @@ pub use locate::{Workspace, locate, workspace_needed};
 pub use mesh::OwnedModel;
 pub use mesh::{Mesh, Model};
 pub use pose::covariance::PoseCovariance;
-pub use pose::kinematics::{Side, coronal_tilt_deg, joint_angles, relative_pose};
+pub use pose::kinematics::{Side, coronal_tilt_deg, joint_angles, joint_axes, relative_pose};
 pub use pose::{EulerPose, Pose};
 pub use refine::{CameraView, RefineMemory, RefineOptions, Refined, refine, uncertainty};

@@ -65,6 +65,25 @@ pub fn joint_angles(relative: &Pose, side: Side) -> JointAngles {
     }
 }
 
+/// The axes in which [`joint_angles`] takes a component of this side, in its model's coordinates, from the anatomical ones
+/// (`model_from_field` of `mesh::anatomy`: x anterior, y superior, z to the patient's right).
+///
+/// The field's files of right implants are those of left ones mirrored in x: there x is posterior and z to the left, medial as in a
+/// left knee. Without this half turn about y a right knee's flexion and anterior-posterior translation had the wrong sign.
+#[must_use]
+pub fn joint_axes(anatomical: &Pose, side: Side) -> Pose {
+    match side {
+        Side::Left => *anatomical,
+        Side::Right => anatomical.compose(&HALF_TURN),
+    }
+}
+
+/// About y.
+const HALF_TURN: Pose = Pose {
+    rotation: [[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
+    translation: [0.0; 3],
+};
+
 /// Coronal tilt between the two components: the elevation of the femoral mediolateral axis above
 /// the tibial plate, degrees, -90 to 90. Zero where both condyles are equally high above it.
 ///
@@ -132,6 +151,58 @@ mod tests {
         assert!((left.flexion_deg + right.flexion_deg).abs() < 1e-12);
         assert!((left.anterior_mm + right.anterior_mm).abs() < 1e-12);
         assert_eq!(left.superior_mm, right.superior_mm);
+    }
+
+    /// The knee of the other side, seen in a mirror, with each model mirrored in its z, which is to the right.
+    fn mirrored(pose: &Pose) -> Pose {
+        let [across, through] = [[-1.0, 1.0, 1.0], [1.0, 1.0, -1.0]];
+        Pose {
+            rotation: core::array::from_fn(|row| {
+                core::array::from_fn(|column| {
+                    across[row] * pose.rotation[row][column] * through[column]
+                })
+            }),
+            translation: core::array::from_fn(|row| across[row] * pose.translation[row]),
+        }
+    }
+
+    #[test]
+    fn a_knee_and_its_mirror_image_have_the_same_six_numbers() {
+        let femur = pose(4.0, -17.0, -1083.0, [8.0, 5.0, -1.0]);
+        let tibia = pose(-28.0, -38.0, -1085.0, [-84.0, 1.5, -9.0]);
+        let joint = |[femur, tibia]: [Pose; 2], side| {
+            let axes = joint_axes(&Pose::IDENTITY, side);
+            joint_angles(
+                &relative_pose(&femur.compose(&axes), &tibia.compose(&axes)),
+                side,
+            )
+        };
+        let left = joint([femur, tibia], Side::Left);
+        let right = joint([mirrored(&femur), mirrored(&tibia)], Side::Right);
+        let numbers = |joint: JointAngles| {
+            let JointAngles {
+                anterior_mm,
+                superior_mm,
+                lateral_mm,
+                flexion_deg,
+                abduction_deg,
+                internal_deg,
+            } = joint;
+            [
+                anterior_mm,
+                superior_mm,
+                lateral_mm,
+                flexion_deg,
+                abduction_deg,
+                internal_deg,
+            ]
+        };
+        for (left, right) in numbers(left).into_iter().zip(numbers(right)) {
+            assert!((left - right).abs() < 1e-9, "{left} and {right}");
+        }
+        assert!(left.flexion_deg > 80.0);
+        // A right implant's file as the field has it keeps its numbers.
+        assert_eq!(joint_axes(&HALF_TURN, Side::Right), Pose::IDENTITY);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The joint between two components, for the page's curve.
 
 use fluoropose::pose::Pose;
-use fluoropose::pose::kinematics::{Side, joint_angles, relative_pose};
+use fluoropose::pose::kinematics::{Side, joint_angles, joint_axes, relative_pose};
 use wasm_bindgen::prelude::*;
 
 use crate::pose_numbers::{axes_from, from_numbers};
@@ -20,9 +20,11 @@ pub fn joint_motion(
     tibia_axes: &[f64],
     left: bool,
 ) -> Result<Vec<f64>, JsError> {
-    let femur = Pose::from(from_numbers(femur)?).compose(&axes_from(femur_axes)?);
-    let tibia = Pose::from(from_numbers(tibia)?).compose(&axes_from(tibia_axes)?);
     let side = if left { Side::Left } else { Side::Right };
+    let femur =
+        Pose::from(from_numbers(femur)?).compose(&joint_axes(&axes_from(femur_axes)?, side));
+    let tibia =
+        Pose::from(from_numbers(tibia)?).compose(&joint_axes(&axes_from(tibia_axes)?, side));
     let joint = joint_angles(&relative_pose(&femur, &tibia), side);
     Ok(vec![
         joint.anterior_mm,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
-use fluoropose::pose::kinematics::{self, joint_angles, relative_pose};
+use fluoropose::pose::kinematics::{self, joint_angles, joint_axes, relative_pose};
 use fluoropose::pose::{EulerPose, Pose};
 
 use crate::files::{Role, read_model, read_poses};
@@ -65,15 +65,15 @@ pub fn run(args: Args) -> Result<()> {
             tibia.len()
         );
     }
-    let stated = |file: &Option<PathBuf>, words: &Option<String>, role| {
-        axes(file.as_deref(), words.as_deref(), role)
-    };
-    let femur_axes = stated(&args.femur_model, &args.femur_axes, Role::Femur)?;
-    let tibia_axes = stated(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
     let side = match args.side {
         Side::Left => kinematics::Side::Left,
         Side::Right => kinematics::Side::Right,
     };
+    let stated = |file: &Option<PathBuf>, words: &Option<String>, role| {
+        axes(file.as_deref(), words.as_deref(), role, side)
+    };
+    let femur_axes = stated(&args.femur_model, &args.femur_axes, Role::Femur)?;
+    let tibia_axes = stated(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
     let mut table = String::from(
         "frame,rel_x_mm,rel_y_mm,rel_z_mm,rel_z_rot_deg,rel_x_rot_deg,rel_y_rot_deg,\
          anterior_posterior_mm,superior_inferior_mm,mediolateral_mm,flexion_deg,abduction_deg,internal_rotation_deg\n",
@@ -94,8 +94,14 @@ pub fn run(args: Args) -> Result<()> {
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
 }
 
-/// The rotation from the field's axes to a file's: stated, told by the shape of its model, or, without either, none.
-fn axes(file: Option<&Path>, words: Option<&str>, role: Role) -> Result<Pose> {
+/// The rotation from the axes in which the field takes a joint to a file's: stated, told by the shape of its model, or, without
+/// either, none.
+fn axes(
+    file: Option<&Path>,
+    words: Option<&str>,
+    role: Role,
+    side: kinematics::Side,
+) -> Result<Pose> {
     let name = match role {
         Role::Femur => "femoral",
         Role::Tibia => "tibial",
@@ -114,7 +120,7 @@ fn axes(file: Option<&Path>, words: Option<&str>, role: Role) -> Result<Pose> {
             "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
         );
     }
-    Ok(axes.model_from_field)
+    Ok(joint_axes(&axes.model_from_field, side))
 }
 
 fn known_axes(
