@@ -22,21 +22,22 @@ export interface Given {
   readonly pose: PoseNumbers;
   /** It may be wrong, and nobody checked it. */
   readonly isDoubtful: boolean;
+  /** It was followed, and somebody found it right as it was. */
+  readonly isAccepted: boolean;
 }
 
 /** Null where nothing is to be done: no frame is set, or all that lies between is followed from those that are. */
 export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const given = givenPoses(doc, component);
   if (given.length === 0) return null;
-  const key = (frame: number) => {
-    const before = given.filter((one) => one.frame <= frame).at(-1);
-    const after = given.find((one) => one.frame >= frame);
-    return [before, after].flatMap((one) => (one ? [keyOf(one)] : [])).join(' and ');
-  };
+  const key = (frame: number) => keyAmong(given, frame);
+  // Frames that were followed together with one that somebody finds right need not be followed again for it.
+  const besidesAccepted = given.filter(({ isAccepted }) => !isAccepted);
   const stale = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
     const isSet = given.some((one) => one.frame === frame);
-    const isDone = isFollowed(cell.result) && cell.result?.origin.endsWith(key(frame));
+    const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
+    const isDone = isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted));
     return isSet || !isFree(cell) || isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
@@ -54,10 +55,16 @@ function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
     const isChecked = checkState(cell, markOf(doc, { frameId: id, component })) === 'yes';
     const pose = chosenCandidate(cell)?.pose;
     const isDoubtful = !isChecked && !isByHand(cell.result) && verdictOf(cell.result)?.word === 'doubtful';
-    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose, isDoubtful }] : [];
+    return pose && (!isFollowed(cell.result) || isChecked) ? [{ frame, pose, isDoubtful, isAccepted: isFollowed(cell.result) }] : [];
   });
   const trusted = all.filter(({ isDoubtful }) => !isDoubtful);
   return trusted.length > 0 ? trusted : all;
+}
+
+function keyAmong(given: readonly Given[], frame: number): string {
+  const before = given.filter((one) => one.frame <= frame).at(-1);
+  const after = given.find((one) => one.frame >= frame);
+  return [before, after].flatMap((one) => (one ? [keyOf(one)] : [])).join(' and ');
 }
 
 function keyOf({ frame, pose }: Given): string {
