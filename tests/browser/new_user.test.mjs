@@ -1,6 +1,6 @@
 /** From the empty page to a refined pose, by one click and by a plain polygon; clicks and seconds counted. Fingers on the frame. */
 import assert from 'node:assert/strict';
-import { IN_FIREFOX, pageTest, screenshot, until } from './support/browser.mjs';
+import { atRest, IN_FIREFOX, pageTest, screenshot, until } from './support/browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { truePose } from './support/study.mjs';
@@ -40,6 +40,8 @@ pageTest('a new user with one click', async (page, t) => {
 async function withTheOther(page, t) {
   const film = page.getByRole('region', { name: 'Film' });
   await film.getByText(/^Film linear with enhanced edges or logarithmic, which one component alone does not tell: depth lies between the two, blur 0\.\d px\.$/).waitFor();
+  // The femur's own pose follows from that first.
+  await atRest(page);
   await page.getByRole('radio', { name: 'Tibia' }).click();
   const tibia = await tracing.byOneClick(page, 'tibia');
   await film.getByText(/^Logarithmic film, [34]\d grey values for a factor of e, blur 0\.\d px\.$/).waitFor();
