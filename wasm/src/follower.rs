@@ -6,9 +6,7 @@ use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, Subject};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{
-    Effort, ImageTarget, Polarity, RefineBuffers, RefineOptions, polarity_at,
-};
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use wasm_bindgen::prelude::*;
 
 use crate::film::film_model;
@@ -117,15 +115,7 @@ impl FilmFollower {
     /// The core's sentence about a pose that was given and cannot be drawn.
     pub fn take(&mut self, frame: &FrameImage) -> Result<Option<Vec<f64>>, JsError> {
         let model = self.model.as_model();
-        let subject = Subject {
-            model: &model,
-            planes: &self.planes,
-            camera: &self.camera,
-            options: RefineOptions {
-                effort: Effort::Film,
-                ..RefineOptions::default()
-            },
-        };
+        let subject = Subject::new(&model, &self.planes, &self.camera);
         let mut memory = self.buffers.borrow(&model, &self.camera);
         let (following, polarity) = (&mut self.following, &mut self.polarity);
         let given = self

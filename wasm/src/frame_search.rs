@@ -7,7 +7,7 @@ use fluoropose::follow::{self, Subject};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::EulerPose;
-use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineOptions};
+use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose::search::kernels::Kernels;
 use fluoropose_tracing::one_click::OneClickBuffers;
 use fluoropose_tracing::seeds::seeds_needed;
@@ -95,15 +95,7 @@ impl FrameSearch {
             model: &model,
             planes: &self.planes,
         };
-        let subject = Subject {
-            model: &model,
-            planes: &self.planes,
-            camera: &self.camera,
-            options: RefineOptions {
-                effort: Effort::Film,
-                ..RefineOptions::default()
-            },
-        };
+        let subject = Subject::new(&model, &self.planes, &self.camera);
         let (camera, polarity, kept) = (&self.camera, self.polarity, &mut self.search);
         let (finder, own) = (&mut self.finder, &mut self.own);
         frame.look(|frame| {

@@ -3,7 +3,7 @@
 use crate::camera::Camera;
 use crate::mesh::Model;
 use crate::mesh::symmetry::SymmetryPlane;
-use crate::refine::RefineOptions;
+use crate::refine::{Effort, RefineOptions};
 
 /// A component that is followed, the camera that sees it, and how poses are refined.
 #[derive(Clone, Copy, Debug)]
@@ -16,4 +16,20 @@ pub struct Subject<'s> {
     pub camera: &'s Camera,
     /// How poses are refined.
     pub options: RefineOptions,
+}
+
+impl<'s> Subject<'s> {
+    /// A component whose poses are refined with the effort of a film, in which neighbouring frames know more than a longer search.
+    #[must_use]
+    pub fn new(model: &'s Model<'s>, planes: &'s [SymmetryPlane], camera: &'s Camera) -> Self {
+        Self {
+            model,
+            planes,
+            camera,
+            options: RefineOptions {
+                effort: Effort::Film,
+                ..RefineOptions::default()
+            },
+        }
+    }
 }

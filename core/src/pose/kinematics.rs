@@ -180,24 +180,11 @@ mod tests {
         let left = joint([femur, tibia], Side::Left);
         let right = joint([mirrored(&femur), mirrored(&tibia)], Side::Right);
         let numbers = |joint: JointAngles| {
-            let JointAngles {
-                anterior_mm,
-                superior_mm,
-                lateral_mm,
-                flexion_deg,
-                abduction_deg,
-                internal_deg,
-            } = joint;
-            [
-                anterior_mm,
-                superior_mm,
-                lateral_mm,
-                flexion_deg,
-                abduction_deg,
-                internal_deg,
-            ]
+            let moved = [joint.anterior_mm, joint.superior_mm, joint.lateral_mm];
+            let turned = [joint.flexion_deg, joint.abduction_deg, joint.internal_deg];
+            moved.into_iter().chain(turned)
         };
-        for (left, right) in numbers(left).into_iter().zip(numbers(right)) {
+        for (left, right) in numbers(left).zip(numbers(right)) {
             assert!((left - right).abs() < 1e-9, "{left} and {right}");
         }
         assert!(left.flexion_deg > 80.0);

@@ -9,7 +9,7 @@ use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{MaskMut, words_needed};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::refine::{Effort, ImageTarget, Polarity, RefineBuffers, RefineOptions};
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::write_poses;
 use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
@@ -261,15 +261,7 @@ impl<'f> Given<'f> {
         let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
         let camera = camera.expect("valid");
         let planes = symmetry_planes(model.mesh());
-        let subject = Subject {
-            model: &model,
-            planes: &planes,
-            camera: &camera,
-            options: RefineOptions {
-                effort: Effort::Film,
-                ..RefineOptions::default()
-            },
-        };
+        let subject = Subject::new(&model, &planes, &camera);
         let mut buffers = RefineBuffers::default();
         for _ in 0..most {
             let Some(number) = following.wanted() else {

@@ -12,9 +12,7 @@ use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
-use fluoropose::refine::{
-    Effort, ImageTarget, Polarity, RefineBuffers, RefineMemory, RefineOptions,
-};
+use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 
 use crate::files::{Component, Film, Role, grey, read_model};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
@@ -173,15 +171,7 @@ impl<'s> Part<'s> {
             polarity: self.polarity,
             film: self.film(),
         };
-        let subject = Subject {
-            model: &self.mesh,
-            planes: &self.planes,
-            camera: &self.camera,
-            options: RefineOptions {
-                effort: Effort::Film,
-                ..RefineOptions::default()
-            },
-        };
+        let subject = Subject::new(&self.mesh, &self.planes, &self.camera);
         let mut buffers = self.take();
         let answer = work(
             &subject,
