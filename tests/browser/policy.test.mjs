@@ -43,7 +43,7 @@ pageTest('a whole workflow breaks no rule and asks nobody', async (page, t) => {
     const others = asked.filter((url) => !url.startsWith(ADDRESS) && !/^(blob|data):/.test(url));
     assert.deepEqual(others, []);
     // The recording sees what the page and its workers fetch.
-    for (const name of ['demo/frames/0001.png', 'fluoropose_page_bg', 'fluoropose_wasm_simd_bg', 'fluoropose_decode_bg', 'pose-', 'library-', 'decode-']) {
+    for (const name of ['demo/frames/0001.png', 'fluoropose_page_bg', 'fluoropose_wasm_bg', 'fluoropose_decode_bg', 'pose-', 'library-', 'decode-']) {
       assert(asked.some((url) => url.includes(name)), `no request for ${name} was recorded`);
     }
     assert.deepEqual(await violations(page), []);

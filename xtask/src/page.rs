@@ -34,17 +34,13 @@ const DECODE: Module = Module {
 };
 const MODULES: [&Module; 3] = [&PAGE, &CORE, &DECODE];
 
-/// Built a second time for engines that have 128-bit vectors.
-const WITH_SIMD: &Module = &CORE;
-
 /// How WASM modules are compiled.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Build {
-    /// As they are shipped: as small as can be, with and without 128-bit vectors.
+    /// As they are shipped: as small as can be.
     Shipped,
-    /// In a third of the time, for a page on this machine: with vectors alone, and not united into one piece of code
-    /// (link-time optimisation). Results are the same. It has the profile of this program, with which it shares macros
-    /// and build scripts.
+    /// In a third of the time, for a page on this machine: not united into one piece of code (link-time optimisation).
+    /// Results are the same. It has the profile of this program, with which it shares macros and build scripts.
     Quick,
 }
 
@@ -57,7 +53,7 @@ impl Build {
     }
 }
 
-/// Compiled with 128-bit vectors.
+/// With 128-bit vectors, which every engine has that the page's own language asks for (but Safari 16.0 to 16.3).
 const WIDE: [&str; 2] = [
     "--config",
     "target.wasm32-unknown-unknown.rustflags=['-Ctarget-feature=+simd128']",
@@ -94,77 +90,35 @@ pub(crate) fn build(how: Build) -> Result<PathBuf> {
 /// Builds the WASM modules and writes their JavaScript and TypeScript into `web/src/pkg`.
 fn build_wasm(web: &Path, how: Build) -> Result<()> {
     let toolchain = rust_target::ensure(rust_target::WASM)?;
-    let quick = how == Build::Quick;
-    let files = build_modules(&toolchain, &MODULES, how, quick)?;
+    let files = build_modules(&toolchain, how)?;
     for (module, file) in MODULES.iter().zip(files) {
-        generate_bindings(&file, &module.bindings(web))?;
+        generate_bindings(&file, &web.join("src/pkg").join(module.folder))?;
     }
-    if quick {
-        // There is no plain one.
-        let [plain, wide] =
-            ["", "_simd"].map(|kind| WITH_SIMD.bindings(web).join(WITH_SIMD.bound(kind)));
-        std::fs::copy(plain, wide)?;
-        return Ok(());
-    }
-    add_simd(&toolchain, web)
-}
-
-impl Module {
-    fn bindings(&self, web: &Path) -> PathBuf {
-        web.join("src/pkg").join(self.folder)
-    }
-
-    /// What its library is called.
-    fn name(&self) -> String {
-        self.package.replace('-', "_")
-    }
-
-    /// The file of the module beside its JavaScript.
-    fn bound(&self, kind: &str) -> String {
-        format!("{}{kind}_bg.wasm", self.name())
-    }
-}
-
-/// Puts the module for engines with 128-bit vectors beside the plain one. It has no JavaScript of its own: both are
-/// entered in the same way, which is checked.
-fn add_simd(toolchain: &Toolchain, web: &Path) -> Result<()> {
-    let files = build_modules(toolchain, &[WITH_SIMD], Build::Shipped, true)?;
-    let (folder, name) = (WITH_SIMD.bindings(web), WITH_SIMD.name());
-    let bindings = workspace::target_dir().join("simd-bindings");
-    for file in &files {
-        generate_bindings(file, &bindings)?;
-    }
-    let glue = |folder: &Path| std::fs::read(folder.join(format!("{name}.js")));
-    ensure!(
-        glue(&bindings)? == glue(&folder)?,
-        "the JavaScript of {name} with SIMD differs from that without"
-    );
-    let wide = folder.join(WITH_SIMD.bound("_simd"));
-    std::fs::copy(bindings.join(WITH_SIMD.bound("")), wide)?;
     Ok(())
 }
 
+impl Module {
+    /// The file that the compiler writes.
+    fn file(&self) -> String {
+        format!("{}.wasm", self.package.replace('-', "_"))
+    }
+}
+
 /// Builds modules side by side: what one alone needs is compiled while another is put together.
-fn build_modules(
-    toolchain: &Toolchain,
-    modules: &[&Module],
-    how: Build,
-    wide: bool,
-) -> Result<Vec<PathBuf>> {
+fn build_modules(toolchain: &Toolchain, how: Build) -> Result<Vec<PathBuf>> {
     let target_dir = workspace::target_dir();
     let mut cargo = toolchain.cargo("build", &target_dir);
     cargo.args(["--profile", how.profile(), "--lib"]);
-    cargo.args(WIDE.iter().filter(|_| wide));
-    for module in modules {
+    cargo.args(WIDE);
+    for module in MODULES {
         cargo.args(["--package", module.package]);
     }
-    let folders: Vec<&str> = modules.iter().map(|module| module.folder).collect();
-    let kind = if wide { ", with SIMD" } else { "" };
-    let what = format!("building the page's modules ({}{kind})", folders.join(", "));
+    let folders = MODULES.map(|module| module.folder);
+    let what = format!("building the page's modules ({})", folders.join(", "));
     timed(&what, || command::run(&mut cargo))?;
     let built = toolchain.output_dir(how.profile(), &target_dir);
-    let file = |module: &&Module| built.join(format!("{}.wasm", module.name()));
-    Ok(modules.iter().map(file).collect())
+    let files = MODULES.map(|module| built.join(module.file()));
+    Ok(files.into())
 }
 
 fn generate_bindings(module: &Path, folder: &Path) -> Result<()> {

@@ -1,4 +1,4 @@
-/** How fast the core is in a worker of Chromium, with 128-bit vectors and without. */
+/** How fast the core is in a worker of Chromium. */
 import { cp, mkdir, symlink, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -12,11 +12,6 @@ import { demoFile, polygonWithin, trueOutline } from '../support/study.mjs';
 
 const WORKER = fileURLToPath(new URL('speed_worker.mjs', import.meta.url));
 const FRAMES = 8;
-
-const MODULES = /** @type {const} */ ([
-  ['with SIMD', 'fluoropose_wasm_simd_bg.wasm'],
-  ['without SIMD', 'fluoropose_wasm_bg.wasm'],
-]);
 
 /** @returns {Promise<import('./main.mjs').Row[]>} */
 export async function speed() {
@@ -33,16 +28,14 @@ export async function speed() {
   const page = await openWindow();
   try {
     await page.goto(host.address);
-    const rows = [];
-    for (const [kind, wasm] of MODULES) rows.push(...rowsOf(kind, await page.evaluate(driven, { wasm, masks, polygons })));
-    return rows;
+    return rowsOf(await page.evaluate(driven, { masks, polygons }));
   } finally {
     await page.context().close();
     await host.stop();
   }
 }
 
-/** Runs in the page. @param {{ wasm: string, masks: unknown, polygons: unknown }} task @returns {Promise<Times>} */
+/** Runs in the page. @param {{ masks: unknown, polygons: unknown }} task @returns {Promise<Times>} */
 function driven(task) {
   const worker = new Worker('/worker.mjs', { type: 'module' });
   return new Promise((resolve, reject) => {
@@ -56,14 +49,14 @@ function driven(task) {
   });
 }
 
-/** @param {string} kind @param {Times} times @returns {import('./main.mjs').Row[]} */
-function rowsOf(kind, { library, best, masks, polygons, live }) {
+/** @param {Times} times @returns {import('./main.mjs').Row[]} */
+function rowsOf({ library, best, masks, polygons, live }) {
   return [
-    { work: `exact best of 1271 views in a worker, median, ${kind}`, value: quantile(best, 0.5), unit: 'ms' },
-    { work: `library of 1271 views in one worker, ${kind}`, value: library / 1000, unit: 's' },
-    { work: `mask to refined poses with mirror candidates, median, ${kind}`, value: quantile(masks, 0.5), unit: 'ms' },
-    { work: `polygon of some 45 points to the same, median, ${kind}`, value: quantile(polygons, 0.5), unit: 'ms' },
-    { work: `live pose while a point moves, followed and refined, p95, ${kind}`, value: quantile(live, 0.95), unit: 'ms' },
+    { work: 'exact best of 1271 views in a worker, median', value: quantile(best, 0.5), unit: 'ms' },
+    { work: 'library of 1271 views in one worker', value: library / 1000, unit: 's' },
+    { work: 'mask to refined poses with mirror candidates, median', value: quantile(masks, 0.5), unit: 'ms' },
+    { work: 'polygon of some 45 points to the same, median', value: quantile(polygons, 0.5), unit: 'ms' },
+    { work: 'live pose while a point moves, followed and refined, p95', value: quantile(live, 0.95), unit: 'ms' },
   ];
 }
 

@@ -14,9 +14,9 @@ onmessage = ({ data }) => {
   work(data).then(postMessage, (error) => postMessage({ failed: String(error) }));
 };
 
-/** @param {{ wasm: string, masks: [number, number][][], polygons: [number, number][][] }} task */
-async function work({ wasm, masks, polygons }) {
-  await init({ module_or_path: `/npm/pkg/core/${wasm}` });
+/** @param {{ masks: [number, number][][], polygons: [number, number][][] }} task */
+async function work({ masks, polygons }) {
+  await init({ module_or_path: '/npm/pkg/core/fluoropose_wasm_bg.wasm' });
   const [model, calibration] = await Promise.all([fetched('femur.stl', 'arrayBuffer'), fetched('calibration.txt', 'text')]);
   const mesh = await decodeModel(new Uint8Array(model));
   const options = { model: mesh, calibration, frame: FRAME };

@@ -33,7 +33,7 @@ export const en = {
   said,
   seeing,
   steps,
-  failedToStart: (why: string) => `The page could not start: ${why}. It needs a current browser with WebAssembly.`,
+  failedToStart: (why: string) => `The page could not start: ${why}. It needs Chrome or Edge 110, Firefox 115, Safari 16.4, or a later one.`,
   /** Alone, as a heading or a label. */
   componentTitle: { femur: 'Femur', tibia: 'Tibia' } satisfies Record<ComponentName, string>,
   /** Inside a sentence, after "the". */

@@ -2,13 +2,15 @@
 
 use std::process::Command;
 
+use anyhow::{Context, Result};
+
 use super::command;
 use super::missing::Missing;
 use super::rust_target::own_cargo;
 use crate::output::announce;
 
 /// Makes sure of `cargo fmt` and `cargo clippy` (`subcommand` is `fmt` or `clippy`).
-pub(crate) fn ensure(subcommand: &str) -> Result<(), Missing> {
+pub(crate) fn ensure(subcommand: &str) -> std::result::Result<(), Missing> {
     let _turn = super::turns::RUSTUP.turn();
     if works(subcommand) {
         return Ok(());
@@ -31,6 +33,21 @@ pub(crate) fn ensure(subcommand: &str) -> Result<(), Missing> {
     ));
     command::output(Command::new(rustup).args(["component", "add", component]))
         .map_err(|error| missing(format!("{error:#}"), true))?;
+    Ok(())
+}
+
+/// Lets the linter compile the members of a workspace: it is the compiler with more warnings, so that nothing has to be
+/// compiled a second time for them. All warnings are errors.
+pub(crate) fn lint(cargo: &mut Command) -> Result<()> {
+    ensure("clippy")?;
+    let linter = command::find(&["clippy-driver"]);
+    let linter = linter.context("no clippy-driver on the PATH: it comes with `cargo clippy`")?;
+    cargo.env("RUSTC_WORKSPACE_WRAPPER", linter);
+    // As `cargo clippy -- -D warnings` hands it on.
+    cargo.env(
+        "CLIPPY_ARGS",
+        ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),
+    );
     Ok(())
 }
 

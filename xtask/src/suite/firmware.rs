@@ -24,11 +24,12 @@ pub(crate) fn run(report: &mut Report) {
         report.skip("firmware: the proof", "there is nothing to put into flash");
         return;
     }
-    report.step("firmware: formatting and lints", check_source);
-    report.step("firmware: board and host agree", || compare(&[]));
-    report.step("firmware: board and host agree with micromath", || {
-        compare(&["--features", "micromath"])
-    });
+    report.step("firmware: formatting", check_formatting);
+    report.step("firmware: linted; board and host agree", || compare(&[]));
+    report.step(
+        "firmware: linted; board and host agree with micromath",
+        || compare(&["--features", "micromath"]),
+    );
 }
 
 /// Where all that belongs to the firmware goes.
@@ -48,26 +49,10 @@ fn at_firmware(cargo: &mut Command) -> &mut Command {
         .env("FLUOROPOSE_FIRMWARE_INPUTS", inputs_folder())
 }
 
-fn check_source() -> Result<Said> {
+fn check_formatting() -> Result<Said> {
     components::ensure("fmt")?;
-    components::ensure("clippy")?;
     command::run(at_firmware(own_cargo().args(["fmt", "--check"])))?;
-    let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
-    if let Toolchain::Debian { .. } = toolchain {
-        let mut host = own_cargo();
-        host.arg("clippy").arg("--target-dir").arg(folder());
-        lint(&mut host)?;
-        return Ok("the host's part alone: Debian's compiler brings no lints"
-            .to_owned()
-            .into());
-    }
-    // Of the host's own part, a page, the compiler's warnings are enough.
-    lint(&mut toolchain.cargo("clippy", &folder()))?;
     Ok(().into())
-}
-
-fn lint(clippy: &mut Command) -> Result<()> {
-    command::run(at_firmware(clippy.arg("--release")).args(["--", "-D", "warnings"]))
 }
 
 /// Runs the same proof here and on the board; both must write the same lines, and a pose near the true one.
@@ -119,12 +104,17 @@ fn on_host(features: &[&str]) -> Result<String> {
     let mut cargo = own_cargo();
     at_firmware(cargo.args(["run", "--quiet", "--release"]).args(HOST)).args(features);
     cargo.arg("--target-dir").arg(folder());
+    components::lint(&mut cargo)?;
     command::output(&mut cargo)
 }
 
 fn on_board(toolchain: &Toolchain, qemu: PathBuf, features: &[&str]) -> Result<String> {
     let mut cargo = toolchain.cargo("build", &folder());
     at_firmware(cargo.arg("--release")).args(features);
+    // Debian's compiler brings no lints.
+    if let Toolchain::Own { .. } = toolchain {
+        components::lint(&mut cargo)?;
+    }
     command::run(&mut cargo)?;
     let image = toolchain
         .output_dir("release", &folder())

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 
 use super::counts;
 use super::report::{Report, Said};
@@ -39,7 +39,6 @@ pub(crate) fn run(report: &mut Report) {
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
     });
     report.step("native: compiled, with lints", || {
-        components::ensure("clippy")?;
         let everything = ["--all-targets", "--no-run"];
         quiet(&mut checked(&everything)?)
     });
@@ -78,22 +77,14 @@ fn quiet(command: &mut Command) -> Result<Said> {
     Ok(command::run(command)?.into())
 }
 
-/// `cargo test` of the whole workspace, compiled by the linter: it is the compiler with more warnings, so that nothing has
-/// to be compiled a second time for them. All warnings are errors.
+/// `cargo test` of the whole workspace, compiled by the linter.
 fn checked(options: &[&str]) -> Result<Command> {
-    let linter = command::find(&["clippy-driver"]);
-    let linter = linter.context("no clippy-driver on the PATH: it comes with `cargo clippy`")?;
     let mut cargo = own_cargo();
     cargo
         .args(["test", "--workspace"])
         .args(CHECKED)
         .args(options);
-    cargo.env("RUSTC_WORKSPACE_WRAPPER", linter);
-    // As `cargo clippy -- -D warnings` hands it on.
-    cargo.env(
-        "CLIPPY_ARGS",
-        ["-D", "warnings", ""].join("__CLIPPY_HACKERY__"),
-    );
+    components::lint(&mut cargo)?;
     Ok(cargo)
 }
 
