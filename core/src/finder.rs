@@ -15,6 +15,7 @@ mod error;
 mod find;
 mod first;
 mod memory;
+mod mirrored;
 pub mod nearby;
 pub mod rivals;
 mod usual;

@@ -77,7 +77,7 @@ function onFrame(core, matcher, implant, estimateFilm, native) {
   assert.deepEqual(model.slice(0, 3), wanted.constants);
   // What the page does with a pose that was found before.
   const [frame, hidden] = [core.FrameImage.fromEightBit(pixels, side, side), new core.HiddenPixels(calibration, side, side)];
-  const answer = matcher.correctOnFrame(frame, hidden, Float64Array.from(wanted.pose), 1, Float64Array.from(model));
+  const answer = matcher.correctOnFrame(frame, hidden, Float64Array.from(wanted.pose), Float64Array.of(1), 0, Float64Array.from(model));
   const match = answer.takeMatch();
   assert.deepEqual(Array.from(match.pose(0)), wanted.corrected);
   for (const held of [match, answer, hidden, frame]) held.free();

@@ -4,7 +4,7 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmProfile;
 use fluoropose::finder::{
     Candidate, Component, FinderBuffers, FinderMemory, FirstPoses, Found, Goal, Limits, Verdict,
-    find, first_poses, judge_fit, look_around,
+    correct_candidates, find, first_poses, judge_fit, look_around,
 };
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::{MaskMut, Word, words_needed};
@@ -18,7 +18,7 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::refine::{
     CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
-    correct, film_profiles, fit_at, polarity_at, refine, refine_traced,
+    film_profiles, fit_at, polarity_at, refine, refine_traced,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
@@ -149,9 +149,7 @@ impl WorkingModel {
         with: impl FnOnce(&Component<'_>, FinderMemory<'_>) -> T,
     ) -> T {
         let model = self.owned.as_model();
-        let planes = self
-            .planes
-            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
+        let planes = planes_of(&mut self.planes, &model);
         let component = Component {
             library,
             model: &model,
@@ -274,19 +272,26 @@ impl WorkingModel {
         refine(&model, &[view], start, options, &mut memory).map_err(sentence)
     }
 
-    /// Brings a pose that was refined on a frame to where its film puts the edges.
+    /// Brings poses that were refined on a frame to where its film puts the edges, and adds mirror images of the best; best first.
+    /// One that cannot be corrected is left out.
     ///
     /// # Errors
-    /// The core's sentence about why it cannot be corrected.
+    /// The core's sentence about why none can be corrected.
     pub(crate) fn correct(
         &mut self,
-        refined: &Refined,
+        refined: &[Refined],
         view: CameraView<'_>,
-    ) -> Result<Refined, JsError> {
+    ) -> Result<Vec<Candidate>, JsError> {
+        let Target::Image(image) = view.target else {
+            return Ok(Vec::new());
+        };
         let model = self.owned.as_model();
+        let planes = planes_of(&mut self.planes, &model);
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
-        let options = RefineOptions::default();
-        correct(&model, &[view], refined, options, &mut memory).map_err(sentence)
+        let known: Vec<Candidate> = refined.iter().map(candidate_of).collect();
+        let (seen, options) = ((view.camera, image), RefineOptions::default());
+        let found = correct_candidates(&model, seen, planes, &known, options, &mut memory);
+        Ok(found.map_err(sentence)?.into_iter().collect())
     }
 
     /// Other poses around one that leaves more than is usual on its film, best first: where another leaves less it is among them.
@@ -304,18 +309,9 @@ impl WorkingModel {
             return Ok(Vec::new());
         };
         let model = self.owned.as_model();
-        let planes = self
-            .planes
-            .get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec());
+        let planes = planes_of(&mut self.planes, &model);
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
-        let known = Candidate {
-            pose: refined.pose,
-            start: refined.pose,
-            located: None,
-            refined: Some(*refined),
-            covariance: None,
-            fit: OutlineFit::default(),
-        };
+        let known = candidate_of(refined);
         let seen = (view.camera, image);
         let how = (RefineOptions::default(), enough_px);
         let found = look_around(&model, seen, planes, &[known], how, &mut memory);
@@ -421,5 +417,25 @@ impl WorkingModel {
             &mut drawn,
         )
         .ok())
+    }
+}
+
+/// The model's planes of symmetry, which are found once.
+fn planes_of<'p>(
+    known: &'p mut Option<Vec<SymmetryPlane>>,
+    model: &Model<'_>,
+) -> &'p [SymmetryPlane] {
+    known.get_or_insert_with(|| symmetry_planes(model.mesh()).to_vec())
+}
+
+/// A refined pose as a candidate of which nothing else is known.
+fn candidate_of(refined: &Refined) -> Candidate {
+    Candidate {
+        pose: refined.pose,
+        start: refined.pose,
+        located: None,
+        refined: Some(*refined),
+        covariance: None,
+        fit: OutlineFit::default(),
     }
 }

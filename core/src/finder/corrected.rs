@@ -3,10 +3,12 @@
 use heapless::Vec;
 
 use super::candidate::{CANDIDATES, Candidate};
+use super::mirrored::add_mirror_images;
 use super::rivals::{RefinedRival, SAME_DEG, refine_rivals};
 use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
+use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, assess, correct,
@@ -78,15 +80,15 @@ pub(super) fn add_assessed(
     Ok(())
 }
 
-/// Corrects the refined poses among the candidates of a frame by the film of `image`; best first again. One that cannot be
-/// corrected is dropped while another can.
+/// Corrects the refined poses among the candidates of a frame by the film of `image`, and adds mirror images of the best in the
+/// model's `planes` where none is among them; best first again. One that cannot be corrected is dropped while another can.
 ///
 /// # Errors
 /// That of the last candidate, where none can be corrected.
 pub fn correct_candidates(
     model: &Model<'_>,
-    camera: &Camera,
-    image: ImageTarget<'_>,
+    (camera, image): (&Camera, ImageTarget<'_>),
+    planes: &[SymmetryPlane],
     candidates: &[Candidate],
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
@@ -116,8 +118,9 @@ pub fn correct_candidates(
             Err(error) => failure = Some(error),
         }
     }
-    match failure.filter(|_| corrected.is_empty()) {
-        Some(error) => Err(error),
-        None => Ok(corrected),
+    if let Some(error) = failure.filter(|_| corrected.is_empty()) {
+        return Err(error);
     }
+    add_mirror_images(model, views[0], planes, &mut corrected, options, memory)?;
+    Ok(corrected)
 }

@@ -5,6 +5,7 @@ mod anatomy;
 mod biplane;
 mod golden;
 mod library;
+mod mirrored;
 mod options;
 mod parity;
 mod partial;

@@ -15,6 +15,8 @@ pub struct OneClickAnswer {
     pub(super) outlines: Vec<Vec<f64>>,
     /// Of outlines from a model.
     pub(super) supports: Vec<f64>,
+    /// Of poses that were given: which of them each of the first was.
+    pub(super) places: Vec<Option<usize>>,
     /// Whether its poses are as the film puts the edges.
     pub(super) corrected: bool,
     pub(super) matched: Option<Match>,
@@ -22,14 +24,15 @@ pub struct OneClickAnswer {
 }
 
 impl OneClickAnswer {
-    /// One pose that was found before, corrected by the film.
-    pub(crate) fn of_one(outline: Vec<f64>, support: f64, matched: Match) -> Self {
+    /// Without candidates so far.
+    pub(super) fn new(corrected: bool) -> Self {
         Self {
-            outlines: vec![outline],
-            supports: vec![support],
-            corrected: true,
-            matched: Some(matched),
-            sentence: told(support, false),
+            outlines: Vec::new(),
+            supports: Vec::new(),
+            places: Vec::new(),
+            corrected,
+            matched: None,
+            sentence: String::new(),
         }
     }
 }
@@ -80,6 +83,11 @@ impl OneClickAnswer {
     /// Part of the outline that lies on an edge of the right polarity, 0 to 1; nothing for a region.
     pub fn support(&self, index: usize) -> Option<f64> {
         self.supports.get(index).copied()
+    }
+
+    /// Which of the poses that were given it was; nothing where it is another one.
+    pub fn from(&self, index: usize) -> Option<usize> {
+        self.places.get(index).copied().flatten()
     }
 
     /// The candidates' poses, in the same order; once, and nothing for a region.

@@ -3,7 +3,6 @@
 use fluoropose::camera::Camera;
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{FilmModel, FilmProfile, pool::profiles_of_each};
-use fluoropose::finder::choice::DECISIVE_RATIO;
 use fluoropose::finder::{Candidate as FinderCandidate, Doubt};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::Contour;
@@ -14,9 +13,9 @@ use fluoropose::pose::{EulerPose, Pose, view_rotation};
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, Refined};
 use wasm_bindgen::prelude::*;
 
-use super::Matcher;
 use super::answer::{FAIR, OneClickAnswer};
 use super::from_here::{HiddenPixels, model_of};
+use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::exchange::simplified;
 use crate::film::film_model;
 use crate::found::{Candidate, Match, deviation_numbers};
@@ -27,6 +26,8 @@ use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
 
 /// The outline that is handed out stays so near to the silhouette, pixels.
 const TOLERANCE: f64 = 0.5;
+/// Of a pose.
+const NUMBERS: usize = 6;
 /// Corners of a border that a silhouette may have.
 const BORDER_CORNERS: usize = 16_384;
 
@@ -105,48 +106,63 @@ impl Matcher {
         Ok(numbers)
     }
 
-    /// Brings a pose that was refined on a frame to where its film puts the edges (`film` as `FilmFacts.model` gives it): the
-    /// pose, its outline, how sure it is and how far to be trusted. `support` is the part of its outline on edges. Where more remains
-    /// than is `usual` (as `usualMisfit` gives it), and another pose around leaves clearly less, it is that one.
+    /// Brings poses that were refined on a frame (six numbers each) to where its film puts the edges (`film` as `FilmFacts.model`
+    /// gives it): each with its outline, how sure it is and how far to be trusted, in the order given (`OneClickAnswer.from`), but
+    /// for those that cannot be corrected. `supports` are the parts of their outlines on edges. After them come others that explain
+    /// the frame as well or better: mirror images, and, where the `chosen` one leaves more than is `usual` (as `usualMisfit` gives
+    /// it), poses around it.
     ///
     /// # Errors
-    /// The core's sentence about why it cannot be corrected.
+    /// The core's sentence about why none can be corrected, or one about the numbers.
     #[wasm_bindgen(js_name = correctOnFrame)]
+    #[allow(clippy::too_many_arguments)]
     pub fn correct_on_frame(
         &mut self,
         frame: &FrameImage,
         hidden: &HiddenPixels,
-        pose: &[f64],
-        support: f64,
+        poses: &[f64],
+        supports: &[f64],
+        chosen: usize,
         film: &[f64],
         usual: Option<f64>,
     ) -> Result<OneClickAnswer, JsError> {
-        let start = Pose::from(from_numbers(pose)?);
+        let given = given_poses(poses, supports)?;
+        let Some(own) = given.get(chosen) else {
+            return Err(JsError::new("There is no chosen pose to correct"));
+        };
         let seen = Seen {
             usual,
-            ..self.seen(frame, hidden, &start, film_model(film)?)?
+            ..self.seen(frame, hidden, &own.start, film_model(film)?)?
         };
-        let refined = self.corrected(&Refined::at(start), &seen)?;
-        let one = OnFrame {
-            refined,
-            start,
-            support,
-        };
-        let around = self.around(&one, &seen)?.into_iter().next();
-        let clearly = |other: &OnFrame| DECISIVE_RATIO * misfit(&other.refined) <= misfit(&refined);
-        let one = around.filter(clearly).unwrap_or(one);
-        let support = one.support;
-        let candidate = self.on_frame(&one, &seen)?;
-        let outline = self.outline_at(&one.refined.pose, seen.camera)?;
-        let matched = Match {
-            candidates: vec![candidate],
-            compared: 1,
-            clipped: false,
-            partial: false,
-            chosen: None,
-        };
-        Ok(OneClickAnswer::of_one(outline, support, matched))
+        let found = self.corrected(&given, &seen)?;
+        let from = |one: &OnFrame| given.iter().position(|given| given.start == one.start);
+        let (mut known, mut more): (Vec<_>, Vec<_>) =
+            found.into_iter().partition(|one| from(one).is_some());
+        known.sort_by_key(from);
+        if let Some(own) = known.iter().find(|one| from(one) == Some(chosen)) {
+            more.extend(self.around(own, &seen)?);
+        }
+        let least = known.iter().chain(&more).map(|one| misfit(&one.refined));
+        let limit = RIVAL_WITHIN * least.fold(f64::INFINITY, f64::min);
+        more.retain(|one| misfit(&one.refined) <= limit);
+        let places = known.iter().map(from).collect();
+        known.extend(more.into_iter().take(OFFERED));
+        self.answer(&known, places, &seen)
     }
+}
+
+/// Poses that were refined on a frame before, as they were kept.
+fn given_poses(poses: &[f64], supports: &[f64]) -> Result<Vec<OnFrame>, JsError> {
+    let mut given = Vec::new();
+    for (number, pose) in poses.chunks(NUMBERS).enumerate() {
+        let start = Pose::from(from_numbers(pose)?);
+        given.push(OnFrame {
+            refined: Refined::at(start),
+            start,
+            support: supports.get(number).copied().unwrap_or(1.0),
+        });
+    }
+    Ok(given)
 }
 
 impl Matcher {
@@ -169,17 +185,47 @@ impl Matcher {
         })
     }
 
-    /// A pose that was refined on a frame, as its film puts the edges, where that is known.
-    pub(super) fn corrected(
-        &mut self,
-        refined: &Refined,
-        seen: &Seen<'_>,
-    ) -> Result<Refined, JsError> {
+    /// Poses that were refined on a frame as its film puts the edges, where that is known, and mirror images of the best.
+    fn corrected(&mut self, given: &[OnFrame], seen: &Seen<'_>) -> Result<Vec<OnFrame>, JsError> {
         if seen.film.is_none() {
-            return Ok(*refined);
+            return Ok(given.to_vec());
         }
+        let refined: Vec<Refined> = given.iter().map(|one| one.refined).collect();
         let model = model_of(&mut self.model)?;
-        seen.look(|view| model.correct(refined, view))
+        let found = seen.look(|view| model.correct(&refined, view))?;
+        let support = |start: &Pose| Some(given.iter().find(|one| one.start == *start)?.support);
+        Ok(found
+            .iter()
+            .filter_map(|one| on_frame(one, support(&one.start)))
+            .collect())
+    }
+
+    /// Poses on a frame as candidates with their outlines; `places` are those of the first ones among poses that were given.
+    fn answer(
+        &mut self,
+        poses: &[OnFrame],
+        places: Vec<Option<usize>>,
+        seen: &Seen<'_>,
+    ) -> Result<OneClickAnswer, JsError> {
+        let mut answer = OneClickAnswer {
+            supports: poses.iter().map(|one| one.support).collect(),
+            places,
+            ..OneClickAnswer::new(seen.film.is_some())
+        };
+        let mut candidates = Vec::new();
+        for one in poses {
+            candidates.push(self.on_frame(one, seen)?);
+            let outline = self.outline_at(&one.refined.pose, seen.camera)?;
+            answer.outlines.push(outline);
+        }
+        answer.matched = Some(Match {
+            compared: candidates.len(),
+            candidates,
+            clipped: false,
+            partial: false,
+            chosen: None,
+        });
+        Ok(answer)
     }
 
     /// Poses around one that leaves more than is usual on its film; none of one that does not.
@@ -194,14 +240,7 @@ impl Matcher {
         };
         let model = model_of(&mut self.model)?;
         let found = seen.look(|view| model.look_around(&one.refined, view, usual))?;
-        let on_frame = |found: &FinderCandidate| {
-            Some(OnFrame {
-                refined: found.refined?,
-                start: found.start,
-                support: found.fit.met,
-            })
-        };
-        Ok(found.iter().filter_map(on_frame).collect())
+        Ok(found.iter().filter_map(|one| on_frame(one, None)).collect())
     }
 
     /// A refined pose as the page reads it.
@@ -254,6 +293,15 @@ impl Matcher {
         });
         Ok((view, !inner && self.has_border()))
     }
+}
+
+/// A candidate with the part of its outline on edges, where that was measured when it was found.
+fn on_frame(found: &FinderCandidate, support: Option<f64>) -> Option<OnFrame> {
+    Some(OnFrame {
+        refined: found.refined?,
+        start: found.start,
+        support: support.unwrap_or(found.fit.met),
+    })
 }
 
 /// By what poses on a frame are compared, as the finder compares its candidates: it counts outline that lies on no edge.

@@ -205,10 +205,8 @@ impl OneClick {
         })?;
         Ok(OneClickAnswer {
             outlines: vec![outline],
-            supports: Vec::new(),
-            corrected: false,
-            matched: None,
             sentence: "The region with the sharpest border round there; open the implant's model for an outline that knows its shape.".to_owned(),
+            ..OneClickAnswer::new(false)
         })
     }
 
@@ -244,13 +242,7 @@ impl OneClick {
             answers.extend(others);
             chosen = among(&answers)?;
         }
-        let mut answer = OneClickAnswer {
-            outlines: Vec::new(),
-            supports: Vec::new(),
-            corrected: self.known.is_some(),
-            matched: None,
-            sentence: String::new(),
-        };
+        let mut answer = OneClickAnswer::new(self.known.is_some());
         let mut candidates = Vec::new();
         for place in offered(&answers, &chosen) {
             let one = &answers[place];

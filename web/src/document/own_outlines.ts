@@ -7,6 +7,10 @@ export function setItsOutline(candidate: Candidate, outline: Outline): void {
   found.set(candidate, outline);
 }
 
+export function itsOutline(candidate: Candidate | undefined): Outline | null {
+  return (candidate && found.get(candidate)) ?? null;
+}
+
 /** The cell with the outline of a candidate, where that came with it and the outline on view is still such a one. */
 export function withItsOutline(cell: Cell, candidate: Candidate | undefined): Cell {
   const own = candidate && found.get(candidate);

@@ -1,10 +1,10 @@
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
 import { CONSTANTS, withKnownFilm } from '../document/film';
-import { setItsOutline } from '../document/own_outlines';
-import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Outline, type Posed } from '../document/types';
+import { itsOutline, setItsOutline } from '../document/own_outlines';
+import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
-import { corrected, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, verdictAfter, type Witness, witnesses } from '../results/film';
+import { corrected, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
@@ -38,6 +38,8 @@ export class FilmReader {
   /** They cannot be corrected. */
   readonly #refused = new WeakSet<Posed>();
   #last: KnownFilm | null = null;
+  /** How often these very poses were asked. */
+  #turns = 0;
   #asked: string | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #pauseIsOver: () => void = () => undefined;
@@ -125,7 +127,7 @@ export class FilmReader {
     const fresh = here.filter(({ key }) => !this.#entries.has(key));
     const isFirst = ({ component }: Witness) => !entries.some(({ witness }) => witness.component === component);
     const isEnough = fresh.length > 0 && fresh.length >= MORE * entries.length;
-    return isEnough || fresh.some(isFirst) || here.some(isMoved) || this.#gone(here).length > 0;
+    return isEnough || fresh.some(isFirst) || (this.#turns < TURNS && here.some(isMoved)) || this.#gone(here).length > 0;
   }
 
   #gone(here: readonly Witness[]): readonly Witness[] {
@@ -153,7 +155,9 @@ export class FilmReader {
     const { stated } = store.doc.film;
     this.#asked = JSON.stringify(stated);
     const read: ReadProfiles[] = [];
-    for (const witness of this.#gone(here)) {
+    const gone = this.#gone(here);
+    this.#turns = gone.length > 0 || here.some(({ key }) => !this.#entries.has(key)) ? 1 : this.#turns + 1;
+    for (const witness of gone) {
       this.#entries.delete(witness.key);
       read.push({ ...namesOf(witness), profiles: new Float32Array() });
     }
@@ -216,23 +220,27 @@ export class FilmReader {
   async #correct(place: Place, result: Posed): Promise<void> {
     const input = onFrameInput(this.#services, place);
     const misfits = misfitsBeside(this.#services.store.doc, place);
-    const candidates = result.candidates.map(({ pose, support = null }, at) => ({ pose, support, misfits: at === result.chosen ? misfits : null }));
-    const answers = await this.#poses.call('correct', { ...input, candidates }, { transfer: [input.frame.pixels.buffer] });
-    const chosen = answers[result.chosen];
-    if (!chosen || !input.film) return void this.#refused.add(result);
+    const { chosen } = result;
+    const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
+    const answers = await this.#poses.call('correct', { ...input, candidates, chosen, misfits }, { transfer: [input.frame.pixels.buffer] });
+    if (!answers.some(({ from }) => from === chosen) || !input.film) return void this.#refused.add(result);
     const film = input.film.slice(0, CONSTANTS);
     this.#services.store.amend((doc) => {
       const cell = cellOf(doc, place.frameId, place.component);
       if (cell.result !== result || cell.resultOf !== cell.outline) return doc;
-      const candidates = result.candidates.map((candidate, at) => correctedBy(candidate, answers[at] ?? null));
-      const outline = outlineOf(chosen);
-      const verdict = verdictAfter(result, candidates);
-      return withCell(doc, place, { outline, result: { ...result, candidates, verdict, onFrame: { film } }, resultOf: outline });
+      const known = result.candidates.map((candidate, at) => correctedBy(candidate, answers.find(({ from }) => from === at)));
+      const more = answers.filter(({ from }) => from === null).map(another);
+      const after = { ...result, ...settled(result, known, more), onFrame: { film } };
+      const outline = itsOutline(after.candidates[after.chosen]) ?? cell.outline;
+      return withCell(doc, place, { outline, result: after, resultOf: outline });
     });
   }
 }
 
 const MEETING_FRAMES: readonly ToolName[] = ['one-click', 'pose'];
+
+/** Corrected poses tell a little more, and that corrects them a little more: it settles after two or three turns. */
+const TURNS = 5;
 
 /** So many more poses, of those that were asked, are worth asking: while a film is followed there is a new one every moment. */
 const MORE = 0.4;
@@ -242,19 +250,17 @@ function namesOf({ component, frame }: Witness): Pick<ReadProfiles, 'component' 
 }
 
 /** The candidate with its new numbers, and the outline that they draw. */
-function correctedBy(candidate: Candidate, answer: Corrected | null): Candidate {
-  if (!answer) return candidate;
-  const after = corrected(candidate, answer);
-  setItsOutline(after, outlineOf(answer));
-  return after;
+function correctedBy(candidate: Candidate, answer: Corrected | undefined): Candidate {
+  return answer ? outlined(corrected(candidate, answer), answer) : candidate;
 }
 
-const outlines = new WeakMap<Corrected, Outline>();
+/** A pose that nobody had looked at. */
+function another(answer: Corrected): Candidate {
+  const { pose, residual, deviations, judged, support } = answer;
+  return outlined({ pose, unmatched: null, drawn: null, residual, deviations, judged, support }, answer);
+}
 
-function outlineOf(answer: Corrected): Outline {
-  const known = outlines.get(answer);
-  if (known) return known;
-  const outline = { points: pointsFrom(answer.outline), closed: true, unknownSides: [] };
-  outlines.set(answer, outline);
-  return outline;
+function outlined(candidate: Candidate, { outline }: Corrected): Candidate {
+  setItsOutline(candidate, { points: pointsFrom(outline), closed: true, unknownSides: [] });
+  return candidate;
 }

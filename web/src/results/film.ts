@@ -60,15 +60,17 @@ function toldBy(doc: Doc, component: ComponentName, frame: FrameEntry): Candidat
   return isCurrent ? candidate : null;
 }
 
-/** Where profiles were read serves for poses this near: how far each edge lies beside the outline is left open anyway. */
-const NEAR: PoseNumbers = { x: 1, y: 1, z: 25, zRot: 2, xRot: 2, yRot: 2 };
+/** Where profiles were read serves for poses this near. Not for others: what is known of a film would depend on the order of work. */
+const NEAR: PoseNumbers = { x: 0.2, y: 0.2, z: 2, zRot: 0.2, xRot: 0.2, yRot: 0.2 };
 
 export function isNear(a: PoseNumbers, b: PoseNumbers): boolean {
   return (Object.keys(NEAR) as (keyof PoseNumbers)[]).every((field) => Math.abs(a[field] - b[field]) <= NEAR[field]);
 }
 
-/** A constant has changed by more than this part of its standard deviation, or is that much better known. */
-const NEWS = 0.5;
+/** A constant has changed by more than this part of its standard deviation, */
+const MOVED = 0.15;
+/** or its standard deviation by this part of itself. */
+const SURER = 0.5;
 
 /** Does an estimate change what is known? Poses are corrected by what is new, not by every last digit. */
 export function isNews(before: KnownFilm | null, after: KnownFilm | null): boolean {
@@ -86,7 +88,7 @@ function isNewsOf(then: readonly number[], now: readonly number[]): boolean {
     const [deviation, later] = [deviationOf(then, at), deviationOf(now, at)];
     // Of the first the curvature itself is uncertain, of the others their logarithms.
     const moved = at === 0 ? (now[at] ?? 0) - (then[at] ?? 0) : Math.log((now[at] ?? 1) / (then[at] ?? 1));
-    return Math.abs(moved) > NEWS * deviation || later < (1 - NEWS) * deviation || later > (1 + NEWS) * deviation;
+    return Math.abs(moved) > MOVED * deviation || later < (1 - SURER) * deviation || later > (1 + SURER) * deviation;
   }).some(Boolean);
 }
 
@@ -138,4 +140,33 @@ export function verdictAfter(before: Posed, [first, ...others]: readonly Candida
   if (own?.word === 'good' && DECISIVE * least < misfit) return { word: 'doubtful', because: texts.film.another(misfit, least) };
   const isRival = before.verdict?.word === 'doubtful' && before.candidates[0]?.judged?.verdict.word === 'good';
   return isRival && own?.word === 'good' ? before.verdict : own;
+}
+
+/** What a cell's poses are once they are corrected. */
+export type Settled = Pick<Posed, 'candidates' | 'chosen' | 'decided' | 'verdict'>;
+
+/**
+ * Corrected poses with `more` that nobody had looked at. One of them that leaves clearly less takes the place of a pose that nobody
+ * chose by hand; one that leaves about as much makes it doubtful, until what is around decides.
+ */
+export function settled(before: Posed, candidates: readonly Candidate[], more: readonly Candidate[]): Settled {
+  const { chosen, decided } = before;
+  const own = candidates[chosen];
+  const [best] = more.toSorted((a, b) => misfitOf(a) - misfitOf(b));
+  const rest = candidates.filter((candidate) => candidate !== own);
+  const all = { candidates: [...candidates, ...more], chosen };
+  if (!own || !best || misfitOf(best) > DECISIVE * misfitOf(own)) {
+    return { ...all, decided, verdict: own ? verdictAfter(before, [own, ...rest]) : before.verdict };
+  }
+  if (chosen !== 0 || DECISIVE * misfitOf(best) > misfitOf(own)) {
+    const alone = own.judged?.verdict ?? null;
+    const verdict: Verdict | null = alone?.word === 'good' ? { word: 'doubtful', because: texts.film.alike(misfitOf(own), misfitOf(best)) } : alone;
+    return { ...all, decided: false, verdict };
+  }
+  const others = [...candidates, ...more.filter((candidate) => candidate !== best)];
+  return { candidates: [best, ...others], chosen, decided, verdict: verdictAfter({ ...before, verdict: null }, [best, ...others]) };
+}
+
+function misfitOf({ judged }: Candidate): number {
+  return judged?.misfit ?? Infinity;
 }

@@ -8,6 +8,7 @@ export const film = {
   known: (words: string) => `${words.charAt(0).toUpperCase()}${words.slice(1)}.`,
   unknown: 'The film is not known yet: depth may be off by many millimetres, and ± says so.',
   stays: 'You checked this pose before that was known; it stays as it was.',
+  alike: (px: number, other: number) => `its mirror image fits this film as well (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
   another: (px: number, other: number) => `another pose leaves less on this film (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
   before: 'This pose was refined before that was known; it stays as it was.',
   about:

@@ -14,16 +14,19 @@ const GOOD = { word: 'good', because: 'it fits' } as const;
 
 type Estimate = FilmProtocol['estimate']['input'];
 
-/** Frames with their pixels; workers that answer with a curvature for each estimate, and bring poses 15 mm nearer. */
-function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts> = {}) {
+/** Frames with their pixels; workers that answer with a curvature for each estimate, and bring poses 1 mm nearer, or to the depths given. */
+function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts> = {}, depths = [-999]) {
   const store = new Store();
   const asked: Estimate[] = [];
   const corrected: string[] = [];
   const poses = async (method: string, input: { component: string; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
     if (method === 'filmProfiles') return new Float32Array(128);
     corrected.push(input.component);
-    return input.candidates.map(({ pose }) => ({
-      pose: { ...pose, z: -985 },
+    const z = depths.length > 1 ? depths.shift()! : depths[0]!;
+    return input.candidates.map(({ pose }, from) => ({
+      from,
+      support: 0.9,
+      pose: { ...pose, z },
       residual: 0.1,
       deviations: null,
       judged: { misfit: 0.1, verdict: GOOD },
@@ -72,7 +75,7 @@ describe('the reader of the film', () => {
     expect(asked.map(({ read }) => read.map(({ component, frame }) => `${component} ${frame}`))).toEqual([['femur 0']]);
     expect(store.doc.film.known?.words).toBe('a film');
     expect(corrected).toEqual(['femur']);
-    expect(z()).toBe(-985);
+    expect(z()).toBe(-999);
     const cell = cellOf(store.doc, 'a', 'femur');
     expect(cell.outline?.points[0]).toEqual(framePoint(2, 2));
     expect(cell.resultOf).toBe(cell.outline);
@@ -103,6 +106,20 @@ describe('the reader of the film', () => {
     await rest();
     expect(asked.at(-1)?.stated.display).toBe('logarithmic');
     expect([asked.length, corrected.length]).toEqual([3, 4]);
+  });
+
+  it('asks corrected poses again until they settle', async () => {
+    const { store, asked, z } = bench([0.02, 0.025, 0.026], {}, [-985, -981, -980]);
+    store.perform(clicked(store.doc));
+    await rest();
+    expect([asked.length, store.doc.film.known?.models.femur?.numbers[0], z()]).toEqual([3, 0.026, -980]);
+  });
+
+  it('gives up where they never do', async () => {
+    const { store, asked } = bench([0.02, 0.03, 0.02, 0.03, 0.02, 0.03, 0.02], {}, [-980, -1000, -980, -1000, -980, -1000, -980]);
+    store.perform(clicked(store.doc));
+    await rest();
+    expect(asked.length).toBe(5);
   });
 
   it('asks once two fifths more have come', async () => {

@@ -88,8 +88,8 @@ fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
         refined: Some(Refined::at(EulerPose::from(best).into())),
         ..first
     };
-    let by_film = image(Some(film.model(0)));
-    let corrected = correct_candidates(&model, &camera, by_film, &[kept], options, memory);
+    let seen = (&camera, image(Some(film.model(0))));
+    let corrected = correct_candidates(&model, seen, &planes, &[kept], options, memory);
     OnFrame {
         best,
         film,

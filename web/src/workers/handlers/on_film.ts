@@ -1,7 +1,7 @@
 import type { FrameImage, HiddenPixels, Match as RawMatch, Matcher } from '../../pkg/core/fluoropose_wasm.js';
 import type { Match } from '../protocol/match';
 import { poseArray } from '../protocol/pose_array';
-import type { Corrected, OnFilmProtocol, Uncorrected } from '../protocol/film';
+import type { Corrected, OnFilmProtocol } from '../protocol/film';
 import { filmArray, type MatcherOf, onFrame, usualMisfit } from './on_frame';
 import type { Handlers } from './serve';
 
@@ -15,25 +15,38 @@ export function onFilm({ matcherOf, read }: Held): Handlers<OnFilmProtocol> {
   return {
     filmProfiles: ({ pose, ...input }) =>
       onFrame(matcherOf, input, (matcher, image, hidden) => matcher.filmProfiles(image, hidden, Float64Array.from(poseArray(pose))) as Float32Array<ArrayBuffer>),
-    correct: ({ candidates, ...input }) =>
-      onFrame(matcherOf, input, (matcher, image, hidden) => candidates.map((one) => corrected(matcher, image, hidden, one, filmArray(input.film), read))),
+    correct: (input) =>
+      onFrame(matcherOf, input, (matcher, image, hidden) => {
+        try {
+          return corrected(matcher, image, hidden, input, read);
+        } catch (error) {
+          // A trap is none of the core's sentences.
+          if (error instanceof WebAssembly.RuntimeError) throw error;
+          return [];
+        }
+      }),
   };
 }
 
-function corrected(matcher: Matcher, image: FrameImage, hidden: HiddenPixels, one: Uncorrected, film: Float64Array, read: Held['read']): Corrected | null {
-  const usual = one.misfits ? usualMisfit(one.misfits) : undefined;
+type Input = OnFilmProtocol['correct']['input'];
+
+function corrected(matcher: Matcher, image: FrameImage, hidden: HiddenPixels, { candidates, chosen, misfits, film }: Input, read: Held['read']): readonly Corrected[] {
+  const poses = Float64Array.from(candidates.flatMap(({ pose }) => poseArray(pose)));
+  const supports = Float64Array.from(candidates, ({ support }) => support ?? 1);
+  const answer = matcher.correctOnFrame(image, hidden, poses, supports, chosen, filmArray(film), usualMisfit(misfits));
   try {
-    const answer = matcher.correctOnFrame(image, hidden, Float64Array.from(poseArray(one.pose)), one.support ?? 1, film, usual);
-    const outline = answer.outline(0) as Float64Array<ArrayBuffer>;
     const match = answer.takeMatch();
+    const found = match ? read(match, matcher, 0).candidates : [];
+    return found.map(({ pose, residual, deviations, judged }, index) => ({
+      from: answer.from(index) ?? null,
+      pose,
+      residual,
+      deviations,
+      judged,
+      support: answer.support(index) ?? 1,
+      outline: answer.outline(index) as Float64Array<ArrayBuffer>,
+    }));
+  } finally {
     answer.free();
-    const candidate = match && read(match, matcher, 0).candidates[0];
-    if (!candidate) return null;
-    const { pose, residual, deviations, judged } = candidate;
-    return { pose, residual, deviations, judged, outline };
-  } catch (error) {
-    // A trap is none of the core's sentences.
-    if (error instanceof WebAssembly.RuntimeError) throw error;
-    return null;
   }
 }

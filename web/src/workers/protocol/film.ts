@@ -7,10 +7,16 @@ import type { OnFrame } from './by_hand';
 export interface OnFilmProtocol {
   /** Profiles across the model's outline, as the film worker takes them. */
   filmProfiles: { input: OnFrame & { readonly pose: PoseNumbers }; output: Float32Array<ArrayBuffer>; progress: never };
-  /** Poses that were found on the frame, as its film puts the edges; null for one that cannot be brought there. */
+  /** Poses that were found on the frame, as its film puts the edges, and others that explain it as well. */
   correct: {
-    input: OnFrame & { readonly candidates: readonly Uncorrected[] };
-    output: readonly (Corrected | null)[];
+    input: OnFrame & {
+      readonly candidates: readonly Uncorrected[];
+      /** Which of them is the cell's pose. */
+      readonly chosen: number;
+      /** Where the chosen one leaves more than is usual, others are looked for around it. */
+      readonly misfits: FilmMisfits;
+    };
+    output: readonly Corrected[];
     progress: never;
   };
 }
@@ -25,15 +31,17 @@ export interface Uncorrected {
   readonly pose: PoseNumbers;
   /** Part of the outline that lies on edges; null where that was not kept. */
   readonly support: number | null;
-  /** Of the chosen pose: where it leaves more than is usual, a better one is looked for around it. Null of the others. */
-  readonly misfits: FilmMisfits | null;
 }
 
 export interface Corrected {
+  /** Which of the poses it was; null for another one. One that cannot be brought there is missing. */
+  readonly from: number | null;
   readonly pose: PoseNumbers;
   readonly residual: number | null;
   readonly deviations: PoseNumbers | null;
   readonly judged: Judged | null;
+  /** Part of the outline that lies on edges. */
+  readonly support: number;
   /** The model's silhouette there; columns and rows by turns. */
   readonly outline: Float64Array<ArrayBuffer>;
 }

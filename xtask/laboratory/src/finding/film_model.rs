@@ -271,6 +271,7 @@ impl Filmed<'_> {
     fn correct(&mut self, film: FilmModel) {
         let (camera, options) = (self.sequence.camera(), self.options());
         let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
+        let planes = symmetry_planes(model.mesh());
         let correct = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
             if found.candidates.is_empty() {
                 return;
@@ -279,10 +280,11 @@ impl Filmed<'_> {
                 let image = image(seen, edges, Some(film))?;
                 let mut memory = buffers.borrow(model, &camera);
                 let candidates = &found.candidates;
+                let seen = (&camera, image);
                 Ok(correct_candidates(
                     model,
-                    &camera,
-                    image,
+                    seen,
+                    &planes,
                     candidates,
                     options,
                     &mut memory,

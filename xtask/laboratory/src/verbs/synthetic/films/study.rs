@@ -141,10 +141,13 @@ impl Study<'_> {
 
     /// Corrects all poses by what is known of the film.
     fn correct(&mut self, known: &[[Option<FilmModel>; 2]]) -> Result<()> {
-        let (models, camera) = (self.models, self.camera);
+        let camera = self.camera;
+        let parts = self
+            .models
+            .map(|model| (model, symmetry_planes(model.mesh())));
         let correct = |buffers: &mut RefineBuffers, (film, (attempts, known)): (&Film, Of<'_>)| {
             let frame = film.frame(&camera)?;
-            for ((model, attempt), known) in models.iter().zip(attempts).zip(known) {
+            for (((model, planes), attempt), known) in parts.iter().zip(attempts).zip(known) {
                 let begin = Instant::now();
                 let image = image(&frame, *known);
                 let mut memory = buffers.borrow(model, &camera);
@@ -152,8 +155,9 @@ impl Study<'_> {
                 if known.is_none() || candidates.is_empty() {
                     continue;
                 }
+                let seen = (&camera, image);
                 let corrected =
-                    correct_candidates(model, &camera, image, candidates, options, &mut memory);
+                    correct_candidates(model, seen, planes, candidates, options, &mut memory);
                 if let Ok(corrected) = corrected {
                     attempt.candidates = corrected.to_vec();
                 }
