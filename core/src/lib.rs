@@ -6,9 +6,10 @@
 //! | --- | --- | --- |
 //! | [`memory`], [`shortlist`], [`math`] | | what every other module stands on |
 //! | [`image`] | points, grey values | [`Outline`], [`Frame`], [`Mask`] and what is measured of them |
-//! | [`pose`] | matrices, angles, `.jts` files | [`Pose`], [`PoseCovariance`], joint kinematics |
+//! | [`pose`] | matrices, angles, `.jts` files | [`Pose`], [`PoseCovariance`] |
 //! | [`camera`] | calibration files | [`Camera`] |
-//! | [`mesh`] | vertices and triangles | [`Model`], its planes of symmetry |
+//! | [`mesh`] | vertices and triangles | [`Model`], its planes of symmetry, its anatomical axes |
+//! | [`joint`] | the poses and models of both components | how the joint moves: [`Joint`], with standard deviations |
 //! | [`render`] | a model and its pose | the mask of its silhouette |
 //! | [`film`] | a model and its pose, profiles of frames | where its edges seem to be on a film, constants of the film |
 //! | [`canonical`] | a mask | [`canonical::CanonicalForm`] |
@@ -38,6 +39,8 @@ pub mod pose;
 pub mod camera;
 
 pub mod mesh;
+
+pub mod joint;
 
 pub mod render;
 
@@ -69,12 +72,13 @@ pub use image::contour::{Contour, Outline, Point};
 pub use image::frame::Frame;
 pub use image::mask::{Mask, MaskMut};
 pub use image::silhouette::Silhouette;
+pub use joint::kinematics::{Side, coronal_tilt_deg, joint_angles, joint_axes, relative_pose};
+pub use joint::{Joint, JointFrame};
 pub use library::{Builder, Library, ViewGrid};
 pub use locate::{Workspace, locate, workspace_needed};
 #[cfg(feature = "alloc")]
 pub use mesh::OwnedModel;
 pub use mesh::{Mesh, Model};
 pub use pose::covariance::PoseCovariance;
-pub use pose::kinematics::{Side, coronal_tilt_deg, joint_angles, joint_axes, relative_pose};
 pub use pose::{EulerPose, Pose};
 pub use refine::{CameraView, RefineMemory, RefineOptions, Refined, refine, uncertainty};

@@ -1,8 +1,7 @@
-//! Poses of a component, their uncertainty, files of poses, and the kinematics of the joint between two components.
+//! Poses of a component, their uncertainty, and files of poses.
 
 pub mod covariance;
 pub mod jts;
-pub mod kinematics;
 mod rigid;
 
 pub use rigid::*;

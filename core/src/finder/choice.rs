@@ -25,8 +25,8 @@ use core::fmt;
 
 use heapless::Vec;
 
+use crate::joint::kinematics::coronal_tilt_deg;
 use crate::math::round;
-use crate::pose::kinematics::coronal_tilt_deg;
 use crate::pose::{Pose, geodesic_deg};
 use crate::shortlist::smallest;
 

@@ -155,9 +155,14 @@ fn joined(turn: &Vector3, shift: &Vector3) -> [f64; 6] {
     core::array::from_fn(|k| if k < 3 { turn[k] } else { shift[k - 3] })
 }
 
+/// `a * b * c'`.
+pub(crate) fn product_with_transpose(a: &Matrix6, b: &Matrix6, c: &Matrix6) -> Matrix6 {
+    multiply_square(&multiply_square(a, b), &transpose_square(c))
+}
+
 /// `a * b * a'`, made symmetric against rounding.
-fn congruence(a: &Matrix6, b: &Matrix6) -> Matrix6 {
-    let product = multiply_square(&multiply_square(a, b), &transpose_square(a));
+pub(crate) fn congruence(a: &Matrix6, b: &Matrix6) -> Matrix6 {
+    let product = product_with_transpose(a, b, a);
     core::array::from_fn(|row| {
         core::array::from_fn(|column| (product[row][column] + product[column][row]) / 2.0)
     })

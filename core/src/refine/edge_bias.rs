@@ -101,14 +101,41 @@ impl EdgeBias {
         }
     }
 
+    /// How far a pose may be off by each constant and by the common distance, where anything is known of them.
+    fn shifts(&self) -> Option<[[f64; 6]; CONSTANTS + 1]> {
+        let inverse = inverse_spd(&self.information).filter(|_| self.any)?;
+        let shift = |pull: [f64; 6]| {
+            inverse.map(|row| row.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>())
+        };
+        Some(self.pulls.map(shift))
+    }
+
+    /// See [`super::Assessment::film_steps`]: curvature and blur come first of the constants, so these are the first two
+    /// columns of Cholesky's factor of the correlation.
+    pub(super) fn film_steps(&self) -> [[f64; 6]; 2] {
+        let Some([curvature, blur, attenuation, _]) = self.shifts() else {
+            return [[0.0; 6]; 2];
+        };
+        let of = |row: usize, column: usize| self.correlation[row][column];
+        let own = sqrt((1.0 - of(0, 1) * of(0, 1)).max(0.0));
+        let also = if own > 0.0 {
+            (of(1, 2) - of(0, 1) * of(0, 2)) / own
+        } else {
+            0.0
+        };
+        let sum = |parts: [f64; 3]| {
+            core::array::from_fn(|k| {
+                parts[0] * curvature[k] + parts[1] * blur[k] + parts[2] * attenuation[k]
+            })
+        };
+        [sum([1.0, of(0, 1), of(0, 2)]), sum([0.0, own, also])]
+    }
+
     /// Adds how far a pose may be off by it.
     pub(super) fn widen(&self, covariance: PoseCovariance) -> PoseCovariance {
-        let Some(inverse) = inverse_spd(&self.information).filter(|_| self.any) else {
+        let Some(shifts) = self.shifts() else {
             return covariance;
         };
-        let shifts = self
-            .pulls
-            .map(|pull| inverse.map(|row| row.iter().zip(&pull).map(|(a, b)| a * b).sum::<f64>()));
         let mut matrix = covariance.matrix;
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
@@ -204,5 +231,48 @@ impl<'c> Changes<'c> {
             NormalReading::At(found) => Some(found - drawn),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What components share is what is in the covariance, but for attenuation beyond what follows from display and blur.
+    #[test]
+    fn steps_of_the_film_are_those_of_the_covariance() {
+        let mut information = [[0.0; 6]; 6];
+        (0..6).for_each(|k| information[k][k] = 1.0 + k as f64);
+        let pulls = [
+            [1.0, 0.0, 2.0, 0.0, 0.0, 9.0],
+            [0.0, 3.0, 0.0, 1.0, 0.0, -4.0],
+            [0.0, 0.0, 0.0, 0.0, 5.0, 0.0],
+            [0.0; 6],
+        ];
+        let correlation = [[1.0, 0.6, -0.3], [0.6, 1.0, 0.2], [-0.3, 0.2, 1.0]];
+        let bias = EdgeBias {
+            information,
+            pulls,
+            correlation,
+            any: true,
+        };
+        let nothing = PoseCovariance {
+            matrix: [[0.0; 6]; 6],
+        };
+        let whole = bias.widen(nothing).matrix;
+        let steps = bias.film_steps();
+        for row in 0..6 {
+            for column in 0..6 {
+                let shared: f64 = steps.iter().map(|step| step[row] * step[column]).sum();
+                let off = whole[row][column] - shared;
+                // Attenuation alone moves number 4 here.
+                let own = row == 4 && column == 4;
+                assert!(
+                    if own { off > 0.1 } else { off.abs() < 1e-12 },
+                    "{row} {column}: {off}"
+                );
+            }
+        }
+        assert_eq!(EdgeBias::default().film_steps(), [[0.0; 6]; 2]);
     }
 }

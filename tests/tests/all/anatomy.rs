@@ -1,9 +1,9 @@
 //! Anatomical axes of whole implants, however their files turn them.
 
+use fluoropose::joint::kinematics::{Side, joint_angles, relative_pose};
 use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent, anatomical_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::mesh::{Mesh, OwnedModel};
-use fluoropose::pose::kinematics::{Side, joint_angles, relative_pose};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose_laboratory::files::read_model;
 use fluoropose_tests::{femur, study, surface, tibia};

@@ -4,6 +4,7 @@ mod accuracy;
 mod anatomy;
 mod biplane;
 mod golden;
+mod joint;
 mod library;
 mod mirrored;
 mod options;

@@ -4,10 +4,10 @@ use fluoropose::finder::choice::{
     ChoiceContext, Counterpart, FilmFrame, FilmStep, Reason, RivalPose, TILT_MARGIN_DEG, choose,
     choose_film,
 };
+use fluoropose::joint::kinematics::coronal_tilt_deg;
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
-use fluoropose::pose::kinematics::coronal_tilt_deg;
 use fluoropose_laboratory::files::{Component, Study, read_model, read_poses};
 use fluoropose_tests::study;
 

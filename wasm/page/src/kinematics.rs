@@ -1,7 +1,7 @@
 //! The joint between two components, for the page's curve.
 
+use fluoropose::joint::kinematics::{Side, joint_angles, joint_axes, relative_pose};
 use fluoropose::pose::Pose;
-use fluoropose::pose::kinematics::{Side, joint_angles, joint_axes, relative_pose};
 use wasm_bindgen::prelude::*;
 
 use crate::pose_numbers::{axes_from, from_numbers};

@@ -1,7 +1,7 @@
 //! The demonstration: its motion is a deep knee bend, its files agree with each other and with the poses.
 #![allow(clippy::unwrap_used, reason = "a refusal fails the test")]
 
-use fluoropose::pose::kinematics::{joint_angles, relative_pose};
+use fluoropose::joint::kinematics::{joint_angles, relative_pose};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_decode::{Pixels, decode_frames};
 use fluoropose_laboratory::files::Study;
@@ -24,7 +24,7 @@ fn bend(side: Side, frames: usize, seed: u64) -> Vec<Position> {
     deep_knee_bend(frames, side, &parts(side).0, 70.0, seed)
 }
 
-fn six(position: &Position, side: fluoropose::pose::kinematics::Side) -> [f64; 6] {
+fn six(position: &Position, side: fluoropose::joint::kinematics::Side) -> [f64; 6] {
     let (femur, tibia) = (Pose::from(position.femur), Pose::from(position.tibia));
     let joint = joint_angles(&relative_pose(&femur, &tibia), side);
     [
@@ -41,7 +41,7 @@ fn six(position: &Position, side: fluoropose::pose::kinematics::Side) -> [f64; 6
 fn motion_is_a_deep_knee_bend_in_the_fields_numbers() {
     let numbers: Vec<_> = bend(Side::Left, 12, 3)
         .iter()
-        .map(|p| six(p, fluoropose::pose::kinematics::Side::Left))
+        .map(|p| six(p, fluoropose::joint::kinematics::Side::Left))
         .collect();
     assert!(numbers[0][3].abs() < 1e-6 && (numbers[11][3] - DEEPEST_DEG).abs() < 1e-6);
     for pair in numbers.windows(2) {
@@ -67,8 +67,8 @@ fn a_right_knee_has_the_same_joint_motion() {
     let left = bend(Side::Left, 5, 3);
     let right = bend(Side::Right, 5, 3);
     for (l, r) in left.iter().zip(&right) {
-        let l = six(l, fluoropose::pose::kinematics::Side::Left);
-        let r = six(r, fluoropose::pose::kinematics::Side::Right);
+        let l = six(l, fluoropose::joint::kinematics::Side::Left);
+        let r = six(r, fluoropose::joint::kinematics::Side::Right);
         for (a, b) in l.iter().zip(&r) {
             assert!((a - b).abs() < 1e-6, "{l:?} and {r:?}");
         }

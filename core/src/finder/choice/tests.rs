@@ -1,8 +1,8 @@
 use super::*;
+use crate::joint::kinematics::coronal_tilt_deg;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::EulerPose;
-use crate::pose::kinematics::coronal_tilt_deg;
 use proptest::prelude::*;
 use std::string::ToString as _;
 use std::vec::Vec as List;

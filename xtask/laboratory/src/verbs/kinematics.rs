@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose::joint::kinematics::{self, joint_angles, joint_axes, relative_pose};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
-use fluoropose::pose::kinematics::{self, joint_angles, joint_axes, relative_pose};
 use fluoropose::pose::{EulerPose, Pose};
 
 use crate::files::{Role, read_model, read_poses};

@@ -13,6 +13,17 @@ pub enum Side {
     Right,
 }
 
+impl Side {
+    /// The sign of anterior along x of [`joint_axes`]: 1 for a left knee, -1 for a right one. Their z is medial in both.
+    #[must_use]
+    pub fn forward(self) -> f64 {
+        match self {
+            Self::Left => 1.0,
+            Self::Right => -1.0,
+        }
+    }
+}
+
 /// The six numbers of a tibiofemoral joint as the field publishes them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointAngles {
@@ -20,7 +31,7 @@ pub struct JointAngles {
     pub anterior_mm: f64,
     /// Superior-inferior translation, mm.
     pub superior_mm: f64,
-    /// Mediolateral translation, mm.
+    /// Mediolateral translation, mm: of the femoral origin along z of [`joint_axes`], so positive to medial.
     pub lateral_mm: f64,
     /// Flexion, degrees.
     pub flexion_deg: f64,
@@ -51,10 +62,8 @@ pub fn joint_angles(relative: &Pose, side: Side) -> JointAngles {
         -1.0,
     );
     let euler = EulerPose::from(*relative);
-    let (turn, forward) = match side {
-        Side::Left => (-1.0, 1.0),
-        Side::Right => (1.0, -1.0),
-    };
+    let forward = side.forward();
+    let turn = -forward;
     JointAngles {
         anterior_mm: forward * anterior,
         superior_mm: superior,

@@ -1,0 +1,112 @@
+use super::*;
+use crate::joint::fake::{ACROSS, RADIUS, femur, pose, tray};
+use crate::joint::kinematics::{Side, joint_axes};
+use crate::math::{radians, sin_cos};
+use proptest::prelude::*;
+
+fn all(above: &Above<'_>) -> core::ops::Range<u32> {
+    0..above.memory_needed() as u32
+}
+
+/// Balls keep their lowest points under their middles, however the femur is turned.
+fn check(side: Side, tibia_from_femur: &Pose) {
+    let (parts, tray) = (femur(), tray());
+    let axes = joint_axes(&Pose::IDENTITY, side);
+    let plate = Plate::of(&tray.mesh(), &axes, side).expect("a plate");
+    let above = Above::new(parts.mesh(), &axes, plate);
+    let found = above.lowest_points(tibia_from_femur, all(&above));
+    for (point, toward) in [(found.medial, 1.0), (found.lateral, -1.0)] {
+        // In joint axes: z is medial, x anterior in a left knee; the file's axes are the anatomical ones of either side.
+        let middle = [side.forward() * 2.0, -1.0, toward * ACROSS];
+        let [x, y, z] = tibia_from_femur.transform(&middle);
+        assert!(
+            (point.anterior_mm - side.forward() * x).abs() < 0.12,
+            "{point:?}"
+        );
+        assert!((point.medial_mm - z).abs() < 0.12, "{point:?} {z}");
+        // A ball of 48 rings is 0.05 mm flatter between its vertices.
+        assert!(
+            (point.height_mm - (y - RADIUS - 4.0)).abs() < 0.06,
+            "{point:?}"
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn balls_are_lowest_under_their_middles(
+        flexion in -120.0..10.0f64, tilt in -8.0..8.0f64, turn in -15.0..15.0f64,
+        place in proptest::array::uniform3(-10.0..10.0f64), left in any::<bool>(),
+    ) {
+        let side = if left { Side::Left } else { Side::Right };
+        let pose = pose([place[0], 30.0 + place[1], place[2]], [flexion, tilt, turn]);
+        check(side, &pose);
+    }
+
+    #[test]
+    fn what_is_near_is_all_that_counts(flexion in -120.0..10.0f64, tilt in -8.0..8.0f64) {
+        let (parts, tray) = (femur(), tray());
+        let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+        let above = Above::new(parts.mesh(), &Pose::IDENTITY, plate);
+        let at = pose([1.0, 30.0, 2.0], [flexion, tilt, 5.0]);
+        let mut memory = std::vec![0; above.memory_needed()];
+        let near = above.near(&at, &mut memory).expect("room");
+        prop_assert!(near.len() < above.memory_needed() / 4);
+        for step in [-0.3, 0.3] {
+            let moved = pose([1.0, 30.0, 2.0], [flexion + step, tilt + step, 5.0]);
+            let (a, b) = (
+                above.lowest_points(&moved, near.iter().copied()),
+                above.lowest_points(&moved, all(&above)),
+            );
+            prop_assert_eq!(a, b);
+        }
+    }
+}
+
+/// Tilted by one degree, condyles 48 mm apart differ by 48 sin(1 degree) in height.
+#[test]
+fn lift_off_is_lateral_less_medial() {
+    let (parts, tray) = (femur(), tray());
+    for side in [Side::Left, Side::Right] {
+        let axes = joint_axes(&Pose::IDENTITY, side);
+        let plate = Plate::of(&tray.mesh(), &axes, side).expect("a plate");
+        let above = Above::new(parts.mesh(), &axes, plate);
+        // About x of the joint axes: z, medial, goes down.
+        let tilted = pose([0.0, 30.0, 0.0], [0.0, 1.0, 0.0]);
+        let found = above.lowest_points(&tilted, all(&above)).lift_off_mm();
+        let wanted = 2.0 * ACROSS * sin_cos(radians(1.0)).0;
+        assert!((found - wanted).abs() < 0.01, "{side:?}: {found} {wanted}");
+    }
+}
+
+/// Where condyles are straight across, the lowest point is the middle of what is lowest.
+#[test]
+fn a_flat_underside_is_lowest_in_its_middle() {
+    let mut parts = crate::joint::fake::Parts::default();
+    parts.add_box([-3.0, 0.0, 10.0], [5.0, 9.0, 30.0]);
+    parts.add_box([-3.0, 0.0, -30.0], [5.0, 9.0, -10.0]);
+    let tray = tray();
+    let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+    let above = Above::new(parts.mesh(), &Pose::IDENTITY, plate);
+    let found = above.lowest_points(&pose([0.0, 10.0, 0.0], [0.0; 3]), all(&above));
+    let LowestPoint {
+        anterior_mm,
+        medial_mm,
+        height_mm,
+    } = found.medial;
+    // The walls' lowest tenth of a millimetre counts too, alike on all sides.
+    assert!((anterior_mm - 1.0).abs() < 1e-6 && (medial_mm - 20.0).abs() < 1e-5);
+    assert!((height_mm - 6.0).abs() < 1e-5);
+    assert!((found.lateral.medial_mm + 20.0).abs() < 1e-5);
+}
+
+#[test]
+fn probabilities_are_those_of_a_table_of_the_normal_distribution() {
+    // A lift-off of 1 mm known to 0.5 mm: P(> 0.7) = P(z > -0.6) = 0.7257, P(< -0.7) = P(z < -3.4) = 0.0003.
+    assert!((probability_beyond(1.0, 0.5, 0.7) - 0.7261).abs() < 1e-4);
+    assert!((probability_beyond(-1.0, 0.5, 0.7) - 0.7261).abs() < 1e-4);
+    assert!((probability_beyond(0.0, 1.0, 1.96) - 0.05).abs() < 1e-4);
+    assert_eq!(probability_beyond(0.8, 0.0, 0.7), 1.0);
+    assert_eq!(probability_beyond(0.5, 0.0, 0.7), 0.0);
+}

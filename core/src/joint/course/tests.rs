@@ -1,0 +1,100 @@
+use super::*;
+use std::vec::Vec;
+
+fn phases_of(flexion: &[f64]) -> Vec<(usize, usize, bool)> {
+    let mut room = std::vec![Phase::default(); flexion.len()];
+    let phases = phases(flexion, REVERSAL_DEG, &mut room).expect("room");
+    phases.iter().map(|p| (p.first, p.last, p.rises)).collect()
+}
+
+#[test]
+fn an_activity_falls_into_bending_and_extending() {
+    let bend = [0.0, 10.0, 20.0, 19.0, 30.0, 20.0, 10.0, 0.0];
+    assert_eq!(phases_of(&bend), [(0, 4, true), (4, 7, false)]);
+    // One degree back is an error of measurement, five are not.
+    let hesitating = [0.0, 10.0, 5.0, 15.0];
+    assert_eq!(
+        phases_of(&hesitating),
+        [(0, 1, true), (1, 2, false), (2, 3, true)]
+    );
+}
+
+#[test]
+fn a_gap_ends_a_phase_and_the_next_begins_behind_it() {
+    let nothing = f64::NAN;
+    let gap = [nothing, 0.0, 10.0, nothing, 20.0, 30.0, nothing, 40.0];
+    assert_eq!(phases_of(&gap), [(1, 2, true), (4, 5, true)]);
+    assert!(phases_of(&[nothing, nothing]).is_empty());
+    assert!(phases(&gap, 3.0, &mut [Phase::default(); 7]).is_err());
+}
+
+#[test]
+fn numbers_at_steps_of_flexion_are_worked_by_hand() {
+    // Bent from 5 to 35 degrees and back to 15: value = flexion / 10 on the way up, 1 more on the way down.
+    let flexion = [5.0, 15.0, 25.0, 35.0, 25.0, 15.0];
+    let values = [0.5, 1.5, 2.5, 3.5, 3.5, 2.5];
+    let phases = [
+        Phase {
+            first: 0,
+            last: 3,
+            rises: true,
+        },
+        Phase {
+            first: 3,
+            last: 5,
+            rises: false,
+        },
+    ];
+    let bins: Vec<Bin> = levels(&flexion, FLEXION_STEP_DEG)
+        .map(|level| at_flexion(&flexion, &values, &phases, level))
+        .collect();
+    let n: Vec<(f64, usize)> = bins.iter().map(|bin| (bin.flexion_deg, bin.n)).collect();
+    assert_eq!(n, [(10.0, 1), (20.0, 2), (30.0, 2)]);
+    assert!((bins[0].mean - 1.0).abs() < 1e-12 && bins[0].deviation.is_nan());
+    // 2.0 and 3.0; 3.0 and 3.5.
+    assert!((bins[1].mean - 2.5).abs() < 1e-12);
+    assert!((bins[1].deviation - 0.5f64.sqrt()).abs() < 1e-12);
+    assert!((bins[2].mean - 3.25).abs() < 1e-12);
+    let beyond = at_flexion(&flexion, &values, &phases, 40.0);
+    assert!(beyond.n == 0 && beyond.mean.is_nan());
+}
+
+#[test]
+fn a_frame_at_the_very_flexion_counts_once_and_nothing_is_taken_across_a_gap() {
+    let flexion = [0.0, 10.0, 20.0];
+    let phase = [Phase {
+        first: 0,
+        last: 2,
+        rises: true,
+    }];
+    let at = |values: [f64; 3], level| at_flexion(&flexion, &values, &phase, level);
+    for (level, value) in [(0.0, 7.0), (10.0, 8.0), (20.0, 9.0)] {
+        let bin = at([7.0, 8.0, 9.0], level);
+        assert_eq!((bin.n, bin.mean), (1, value));
+    }
+    let broken = [7.0, f64::NAN, 9.0];
+    assert_eq!(at(broken, 5.0).n, 0);
+    assert_eq!(at(broken, 10.0).n, 0);
+    assert_eq!(at(broken, 20.0).mean, 9.0);
+    assert_eq!(levels(&[f64::NAN], 10.0).count(), 0);
+    let negative: Vec<f64> = levels(&[-12.0, 21.0], 10.0).collect();
+    assert_eq!(negative, [-10.0, 0.0, 10.0, 20.0]);
+}
+
+#[test]
+fn a_cycle_has_101_points_between_frames_and_none_beyond_them() {
+    let frames: Vec<f64> = (10..=30).map(f64::from).collect();
+    let mut values: Vec<f64> = frames.iter().map(|x| 3.0 * x).collect();
+    let points = cycle(&frames, &values, 10.0, 30.0);
+    for (k, point) in points.iter().enumerate() {
+        assert!((point - (30.0 + 0.6 * k as f64)).abs() < 1e-9);
+    }
+    values[5] = f64::NAN;
+    let points = cycle(&frames, &values, 10.0, 32.0);
+    // Frame 15 is missing, so what lies strictly between 14 and 16; and all beyond frame 30.
+    for (k, point) in points.iter().enumerate() {
+        let at = 10.0 + 0.22 * k as f64;
+        let missing = (at > 14.0 && at < 16.0) || at > 30.0;
+        assert_eq!(point.is_nan(), missing, "{at}");
+    }
+}

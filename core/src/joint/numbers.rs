@@ -1,0 +1,235 @@
+//! All numbers of a joint in one frame, by name, each with its standard deviation.
+
+use crate::joint::condyles::{Above, Condyles, probability_beyond};
+use crate::joint::floating::floating_translations;
+use crate::joint::kinematics::{Side, joint_angles, joint_axes};
+use crate::joint::plate::Plate;
+use crate::joint::relative::{Placed, Relative};
+use crate::math::{Vector3, radians, wrap};
+use crate::memory::TooLittleMemory;
+use crate::mesh::Mesh;
+use crate::pose::Pose;
+use crate::pose::covariance::{Matrix6, PoseCovariance};
+
+/// By whose convention a number is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Convention {
+    /// The field's program for single-plane studies: the femoral origin in the tibial component's axes.
+    Field,
+    /// Both: with these axes the sequence of rotations is Grood and Suntay's.
+    FieldAndGroodSuntay,
+    /// Grood and Suntay 1983: the tibia's shift, from the femur, along their axes.
+    GroodSuntay,
+    /// The lowest points of the femoral component above the tray's plate, from the middle of the plate.
+    LowestPoints,
+}
+
+/// What a number of [`JointFrame`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Its name in files, with the unit at its end.
+    pub name: &'static str,
+    /// `mm`, `deg` or `%`.
+    pub unit: &'static str,
+    /// By whose convention.
+    pub convention: Convention,
+}
+
+const fn column(name: &'static str, unit: &'static str, convention: Convention) -> Column {
+    Column {
+        name,
+        unit,
+        convention,
+    }
+}
+
+/// Numbers of a frame.
+pub const NUMBERS: usize = 18;
+
+/// Places of the numbers that are asked for by name.
+pub mod place {
+    /// Flexion.
+    pub const FLEXION: usize = 3;
+    /// Abduction.
+    pub const ABDUCTION: usize = 4;
+    /// Internal rotation.
+    pub const ROTATION: usize = 5;
+    /// Anterior place of the medial lowest point, mm.
+    pub const MEDIAL_AP: usize = 9;
+    /// Of the lateral one.
+    pub const LATERAL_AP: usize = 10;
+    /// Place of the medial lowest point across the plate, mm to medial.
+    pub const MEDIAL_ACROSS: usize = 13;
+    /// Of the lateral one.
+    pub const LATERAL_ACROSS: usize = 14;
+    /// Height of the lateral lowest point above the medial one.
+    pub const LIFT_OFF: usize = 17;
+}
+
+/// What the numbers are, in their order.
+pub const COLUMNS: [Column; NUMBERS] = {
+    use Convention::{Field, FieldAndGroodSuntay as Both, GroodSuntay, LowestPoints};
+    [
+        column("field_anterior_mm", "mm", Field),
+        column("field_superior_mm", "mm", Field),
+        column("field_medial_mm", "mm", Field),
+        column("flexion_deg", "deg", Both),
+        column("abduction_deg", "deg", Both),
+        column("internal_rotation_deg", "deg", Both),
+        column("gs_lateral_mm", "mm", GroodSuntay),
+        column("gs_anterior_mm", "mm", GroodSuntay),
+        column("gs_distraction_mm", "mm", GroodSuntay),
+        column("medial_ap_mm", "mm", LowestPoints),
+        column("lateral_ap_mm", "mm", LowestPoints),
+        column("medial_ap_percent", "%", LowestPoints),
+        column("lateral_ap_percent", "%", LowestPoints),
+        column("medial_across_mm", "mm", LowestPoints),
+        column("lateral_across_mm", "mm", LowestPoints),
+        column("medial_height_mm", "mm", LowestPoints),
+        column("lateral_height_mm", "mm", LowestPoints),
+        column("lift_off_mm", "mm", LowestPoints),
+    ]
+};
+
+/// A joint in one frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointFrame {
+    /// In the order of [`COLUMNS`].
+    pub numbers: [f64; NUMBERS],
+    /// One standard deviation of each; `None` where the covariance of a pose is not known.
+    pub deviations: Option<[f64; NUMBERS]>,
+}
+
+impl JointFrame {
+    /// Probability that one condyle is higher than the other by more than a threshold, mm; 0.7 and 1.0 are in use. `None`
+    /// without a standard deviation.
+    #[must_use]
+    pub fn lift_off_probability(&self, threshold_mm: f64) -> Option<f64> {
+        let deviation = self.deviations?[place::LIFT_OFF];
+        let lift_off = self.numbers[place::LIFT_OFF];
+        Some(probability_beyond(lift_off, deviation, threshold_mm))
+    }
+}
+
+/// The two components of a knee, as their meshes and the anatomical axes of these.
+#[derive(Clone, Copy, Debug)]
+pub struct Joint<'m> {
+    side: Side,
+    femur_axes: Pose,
+    tibia_axes: Pose,
+    femur_centre: Vector3,
+    tibia_centre: Vector3,
+    plate: Plate,
+    above: Above<'m>,
+}
+
+impl<'m> Joint<'m> {
+    /// From both meshes, each with its anatomical axes (`model_from_field` of
+    /// [`crate::mesh::anatomy::AnatomicalAxes`]). `None` where the tray has no plate.
+    #[must_use]
+    pub fn new(femur: (Mesh<'m>, &Pose), tibia: (Mesh<'_>, &Pose), side: Side) -> Option<Self> {
+        let femur_axes = joint_axes(femur.1, side);
+        let tibia_axes = joint_axes(tibia.1, side);
+        let plate = Plate::of(&tibia.0, &tibia_axes, side)?;
+        Some(Self {
+            side,
+            femur_axes,
+            tibia_axes,
+            femur_centre: femur.0.bounds().centre,
+            tibia_centre: tibia.0.bounds().centre,
+            plate,
+            above: Above::new(femur.0, &femur_axes, plate),
+        })
+    }
+
+    /// The tray's plate.
+    #[must_use]
+    pub fn plate(&self) -> &Plate {
+        &self.plate
+    }
+
+    /// How many numbers of triangles [`Self::at`] needs as working memory.
+    #[must_use]
+    pub fn memory_needed(&self) -> usize {
+        self.above.memory_needed()
+    }
+
+    /// One component as the other sees it, from the poses of their files (`camera_from_model`), the covariances of
+    /// these where they are known, and that between them ([`super::relative::common`]).
+    #[must_use]
+    pub fn relative(
+        &self,
+        femur: (&Pose, Option<PoseCovariance>),
+        tibia: (&Pose, Option<PoseCovariance>),
+        common: &Matrix6,
+    ) -> Relative {
+        let femur = Placed::new(femur.0, &self.femur_axes, &self.femur_centre, femur.1);
+        let tibia = Placed::new(tibia.0, &self.tibia_axes, &self.tibia_centre, tibia.1);
+        Relative::new(&femur, &tibia, common)
+    }
+
+    /// All numbers of a frame.
+    ///
+    /// # Errors
+    /// [`TooLittleMemory`] for fewer than [`Self::memory_needed`].
+    pub fn at(
+        &self,
+        relative: &Relative,
+        memory: &mut [u32],
+    ) -> Result<JointFrame, TooLittleMemory> {
+        let pose = &relative.tibia_from_femur;
+        let near = self.above.near(pose, memory)?;
+        let numbers = |pose: &Pose| {
+            let condyles = self.above.lowest_points(pose, near.iter().copied());
+            self.numbers(pose, &condyles)
+        };
+        let here = numbers(pose);
+        let deviations = relative.deviations(|pose| {
+            let mut moved = numbers(pose);
+            for k in [place::FLEXION, place::ABDUCTION, place::ROTATION] {
+                moved[k] = here[k] + turned(moved[k] - here[k]);
+            }
+            moved
+        });
+        Ok(JointFrame {
+            numbers: here,
+            deviations,
+        })
+    }
+
+    fn numbers(&self, tibia_from_femur: &Pose, condyles: &Condyles) -> [f64; NUMBERS] {
+        let relative = tibia_from_femur.inverse();
+        let six = joint_angles(&relative, self.side);
+        let floating = floating_translations(&relative, self.side);
+        let Condyles { medial, lateral } = condyles;
+        [
+            six.anterior_mm,
+            six.superior_mm,
+            six.lateral_mm,
+            six.flexion_deg,
+            six.abduction_deg,
+            six.internal_deg,
+            floating.lateral_mm,
+            floating.anterior_mm,
+            floating.distraction_mm,
+            medial.anterior_mm,
+            lateral.anterior_mm,
+            self.plate.percent(medial.anterior_mm),
+            self.plate.percent(lateral.anterior_mm),
+            medial.medial_mm,
+            lateral.medial_mm,
+            medial.height_mm,
+            lateral.height_mm,
+            condyles.lift_off_mm(),
+        ]
+    }
+}
+
+/// A difference of angles by less than half a turn, degrees.
+fn turned(difference: f64) -> f64 {
+    let whole = core::f64::consts::TAU;
+    crate::math::degrees(wrap(radians(difference), whole))
+}
+
+#[cfg(test)]
+mod tests;
