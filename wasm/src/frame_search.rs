@@ -107,7 +107,7 @@ impl FrameSearch {
             };
             if fresh || kept.is_none() {
                 let mut sums = vec![0.0; seeds_needed(camera)];
-                let begun = WholeFrame::new(frame, &component, camera, polarity, &mut sums);
+                let begun = WholeFrame::new(&image, &component, camera, None, &mut sums);
                 *kept = Some(begun.map_err(sentence)?);
             }
             let Some(search) = kept else {

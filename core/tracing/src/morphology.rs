@@ -23,6 +23,20 @@ impl Neighbours {
     }
 }
 
+/// Sets in `wide` every pixel within `by` columns and rows of one that is set in `mask`; others stay as they are.
+pub fn widen(mask: &Mask<'_>, by: usize, wide: &mut MaskMut<'_>) {
+    for row in 0..mask.height() {
+        for run in mask.runs(row) {
+            let columns = run.start.saturating_sub(by)..(run.end + by).min(mask.width());
+            for row in row.saturating_sub(by)..(row + by + 1).min(mask.height()) {
+                columns
+                    .clone()
+                    .for_each(|column| wide.set(column, row, true));
+            }
+        }
+    }
+}
+
 /// Dilates: writes to `out` the pixels of `mask` and those with a neighbour in it. Nothing is written where the two masks
 /// differ in size.
 pub fn grow(mask: &Mask<'_>, neighbours: Neighbours, out: &mut MaskMut<'_>) {

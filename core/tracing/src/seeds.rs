@@ -8,9 +8,10 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::image::contour::Point;
 use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::Mask;
 use fluoropose::math::sqrt;
 use fluoropose::memory::{TooLittleMemory, first};
-use fluoropose::refine::Polarity;
+use fluoropose::refine::{ImageTarget, Polarity};
 use fluoropose::shortlist::keep;
 use heapless::Vec;
 
@@ -63,29 +64,30 @@ pub fn expected_size(component: &Component<'_>, camera: &Camera) -> f64 {
     sqrt(sum / count)
 }
 
-/// Places of a frame where something as large as `size_px` is set off from its surroundings, the darkest first.
+/// Places of a frame where something as large as `size_px` is set off from its surroundings, the darkest first; none where its pixels
+/// are unknown.
 ///
 /// # Errors
 /// [`TooLittleMemory`] where `sums` are fewer than [`seeds_needed`].
 pub fn seeds(
-    frame: &dyn Grey,
+    image: &ImageTarget<'_>,
     camera: &Camera,
     size_px: f64,
-    polarity: Polarity,
     sums: &mut [f64],
 ) -> Result<Vec<Point, SEEDS>, TooLittleMemory> {
     let (columns, rows, cell) = cells(camera);
     let sums = first("sums", seeds_needed(camera), sums)?;
-    let table = Table::of(frame, (columns, rows), cell, sums);
+    let table = Table::of(image.frame, (columns, rows), cell, sums);
     let mut best: Vec<(f64, Point), SEEDS> = Vec::new();
     let apart = SAME * size_px;
     for part in INNER {
         let half = (part * size_px / cell).max(1.0) as usize;
         for row in (half..rows.saturating_sub(half)).step_by(half) {
             for column in (half..columns.saturating_sub(half)).step_by(half) {
-                let darker = table.darker(column, row, half, size_px / cell, polarity);
+                let darker = table.darker(column, row, half, size_px / cell, image.polarity);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
-                if darker > 0.0 {
+                let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
+                if darker > 0.0 && !image.unknown.is_some_and(is_unknown) {
                     insert(&mut best, (darker, at), apart);
                 }
             }
@@ -203,6 +205,7 @@ fn insert(best: &mut Vec<(f64, Point), SEEDS>, (darker, at): (f64, Point), apart
 mod tests {
     use super::*;
     use fluoropose::image::frame::Frame;
+    use fluoropose::image::mask::{MaskMut, words_needed};
 
     #[test]
     fn discs_of_the_right_size_come_first_and_shading_does_not_matter() {
@@ -223,13 +226,30 @@ mod tests {
         let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
         let camera = Camera::new(SIDE, SIDE, [900.0; 2], [128.0; 2]).expect("valid");
         let mut sums = std::vec![0.0; seeds_needed(&camera)];
-        let polarity = Polarity::DarkImplant;
-        let found = seeds(&frame, &camera, 50.0, polarity, &mut sums).expect("enough memory");
-        for [x, y] in middles {
-            let near = |at: &Point| libm::hypot(at.column - x, at.row - y) < 14.0;
-            assert!(found[..4].iter().any(near), "{found:?}");
+        let mut image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let near =
+            |[x, y]: [f64; 2]| move |at: &Point| libm::hypot(at.column - x, at.row - y) < 14.0;
+        let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        for middle in middles {
+            assert!(found[..4].iter().any(near(middle)), "{found:?}");
         }
-        let few = seeds(&frame, &camera, 50.0, polarity, &mut sums[1..]);
+        let few = seeds(&image, &camera, 50.0, &mut sums[1..]);
         assert!(few.is_err());
+
+        let mut words = std::vec![0; words_needed(SIDE, SIDE)];
+        let mut known = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        for row in 50..90 {
+            (40..80).for_each(|column| known.set(column, row, true));
+        }
+        let known = known.into_mask();
+        image.unknown = Some(&known);
+        let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        assert!(!found.iter().any(near(middles[0])), "{found:?}");
+        assert!(found[..4].iter().any(near(middles[1])), "{found:?}");
     }
 }

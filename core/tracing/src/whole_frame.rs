@@ -5,9 +5,9 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::follow::{FramePose, From, Subject, refined_on_frame};
 use fluoropose::image::contour::Point;
-use fluoropose::image::frame::Grey;
+use fluoropose::math::{Vector3, sqrt};
 use fluoropose::memory::TooLittleMemory;
-use fluoropose::refine::{ImageTarget, Polarity, RefineMemory};
+use fluoropose::refine::{ImageTarget, RefineMemory};
 use heapless::Vec;
 
 use crate::one_click::{
@@ -17,17 +17,36 @@ use crate::seeds::{SEEDS, expected_size, seeds};
 
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
-/// A pose that nobody pointed at must have answers at least so good, its outline met by this part, its edges nearer than
-/// this and seen by this part.
-const LEAST_SCORE: f64 = 0.5;
-const LEAST_MET: f64 = 0.9;
+/// What is asked of a pose that nobody pointed at.
+struct Demands {
+    /// A place is left where its best answer has a smaller score than this before poses around it are tried.
+    worth_much: f64,
+    /// The least score of an answer, and the least part of its outline that is met.
+    score: f64,
+    met: f64,
+}
+
+/// Where it may be anything, and where it lies beside the other component of its joint, which hides and outshines it.
+const ALONE: Demands = Demands {
+    worth_much: 0.45,
+    score: 0.5,
+    met: 0.9,
+};
+const BESIDE: Demands = Demands {
+    worth_much: 0.3,
+    score: 0.3,
+    met: 0.7,
+};
+/// The middles of two components of a joint are at most so far apart, mm: across the view, and along it.
+const ACROSS_MM: f64 = 90.0;
+const ALONG_MM: f64 = 60.0;
+/// Its edges are nearer than this, and so much of it is seen.
 const MOST_PX: f64 = 1.5;
 const LEAST_KNOWN: f64 = 0.7;
-/// A place is left where its best answer has a smaller score than this before its surroundings are searched once more, and
-/// before poses around that answer are tried; how far the work is then.
+/// A place is left where its best answer has a smaller score than this before its surroundings are searched once more; how far
+/// the work is then, and before poses around the best answer are tried.
 const WORTH: f64 = 0.2;
 const AGAIN: f64 = 0.575;
-const WORTH_MUCH: f64 = 0.45;
 const AROUND: f64 = 0.655;
 /// Better ones are not looked for beyond this score.
 const ENOUGH: f64 = 0.75;
@@ -44,6 +63,8 @@ pub struct Discovery {
 /// The search of a frame, in steps between which it can be called off.
 #[derive(Debug)]
 pub struct WholeFrame {
+    /// Middle of the joint's other component, where that is known.
+    beside: Option<Vector3>,
     places: Vec<Point, SEEDS>,
     /// Number of the place that is tried.
     at: usize,
@@ -52,24 +73,30 @@ pub struct WholeFrame {
 }
 
 impl WholeFrame {
-    /// Begins the search of a frame. `sums` are [`crate::seeds::seeds_needed`] numbers.
+    /// Begins the search of a frame; nothing is looked for where its pixels are unknown. Where the joint's other component is known,
+    /// `beside` its middle (mm, in the camera's frame) less is asked of an answer, and only there. `sums` are
+    /// [`crate::seeds::seeds_needed`] numbers.
     ///
     /// # Errors
     /// [`TooLittleMemory`] where there are fewer.
     pub fn new(
-        frame: &dyn Grey,
+        image: &ImageTarget<'_>,
         component: &Component<'_>,
         camera: &Camera,
-        polarity: Polarity,
+        beside: Option<Vector3>,
         sums: &mut [f64],
     ) -> Result<Self, TooLittleMemory> {
         let size = expected_size(component, camera);
         let mut search = Self {
-            places: seeds(frame, camera, size, polarity, sums)?,
+            beside,
+            places: seeds(image, camera, size, sums)?,
             at: 0,
             click: None,
             found: None,
         };
+        search.places.retain(|place| {
+            beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
+        });
         search.begin(camera, component);
         Ok(search)
     }
@@ -115,11 +142,11 @@ impl WholeFrame {
             frame: image.frame,
             camera: subject.camera,
             polarity: image.polarity,
-            excluded: None,
+            excluded: image.unknown,
             film: None,
         };
         match click.step(&observation, Some(component), memory) {
-            Ok(true) if is_worth_it(click) => return Ok(true),
+            Ok(true) if is_worth_it(click, self.beside, subject) => return Ok(true),
             Ok(_) => self.compare(subject, image, &mut memory.refine),
             Err(OneClickError::Memory(error)) => return Err(error.into()),
             // A click that leads nowhere.
@@ -152,10 +179,11 @@ impl WholeFrame {
         image: &ImageTarget<'_>,
         memory: &mut RefineMemory<'_>,
     ) {
-        let answers = self.click.as_ref().map_or(&[][..], OneClick::answers);
-        let good = answers
-            .iter()
-            .filter(|answer: &&Answer| answer.score >= LEAST_SCORE);
+        let (answers, demands) = (self.click.as_ref(), demands(self.beside));
+        let answers = answers.map_or(&[][..], OneClick::answers);
+        let good = answers.iter().filter(|answer: &&Answer| {
+            answer.score >= demands.score && is_beside(answer, self.beside, subject)
+        });
         let mut best: Option<FramePose> = None;
         for answer in good.take(ANSWERS) {
             let start = (&answer.refined.pose, From::Far);
@@ -166,7 +194,10 @@ impl WholeFrame {
                 best = Some(one);
             }
         }
-        let (Some(pose), Some(&place)) = (best.filter(is_good), self.places.get(self.at)) else {
+        let (Some(pose), Some(&place)) = (
+            best.filter(|one| is_good(one, demands)),
+            self.places.get(self.at),
+        ) else {
             return;
         };
         let is_better = |found: &Discovery| pose.score() > found.pose.score();
@@ -176,16 +207,48 @@ impl WholeFrame {
     }
 }
 
+fn demands(beside: Option<Vector3>) -> &'static Demands {
+    if beside.is_some() { &BESIDE } else { &ALONE }
+}
+
 /// Whether a click at a place that nobody chose is worth going on with: most lead nowhere.
-fn is_worth_it(click: &OneClick) -> bool {
-    let best = click.answers().first().map_or(0.0, |best| best.score);
+fn is_worth_it(click: &OneClick, beside: Option<Vector3>, subject: &Subject<'_>) -> bool {
+    let possible = |answer: &&Answer| is_beside(answer, beside, subject);
+    let best = click.answers().iter().find(possible);
+    let best = best.map_or(0.0, |best| best.score);
     match click.progress() {
-        Progress::Poses(part) if part >= AROUND => best >= WORTH_MUCH,
+        Progress::Poses(part) if part >= AROUND => best >= demands(beside).worth_much,
         Progress::Poses(part) if part >= AGAIN => best >= WORTH,
         _ => true,
     }
 }
 
-fn is_good(found: &FramePose) -> bool {
-    found.fit.met >= LEAST_MET && found.misfit_px <= MOST_PX && found.fit.known >= LEAST_KNOWN
+/// Whether an answer lies where the other component leaves it.
+fn is_beside(answer: &Answer, beside: Option<Vector3>, subject: &Subject<'_>) -> bool {
+    let Some(other) = beside else {
+        return true;
+    };
+    let middle = answer
+        .refined
+        .pose
+        .transform(&subject.model.bounds().centre);
+    let [x, y, z] = core::array::from_fn(|axis| middle[axis] - other[axis]);
+    x * x + y * y <= ACROSS_MM * ACROSS_MM && z.abs() <= ALONG_MM
+}
+
+/// How far a place is from a point of the camera's frame, at its distance, mm.
+fn distance_mm(place: &Point, middle: &Vector3, camera: &Camera) -> f64 {
+    let [fx, fy] = camera.focal();
+    let Some(seen) = camera.project(middle) else {
+        return f64::INFINITY;
+    };
+    let (x, y) = (
+        (place.column - seen.column) / fx,
+        (place.row - seen.row) / fy,
+    );
+    sqrt(x * x + y * y) * middle[2].abs()
+}
+
+fn is_good(found: &FramePose, demands: &Demands) -> bool {
+    found.fit.met >= demands.met && found.misfit_px <= MOST_PX && found.fit.known >= LEAST_KNOWN
 }

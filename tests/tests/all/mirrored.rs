@@ -36,13 +36,13 @@ fn film() -> FilmModel {
 fn grey() -> Vec<u8> {
     let (femur, tibia, camera) = (femur(), tibia(), camera());
     let width_mm = Size::default().width_mm();
-    let bent = knee(TRUE, DEEPEST_DEG / 2.0, Side::Left, &femur, width_mm);
+    let position = knee(TRUE, DEEPEST_DEG / 2.0, Side::Left, &femur, width_mm);
     let scene = Scene {
         camera,
         side: Side::Left,
         width_mm,
-        femur: Placed::at_rest(&femur, bent.femur.into()),
-        tibia: Placed::at_rest(&tibia, bent.tibia.into()),
+        femur: Placed::at_rest(&femur, position.femur.into()),
+        tibia: Placed::at_rest(&tibia, position.tibia.into()),
     };
     expose(&scene, &Physics::default(), 1, 0).expect("a film")
 }

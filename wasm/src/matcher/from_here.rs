@@ -106,7 +106,7 @@ pub struct HiddenPixels {
 }
 
 /// Round the other component, pixels: its edges are as wide as the detector's blur.
-const MARGIN: usize = 4;
+pub(super) const MARGIN: usize = 4;
 
 #[wasm_bindgen]
 impl HiddenPixels {
@@ -134,23 +134,8 @@ impl HiddenPixels {
         let drawn = model.drawn_at(&pose, &self.camera)?;
         let drawn = Mask::new(drawn, width, height).map_err(sentence)?;
         let mut hidden = MaskMut::new(&mut self.words, width, height).map_err(sentence)?;
-        widen(&drawn, &mut hidden);
+        widen(&drawn, MARGIN, &mut hidden);
         Ok(())
-    }
-}
-
-/// Sets every pixel within [`MARGIN`] columns and rows of one that is set.
-pub(super) fn widen(mask: &Mask<'_>, wide: &mut MaskMut<'_>) {
-    for row in 0..mask.height() {
-        for run in mask.runs(row) {
-            let columns = run.start.saturating_sub(MARGIN)..(run.end + MARGIN).min(mask.width());
-            let rows = row.saturating_sub(MARGIN)..(row + MARGIN + 1).min(mask.height());
-            for row in rows {
-                columns
-                    .clone()
-                    .for_each(|column| wide.set(column, row, true));
-            }
-        }
     }
 }
 

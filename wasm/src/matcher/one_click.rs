@@ -9,13 +9,14 @@ use fluoropose::image::mask::{MaskMut, Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
+use fluoropose_tracing::morphology::widen;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
 use super::answer::{OneClickAnswer, told};
-use super::from_here::{model_of, widen};
+use super::from_here::{MARGIN, model_of};
 use super::on_frame::{OnFrame, Seen, misfit, outline_of, with_mask};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
@@ -109,7 +110,7 @@ impl OneClick {
         let fresh = || vec![0; words_needed(width, height)];
         let all = self.excluded.get_or_insert_with(fresh);
         let mut all = MaskMut::new(all, width, height).map_err(sentence)?;
-        widen(&mask.into_mask(), &mut all);
+        widen(&mask.into_mask(), MARGIN, &mut all);
         Ok(())
     }
 

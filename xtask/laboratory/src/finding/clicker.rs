@@ -8,6 +8,7 @@ use fluoropose::finder::{Candidate, Component, FinderBuffers};
 use fluoropose::follow::Subject;
 use fluoropose::image::frame::Grey;
 use fluoropose::library::Library;
+use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::refine::{ImageTarget, Polarity};
@@ -112,7 +113,7 @@ impl<'l> Clicker<'l> {
         })
     }
 
-    /// Looks for the component in a whole frame.
+    /// Looks for the component in a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame).
     ///
     /// # Errors
     /// Those of [`WholeFrame::step`].
@@ -120,6 +121,7 @@ impl<'l> Clicker<'l> {
         &mut self,
         subject: &Subject<'_>,
         image: &ImageTarget<'_>,
+        beside: Option<Vector3>,
     ) -> Result<Option<Discovery>, OneClickError> {
         let component = Component {
             library: &self.library,
@@ -128,8 +130,7 @@ impl<'l> Clicker<'l> {
         };
         let camera = &self.camera;
         let mut sums = vec![0.0; seeds_needed(camera)];
-        let polarity = image.polarity;
-        let mut search = WholeFrame::new(image.frame, &component, camera, polarity, &mut sums)?;
+        let mut search = WholeFrame::new(image, &component, camera, beside, &mut sums)?;
         let kernels = fluoropose_kernels::fastest();
         while let Some(needs) = search.needs(camera) {
             let finder = self.finder.borrow(&component, camera, kernels);

@@ -6,11 +6,14 @@ use fluoropose::follow::{
 };
 use fluoropose::pose::Pose;
 
-use super::follow::{follow, mark};
+use super::follow::{beside, follow, mark};
 use super::part::Part;
 use super::run::Run;
-use super::search::{clicked, searched};
+use super::search::{Beside, clicked, searched};
 use crate::files::read_poses;
+
+/// Frames that are searched beside another component's anchor lie so far from it at most.
+const FAR: usize = 6;
 
 /// The frames whose pose a person fixed.
 pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<(usize, Pose)>> {
@@ -94,13 +97,48 @@ pub(super) fn begin(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
         return Ok(anchors);
     }
     for frame in frames_to_search(&(0..run.film.count())) {
-        if let Some(found) = searched(run, part, frame)? {
+        if let Some(found) = searched(run, part, frame, None)? {
             run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
             return Ok(vec![Anchor {
                 frame,
                 found,
                 fixed: false,
             }]);
+        }
+    }
+    Ok(Vec::new())
+}
+
+/// Looks for a component that was not found once more, beside another one: what is the other's is left out of sight.
+pub(super) fn begin_beside(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    others: &[(&Part<'_>, &[Anchor])],
+) -> Result<Vec<Anchor>> {
+    for &(other, anchors) in others {
+        for from in anchors {
+            let known = beside(run, other, from, FAR)?;
+            let ends = [known.first(), known.last()].into_iter().flatten();
+            let own = known.iter().filter(|(frame, _)| *frame == from.frame);
+            for (frame, pose) in own.chain(ends) {
+                let seen = Beside {
+                    part: other,
+                    from,
+                    pose,
+                };
+                if let Some(found) = searched(run, part, *frame, Some(seen))? {
+                    let (name, other) = (part.name(), other.name());
+                    run.say(&format!(
+                        "{name}: found beside the {other} in frame {}",
+                        frame + 1
+                    ));
+                    return Ok(vec![Anchor {
+                        frame: *frame,
+                        found,
+                        fixed: false,
+                    }]);
+                }
+            }
         }
     }
     run.say(&format!(
@@ -145,7 +183,7 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
     while let Some(gap) = run_to_search(cells, &(from..cells.len())) {
         from = gap.end;
         for frame in frames_to_search(&gap) {
-            let Some(found) = searched(run, part, frame)? else {
+            let Some(found) = searched(run, part, frame, None)? else {
                 continue;
             };
             let anchor = Anchor {

@@ -5,7 +5,7 @@ use fluoropose::follow::Anchor;
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 use rayon::prelude::*;
 
-use super::anchors::{begin, fixed_poses};
+use super::anchors::{begin, begin_beside, fixed_poses};
 use super::part::Part;
 use super::run::Run;
 use crate::files::grey;
@@ -21,7 +21,17 @@ pub(super) fn begun<'s>(
     parts: impl Fn(Polarity) -> Result<Vec<Part<'s>>>,
 ) -> Result<(Vec<Part<'s>>, Vec<Vec<Anchor>>)> {
     let begin_all = |parts: &[Part<'s>]| -> Result<Vec<Vec<Anchor>>> {
-        parts.par_iter().map(|part| begin(run, part)).collect()
+        let alone = parts.par_iter().map(|part| begin(run, part));
+        let alone = alone.collect::<Result<Vec<_>>>()?;
+        let one = |(part, found): (&Part<'s>, &Vec<Anchor>)| {
+            if !found.is_empty() {
+                return Ok(found.clone());
+            }
+            let others = parts.iter().zip(&alone);
+            let others = others.map(|(other, anchors)| (other, anchors.as_slice()));
+            begin_beside(run, part, &others.collect::<Vec<_>>())
+        };
+        parts.iter().zip(&alone).map(one).collect()
     };
     let told = match run.request.polarity {
         Some(stated) => Some(stated),

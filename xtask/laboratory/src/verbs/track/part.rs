@@ -7,20 +7,26 @@ use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
 use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
+use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::anatomy::field_axes;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
+use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose_tracing::morphology::widen;
 
-use crate::files::{Component, Film, Role, grey, read_model};
+use crate::files::{Component, Film, MaskBuffer, Role, grey, read_model};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
 /// Distances of libraries where nobody tells it, in usual ones.
 const FARTHER: f64 = 1.3;
 const NEARER: f64 = 0.75;
+
+/// Round another component, pixels: its edges are as wide as the detector's blur.
+const MARGIN: usize = 4;
 
 /// A component that is followed.
 pub(super) struct Part<'s> {
@@ -153,6 +159,22 @@ impl<'s> Part<'s> {
         Ok(&built.bytes)
     }
 
+    /// The silhouette at a pose and what its edges reach beyond it.
+    ///
+    /// # Errors
+    /// For a pose that cannot be drawn.
+    pub(super) fn silhouette(&self, pose: &Pose) -> Result<MaskBuffer> {
+        let (width, height) = (self.camera.width(), self.camera.height());
+        let (mut drawn, mut wide) = (
+            MaskBuffer::new(width, height)?,
+            MaskBuffer::new(width, height)?,
+        );
+        let mut scratch = vec![Projected::default(); scratch_needed(&self.mesh)];
+        drawn.draw(|mask| render(&self.mesh, &self.camera, pose, &mut scratch, mask))?;
+        wide.draw(|wide| widen(&drawn.mask(), MARGIN, wide));
+        Ok(wide)
+    }
+
     /// Calls `work` with a frame of the film, and with memory that is used again.
     ///
     /// # Errors
@@ -163,11 +185,25 @@ impl<'s> Part<'s> {
         frame: usize,
         work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>) -> T,
     ) -> Result<T> {
+        self.see_beside(film, frame, None, work)
+    }
+
+    /// The same where some pixels are another component's.
+    ///
+    /// # Errors
+    /// As of [`Self::see`].
+    pub(super) fn see_beside<T>(
+        &self,
+        film: &Film,
+        frame: usize,
+        unknown: Option<&Mask<'_>>,
+        work: impl FnOnce(&Subject<'_>, &ImageTarget<'_>, &mut RefineMemory<'_>) -> T,
+    ) -> Result<T> {
         let decoded = film.frame(frame)?;
         let grey = grey(&decoded)?;
         let image = ImageTarget {
             frame: &*grey,
-            unknown: None,
+            unknown,
             polarity: self.polarity,
             film: self.film(),
         };

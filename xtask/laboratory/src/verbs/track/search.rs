@@ -1,13 +1,15 @@
 //! A component looked for in a whole frame, or where a person clicked.
 
 use anyhow::Result;
-use fluoropose::follow::{FramePose, From, refined_on_frame};
+use fluoropose::follow::{Anchor, FramePose, From, refined_on_frame};
 use fluoropose::image::contour::Point;
+use fluoropose::pose::Pose;
 use fluoropose_tracing::one_click::{Answer, Prompt};
 
+use super::follow::mark;
 use super::part::Part;
 use super::run::Run;
-use crate::files::grey;
+use crate::files::{MaskBuffer, grey};
 use crate::finding::Clicker;
 
 /// Of the answers to a click so many are refined once more and compared.
@@ -40,25 +42,44 @@ pub(super) fn clicked(
     })
 }
 
-/// The pose of a component in a frame that nobody clicked into; `None` where none is good.
-pub(super) fn searched(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<Option<FramePose>> {
-    let key = format!("search/{}/{}/{frame}", part.number, part.phase());
+/// Another component in a frame, as it follows from one of its anchors.
+#[derive(Clone, Copy)]
+pub(super) struct Beside<'b, 's> {
+    pub(super) part: &'b Part<'s>,
+    pub(super) from: &'b Anchor,
+    pub(super) pose: &'b Pose,
+}
+
+/// The pose of a component in a frame that nobody clicked into, perhaps beside another that is known; `None` where none is good.
+pub(super) fn searched(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    frame: usize,
+    beside: Option<Beside<'_, '_>>,
+) -> Result<Option<FramePose>> {
+    let known = beside.map_or(String::new(), |beside| {
+        format!("/beside-{}-{}", beside.part.number, mark(beside.from))
+    });
+    let key = format!("search/{}/{}/{frame}{known}", part.number, part.phase());
     run.journal.step(&key, || {
+        let unknown = match beside {
+            Some(beside) => Some(beside.part.silhouette(beside.pose)?),
+            None => None,
+        };
+        let unknown = unknown.as_ref().map(MaskBuffer::mask);
+        let middle = beside.map(|beside| beside.pose.transform(&beside.part.middle()));
         let mut found: Option<FramePose> = None;
         for (number, distance) in part.distances().into_iter().enumerate() {
-            let bytes = part.library(number, distance)?;
-            found = found.or(search(run, part, bytes, frame)?);
+            let mut clicker =
+                Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
+            let one =
+                part.see_beside(run.film, frame, unknown.as_ref(), |subject, image, _| {
+                    clicker.search(subject, image, middle)
+                })??;
+            found = found.or(one.map(|one| one.pose));
         }
         Ok(found)
     })
-}
-
-fn search(run: &Run<'_>, part: &Part<'_>, bytes: &[u8], frame: usize) -> Result<Option<FramePose>> {
-    let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
-    let found = part.see(run.film, frame, |subject, image, _| {
-        clicker.search(subject, image)
-    })?;
-    Ok(found?.map(|found| found.pose))
 }
 
 fn answers(
