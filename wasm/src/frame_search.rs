@@ -4,6 +4,8 @@ use fluoropose::camera::Camera;
 use fluoropose::film::FilmModel;
 use fluoropose::finder::{Component, FinderBuffers};
 use fluoropose::follow::{self, Subject};
+use fluoropose::image::mask::{Word, words_needed};
+use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::pose::EulerPose;
@@ -15,6 +17,7 @@ use fluoropose_tracing::whole_frame::WholeFrame;
 use wasm_bindgen::prelude::*;
 
 use crate::film::film_model;
+use crate::hidden::{hide, with_mask};
 use crate::matcher::OpenLibrary;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -36,6 +39,8 @@ pub struct FrameSearch {
     camera: Camera,
     polarity: Polarity,
     film: Option<FilmModel>,
+    /// The joint's other component: its middle (mm, in the camera's frame), and the pixels that are its own.
+    beside: Option<(Vector3, Vec<Word>)>,
     finder: FinderBuffers,
     own: OneClickBuffers,
     search: Option<WholeFrame>,
@@ -68,6 +73,7 @@ impl FrameSearch {
                 false => Polarity::DarkImplant,
             },
             film: None,
+            beside: None,
             finder: FinderBuffers::default(),
             own: OneClickBuffers::default(),
             search: None,
@@ -81,6 +87,23 @@ impl FrameSearch {
     #[wasm_bindgen(js_name = knowFilm)]
     pub fn know_film(&mut self, film: &[f64]) -> Result<(), JsError> {
         self.film = film_model(film)?;
+        Ok(())
+    }
+
+    /// Says where the joint's other component is in the next frame: its middle (x, y, z in mm, in the camera's frame) and its outline
+    /// (columns and rows by turns). Without a middle it is not known.
+    ///
+    /// # Errors
+    /// The core's sentence about the outline.
+    pub fn beside(&mut self, middle: &[f64], outline: &[f64]) -> Result<(), JsError> {
+        self.beside = match *middle {
+            [x, y, z] => {
+                let mut words = vec![0; words_needed(self.camera.width(), self.camera.height())];
+                hide(outline, &self.camera, &mut words)?;
+                Some(([x, y, z], words))
+            }
+            _ => None,
+        };
         Ok(())
     }
 
@@ -98,16 +121,14 @@ impl FrameSearch {
         let subject = Subject::new(&model, &self.planes, &self.camera);
         let (camera, polarity, kept) = (&self.camera, self.polarity, &mut self.search);
         let (finder, own) = (&mut self.finder, &mut self.own);
-        frame.look(|frame| {
-            let image = ImageTarget {
-                frame,
-                unknown: None,
-                polarity,
-                film: self.film,
-            };
+        let (middle, hidden) = match &self.beside {
+            Some((middle, words)) => (Some(*middle), Some(words.as_slice())),
+            None => (None, None),
+        };
+        let mut look = |image: &ImageTarget<'_>| {
             if fresh || kept.is_none() {
                 let mut sums = vec![0.0; seeds_needed(camera)];
-                let begun = WholeFrame::new(&image, &component, camera, None, &mut sums);
+                let begun = WholeFrame::new(image, &component, camera, middle, &mut sums);
                 *kept = Some(begun.map_err(sentence)?);
             }
             let Some(search) = kept else {
@@ -119,8 +140,18 @@ impl FrameSearch {
             let finder = finder.borrow(&component, camera, Kernels::PORTABLE);
             let mut memory = own.borrow(&needs, finder.workspace, finder.refine);
             search
-                .step(&subject, &image, &component, &mut memory)
+                .step(&subject, image, &component, &mut memory)
                 .map_err(sentence)
+        };
+        frame.look(|frame| {
+            with_mask(hidden, camera, |unknown| {
+                look(&ImageTarget {
+                    frame,
+                    unknown,
+                    polarity,
+                    film: self.film,
+                })
+            })
         })
     }
 

@@ -13,6 +13,7 @@ mod film;
 mod follower;
 mod found;
 mod frame_search;
+mod hidden;
 mod library;
 mod matcher;
 mod working_model;

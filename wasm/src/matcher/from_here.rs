@@ -6,11 +6,13 @@ use fluoropose::finder::{Limits, Refusal, Verdict, judge_fit};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::{CameraView, ImageTarget, Locks, Polarity, RefineOptions, Refined};
+use fluoropose_tracing::morphology::widen;
 use wasm_bindgen::prelude::*;
 
 use super::Matcher;
 use crate::film::film_model;
 use crate::found::deviation_numbers;
+use crate::hidden::MARGIN;
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
@@ -104,9 +106,6 @@ pub struct HiddenPixels {
     pub(super) camera: Camera,
     pub(super) words: Vec<Word>,
 }
-
-/// Round the other component, pixels: its edges are as wide as the detector's blur.
-pub(super) const MARGIN: usize = 4;
 
 #[wasm_bindgen]
 impl HiddenPixels {

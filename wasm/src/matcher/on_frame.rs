@@ -19,6 +19,7 @@ use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::exchange::simplified;
 use crate::film::film_model;
 use crate::found::{Candidate, Match, deviation_numbers};
+use crate::hidden::with_mask;
 use crate::working_model::Assessed;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -332,15 +333,4 @@ pub(super) fn outline_of(mask: &Mask<'_>) -> Result<Vec<f64>, JsError> {
     follow_border(&largest.as_mask(), border.as_mut()).map_err(sentence)?;
     let points = simplified(&border, TOLERANCE)?;
     Ok(points.iter().flat_map(|p| [p.column, p.row]).collect())
-}
-
-/// Calls `with` with a mask of the camera's frame, where there is one.
-pub(super) fn with_mask<T>(
-    words: Option<&[Word]>,
-    camera: &Camera,
-    with: impl FnOnce(Option<&Mask<'_>>) -> Result<T, JsError>,
-) -> Result<T, JsError> {
-    let mask = words.map(|words| Mask::new(words, camera.width(), camera.height()));
-    let mask = mask.transpose().map_err(sentence)?;
-    with(mask.as_ref())
 }

@@ -4,24 +4,24 @@ use fluoropose::camera::Camera;
 use fluoropose::film::{FilmModel, LineMemory};
 use fluoropose::finder::choice::RivalPose as Contender;
 use fluoropose::finder::{Component, Verdict};
-use fluoropose::image::contour::{Outline, Point};
-use fluoropose::image::mask::{MaskMut, Word, words_needed};
+use fluoropose::image::contour::Point;
+use fluoropose::image::mask::{Word, words_needed};
 use fluoropose::locate::Workspace;
 use fluoropose::refine::{Polarity, RefineMemory};
 use fluoropose::search::kernels::Kernels;
-use fluoropose_tracing::morphology::widen;
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick as Work, OneClickBuffers, OneClickMemory, Progress, Prompt,
 };
 use wasm_bindgen::prelude::*;
 
 use super::answer::{OneClickAnswer, told};
-use super::from_here::{MARGIN, model_of};
-use super::on_frame::{OnFrame, Seen, misfit, outline_of, with_mask};
+use super::from_here::model_of;
+use super::on_frame::{OnFrame, Seen, misfit, outline_of};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::Match;
+use crate::hidden::{hide, with_mask};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -98,20 +98,9 @@ impl OneClick {
     /// # Errors
     /// The core's sentence about the outline.
     pub fn avoid(&mut self, outline: &[f64]) -> Result<(), JsError> {
-        let (width, height) = (self.camera.width(), self.camera.height());
-        let pairs = outline.as_chunks().0.iter();
-        let points: Vec<Point> = pairs
-            .map(|&[column, row]| Point::new(column, row))
-            .collect();
-        let outline = Outline::new(&points, width, height).map_err(sentence)?;
-        let mut words = vec![0; words_needed(width, height)];
-        let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-        mask.fill_outline(&outline);
-        let fresh = || vec![0; words_needed(width, height)];
+        let fresh = || vec![0; words_needed(self.camera.width(), self.camera.height())];
         let all = self.excluded.get_or_insert_with(fresh);
-        let mut all = MaskMut::new(all, width, height).map_err(sentence)?;
-        widen(&mask.into_mask(), MARGIN, &mut all);
-        Ok(())
+        hide(outline, &self.camera, all)
     }
 
     /// What the film makes of the component, as `FilmFacts.model` gives it: poses are then where it puts the edges. Around one

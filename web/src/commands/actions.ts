@@ -3,7 +3,7 @@ import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownFraction } from '../document/sides';
 import { poseTable } from '../document/session/table';
 import { cellOf, chosenCandidate } from '../document/types';
-import type { ComponentName } from '../terms/component';
+import { otherThan, type ComponentName } from '../terms/component';
 import { openDemonstration } from '../exchange/demonstration';
 import { openFiles } from '../exchange/opener';
 import type { Incoming } from '../exchange/incoming';
@@ -101,7 +101,7 @@ export class Actions {
         store.goTo(store.ui.frameIndex + 1);
         return true;
       case 'other-component':
-        store.selectComponent(store.ui.component === 'femur' ? 'tibia' : 'femur');
+        store.selectComponent(otherThan(store.ui.component));
         return true;
       case 'work':
         return this.work.run(action.command);

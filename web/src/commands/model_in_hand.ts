@@ -7,6 +7,7 @@ import type { ModelMesh } from '../workers/protocol/decode';
 import type { CameraInput } from '../workers/protocol/camera';
 import { cameraOf } from '../results/keys';
 import type { Studio } from '../films/studio';
+import { middleOf } from '../geometry/mesh_middle';
 import type { Pinhole, Vector } from '../geometry/pose_motion';
 import type { HandSituation } from '../interaction/hand_situation';
 
@@ -80,24 +81,6 @@ function inTheMiddle(
   const y = ((cy - frame.height / 2) / fy) * depth;
   // Without rotation the middle would be beside the origin by its own coordinates.
   return { x: x - middle[0], y: y - middle[1], z: -depth - middle[2], zRot: 0, xRot: nominalX, yRot: nominalY };
-}
-
-const middles = new WeakMap<ModelMesh, Vector>();
-
-/** The middle of the model's bounding box, as the core has it. */
-export function middleOf(mesh: ModelMesh): Vector {
-  const known = middles.get(mesh);
-  if (known) return known;
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  mesh.vertices.forEach((value, index) => {
-    const axis = index % 3;
-    if (value < (low[axis] ?? 0)) low[axis] = value;
-    if (value > (high[axis] ?? 0)) high[axis] = value;
-  });
-  const middle = [0, 1, 2].map((axis) => ((low[axis] ?? 0) + (high[axis] ?? 0)) / 2) as unknown as Vector;
-  middles.set(mesh, middle);
-  return middle;
 }
 
 const pinholes = new WeakMap<Studio, { key: string; pinhole: Pinhole | null }>();

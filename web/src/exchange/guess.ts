@@ -1,5 +1,5 @@
 import type { State } from '../document/store';
-import type { ComponentName } from '../terms/component';
+import { otherThan, type ComponentName } from '../terms/component';
 
 /**
  * Which component a file is for: what the person said, else what its name says, else the component that is selected,
@@ -13,7 +13,7 @@ export function componentFor(
   const said = file.component ?? namedIn(file.name);
   if (said) return said;
   const selected = state.ui.component;
-  const other = selected === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(selected);
   return isTaken(selected) && !isTaken(other) ? other : selected;
 }
 

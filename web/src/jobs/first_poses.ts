@@ -1,16 +1,21 @@
 import type { Place } from '../document/command';
-import { cellOf } from '../document/types';
+import { cellOf, chosenCandidate, type FrameEntry } from '../document/types';
+import { middleOf } from '../geometry/mesh_middle';
 import { type FramePoint, framePoint } from '../geometry/points';
+import { inCamera } from '../geometry/pose_motion';
 import { cameraOf } from '../results/keys';
-import type { ComponentName } from '../terms/component';
+import { otherThan, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Bridge } from '../workers/bridge';
-import type { FollowProtocol } from '../workers/protocol/follow';
+import type { Beside, FollowProtocol } from '../workers/protocol/follow';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { libraryReady } from './library_ready';
 import { asJob, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+
+/** In so many frames at most a component is looked for beside the other one. */
+const FRAMES = 3;
 
 /** What a click would do. */
 export interface Clicks {
@@ -74,14 +79,46 @@ export class FirstPoses {
     return false;
   }
 
-  async #search(place: Place, number: number, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<FramePoint | null> {
+  /** Looks for a component beside the joint's other one, in frames where that was found. False where it is in none of them. */
+  async findBeside(component: ComponentName, worker: Worker, signal: AbortSignal, cancel: () => void): Promise<boolean> {
+    const { store } = this.#services;
+    const { doc, ui } = store;
+    const known = doc.frames.flatMap((frame, number) => {
+      const beside = this.#beside(component, frame);
+      return beside ? [{ frame, number, beside }] : [];
+    });
+    if (known.length === 0) return false;
+    const bright = ui.tracing.bright ?? false;
+    await this.open(component, worker, bright);
+    for (const { frame, number, beside } of known.slice(0, FRAMES)) {
+      const place = { frameId: frame.id, component };
+      const at = await this.#search(place, number, worker, signal, cancel, beside);
+      if (!at) continue;
+      await this.#clicks.ask([at], place, bright);
+      if (cellOf(store.doc, frame.id, component).result?.kind === 'posed') return true;
+    }
+    return false;
+  }
+
+  #beside(component: ComponentName, frame: FrameEntry): Beside | null {
+    const { store, studio } = this.#services;
+    const other = otherThan(component);
+    const cell = cellOf(store.doc, frame.id, other);
+    const mesh = studio.meshOf(store.doc.components[other].model?.sha256 ?? '');
+    const pose = chosenCandidate(cell)?.pose;
+    if (!mesh || !pose || !cell.outline?.closed) return null;
+    const outline = Float64Array.from(cell.outline.points.flatMap(({ column, row }) => [column, row]));
+    return { middle: inCamera(pose, middleOf(mesh)), outline };
+  }
+
+  async #search(place: Place, number: number, worker: Worker, signal: AbortSignal, cancel: () => void, beside: Beside | null = null): Promise<FramePoint | null> {
     const { store, studio } = this.#services;
     const frame = store.doc.frames[number];
     const pixels = frame && studio.framePixels(frame.id);
     if (!frame || !pixels) throw new Error(texts.follow.gone(number + 1));
     const job = { title: texts.follow.looking(texts.component[place.component], number + 1), unit: texts.tracing.said.percent, total: 100, cancel, place };
     const found = await asJob(store, job, (report) =>
-      worker.call('find', { pixels, width: frame.width, height: frame.height }, {
+      worker.call('find', { pixels, width: frame.width, height: frame.height, beside }, {
         signal,
         transfer: [pixels.buffer],
         onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),

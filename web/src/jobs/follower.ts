@@ -6,7 +6,7 @@ import type { PoseNumbers } from '../geometry/pose_numbers';
 import { type Span, spanToFollow } from '../results/spans';
 import { standingOf } from '../results/steps';
 import { cameraOf } from '../results/keys';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { CameraInput } from '../workers/protocol/camera';
@@ -31,12 +31,12 @@ interface Part {
  */
 export class Follower {
   readonly #services: Services;
-  readonly #first: Pick<FirstPoses, 'open' | 'find'>;
+  readonly #first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>;
   readonly #film: { ready(): Promise<void> };
   readonly #workers: Readonly<Record<ComponentName, Worker>>;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find'>, film: { ready(): Promise<void> }) {
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>, film: { ready(): Promise<void> }) {
     this.#services = services;
     this.#workers = workers;
     this.#first = first;
@@ -70,7 +70,13 @@ export class Follower {
     const cancel = () => abort.abort();
     const found = await Promise.all(unposed.map((component) => this.#first.find(component, this.#workers[component], abort.signal, cancel)));
     await this.#film.ready();
-    return unposed.filter((_, index) => !found[index]);
+    const missing: ComponentName[] = [];
+    for (const component of unposed.filter((_, index) => !found[index])) {
+      const isFound = await this.#first.findBeside(component, this.#workers[component], abort.signal, cancel);
+      if (isFound) await this.#film.ready();
+      else missing.push(component);
+    }
+    return missing;
   }
 
   async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
@@ -127,7 +133,7 @@ export class Follower {
     for (const { component, worker } of parts) depths.set(component, await worker.call('depths', null));
     const found: Followed[] = [];
     for (const part of parts) {
-      const other = depths.get(part.component === 'femur' ? 'tibia' : 'femur') ?? new Float64Array();
+      const other = depths.get(otherThan(part.component)) ?? new Float64Array();
       const film = await this.#compared(part, other, signal);
       found.push(...this.#answers(part, film, signal.aborted));
     }

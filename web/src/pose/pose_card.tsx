@@ -11,6 +11,7 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { HandNumbers } from './hand_numbers';
 import { QUANTITIES, unitWord, type Quantity } from './quantities';
+import { otherThan } from '../terms/component';
 
 interface PoseNumbersCardProps {
   readonly cell: Cell;
@@ -77,7 +78,7 @@ function Remedies({ cell }: { cell: Cell }) {
   const { store } = services;
   const words = texts.panel.pose;
   const { component } = store.ui;
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   const there = currentPlace(store.state);
   const isFree = there !== null && cellOf(store.doc, there.frameId, other).outline === null;
   return (

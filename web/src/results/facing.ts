@@ -2,7 +2,7 @@ import { knownAxes } from '../document/axes';
 import { cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
 import { applied, rotationOf, type Vector } from '../geometry/pose_motion';
 import type { PoseNumbers } from '../geometry/pose_numbers';
-import type { ComponentName } from '../terms/component';
+import { otherThan, type ComponentName } from '../terms/component';
 
 /** What the film says of a front that a shape does not tell, and in how many frames. */
 export interface Facing {
@@ -16,7 +16,7 @@ const SAME_WAY = 0.5;
 /** Both components of a knee face one way. Null where no frame has both, doubtful ones aside, or frames disagree. */
 export function facingByFilm(doc: Doc, component: ComponentName): Facing | null {
   const { axes } = doc.components[component];
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   const known = knownAxes(doc.components[other]);
   if (axes?.told !== 'not the front' || !known) return null;
   const cosines = doc.frames.flatMap(({ id }) => {

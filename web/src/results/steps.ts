@@ -2,7 +2,7 @@ import type { State } from '../document/store';
 import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import type { FramePoint } from '../geometry/points';
 import { isInside } from '../geometry/rings';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
 import { doubtsOf } from './doubts';
 import { spanToFollow } from './spans';
 
@@ -59,7 +59,7 @@ export function componentMeant(state: State, at: FramePoint): ComponentName {
   const { component, frameIndex, jobs } = state.ui;
   const doc = state.history.present;
   const frame = doc.frames[frameIndex];
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   if (!frame || !awaitsClick(state).includes(other)) return component;
   const clicked = jobs.find(({ place, at }) => at && place?.frameId === frame.id && place.component === component)?.at;
   if (clicked) return isSame(clicked, at, frame.width) ? component : other;

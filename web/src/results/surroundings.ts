@@ -2,7 +2,7 @@ import { tiltAxes } from '../document/axes';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
-import type { ComponentName } from '../terms/component';
+import { otherThan, type ComponentName } from '../terms/component';
 import type { Counterpart, Surroundings } from '../workers/protocol/match';
 
 /**
@@ -16,7 +16,7 @@ export function surroundingsOf(doc: Doc, frameId: string, component: ComponentNa
 }
 
 function counterpartOf(doc: Doc, frame: number, component: ComponentName): Counterpart | null {
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   const pose = reliablePose(doc, frame, other);
   const [axes, own] = [other, component].map((name) => tiltAxes(doc.components[name as ComponentName]));
   return pose && axes && own ? { pose, axes, own } : null;

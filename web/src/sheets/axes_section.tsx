@@ -9,7 +9,8 @@ import { facingByFilm, type Facing } from '../results/facing';
 import { type ComponentName, titleOf } from '../terms/component';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
-import { meshOf, middleOf } from '../commands/model_in_hand';
+import { meshOf } from '../commands/model_in_hand';
+import { middleOf } from '../geometry/mesh_middle';
 import { drawingKey, turnByKey, useSpaceView } from '../pose/space_view';
 import type { PlacedModel } from '../stage/three/models';
 

@@ -4,7 +4,8 @@ import { cameraOf } from '../results/keys';
 import { inCamera } from '../geometry/pose_motion';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
-import { meshOf, middleOf, pinholeOf } from '../commands/model_in_hand';
+import { meshOf, pinholeOf } from '../commands/model_in_hand';
+import { middleOf } from '../geometry/mesh_middle';
 import { barLength } from './scale_length';
 
 /** A length of so many millimetres where the selected component is: farther away it is shorter. */

@@ -6,3 +6,8 @@ export type ComponentName = (typeof COMPONENT_NAMES)[number];
 export function titleOf(component: ComponentName): string {
   return component === 'femur' ? 'Femur' : 'Tibia';
 }
+
+/** The joint's other component. */
+export function otherThan(component: ComponentName): ComponentName {
+  return component === 'femur' ? 'tibia' : 'femur';
+}

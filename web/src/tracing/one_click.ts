@@ -13,6 +13,7 @@ import { misfitsBeside } from '../results/film';
 import { surroundingsOf } from '../results/surroundings';
 import { texts } from '../texts/texts';
 import { flat } from './pixels';
+import { otherThan } from '../terms/component';
 
 /** A click inside the implant, or opposite corners of a rough box. */
 export type Prompt = readonly [FramePoint] | readonly [FramePoint, FramePoint];
@@ -98,7 +99,7 @@ export class OneClick {
     const pixels = studio.framePixels(frame.id);
     if (!pixels) throw new Error(texts.tracing.said.noPixels(frame.name));
     if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
-    const other = cellOf(store.doc, frame.id, component === 'femur' ? 'tibia' : 'femur').outline;
+    const other = cellOf(store.doc, frame.id, otherThan(component)).outline;
     return {
       component,
       camera,

@@ -82,18 +82,25 @@ function bench(missing: readonly number[] = []) {
       if (at !== undefined) store.perform(setPoseByHand(place(at), poseOf(0)));
       return at !== undefined;
     },
+    findBeside: async (component: 'femur' | 'tibia') => {
+      searched.push(`${component} beside the other`);
+      const at = beside[component];
+      if (at !== undefined) store.perform(setPoseByHand(place(at), poseOf(0)));
+      return at !== undefined;
+    },
   };
+  const beside: { femur?: number; tibia?: number } = {};
   const discoveries: { femur?: number; tibia?: number } = {};
   const follower = new Follower({ store, studio } as never, workers as never, first, { ready: async () => undefined });
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, xs, searched, discoveries };
+  return { store, follower, femur, xs, searched, discoveries, beside };
 }
 
 describe('following', () => {
   it('looks for a component that is set nowhere, and says so where it is not found', async () => {
     const { store, follower, xs, searched } = bench();
     await follower.follow();
-    expect(searched).toEqual(['femur']);
+    expect(searched).toEqual(['femur', 'femur beside the other']);
     expect(store.ui.notice).toMatchObject({ kind: 'error', text: expect.stringContaining('The femur was not found') });
     expect(xs()).toEqual(Array(FRAMES).fill(null));
     expect(store.ui.following).toBe(false);
@@ -102,6 +109,13 @@ describe('following', () => {
   it('goes on from where it found a component', async () => {
     const { follower, xs, discoveries } = bench();
     discoveries.femur = 2;
+    await follower.follow();
+    expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
+  });
+
+  it('goes on from where it found a component beside the other one', async () => {
+    const { follower, xs, beside } = bench();
+    beside.femur = 2;
     await follower.follow();
     expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
   });

@@ -12,6 +12,7 @@ import type { Motion } from '../../results/motion';
 import { formatNumber } from '../../texts/numbers';
 import { texts } from '../../texts/texts';
 import { drawRival, type RivalScene } from './rival_picture';
+import { otherThan } from '../../terms/component';
 
 /** On the film while somebody goes through what is doubtful: why it is, its rivals with the joint that each makes, and what can be done. */
 export function CheckCard({ state }: { state: State }) {
@@ -121,7 +122,7 @@ function RivalPicture({ scene, pose }: { scene: RivalScene | null; pose: PoseNum
 
 /** The joint with a component at a pose, where all else of it is known. */
 function motionWith({ history: { present: doc }, ui: { component, frameIndex } }: State, pose: PoseNumbers, studio: Pick<Studio, 'motionOf'>): Motion | null {
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   const there = chosenCandidate(cellOf(doc, doc.frames[frameIndex]?.id, other));
   const [own, its] = [knownAxes(doc.components[component]), knownAxes(doc.components[other])];
   if (doc.side === 'unknown' || !there || !own || !its) return null;

@@ -1,5 +1,5 @@
 import { currentCell, type State } from '../../document/store';
-import type { ComponentName } from '../../terms/component';
+import { otherThan, type ComponentName } from '../../terms/component';
 import { useApp } from '../../commands/app';
 import { verdictOf } from '../../document/types';
 import { type Guide, guideOf, standingOf } from '../../results/steps';
@@ -70,7 +70,7 @@ function TraceInstead({ words }: { words: string }) {
 /** Has the other component been clicked, or its pose? */
 function isBegun(state: State, component: ComponentName): boolean {
   const { present: doc } = state.history;
-  const other = component === 'femur' ? 'tibia' : 'femur';
+  const other = otherThan(component);
   const isClicked = state.ui.jobs.some(({ place, at }) => at && place?.component === other);
   return isClicked || (doc.components[other].model !== null && !standingOf(doc).unposed.includes(other));
 }

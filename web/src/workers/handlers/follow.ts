@@ -1,7 +1,7 @@
 import { FilmFollower, type FollowedFilm, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
-import type { Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
+import type { Beside, Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
 import type { FramePixels } from '../protocol/frame_pixels';
 import { poseArray, poseFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
@@ -25,7 +25,7 @@ serve<FollowProtocol>({
     search = new FrameSearch(library, mesh.vertices, mesh.triangles, text, width, height, bright);
     return [...framesToSearch(film.frames)];
   },
-  find: (pixels, context) => withImage(pixels, (image) => searched(image, context)),
+  find: ({ beside, ...pixels }, context) => withImage(pixels, (image) => searched(image, beside, context)),
   begin: async ({ mesh, camera, first, last, given, film, searches, ...input }) => {
     await ready;
     follower?.free();
@@ -44,7 +44,7 @@ serve<FollowProtocol>({
   look: (pixels, context) =>
     withImage(pixels, async (image) => {
       if (working().isSearch) {
-        await searched(image, context);
+        await searched(image, null, context);
         working().searched(search?.pose);
         return { pose: null, next: working().wanted() ?? null };
       }
@@ -95,8 +95,9 @@ async function withImage<T>(pixels: FramePixels, work: (image: FrameImage) => Pr
 }
 
 /** Searches the whole frame in steps of some tens of milliseconds, so that it can be called off between them. */
-async function searched(image: FrameImage, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Float64Array<ArrayBuffer> | null> {
+async function searched(image: FrameImage, beside: Beside | null, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Float64Array<ArrayBuffer> | null> {
   if (!search) throw new Error('nothing is looked for');
+  search.beside(Float64Array.from(beside?.middle ?? []), beside?.outline ?? NONE);
   for (let more = search.step(image, true); more; more = search.step(image, false)) {
     report({ fraction: search.progress });
     await breathe();

@@ -10,7 +10,7 @@ export interface FollowProtocol {
   /** What whole frames are searched with, until the next one; gives the frames of the film that are to be searched, in their order. */
   openSearch: { input: SearchInput; output: readonly number[]; progress: never };
   /** Looks for the component in a whole frame, and gives a point of it; null where it is nowhere. */
-  find: { input: FramePixels; output: Float64Array<ArrayBuffer> | null; progress: { readonly fraction: number } };
+  find: { input: FramePixels & { readonly beside: Beside | null }; output: Float64Array<ArrayBuffer> | null; progress: { readonly fraction: number } };
   /** Gives the first frame that is to be looked at; null where there is none. */
   begin: { input: FollowInput; output: number | null; progress: never };
   /** Looks at the frame that was asked for, or searches it as a whole: it can be called off then. */
@@ -35,6 +35,14 @@ export interface SearchInput {
   readonly frames: number;
   /** Metal is brighter than what surrounds it. */
   readonly bright: boolean;
+}
+
+/** Where the joint's other component is: less is asked of what lies beside it. */
+export interface Beside {
+  /** The middle of its model, mm, in the camera's frame. */
+  readonly middle: readonly [number, number, number];
+  /** Columns and rows by turns. */
+  readonly outline: Float64Array<ArrayBuffer>;
 }
 
 export interface FollowInput {
