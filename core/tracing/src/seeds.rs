@@ -108,6 +108,8 @@ struct Table<'m> {
     sums: &'m [f64],
     columns: usize,
     rows: usize,
+    /// The greatest grey value of a cell: on a negative that is no light at all.
+    white: f64,
 }
 
 impl<'m> Table<'m> {
@@ -119,11 +121,14 @@ impl<'m> Table<'m> {
     ) -> Self {
         let width = columns + 1;
         sums[..width].fill(0.0);
+        let mut white = 0.0;
         for row in 0..rows {
             let mut line = 0.0;
             sums[(row + 1) * width] = 0.0;
             for column in 0..columns {
-                line += grey(frame, column as f64 * cell, row as f64 * cell, cell);
+                let value = grey(frame, column as f64 * cell, row as f64 * cell, cell);
+                white = value.max(white);
+                line += value;
                 sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
             }
         }
@@ -131,12 +136,17 @@ impl<'m> Table<'m> {
             sums,
             columns,
             rows,
+            white,
         }
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both.
     fn darker(&self, column: usize, row: usize, half: usize, size: f64, polarity: Polarity) -> f64 {
-        let inside = self.mean(column, row, half);
+        let lit = |grey: f64| match polarity {
+            Polarity::DarkImplant => grey,
+            Polarity::BrightImplant => self.white - grey,
+        };
+        let inside = lit(self.mean(column, row, half));
         let mut least: Vec<f64, 8> = Vec::new();
         for [right, down] in DIRECTIONS {
             let at = |part: f64| {
@@ -147,12 +157,8 @@ impl<'m> Table<'m> {
                 let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
                 let seen = within(x, self.columns) && within(y, self.rows);
                 seen.then(|| {
-                    let outside = self.mean(x as usize, y as usize, half);
-                    let more = match polarity {
-                        Polarity::DarkImplant => outside - inside,
-                        Polarity::BrightImplant => inside - outside,
-                    };
-                    more / (outside + inside + DARK)
+                    let outside = lit(self.mean(x as usize, y as usize, half));
+                    (outside - inside) / (outside + inside + DARK)
                 })
             };
             let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
@@ -240,6 +246,16 @@ mod tests {
         }
         let few = seeds(&image, &camera, 50.0, &mut sums[1..]);
         assert!(few.is_err());
+        let least = pixels.iter().min().expect("pixels");
+        let negative: std::vec::Vec<u8> = pixels.iter().map(|grey| 255 - (grey - least)).collect();
+        let negative = Frame::new(&negative, SIDE, SIDE, SIDE).expect("fits");
+        image.frame = &negative;
+        image.polarity = Polarity::BrightImplant;
+        let same = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        for middle in middles {
+            assert!(same.iter().take(4).any(near(middle)), "{same:?}");
+        }
+        (image.frame, image.polarity) = (&frame, Polarity::DarkImplant);
 
         let mut words = std::vec![0; words_needed(SIDE, SIDE)];
         let mut known = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
