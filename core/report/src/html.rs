@@ -38,8 +38,8 @@ const STYLE: &str = "\
 :root{color-scheme:light}body{font:10.5pt/1.45 Helvetica,Arial,'Liberation Sans',sans-serif;color:#111;background:#fff;max-width:190mm;margin:8mm auto;padding:0 4mm}\
 h1{font-size:17pt;margin:0 0 1mm}h2{font-size:12.5pt;margin:7mm 0 2mm;break-after:avoid}p{margin:0 0 2mm;max-width:165mm}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:8.5pt;width:100%}\
-th,td{padding:.7mm 1.6mm;text-align:right;vertical-align:top}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
-td{border-bottom:.1mm solid #ccc}th:first-child,td:first-child,td.word,th.word{text-align:left}td.digest{font-family:monospace;font-size:7pt;overflow-wrap:anywhere;text-align:left}\
+th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
+td{border-bottom:.1mm solid #ccc}th:first-child,td:first-child,td.word,th.word{text-align:left}td.digest{font-family:monospace;font-size:7pt;white-space:normal;overflow-wrap:anywhere;text-align:left}\
 thead{display:table-header-group}tr{break-inside:avoid}figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto}\
 figcaption{font-size:9pt;margin-top:1mm}.doubtful td{background:#f6efe2}\
 @media print{body{margin:0;padding:0;max-width:none}@page{size:A4;margin:14mm 12mm}}";

@@ -122,3 +122,6 @@ fn print(out: &Path, film: &JointFilm) {
     }
     println!("{}", out.join("report.html").display());
 }
+
+#[cfg(test)]
+mod tests;
