@@ -24,7 +24,7 @@ fn film(rotation_deg: f64) -> JointFilm {
             numbers[ap] = -4.0 + (at - 12.0) * turn.sin();
             numbers[across] = 12.0 + (at - 12.0) * turn.cos();
         }
-        let deviations = (k % 3 != 0).then_some([0.5; NUMBERS]);
+        let deviations = (!k.is_multiple_of(3)).then_some([0.5; NUMBERS]);
         JointRow {
             number: k + 11,
             joint: (k != 8).then_some(JointFrame {

@@ -109,7 +109,7 @@ fn widen(outline: &mut [[f64; 2]], [a, b]: [[f64; 2]; 2]) {
         let far = along(a) + t * (along(b) - along(a));
         let at = &mut outline[k.rem_euclid(outline.len() as i64) as usize];
         let known = at[0] * cos + at[1] * sin;
-        if far.is_finite() && !(known >= far) {
+        if far.is_finite() && (known.is_nan() || known < far) {
             *at = [far * cos, far * sin];
         }
     }

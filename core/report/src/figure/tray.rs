@@ -3,7 +3,7 @@
 use fluoropose::joint::numbers::place;
 use fluoropose::joint::pivot::Pivot;
 
-use super::{Course, LATERAL, MEDIAL};
+use super::course::{Course, LATERAL, MEDIAL};
 use crate::film::JointFilm;
 use crate::svg::{Anchor, Drawing, short};
 
