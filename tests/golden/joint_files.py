@@ -3,7 +3,8 @@
     python tests/golden/joint_files.py DIR
 
 Not part of the suite, whose machines need no Python packages. Run with numpy 2.4.6, scipy 1.17.1 and spm1d from the registry on the
-reports of two real studies: the angles of joint.csv, joint.mot, joint.tra and the .jtak files agree to 1e-13, and spm1d takes the matrix.
+reports of two real studies: joint.mot has the numbers of joint.csv, the .jtak files those of joint.tra to 1e-15, and spm1d takes the matrix.
+Of the study whose files are in the field's axes, the angle of the poses in joint.tra is the flexion of joint.csv to 1e-13.
 """
 
 import csv
@@ -29,7 +30,7 @@ bodies = bodies.reshape(len(bodies), -1, 4, 4)
 there = np.isfinite(bodies).all((1, 2, 3))
 relative = np.linalg.inv(bodies[there, 0]) @ bodies[there, 1]
 angle = Rotation.from_matrix(relative[:, :3, :3]).as_euler("ZXY", degrees=True)[:, 0]
-print("flexion of joint.tra (files in the field's axes) against joint.csv:", np.abs(np.abs(angle) - np.abs(flexion[there])).max())
+print("flexion of joint.tra against joint.csv (alike where files are in the field's axes):", np.abs(np.abs(angle) - np.abs(flexion[there])).max())
 
 kept = open(f"{folder}/femur.jtak").read().splitlines()
 assert kept[0] == "JTA_EULER_KINEMATICS"

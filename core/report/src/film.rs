@@ -71,6 +71,16 @@ impl JointFilm {
             .collect()
     }
 
+    /// The same numbers without those of doubtful frames: what steps, phases and centre are made from.
+    fn trusted(&self, mut numbers: Vec<f64>) -> Vec<f64> {
+        for (number, row) in numbers.iter_mut().zip(&self.rows) {
+            if row.doubt.is_some() {
+                *number = f64::NAN;
+            }
+        }
+        numbers
+    }
+
     /// Whether any frame has standard deviations.
     #[must_use]
     pub fn has_deviations(&self) -> bool {
@@ -78,10 +88,10 @@ impl JointFilm {
         self.rows.iter().any(known)
     }
 
-    /// The monotonic phases of the activity.
+    /// The monotonic phases of the activity, without doubtful frames.
     #[must_use]
     pub fn phases(&self) -> Vec<Phase> {
-        let flexion = self.values(place::FLEXION);
+        let flexion = self.trusted(self.values(place::FLEXION));
         let mut room = vec![Phase::default(); flexion.len()];
         // There is room for as many as frames.
         phases(&flexion, REVERSAL_DEG, &mut room).map_or(Vec::new(), <[Phase]>::to_vec)
@@ -90,7 +100,7 @@ impl JointFilm {
     /// The flexions at which numbers are published.
     #[must_use]
     pub fn levels(&self) -> Vec<f64> {
-        levels(&self.values(place::FLEXION), FLEXION_STEP_DEG).collect()
+        levels(&self.trusted(self.values(place::FLEXION)), FLEXION_STEP_DEG).collect()
     }
 
     /// A number at one flexion.
@@ -106,14 +116,11 @@ impl JointFilm {
         }
     }
 
-    /// The centre of rotation over all frames.
+    /// The centre of rotation over all frames that are not doubtful.
     #[must_use]
     pub fn pivot(&self) -> Option<Pivot> {
-        pivot(
-            self.rows
-                .iter()
-                .filter_map(|row| Some(line(&row.joint?.numbers))),
-        )
+        let trusted = self.rows.iter().filter(|row| row.doubt.is_none());
+        pivot(trusted.filter_map(|row| Some(line(&row.joint?.numbers))))
     }
 }
 

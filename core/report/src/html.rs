@@ -96,10 +96,10 @@ fn caption(film: &JointFilm) -> String {
         "Without standard deviations: the uncertainty of the poses is not known."
     };
     format!(
-        "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames; large marks: linear \
+        "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames, left out of all that follows; large marks: linear \
          interpolation at steps of 10\u{b0} of flexion within monotonic phases, mean over the phases that pass it. {bands} a, lowest points of \
          the medial and lateral condyle above the tray, from the middle of the tray. b, rotation of the tibia. c, the tray from above \
-         with the line between the lowest points at each step, light to dark with flexion, and the centre of rotation of all frames with one standard \
+         with the line between the lowest points at each step, light to dark with flexion, and the centre of rotation with one standard \
          deviation. d, abduction, and height of the lateral condyle above the medial one; dotted: 1 mm."
     )
 }
@@ -163,7 +163,7 @@ fn steps(out: &mut String, film: &JointFilm) {
         }
         out.push_str("</tr>\n");
     }
-    out.push_str("</tbody></table>\n<p>n: monotonic phases that pass this flexion. Nothing is extrapolated.</p>\n");
+    out.push_str("</tbody></table>\n<p>n: monotonic phases that pass this flexion, without doubtful frames. Nothing is extrapolated.</p>\n");
 }
 
 fn doubts(out: &mut String, film: &JointFilm) {

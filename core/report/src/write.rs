@@ -137,7 +137,7 @@ pub fn matrix(films: &[&JointFilm], number: usize) -> String {
     }
     let _ = writeln!(
         out,
-        "# {name}: a row a film, 101 points from its first to its last frame with a number, linear between frames, NaN beside missing ones"
+        "# {name}: a row a film, 101 points from its first to its last frame with a number, doubtful ones included, linear between frames, NaN beside missing ones"
     );
     for film in films {
         let places: Vec<f64> = film.rows.iter().map(|row| row.number as f64).collect();

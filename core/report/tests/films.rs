@@ -204,10 +204,24 @@ fn the_figure_has_four_panels_and_tells_its_centre() {
         "points name their frames"
     );
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
-    // Levels at 0, 10, .. 50 degrees: a line on the tray for each.
-    assert_eq!(picture.matches("stroke-width=\"1.5\"").count(), 6);
+    // Levels at 0, 10, .. 50 degrees: a line on the tray for each but 10, whose frame is doubtful.
+    assert_eq!(picture.matches("stroke-width=\"1.5\"").count(), 5);
     let little = figure(&film(2.0));
     assert!(little.contains("the condyle lines turn by 2.0\u{b0} only"));
+}
+
+#[test]
+fn doubtful_frames_are_shown_and_count_for_nothing() {
+    let mut spoilt = film(12.0);
+    let joint = spoilt.rows[5].joint.as_mut().unwrap();
+    joint.numbers[place::LATERAL_AP] = 900.0;
+    joint.numbers[place::FLEXION] = -170.0;
+    let (clean, pivot) = (film(12.0).pivot().unwrap(), spoilt.pivot().unwrap());
+    assert_eq!((clean.n, pivot), (28, clean));
+    assert_eq!(spoilt.levels()[0], 0.0);
+    let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
+    assert_eq!(at(&spoilt), at(&film(12.0)));
+    assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));
 }
 
 #[test]

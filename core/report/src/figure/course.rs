@@ -1,6 +1,6 @@
 //! Numbers of a film drawn against its flexion.
 
-use fluoropose::joint::course::Phase;
+use fluoropose::joint::course::{JUMP_DEG, Phase};
 use fluoropose::joint::numbers::place;
 
 use crate::film::JointFilm;
@@ -140,10 +140,8 @@ impl<'f> Course<'f> {
             .map(|k| plot.place(self.flexion[k], values[k]))
             .collect();
         let stroke = format!("{} stroke-opacity=\"0.75\"", ink.stroke(0.9));
-        for run in places.split(|place| !place[1].is_finite()) {
-            if run.len() > 1 {
-                drawing.line(run, &stroke);
-            }
+        for run in self.runs(&values) {
+            drawing.line(&places[run], &stroke);
         }
         let many = values.len() > MANY;
         for ((row, place), value) in self.film.rows.iter().zip(&places).zip(&values) {
@@ -160,6 +158,25 @@ impl<'f> Course<'f> {
             drawing.point(*place, if doubtful { 2.2 } else { 1.3 }, &dress, &title);
         }
         drawing.close();
+    }
+
+    /// Frames in a row that have a number and between which flexion does not jump.
+    fn runs(&self, values: &[f64]) -> Vec<std::ops::Range<usize>> {
+        let joined = |at: usize| {
+            let change = self.flexion[at] - self.flexion[at - 1];
+            values[at].is_finite() && values[at - 1].is_finite() && change.abs() <= JUMP_DEG
+        };
+        let mut runs = Vec::new();
+        let mut first = 0;
+        for at in 1..=values.len() {
+            if at == values.len() || !joined(at) {
+                if at - first > 1 {
+                    runs.push(first..at);
+                }
+                first = at;
+            }
+        }
+        runs
     }
 
     /// The values at steps of flexion, with bars of one standard deviation.
