@@ -73,6 +73,8 @@ enum Verb {
     Undistort(Words),
     /// Turn femoral and tibial poses into joint kinematics
     Kinematics(Words),
+    /// Write a study's joint motion as table, files, figure and report
+    Report(Words),
 }
 
 fn main() -> std::process::ExitCode {
@@ -109,6 +111,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Calibrate(words) => laboratory::run("calibrate", &words),
         Verb::Undistort(words) => laboratory::run("undistort", &words),
         Verb::Kinematics(words) => laboratory::run("kinematics", &words),
+        Verb::Report(words) => laboratory::run("report", &words),
     }
 }
 

@@ -10,6 +10,9 @@ use crate::memory::{TooLittleMemory, check_length};
 pub const FLEXION_STEP_DEG: f64 = 10.0;
 /// Flexion that goes back by less than this, degrees, has not turned: errors of flexion are a tenth of it.
 pub const REVERSAL_DEG: f64 = 3.0;
+/// Flexion that differs by more than this from frame to frame, degrees, has not been gone through: an angle that passed half a
+/// turn, or a wrong pose.
+pub const JUMP_DEG: f64 = 45.0;
 /// Points of a cycle: 0 to 100 percent.
 pub const CYCLE_POINTS: usize = 101;
 
@@ -24,8 +27,8 @@ pub struct Phase {
     pub rises: bool,
 }
 
-/// The monotonic phases of an activity, at most as many as there are frames. A phase ends where flexion goes back by more than `reversal_deg`, and at
-/// a frame without flexion; its last frame is the first of the next one.
+/// The monotonic phases of an activity, at most as many as there are frames. A phase ends where flexion goes back by more than `reversal_deg`, where it
+/// jumps ([`JUMP_DEG`]), and at a frame without flexion; its last frame is the first of the next one.
 ///
 /// # Errors
 /// [`TooLittleMemory`] for room for fewer phases than frames.
@@ -62,7 +65,7 @@ fn end_of_phase(flexion: &[f64], first: usize, reversal: f64) -> usize {
     let (mut lowest, mut highest, mut last) = (first, first, first);
     let mut rises = None;
     for (at, &value) in flexion.iter().enumerate().skip(first) {
-        if value.is_nan() {
+        if value.is_nan() || (value - flexion[last]).abs() > JUMP_DEG {
             break;
         }
         last = at;

@@ -48,6 +48,8 @@ pub const NUMBERS: usize = 18;
 
 /// Places of the numbers that are asked for by name.
 pub mod place {
+    /// Mediolateral translation by the field's convention, positive to medial.
+    pub const MEDIAL: usize = 2;
     /// Flexion.
     pub const FLEXION: usize = 3;
     /// Abduction.
@@ -119,6 +121,7 @@ pub struct Joint<'m> {
     tibia_axes: Pose,
     femur_centre: Vector3,
     tibia_centre: Vector3,
+    tibia: Mesh<'m>,
     plate: Plate,
     above: Above<'m>,
 }
@@ -127,7 +130,7 @@ impl<'m> Joint<'m> {
     /// From both meshes, each with its anatomical axes (`model_from_field` of
     /// [`crate::mesh::anatomy::AnatomicalAxes`]). `None` where the tray has no plate.
     #[must_use]
-    pub fn new(femur: (Mesh<'m>, &Pose), tibia: (Mesh<'_>, &Pose), side: Side) -> Option<Self> {
+    pub fn new(femur: (Mesh<'m>, &Pose), tibia: (Mesh<'m>, &Pose), side: Side) -> Option<Self> {
         let femur_axes = joint_axes(femur.1, side);
         let tibia_axes = joint_axes(tibia.1, side);
         let plate = Plate::of(&tibia.0, &tibia_axes, side)?;
@@ -137,6 +140,7 @@ impl<'m> Joint<'m> {
             tibia_axes,
             femur_centre: femur.0.bounds().centre,
             tibia_centre: tibia.0.bounds().centre,
+            tibia: tibia.0,
             plate,
             above: Above::new(femur.0, &femur_axes, plate),
         })
@@ -146,6 +150,11 @@ impl<'m> Joint<'m> {
     #[must_use]
     pub fn plate(&self) -> &Plate {
         &self.plate
+    }
+
+    /// The plate's border from above; see [`Plate::outline`].
+    pub fn plate_outline(&self, outline: &mut [[f64; 2]]) {
+        self.plate.outline(&self.tibia, &self.tibia_axes, outline);
     }
 
     /// How many numbers of triangles [`Self::at`] needs as working memory.

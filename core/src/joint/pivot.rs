@@ -50,6 +50,9 @@ impl Pivot {
 /// alike, so a line errs less between them than beyond them; without these units the point would be drawn
 /// to the middle of the lines where they cross at small angles.
 ///
+/// That is the centre by its published definition. Where the condyles lie beside the axis about which the knee turns, the lines
+/// do not pass through that axis, and meet where they come nearest to it.
+///
 /// `None` for fewer than three lines or lines without length, or where all have one direction.
 #[must_use]
 pub fn pivot(lines: impl Iterator<Item = CondyleLine> + Clone) -> Option<Pivot> {

@@ -2,7 +2,9 @@
 
 use crate::joint::kinematics::Side;
 use crate::math::eigen::eigen_symmetric;
-use crate::math::{Matrix3, Vector3, cross, dot, floor, norm, scale, subtract};
+use crate::math::{
+    Matrix3, Vector3, atan2, cross, dot, floor, norm, scale, sin_cos, subtract, wrap,
+};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
 
@@ -31,6 +33,8 @@ pub struct Plate {
     pub width_mm: f64,
     /// Whose knee it is.
     pub side: Side,
+    /// What lies higher than this below the upper side, mm, is the plate.
+    thickness_mm: f64,
 }
 
 impl Plate {
@@ -56,13 +60,58 @@ impl Plate {
             depth_mm: front - back,
             width_mm: right - left,
             side,
+            thickness_mm: level - from,
         })
+    }
+
+    /// The plate's border as seen from above: points in equal directions from its middle (anterior, then towards medial), each as
+    /// anterior and medial place, mm. Of the tray's mesh and axes that [`Self::of`] had. A direction without border has NaN.
+    pub fn outline(&self, mesh: &Mesh<'_>, axes: &Pose, outline: &mut [[f64; 2]]) {
+        outline.fill([f64::NAN; 2]);
+        let from_model = self.from_tibia.compose(&axes.inverse());
+        for face in corners(mesh) {
+            let face = face.map(|corner| from_model.transform(&corner));
+            for k in 0..3 {
+                let edge = [face[k], face[(k + 1) % 3]];
+                if edge.iter().all(|end| end[1] >= -self.thickness_mm) {
+                    let edge = edge.map(|[x, _, z]| [self.side.forward() * x, z]);
+                    widen(outline, edge);
+                }
+            }
+        }
     }
 
     /// A point in percent of the plate's depth: 0 at its posterior border, 100 at its anterior one.
     #[must_use]
     pub fn percent(&self, anterior_mm: f64) -> f64 {
         50.0 + 100.0 * anterior_mm / self.depth_mm
+    }
+}
+
+/// Moves those points of an outline outwards that lie within an edge.
+fn widen(outline: &mut [[f64; 2]], [a, b]: [[f64; 2]; 2]) {
+    let step = core::f64::consts::TAU / outline.len() as f64;
+    let turn = |point: [f64; 2]| atan2(point[1], point[0]);
+    let half = core::f64::consts::PI;
+    let range = wrap(turn(b) - turn(a), 2.0 * half);
+    let (first, range) = match range < 0.0 {
+        true => (turn(b), -range),
+        false => (turn(a), range),
+    };
+    let from = -floor(-first / step) as i64;
+    let to = floor((first + range) / step) as i64;
+    for k in from..=to {
+        let (sin, cos) = sin_cos(k as f64 * step);
+        // a + t (b - a) along (cos, sin).
+        let across = |point: [f64; 2]| point[1] * cos - point[0] * sin;
+        let t = across(a) / (across(a) - across(b));
+        let along = |point: [f64; 2]| point[0] * cos + point[1] * sin;
+        let far = along(a) + t * (along(b) - along(a));
+        let at = &mut outline[k.rem_euclid(outline.len() as i64) as usize];
+        let known = at[0] * cos + at[1] * sin;
+        if far.is_finite() && (known.is_nan() || known < far) {
+            *at = [far * cos, far * sin];
+        }
     }
 }
 

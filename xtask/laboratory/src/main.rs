@@ -37,6 +37,8 @@ enum Verb {
     Undistort(verbs::undistort::Args),
     /// Turn femoral and tibial poses into joint kinematics
     Kinematics(verbs::kinematics::Args),
+    /// Write a study's joint motion as table, files, figure and report
+    Report(verbs::report::Args),
     /// Measure this machine at the core's work, beside other libraries
     Bench(verbs::bench::Args),
 }
@@ -66,6 +68,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Calibrate(args) => verbs::calibrate::run(args),
         Verb::Undistort(args) => verbs::undistort::run(args),
         Verb::Kinematics(args) => verbs::kinematics::run(args),
+        Verb::Report(args) => verbs::report::run(args),
         Verb::Bench(args) => verbs::bench::run(args),
     }
 }

@@ -10,6 +10,7 @@ pub mod kinematics;
 pub mod library;
 pub mod outline;
 pub mod pose;
+pub mod report;
 pub mod synthetic;
 pub mod track;
 pub mod undistort;

@@ -29,6 +29,13 @@ fn a_gap_ends_a_phase_and_the_next_begins_behind_it() {
 }
 
 #[test]
+fn nothing_is_gone_through_in_a_jump() {
+    let jump = [150.0, 170.0, -175.0, -160.0];
+    assert_eq!(phases_of(&jump), [(0, 1, true), (2, 3, true)]);
+    assert_eq!(phases_of(&[150.0, -170.0, 150.0]), []);
+}
+
+#[test]
 fn numbers_at_steps_of_flexion_are_worked_by_hand() {
     // Bent from 5 to 35 degrees and back to 15: value = flexion / 10 on the way up, 1 more on the way down.
     let flexion = [5.0, 15.0, 25.0, 35.0, 25.0, 15.0];

@@ -62,3 +62,27 @@ fn winding_and_axes_do_not_matter_and_an_edge_has_no_plate() {
     };
     assert_eq!(Plate::of(&wall.mesh(), &Pose::IDENTITY, Side::Left), None);
 }
+
+#[test]
+fn the_border_of_a_rectangle_is_a_rectangle() {
+    let tray = tray();
+    let plate = Plate::of(&tray.mesh(), &Pose::IDENTITY, Side::Left).expect("a plate");
+    let mut outline = [[0.0; 2]; 90];
+    plate.outline(&tray.mesh(), &Pose::IDENTITY, &mut outline);
+    for (k, [anterior, medial]) in outline.into_iter().enumerate() {
+        let turn = core::f64::consts::TAU * k as f64 / 90.0;
+        let (sin, cos) = crate::math::sin_cos(turn);
+        // A ray leaves 50 x 76 mm through the nearer of its sides.
+        let far = (25.0 / cos.abs()).min(38.0 / sin.abs());
+        assert!(
+            (anterior - far * cos).abs() < 1e-5,
+            "{k}: {anterior} {}",
+            far * cos
+        );
+        assert!(
+            (medial - far * sin).abs() < 1e-5,
+            "{k}: {medial} {}",
+            far * sin
+        );
+    }
+}

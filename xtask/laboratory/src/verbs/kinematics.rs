@@ -4,7 +4,12 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose::joint::floating::floating_translations;
 use fluoropose::joint::kinematics::{self, joint_angles, joint_axes, relative_pose};
+use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::relative::NOTHING_COMMON;
+use fluoropose::joint::{COLUMNS, Joint};
+use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::{EulerPose, Pose};
 
@@ -17,8 +22,9 @@ use fluoropose_phantom::implant::Side;
 #[derive(clap::Args)]
 #[command(
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
-numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees). A frame in which either \
-has no pose has empty numbers. The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
+numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees); the \
+translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. A frame in which \
+either has no pose has empty numbers. The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
 patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
 )]
@@ -69,72 +75,105 @@ pub fn run(args: Args) -> Result<()> {
         Side::Left => kinematics::Side::Left,
         Side::Right => kinematics::Side::Right,
     };
-    let stated = |file: &Option<PathBuf>, words: &Option<String>, role| {
-        axes(file.as_deref(), words.as_deref(), role, side)
+    let part = |file: &Option<PathBuf>, words: &Option<String>, role| {
+        Part::read(file.as_deref(), words.as_deref(), role)
     };
-    let femur_axes = stated(&args.femur_model, &args.femur_axes, Role::Femur)?;
-    let tibia_axes = stated(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
-    let mut table = String::from(
-        "frame,rel_x_mm,rel_y_mm,rel_z_mm,rel_z_rot_deg,rel_x_rot_deg,rel_y_rot_deg,\
-         anterior_posterior_mm,superior_inferior_mm,mediolateral_mm,flexion_deg,abduction_deg,internal_rotation_deg\n",
-    );
+    let femur_part = part(&args.femur_model, &args.femur_axes, Role::Femur)?;
+    let tibia_part = part(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
+    let joint = joint(&femur_part, &tibia_part, side);
+    let mut memory = vec![0; joint.map_or(0, |joint| joint.memory_needed())];
+    let columns = if joint.is_some() {
+        NUMBERS
+    } else {
+        place::MEDIAL_AP
+    };
+    let mut table = heading(columns);
     for (frame, (femur, tibia)) in femur.into_iter().zip(tibia).enumerate() {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
             Some((femur, tibia)) => {
-                let (femur, tibia) = (femur.compose(&femur_axes), tibia.compose(&tibia_axes));
-                for number in joint_numbers(&relative_pose(&femur, &tibia), side) {
+                let relative = relative_pose(
+                    &femur.compose(&femur_part.joint_axes(side)),
+                    &tibia.compose(&tibia_part.joint_axes(side)),
+                );
+                let lowest = match &joint {
+                    Some(joint) => {
+                        let poses = ((&femur, None), (&tibia, None));
+                        let relative = joint.relative(poses.0, poses.1, &NOTHING_COMMON);
+                        joint.at(&relative, &mut memory)?.numbers
+                    }
+                    None => [f64::NAN; NUMBERS],
+                };
+                for number in joint_numbers(&relative, side, &lowest[place::MEDIAL_AP..columns]) {
                     write!(table, ",{number:.4}")?;
                 }
             }
-            None => table.push_str(&",".repeat(NUMBERS)),
+            None => table.push_str(&",".repeat(POSE_NUMBERS + columns)),
         }
         table.push('\n');
     }
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
 }
 
-/// The rotation from the axes in which the field takes a joint to a file's: stated, told by the shape of its model, or, without
-/// either, none.
-fn axes(
-    file: Option<&Path>,
-    words: Option<&str>,
-    role: Role,
-    side: kinematics::Side,
-) -> Result<Pose> {
-    let name = match role {
-        Role::Femur => "femoral",
-        Role::Tibia => "tibial",
-    };
-    let Some(axes) = known_axes(file, words, role)? else {
-        return Ok(Pose::IDENTITY);
-    };
-    println!("{name} anterior, superior, right: {axes}");
-    if !axes.are_files_own {
-        eprintln!(
-            "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
-        );
+/// A component: its model and its anatomical axes, where they are known.
+struct Part {
+    model: Option<OwnedModel>,
+    /// `model_from_field`: stated, or told by the shape of the model.
+    axes: Option<Pose>,
+}
+
+impl Part {
+    fn read(file: Option<&Path>, words: Option<&str>, role: Role) -> Result<Self> {
+        let name = match role {
+            Role::Femur => "femoral",
+            Role::Tibia => "tibial",
+        };
+        let model = file.map(read_model).transpose()?;
+        let axes = known_axes(file.zip(model.as_ref()), words, role)?;
+        if let Some(axes) = &axes {
+            println!("{name} anterior, superior, right: {axes}");
+            if !axes.are_files_own {
+                eprintln!(
+                    "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
+                );
+            }
+            if !axes.front_is_known {
+                eprintln!(
+                    "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
+                );
+            }
+        }
+        Ok(Self {
+            model,
+            axes: axes.map(|axes| axes.model_from_field),
+        })
     }
-    if !axes.front_is_known {
-        eprintln!(
-            "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
-        );
+
+    /// The rotation from the axes in which the field takes a joint to the file's: none where no axes are known.
+    fn joint_axes(&self, side: kinematics::Side) -> Pose {
+        let axes = self.axes.as_ref();
+        axes.map_or(Pose::IDENTITY, |axes| joint_axes(axes, side))
     }
-    Ok(joint_axes(&axes.model_from_field, side))
+}
+
+/// The joint of two models whose axes are known.
+fn joint<'p>(femur: &'p Part, tibia: &'p Part, side: kinematics::Side) -> Option<Joint<'p>> {
+    let known =
+        |part: &'p Part| Some((*part.model.as_ref()?.as_model().mesh(), part.axes.as_ref()?));
+    Joint::new(known(femur)?, known(tibia)?, side)
 }
 
 fn known_axes(
-    file: Option<&Path>,
+    file: Option<(&Path, &OwnedModel)>,
     words: Option<&str>,
     role: Role,
 ) -> Result<Option<AnatomicalAxes>> {
     if let Some(words) = words {
         return Ok(Some(AnatomicalAxes::from_words(words)?));
     }
-    let Some(file) = file else {
+    let Some((file, model)) = file else {
         return Ok(None);
     };
-    let model = read_model(file)?;
     let axes = axes_of(&model.as_model(), role, None)?;
     let none = || {
         format!(
@@ -145,13 +184,32 @@ fn known_axes(
     axes.with_context(none).map(Some)
 }
 
-/// Numbers of a row after that of the frame.
-const NUMBERS: usize = 12;
+/// Numbers of the relative pose, which stand first in a row.
+const POSE_NUMBERS: usize = 6;
 
-fn joint_numbers(relative: &Pose, side: kinematics::Side) -> [f64; NUMBERS] {
+/// The first line, with so many of the joint's numbers.
+fn heading(columns: usize) -> String {
+    let mut line = String::from(
+        "frame,rel_x_mm,rel_y_mm,rel_z_mm,rel_z_rot_deg,rel_x_rot_deg,rel_y_rot_deg,\
+         anterior_posterior_mm,superior_inferior_mm,mediolateral_mm,flexion_deg,abduction_deg,internal_rotation_deg",
+    );
+    for column in &COLUMNS[POSE_NUMBERS..columns] {
+        line.push(',');
+        line.push_str(column.name);
+    }
+    line.push('\n');
+    line
+}
+
+fn joint_numbers(
+    relative: &Pose,
+    side: kinematics::Side,
+    lowest: &[f64],
+) -> impl Iterator<Item = f64> {
     let pose = EulerPose::from(*relative);
     let joint = joint_angles(relative, side);
-    [
+    let floating = floating_translations(relative, side);
+    let numbers = [
         pose.x_mm,
         pose.y_mm,
         pose.z_mm,
@@ -164,12 +222,19 @@ fn joint_numbers(relative: &Pose, side: kinematics::Side) -> [f64; NUMBERS] {
         joint.flexion_deg,
         joint.abduction_deg,
         joint.internal_deg,
-    ]
+        floating.lateral_mm,
+        floating.anterior_mm,
+        floating.distraction_mm,
+    ];
+    numbers.into_iter().chain(lowest.iter().copied())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Six of the relative pose, six of the field, three of Grood and Suntay.
+    const NUMBERS_WITHOUT_MODELS: usize = 15;
 
     #[test]
     fn a_frame_without_a_pose_has_empty_numbers_and_the_others_keep_theirs() {
@@ -211,11 +276,42 @@ mod tests {
         for (frame, row) in rows.iter().enumerate() {
             assert_eq!(
                 (row.len(), row[0]),
-                (1 + NUMBERS, (frame + 1).to_string().as_str())
+                (1 + NUMBERS_WITHOUT_MODELS, (frame + 1).to_string().as_str())
             );
             let filled = row[1..].iter().filter(|number| !number.is_empty()).count();
-            assert_eq!(filled, if frame == 2 { NUMBERS } else { 0 });
+            assert_eq!(
+                filled,
+                if frame == 2 {
+                    NUMBERS_WITHOUT_MODELS
+                } else {
+                    0
+                }
+            );
         }
         assert_eq!((rows[2][2], rows[2][4]), ("3.0000", "9.0000"));
+    }
+
+    #[test]
+    fn with_models_a_row_ends_with_the_lowest_points() {
+        let parameters = fluoropose_phantom::implant::Parameters::default();
+        let made = |mesh| Some(crate::files::owned(mesh).unwrap());
+        let part = |model| Part {
+            model,
+            axes: Some(Pose::IDENTITY),
+        };
+        let femur = part(made(
+            fluoropose_phantom::implant::femur(&parameters).unwrap(),
+        ));
+        let tibia = part(made(
+            fluoropose_phantom::implant::tibia(&parameters).unwrap(),
+        ));
+        let joint = joint(&femur, &tibia, kinematics::Side::Left).unwrap();
+        assert!(joint.plate().depth_mm > 40.0);
+        let names = heading(NUMBERS);
+        assert!(
+            names.contains("internal_rotation_deg,gs_lateral_mm")
+                && names.ends_with(",lift_off_mm\n")
+        );
+        assert_eq!(names.split(',').count(), 1 + POSE_NUMBERS + NUMBERS);
     }
 }

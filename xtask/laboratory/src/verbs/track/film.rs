@@ -20,7 +20,7 @@ use super::part::{Part, read_models};
 use super::request::Request;
 use super::run::Run;
 use super::sides::{Margins, settle};
-use super::table::{HEADING, Row};
+use super::table::{HEADING, Row, covariance_table};
 use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
 
 /// A component of a film that was followed.
@@ -162,6 +162,8 @@ fn finish(
             .map(|one: &Conclusion| one.pose.map(EulerPose::from))
             .collect();
         write_poses(&out.join(format!("{}.jts", part.name())), &poses)?;
+        let covariances = out.join(format!("{}.covariances.csv", part.name()));
+        write_text(&covariances, &covariance_table(cells))?;
         let middle = part.middle();
         let rows = cells.iter().zip(&judged).enumerate();
         let row = |(frame, (cell, judged))| Row::of(frame, cell, judged, &middle);

@@ -30,6 +30,27 @@ pub struct Row {
 pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness\n";
 
+/// The covariance of each pose that has one, a row a frame: the frame, and 36 numbers row by row, of a turn about the middle of
+/// the model (radians) and a shift (mm), both in camera axes.
+pub(super) fn covariance_table(cells: &[Cell]) -> String {
+    let mut text = String::from("frame");
+    for row in 1..=6 {
+        (1..=6).for_each(|column| text.push_str(&format!(",c{row}{column}")));
+    }
+    text.push('\n');
+    for (frame, cell) in cells.iter().enumerate() {
+        let found = cell.found().filter(|_| !cell.fixed);
+        if let Some(covariance) = found.and_then(|found| found.covariance) {
+            text.push_str(&(frame + 1).to_string());
+            for number in covariance.matrix.as_flattened() {
+                text.push_str(&format!(",{number}"));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
 impl Row {
     pub(super) fn of(frame: usize, cell: &Cell, judged: &Conclusion, middle: &Vector3) -> Self {
         let found = cell.found().filter(|_| !cell.fixed);

@@ -1,0 +1,208 @@
+//! Numbers of a film drawn against its flexion.
+
+use fluoropose::joint::course::{JUMP_DEG, Phase};
+use fluoropose::joint::numbers::place;
+
+use crate::film::JointFilm;
+use crate::svg::{Drawing, Plot, Scale};
+
+/// More frames than this are drawn as lines alone.
+const MANY: usize = 150;
+
+/// How one number is drawn: told apart by shape and dashes as well, for print without colours.
+#[derive(Clone, Copy)]
+pub(super) struct Ink {
+    pub(super) colour: &'static str,
+    dashed: bool,
+    square: bool,
+}
+
+/// Green and purple differ for colour-blind people too, and are no component's colours.
+pub(super) const MEDIAL: Ink = Ink {
+    colour: "#00755e",
+    dashed: false,
+    square: false,
+};
+pub(super) const LATERAL: Ink = Ink {
+    colour: "#a0428c",
+    dashed: true,
+    square: true,
+};
+pub(super) const PLAIN: Ink = Ink {
+    colour: "#333",
+    dashed: false,
+    square: false,
+};
+
+impl Ink {
+    pub(super) fn stroke(&self, width: f64) -> String {
+        let dashes = if self.dashed {
+            " stroke-dasharray=\"5 3\""
+        } else {
+            ""
+        };
+        format!(
+            "stroke=\"{}\" stroke-width=\"{width}\"{dashes}",
+            self.colour
+        )
+    }
+
+    /// A mark on a place.
+    pub(super) fn mark(&self, drawing: &mut Drawing, at: [f64; 2], size: f64, title: &str) {
+        let fill = format!("fill=\"{}\"", self.colour);
+        if self.square {
+            drawing.square(at, 0.88 * size, &fill);
+        } else {
+            drawing.point(at, size, &fill, title);
+        }
+    }
+}
+
+/// A film against its flexion.
+pub(super) struct Course<'f> {
+    pub(super) film: &'f JointFilm,
+    pub(super) phases: Vec<Phase>,
+    pub(super) levels: Vec<f64>,
+    flexion: Vec<f64>,
+}
+
+impl<'f> Course<'f> {
+    pub(super) fn of(film: &'f JointFilm) -> Self {
+        Self {
+            film,
+            phases: film.phases(),
+            levels: film.levels(),
+            flexion: film.values(place::FLEXION),
+        }
+    }
+
+    /// Some numbers against flexion, between `[left, right]` and `[bottom, top]`.
+    pub(super) fn panel(
+        &self,
+        drawing: &mut Drawing,
+        [left, right]: [f64; 2],
+        [bottom, top]: [f64; 2],
+        numbers: &[(usize, Ink)],
+        labels: [&str; 2],
+    ) -> Plot {
+        let reach = numbers.iter().flat_map(|&(number, _)| {
+            let deviations = self.film.deviations(number).into_iter();
+            let both = self.film.values(number).into_iter().zip(deviations);
+            both.flat_map(|(value, deviation)| {
+                let deviation = if deviation.is_finite() {
+                    deviation
+                } else {
+                    0.0
+                };
+                [value - deviation, value + deviation]
+            })
+        });
+        let marks = ((bottom - top) / 42.0).clamp(2.0, 6.0);
+        let plot = Plot {
+            x: Scale::over(self.flexion.iter().copied(), 7.0, left, right),
+            y: Scale::over(reach, marks, bottom, top),
+        };
+        plot.axes(drawing, labels, !labels[0].is_empty());
+        for (number, ink) in numbers {
+            self.band(drawing, &plot, *number, ink);
+        }
+        for (number, ink) in numbers {
+            self.frames(drawing, &plot, *number, ink);
+            self.steps(drawing, &plot, *number, ink);
+        }
+        plot
+    }
+
+    /// One standard deviation to either side, phase by phase.
+    fn band(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
+        let (values, deviations) = (self.film.values(number), self.film.deviations(number));
+        let fill = format!("fill=\"{}\" fill-opacity=\"0.14\"", ink.colour);
+        for phase in &self.phases {
+            let edge = |sign: f64| -> Vec<[f64; 2]> {
+                let known = (phase.first..=phase.last).filter(|&k| deviations[k].is_finite());
+                known
+                    .map(|k| plot.place(self.flexion[k], values[k] + sign * deviations[k]))
+                    .collect()
+            };
+            let mut around = edge(1.0);
+            around.extend(edge(-1.0).into_iter().rev());
+            if around.len() > 3 {
+                drawing.shape(&around, &fill);
+            }
+        }
+    }
+
+    /// Every frame: a thin line through unbroken runs, and a point, hollow where it is doubtful.
+    fn frames(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
+        let values = self.film.values(number);
+        drawing.open("frames");
+        let places: Vec<[f64; 2]> = (0..values.len())
+            .map(|k| plot.place(self.flexion[k], values[k]))
+            .collect();
+        let stroke = format!("{} stroke-opacity=\"0.75\"", ink.stroke(0.9));
+        for run in self.runs(&values) {
+            drawing.line(&places[run], &stroke);
+        }
+        let many = values.len() > MANY;
+        for ((row, place), value) in self.film.rows.iter().zip(&places).zip(&values) {
+            let doubtful = row.doubt.is_some();
+            if !place[1].is_finite() || (many && !doubtful) {
+                continue;
+            }
+            let fill = if doubtful { "#fff" } else { ink.colour };
+            let dress = format!(
+                "fill=\"{fill}\" stroke=\"{}\" stroke-width=\"0.7\"",
+                ink.colour
+            );
+            let title = format!("frame {}: {value:.2}", row.number);
+            drawing.point(*place, if doubtful { 2.2 } else { 1.3 }, &dress, &title);
+        }
+        drawing.close();
+    }
+
+    /// Frames in a row that have a number and between which flexion does not jump.
+    fn runs(&self, values: &[f64]) -> Vec<std::ops::Range<usize>> {
+        let joined = |at: usize| {
+            let change = self.flexion[at] - self.flexion[at - 1];
+            values[at].is_finite() && values[at - 1].is_finite() && change.abs() <= JUMP_DEG
+        };
+        let mut runs = Vec::new();
+        let mut first = 0;
+        for at in 1..=values.len() {
+            if at == values.len() || !joined(at) {
+                if at - first > 1 {
+                    runs.push(first..at);
+                }
+                first = at;
+            }
+        }
+        runs
+    }
+
+    /// The values at steps of flexion, with bars of one standard deviation.
+    fn steps(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
+        drawing.open("steps");
+        for &level in &self.levels {
+            let step = self.film.at(number, &self.phases, level);
+            if step.n == 0 {
+                continue;
+            }
+            let [x, y] = plot.place(level, step.mean);
+            if step.deviation.is_finite() {
+                let ends = [-1.0, 1.0].map(|sign| plot.y.at(step.mean + sign * step.deviation));
+                let bar = format!("stroke=\"{}\" stroke-width=\"1\"", ink.colour);
+                drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
+                for end in ends {
+                    drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
+                }
+            }
+            ink.mark(
+                drawing,
+                [x, y],
+                3.6,
+                &format!("{level}\u{b0}: {:.2}", step.mean),
+            );
+        }
+        drawing.close();
+    }
+}

@@ -1,0 +1,193 @@
+//! The tray from above: a condyle line for each 10 degrees of flexion, and the centre of rotation.
+
+use fluoropose::joint::numbers::place;
+use fluoropose::joint::pivot::Pivot;
+
+use super::course::{Course, LATERAL, MEDIAL};
+use crate::film::JointFilm;
+use crate::svg::{Anchor, Drawing, short};
+
+/// The panel's size, and what its words take of it.
+const WIDTH: f64 = 320.0;
+const HEIGHT: f64 = 250.0;
+
+/// From positions on the plate (anterior, medial; mm) to the drawing: anterior is up, and left and right are the patient's as the
+/// tray is seen from above.
+struct View {
+    middle: [f64; 2],
+    per_mm: f64,
+    medial: f64,
+}
+
+impl View {
+    fn of(film: &JointFilm, [left, top]: [f64; 2]) -> Self {
+        let room = [
+            (WIDTH - 40.0) / film.plate_width_mm,
+            (HEIGHT - 70.0) / film.plate_depth_mm,
+        ];
+        Self {
+            middle: [left + WIDTH / 2.0, top + HEIGHT / 2.0 - 14.0],
+            per_mm: room[0].min(room[1]),
+            medial: film.side.forward(),
+        }
+    }
+
+    fn place(&self, [anterior, medial]: [f64; 2]) -> [f64; 2] {
+        [
+            self.middle[0] + self.medial * medial * self.per_mm,
+            self.middle[1] - anterior * self.per_mm,
+        ]
+    }
+
+    fn holds(&self, [x, y]: [f64; 2]) -> bool {
+        (x - self.middle[0]).abs() < WIDTH / 2.0 && (y - self.middle[1]).abs() < HEIGHT / 2.0 - 16.0
+    }
+}
+
+pub(super) fn draw(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, at: [f64; 2]) {
+    let view = View::of(film, at);
+    drawing.open("tray");
+    let border: Vec<[f64; 2]> = film
+        .plate_outline
+        .iter()
+        .filter(|point| point[0].is_finite())
+        .map(|&point| view.place(point))
+        .collect();
+    if border.len() > 2 {
+        drawing.shape(
+            &border,
+            "fill=\"#f1f1f1\" stroke=\"#888\" stroke-width=\"1\"",
+        );
+    }
+    directions(drawing, film, &view);
+    lines(drawing, film, course, &view);
+    let pivot = film.pivot();
+    if let Some(pivot) = pivot.filter(|pivot| !pivot.is_ill_conditioned()) {
+        cross(drawing, &view, &pivot);
+    }
+    let foot = [at[0] + WIDTH / 2.0, at[1] + HEIGHT + 8.0];
+    let outside = pivot
+        .as_ref()
+        .is_some_and(|pivot| !view.holds(view.place(place_of(pivot))));
+    drawing.words(foot, Anchor::Middle, 10.5, told(pivot.as_ref()));
+    if outside && pivot.is_some_and(|pivot| !pivot.is_ill_conditioned()) {
+        let below = [foot[0], foot[1] + 14.0];
+        drawing.words(below, Anchor::Middle, 10.5, "(outside the tray, not drawn)");
+    }
+    drawing.close();
+}
+
+/// Which way is which, and a scale of 10 mm.
+fn directions(drawing: &mut Drawing, film: &JointFilm, view: &View) {
+    let (half_depth, half_width) = (film.plate_depth_mm / 2.0, film.plate_width_mm / 2.0);
+    let [x, y] = view.place([half_depth, 0.0]);
+    drawing.words([x, y - 7.0], Anchor::Middle, 11.0, "anterior");
+    for (word, sign) in [("medial", 1.0), ("lateral", -1.0)] {
+        let [x, _] = view.place([0.0, sign * half_width]);
+        let out = if x > view.middle[0] { 13.0 } else { -5.0 };
+        drawing.upwards([x + out, view.middle[1]], 11.0, word);
+    }
+    let [x, y] = view.place([-half_depth, 0.0]);
+    let (y, half) = (y + 20.0, 5.0 * view.per_mm);
+    drawing.line(
+        &[[x - half, y], [x + half, y]],
+        "stroke=\"#111\" stroke-width=\"1.6\"",
+    );
+    drawing.words([x + half + 6.0, y + 4.0], Anchor::Start, 11.0, "10 mm");
+}
+
+fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &View) {
+    let drawn: Vec<(f64, [f64; 2], [f64; 2])> = course
+        .levels
+        .iter()
+        .filter_map(|&level| {
+            let at = |number| film.at(number, &course.phases, level);
+            let point = |ap, across| [at(ap).mean, at(across).mean];
+            let medial = point(place::MEDIAL_AP, place::MEDIAL_ACROSS);
+            let lateral = point(place::LATERAL_AP, place::LATERAL_ACROSS);
+            let known = medial.iter().chain(&lateral).all(|x| x.is_finite());
+            known.then_some((level, view.place(medial), view.place(lateral)))
+        })
+        .collect();
+    let Some((&(low, ..), &(high, ..))) = drawn.first().zip(drawn.last()) else {
+        return;
+    };
+    let span = (high - low).max(1.0);
+    for &(level, medial, lateral) in &drawn {
+        let colour = ramp((level - low) / span);
+        drawing.line(
+            &[medial, lateral],
+            &format!("stroke=\"{colour}\" stroke-width=\"1.5\""),
+        );
+        drawing.point(medial, 2.8, &format!("fill=\"{}\"", MEDIAL.colour), "");
+        drawing.square(lateral, 2.5, &format!("fill=\"{}\"", LATERAL.colour));
+    }
+    // Beside the lateral ends, where lines are apart.
+    for &(level, medial, lateral) in [drawn.first(), drawn.last()].into_iter().flatten() {
+        let out = if lateral[0] < medial[0] { -7.0 } else { 7.0 };
+        let anchor = if out < 0.0 {
+            Anchor::End
+        } else {
+            Anchor::Start
+        };
+        let text = format!("{}\u{b0}", short(level));
+        drawing.words([lateral[0] + out, lateral[1] + 4.0], anchor, 10.5, text);
+    }
+}
+
+/// From light to dark with flexion, so that it can be read without colours.
+fn ramp(part: f64) -> String {
+    let mix = |from: f64, to: f64| (from + (to - from) * part).round() as u8;
+    format!(
+        "#{:02x}{:02x}{:02x}",
+        mix(236.0, 60.0),
+        mix(170.0, 20.0),
+        mix(60.0, 60.0)
+    )
+}
+
+fn place_of(pivot: &Pivot) -> [f64; 2] {
+    [pivot.anterior_mm, pivot.medial_mm]
+}
+
+/// The centre with its standard deviations; where it lies outside, the words alone tell it.
+fn cross(drawing: &mut Drawing, view: &View, pivot: &Pivot) {
+    let at = place_of(pivot);
+    if !view.holds(view.place(at)) {
+        return;
+    }
+    const INK: &str = "stroke=\"#111\" stroke-width=\"1.4\"";
+    for k in 0..2 {
+        let end = |sign: f64| {
+            let mut end = at;
+            end[k] += sign * pivot.deviation_mm[k].max(0.8);
+            view.place(end)
+        };
+        drawing.line(&[end(-1.0), end(1.0)], INK);
+    }
+    let dress = "fill=\"none\" stroke=\"#111\" stroke-width=\"1.4\"";
+    drawing.point(view.place(at), 4.5, dress, "centre of rotation");
+}
+
+/// The centre in words.
+fn told(pivot: Option<&Pivot>) -> String {
+    let Some(pivot) = pivot else {
+        return "no centre of rotation: too few condyle lines".to_owned();
+    };
+    if pivot.is_ill_conditioned() {
+        return format!(
+            "no centre of rotation: the condyle lines turn by {:.1}\u{b0} only",
+            pivot.rotation_deg
+        );
+    }
+    let toward = |value: f64, [plus, minus]: [&str; 2], deviation: f64| {
+        let word = if value < 0.0 { minus } else { plus };
+        format!("{:.1} \u{b1} {deviation:.1} mm {word}", value.abs())
+    };
+    let [along, across] = pivot.deviation_mm;
+    format!(
+        "centre of rotation {}, {}",
+        toward(pivot.anterior_mm, ["anterior", "posterior"], along),
+        toward(pivot.medial_mm, ["medial", "lateral"], across)
+    )
+}

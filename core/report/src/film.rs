@@ -1,0 +1,133 @@
+//! The numbers of a film, frame by frame.
+
+use fluoropose::Side;
+use fluoropose::joint::JointFrame;
+use fluoropose::joint::course::{
+    FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, levels, phases,
+};
+use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::pivot::{CondyleLine, Pivot, pivot};
+
+/// A frame of a film.
+#[derive(Clone, Debug, Default)]
+pub struct JointRow {
+    /// Its number in the film it comes from, from 1.
+    pub number: usize,
+    /// Its numbers; `None` where a component has no pose.
+    pub joint: Option<JointFrame>,
+    /// The same numbers of the filtered poses, where a filter was asked for.
+    pub filtered: Option<[f64; NUMBERS]>,
+    /// Why it is doubtful; `None` where it is not.
+    pub doubt: Option<String>,
+}
+
+/// A joint in all frames of a film.
+#[derive(Clone, Debug)]
+pub struct JointFilm {
+    /// What the study is called.
+    pub name: String,
+    /// Which knee.
+    pub side: Side,
+    /// Anterior-posterior extent of the tray's plate, mm.
+    pub plate_depth_mm: f64,
+    /// Mediolateral extent, mm.
+    pub plate_width_mm: f64,
+    /// The plate's border as seen from above: anterior and medial place, mm.
+    pub plate_outline: Vec<[f64; 2]>,
+    /// Frames a second, where they are known.
+    pub frames_per_s: Option<f64>,
+    /// Cutoff of the filter, Hz, where one was asked for.
+    pub cutoff_hz: Option<f64>,
+    /// Frame by frame.
+    pub rows: Vec<JointRow>,
+}
+
+/// A number at one flexion.
+#[derive(Clone, Copy, Debug)]
+pub struct Step {
+    /// Mean over the phases that pass it.
+    pub mean: f64,
+    /// One standard deviation as carried from the poses; NaN where it is not known.
+    pub deviation: f64,
+    /// Phases.
+    pub n: usize,
+}
+
+impl JointFilm {
+    /// A number in each frame; NaN where there is none.
+    #[must_use]
+    pub fn values(&self, number: usize) -> Vec<f64> {
+        let value = |row: &JointRow| row.joint.map_or(f64::NAN, |joint| joint.numbers[number]);
+        self.rows.iter().map(value).collect()
+    }
+
+    /// Its standard deviation in each frame; NaN where that is not known.
+    #[must_use]
+    pub fn deviations(&self, number: usize) -> Vec<f64> {
+        let of = |row: &JointRow| Some(row.joint?.deviations?[number]);
+        self.rows
+            .iter()
+            .map(|row| of(row).unwrap_or(f64::NAN))
+            .collect()
+    }
+
+    /// The same numbers without those of doubtful frames: what steps, phases and centre are made from.
+    fn trusted(&self, mut numbers: Vec<f64>) -> Vec<f64> {
+        for (number, row) in numbers.iter_mut().zip(&self.rows) {
+            if row.doubt.is_some() {
+                *number = f64::NAN;
+            }
+        }
+        numbers
+    }
+
+    /// Whether any frame has standard deviations.
+    #[must_use]
+    pub fn has_deviations(&self) -> bool {
+        let known = |row: &JointRow| row.joint.is_some_and(|joint| joint.deviations.is_some());
+        self.rows.iter().any(known)
+    }
+
+    /// The monotonic phases of the activity, without doubtful frames.
+    #[must_use]
+    pub fn phases(&self) -> Vec<Phase> {
+        let flexion = self.trusted(self.values(place::FLEXION));
+        let mut room = vec![Phase::default(); flexion.len()];
+        // There is room for as many as frames.
+        phases(&flexion, REVERSAL_DEG, &mut room).map_or(Vec::new(), <[Phase]>::to_vec)
+    }
+
+    /// The flexions at which numbers are published.
+    #[must_use]
+    pub fn levels(&self) -> Vec<f64> {
+        levels(&self.trusted(self.values(place::FLEXION)), FLEXION_STEP_DEG).collect()
+    }
+
+    /// A number at one flexion.
+    #[must_use]
+    pub fn at(&self, number: usize, phases: &[Phase], level_deg: f64) -> Step {
+        let flexion = self.values(place::FLEXION);
+        let bin = at_flexion(&flexion, &self.values(number), phases, level_deg);
+        let carried = at_flexion(&flexion, &self.deviations(number), phases, level_deg);
+        Step {
+            mean: bin.mean,
+            deviation: carried.mean,
+            n: bin.n,
+        }
+    }
+
+    /// The centre of rotation over all frames that are not doubtful.
+    #[must_use]
+    pub fn pivot(&self) -> Option<Pivot> {
+        let trusted = self.rows.iter().filter(|row| row.doubt.is_none());
+        pivot(trusted.filter_map(|row| Some(line(&row.joint?.numbers))))
+    }
+}
+
+/// The condyle line of a frame's numbers.
+pub(crate) fn line(numbers: &[f64; NUMBERS]) -> CondyleLine {
+    CondyleLine {
+        medial: [numbers[place::MEDIAL_AP], numbers[place::MEDIAL_ACROSS]],
+        lateral: [numbers[place::LATERAL_AP], numbers[place::LATERAL_ACROSS]],
+    }
+}

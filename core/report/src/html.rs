@@ -1,0 +1,287 @@
+//! The report of one study: one HTML file that prints well and needs nothing else.
+
+use std::fmt::Write as _;
+
+use fluoropose::Side;
+use fluoropose::joint::COLUMNS;
+use fluoropose::joint::numbers::place;
+
+use crate::figure::figure;
+use crate::film::{JointFilm, JointRow};
+use crate::svg::escaped;
+
+/// A file that a report was made from.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// What it is: `femoral model`, `calibration`.
+    pub what: String,
+    /// Its name.
+    pub name: String,
+    /// SHA-256 of its bytes, hexadecimal.
+    pub sha256: String,
+}
+
+/// What a report says beside the numbers.
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// Name and version of the program.
+    pub made_by: String,
+    /// The files.
+    pub inputs: Vec<Input>,
+    /// What was chosen: a name and a value each.
+    pub settings: Vec<(String, String)>,
+    /// What a reader has to know of these data beyond what is always said.
+    pub remarks: Vec<String>,
+}
+
+const STYLE: &str = "\
+:root{color-scheme:light}body{font:10.5pt/1.45 Helvetica,Arial,'Liberation Sans',sans-serif;color:#111;background:#fff;max-width:190mm;margin:8mm auto;padding:0 4mm}\
+h1{font-size:17pt;margin:0 0 1mm}h2{font-size:12.5pt;margin:7mm 0 2mm;break-after:avoid}p{margin:0 0 2mm;max-width:165mm}\
+table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:8.5pt;width:100%}\
+th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
+td{border-bottom:.1mm solid #ccc}th:first-child,td:first-child,td.word,th.word{text-align:left}td.digest{font-family:monospace;font-size:7pt;white-space:normal;overflow-wrap:anywhere;text-align:left}\
+thead{display:table-header-group}tr{break-inside:avoid}figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto}\
+figcaption{font-size:9pt;margin-top:1mm}.doubtful td{background:#f6efe2}\
+@media print{body{margin:0;padding:0;max-width:none}@page{size:A4;margin:14mm 12mm}}";
+
+/// The report as HTML.
+#[must_use]
+pub fn html(film: &JointFilm, facts: &Facts) -> String {
+    let mut out = String::new();
+    let name = escaped(&film.name);
+    let _ = write!(
+        out,
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
+         <title>{name}: joint motion</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}: joint motion</h1>\n<p>{}</p>\n",
+        escaped(&summary(film, facts))
+    );
+    let _ = write!(
+        out,
+        "<h2>Figure</h2>\n<figure>\n{}<figcaption>{}</figcaption></figure>\n",
+        figure(film),
+        escaped(&caption(film))
+    );
+    steps(&mut out, film);
+    doubts(&mut out, film);
+    limits(&mut out, film, facts);
+    inputs(&mut out, facts);
+    frames(&mut out, film);
+    out.push_str("</body></html>\n");
+    out
+}
+
+fn posed(film: &JointFilm) -> usize {
+    film.rows.iter().filter(|row| row.joint.is_some()).count()
+}
+
+fn summary(film: &JointFilm, facts: &Facts) -> String {
+    let side = match film.side {
+        Side::Left => "Left",
+        Side::Right => "Right",
+    };
+    let doubtful = film.rows.iter().filter(|row| row.doubt.is_some()).count();
+    format!(
+        "{side} knee, {} frames: {} with a pose of both components, {doubtful} doubtful. Made by {}. Not a medical device, and not for \
+         decisions about patients.",
+        film.rows.len(),
+        posed(film),
+        facts.made_by
+    )
+}
+
+fn caption(film: &JointFilm) -> String {
+    let bands = if film.has_deviations() {
+        "Bands and bars: one standard deviation, from the uncertainty of both poses."
+    } else {
+        "Without standard deviations: the uncertainty of the poses is not known."
+    };
+    format!(
+        "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames, left out of all that follows; large marks: linear \
+         interpolation at steps of 10\u{b0} of flexion within monotonic phases, mean over the phases that pass it. {bands} a, lowest points of \
+         the medial and lateral condyle above the tray, from the middle of the tray. b, rotation of the tibia. c, the tray from above \
+         with the line between the lowest points at each step, light to dark with flexion, and the centre of rotation with one standard \
+         deviation. d, abduction, and height of the lateral condyle above the medial one; dotted: 1 mm."
+    )
+}
+
+/// Numbers of the tables, with their headings.
+const SHOWN: [(usize, &str); 6] = [
+    (place::ABDUCTION, "abduction, \u{b0}"),
+    (place::ROTATION, "internal rotation, \u{b0}"),
+    (place::MEDIAL_AP, "medial AP, mm"),
+    (place::LATERAL_AP, "lateral AP, mm"),
+    (place::MEDIAL_AP + 2, "medial AP, % of tray"),
+    (place::LATERAL_AP + 2, "lateral AP, % of tray"),
+];
+
+fn heading(out: &mut String, words: &[&str]) {
+    out.push_str("<table><thead><tr>");
+    for word in words {
+        let _ = write!(out, "<th>{}</th>", escaped(word));
+    }
+    out.push_str("</tr></thead><tbody>\n");
+}
+
+/// A number with one standard deviation, where that is known.
+fn with_deviation(value: f64, deviation: f64) -> String {
+    match (value.is_finite(), deviation.is_finite()) {
+        (false, _) => "\u{2013}".to_owned(),
+        (true, false) => minus(&format!("{value:.1}")),
+        (true, true) => minus(&format!("{value:.1} \u{b1} {deviation:.1}")),
+    }
+}
+
+fn minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
+fn steps(out: &mut String, film: &JointFilm) {
+    out.push_str("<h2>At steps of flexion</h2>\n");
+    let mut words = vec!["flexion, \u{b0}", "n"];
+    words.extend(SHOWN.map(|(_, word)| word));
+    words.push("lift-off, mm");
+    heading(out, &words);
+    let phases = film.phases();
+    for level in film.levels() {
+        let numbers = SHOWN
+            .iter()
+            .map(|(number, _)| *number)
+            .chain([place::LIFT_OFF]);
+        let n = film.at(place::FLEXION, &phases, level).n;
+        let _ = write!(
+            out,
+            "<tr><td>{}</td><td>{n}</td>",
+            minus(&format!("{level:.0}"))
+        );
+        for number in numbers {
+            let step = film.at(number, &phases, level);
+            let _ = write!(
+                out,
+                "<td>{}</td>",
+                with_deviation(step.mean, step.deviation)
+            );
+        }
+        out.push_str("</tr>\n");
+    }
+    out.push_str("</tbody></table>\n<p>n: monotonic phases that pass this flexion, without doubtful frames. Nothing is extrapolated.</p>\n");
+}
+
+fn doubts(out: &mut String, film: &JointFilm) {
+    let doubtful: Vec<&JointRow> = film.rows.iter().filter(|row| row.doubt.is_some()).collect();
+    let missing = film.rows.iter().filter(|row| row.joint.is_none());
+    let missing: Vec<String> = missing.map(|row| row.number.to_string()).collect();
+    out.push_str("<h2>Doubtful and missing frames</h2>\n");
+    if doubtful.is_empty() {
+        out.push_str("<p>No frame is marked as doubtful.</p>\n");
+    } else {
+        out.push_str(
+            "<table><thead><tr><th>frame</th><th class=\"word\">why</th></tr></thead><tbody>\n",
+        );
+        for row in doubtful {
+            let why = escaped(row.doubt.as_deref().unwrap_or_default());
+            let _ = writeln!(
+                out,
+                "<tr><td>{}</td><td class=\"word\">{why}</td></tr>",
+                row.number
+            );
+        }
+        out.push_str("</tbody></table>\n");
+    }
+    if !missing.is_empty() {
+        let _ = writeln!(
+            out,
+            "<p>Frames without a pose of both components, empty everywhere: {}.</p>",
+            missing.join(", ")
+        );
+    }
+}
+
+fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
+    out.push_str("<h2>Limits</h2>\n<ul>\n");
+    let mut say = |text: &str| {
+        let _ = writeln!(out, "<li>{}</li>", escaped(text));
+    };
+    say(
+        "One plane: depth is the least certain, and with it mediolateral translation. Where both components err in depth alike, as a wrong principal distance makes them, the joint hardly changes.",
+    );
+    say(
+        "Lowest points are not contact: the insert between the components is not seen. Lift-off is the difference of their heights above the tray, so it is that of an insert equally thick on both sides.",
+    );
+    if film.has_deviations() {
+        say(
+            "Standard deviations take the errors of the two poses as independent. What both have in common, such as constants of the film, then counts twice: depth looks less certain in the joint than it is.",
+        );
+        say(
+            "They know of errors that vary along an outline and of what is not known of the film, not of a wrong model, calibration or a pose on the wrong side of a mirror.",
+        );
+    } else {
+        say("These poses come without a covariance, so no number has a standard deviation here.");
+    }
+    say(
+        "The centre of rotation takes the frames as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
+    );
+    for remark in &facts.remarks {
+        say(remark);
+    }
+    out.push_str("</ul>\n");
+}
+
+fn inputs(out: &mut String, facts: &Facts) {
+    out.push_str("<h2>Made from</h2>\n<table><thead><tr><th>what</th><th class=\"word\">file</th><th class=\"word\">SHA-256</th></tr></thead><tbody>\n");
+    for input in &facts.inputs {
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td class=\"word\">{}</td><td class=\"digest\">{}</td></tr>",
+            escaped(&input.what),
+            escaped(&input.name),
+            escaped(&input.sha256)
+        );
+    }
+    out.push_str("</tbody></table>\n<h2>Settings and conventions</h2>\n<table><tbody>\n");
+    for (name, value) in &facts.settings {
+        let _ = writeln!(
+            out,
+            "<tr><td>{}</td><td class=\"word\">{}</td></tr>",
+            escaped(name),
+            escaped(value)
+        );
+    }
+    out.push_str("</tbody></table>\n");
+}
+
+fn frames(out: &mut String, film: &JointFilm) {
+    out.push_str("<h2>Frame by frame</h2>\n");
+    let mut words = vec!["frame", "flexion, \u{b0}"];
+    words.extend(SHOWN.iter().take(4).map(|(_, word)| *word));
+    words.extend(["ML, mm", "lift-off, mm", "P(lift-off > 1 mm)"]);
+    heading(out, &words);
+    for row in &film.rows {
+        let class = if row.doubt.is_some() {
+            " class=\"doubtful\""
+        } else {
+            ""
+        };
+        let _ = write!(out, "<tr{class}><td>{}</td>", row.number);
+        let numbers = [place::FLEXION]
+            .into_iter()
+            .chain(SHOWN.iter().take(4).map(|(number, _)| *number))
+            .chain([place::MEDIAL, place::LIFT_OFF]);
+        for number in numbers {
+            let value = row.joint.map_or(f64::NAN, |joint| joint.numbers[number]);
+            let deviation = row.joint.and_then(|joint| Some(joint.deviations?[number]));
+            let _ = write!(
+                out,
+                "<td>{}</td>",
+                with_deviation(value, deviation.unwrap_or(f64::NAN))
+            );
+        }
+        let probability = row.joint.and_then(|joint| joint.lift_off_probability(1.0));
+        let text = probability.map_or("\u{2013}".to_owned(), |p| format!("{p:.2}"));
+        let _ = writeln!(out, "<td>{text}</td></tr>");
+    }
+    let _ = writeln!(
+        out,
+        "</tbody></table>\n<p>All {} numbers, unrounded, are in joint.csv. ML: the femoral origin to medial of the tibial one, in tibial axes.</p>",
+        COLUMNS.len()
+    );
+}

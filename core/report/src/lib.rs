@@ -1,0 +1,14 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
+
+mod figure;
+mod film;
+mod html;
+pub mod read;
+mod svg;
+pub mod write;
+
+pub use figure::figure;
+pub use film::{JointFilm, JointRow, Step};
+pub use html::{Facts, Input, html};

@@ -1,0 +1,219 @@
+//! Files of the field, written: each number is the shortest that reads back as the same `f64`, NaN where there is none.
+
+use std::fmt::Write as _;
+
+use fluoropose::Side;
+use fluoropose::joint::COLUMNS;
+use fluoropose::joint::course::cycle;
+use fluoropose::joint::numbers::NUMBERS;
+use fluoropose::pose::jts::{JTA_EULER_KINEMATICS, JTA_EULER_POSE};
+use fluoropose::pose::{EulerPose, Pose};
+use thiserror::Error;
+
+use crate::film::{JointFilm, JointRow};
+
+/// Why a file cannot be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum WriteError {
+    /// Time is its first column.
+    #[error("this file needs times: state the frames a second")]
+    NoTimes,
+}
+
+/// Thresholds of lift-off in use, mm.
+const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
+
+/// What the heading of every file says that may have one.
+fn heading(film: &JointFilm) -> Vec<String> {
+    let side = match film.side {
+        Side::Left => "left",
+        Side::Right => "right",
+    };
+    let filter = match film.cutoff_hz.zip(film.frames_per_s) {
+        Some((cutoff, rate)) => format!(
+            "filter: columns filtered_* are those of poses filtered by a zero-lag Butterworth filter of fourth order, {cutoff} Hz at {rate} frames a second, rotations on the group, each unbroken run by itself; all others are as found"
+        ),
+        None => "filter: none".to_owned(),
+    };
+    vec![
+        format!("fluoropose {}, joint table version 1", env!("CARGO_PKG_VERSION")),
+        format!("study: {}; knee: {side}; frames are numbered as in the film, from 1; NaN where a component has no pose", film.name.replace(['\n', '\r'], " ")),
+        "units: mm, degrees (deg), percent of the tray's anterior-posterior extent from its posterior border".to_owned(),
+        "field_*: origin of the femoral component in the axes of the tibial one; flexion, abduction, internal rotation: tibia against femur, z-x-y, which is Grood and Suntay's sequence".to_owned(),
+        "gs_*: shift of the tibial origin from the femoral one along the axes of Grood and Suntay 1983".to_owned(),
+        "medial_*, lateral_*: lowest points of the femoral component above the tray's plate, from the plate's middle, anterior and medial positive; lift_off: lateral less medial height".to_owned(),
+        filter,
+    ]
+}
+
+/// The table of a film: every number of every frame, with standard deviations, the probability of lift-off, and what is doubtful.
+#[must_use]
+pub fn table(film: &JointFilm) -> String {
+    let mut out = String::new();
+    for line in heading(film) {
+        let _ = writeln!(out, "# {line}");
+    }
+    let mut names = vec!["frame".to_owned(), "time_s".to_owned()];
+    names.extend(COLUMNS.iter().map(|column| column.name.to_owned()));
+    names.extend(COLUMNS.iter().map(|column| format!("sd_{}", column.name)));
+    names.extend(THRESHOLDS_MM.map(|mm| format!("p_lift_off_over_{mm:.1}_mm")));
+    if film.cutoff_hz.is_some() {
+        names.extend(
+            COLUMNS
+                .iter()
+                .map(|column| format!("filtered_{}", column.name)),
+        );
+    }
+    names.push("doubt".to_owned());
+    let _ = writeln!(out, "{}", names.join(","));
+    for row in &film.rows {
+        table_row(&mut out, film, row);
+    }
+    out
+}
+
+fn table_row(out: &mut String, film: &JointFilm, row: &JointRow) {
+    let none = [f64::NAN; NUMBERS];
+    let time = seconds(film, row).unwrap_or(f64::NAN);
+    let _ = write!(out, "{},{time}", row.number);
+    let numbers = row.joint.map_or(none, |joint| joint.numbers);
+    let deviations = row.joint.and_then(|joint| joint.deviations).unwrap_or(none);
+    let probability = |mm| row.joint.and_then(|joint| joint.lift_off_probability(mm));
+    let probabilities = THRESHOLDS_MM.map(|mm| probability(mm).unwrap_or(f64::NAN));
+    let filtered = film.cutoff_hz.map(|_| row.filtered.unwrap_or(none));
+    let all = numbers.into_iter().chain(deviations).chain(probabilities);
+    for number in all.chain(filtered.into_iter().flatten()) {
+        let _ = write!(out, ",{number}");
+    }
+    let doubt = row
+        .doubt
+        .as_deref()
+        .unwrap_or_default()
+        .replace('"', "\"\"");
+    let _ = writeln!(out, ",\"{doubt}\"");
+}
+
+/// The first frame of the film is at time 0.
+fn seconds(film: &JointFilm, row: &JointRow) -> Option<f64> {
+    let rate = film.frames_per_s?;
+    Some((row.number as f64 - 1.0) / rate)
+}
+
+/// OpenSim's `.mot`: time first, then all numbers.
+///
+/// # Errors
+/// [`WriteError::NoTimes`].
+pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
+    let mut out = String::new();
+    let name = film.name.replace(['\n', '\r', '\t'], " ");
+    let (rows, columns) = (film.rows.len(), NUMBERS + 1);
+    let _ = write!(
+        out,
+        "{name}\nversion=1\nnRows={rows}\nnColumns={columns}\ninDegrees=yes\n"
+    );
+    for line in heading(film) {
+        let _ = writeln!(out, "# {line}");
+    }
+    let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
+    let _ = write!(out, "endheader\ntime\t{}\n", names.join("\t"));
+    for row in &film.rows {
+        let time = seconds(film, row).ok_or(WriteError::NoTimes)?;
+        let _ = write!(out, "{time}");
+        for number in row.joint.map_or([f64::NAN; NUMBERS], |joint| joint.numbers) {
+            let _ = write!(out, "\t{number}");
+        }
+        out.push('\n');
+    }
+    Ok(out)
+}
+
+/// One number over the film at 0 to 100 percent, for each film a row of 101: what statistical parametric mapping takes.
+#[must_use]
+pub fn matrix(films: &[&JointFilm], number: usize) -> String {
+    let mut out = String::new();
+    let name = COLUMNS.get(number).map_or("", |column| column.name);
+    for line in films.first().map(|film| heading(film)).unwrap_or_default() {
+        let _ = writeln!(out, "# {line}");
+    }
+    let _ = writeln!(
+        out,
+        "# {name}: a row a film, 101 points from its first to its last frame with a number, doubtful ones included, linear between frames, NaN beside missing ones"
+    );
+    for film in films {
+        let places: Vec<f64> = film.rows.iter().map(|row| row.number as f64).collect();
+        let values = film.values(number);
+        let known = |index: &usize| values[*index].is_finite();
+        let first = (0..values.len()).find(known).unwrap_or(0);
+        let last = (0..values.len()).rev().find(known).unwrap_or(0);
+        let end = |index: usize| places.get(index).copied().unwrap_or(f64::NAN);
+        let points = cycle(&places, &values, end(first), end(last));
+        let points: Vec<String> = points.iter().map(f64::to_string).collect();
+        let _ = writeln!(out, "{}", points.join(","));
+    }
+    out
+}
+
+/// `.jtak`: a row a frame; `NOT_OPTIMIZED` begins that of a frame without a pose.
+#[must_use]
+pub fn jtak(poses: &[Option<Pose>]) -> String {
+    let mut out = format!("{JTA_EULER_KINEMATICS}\n{EULER_COLUMNS}");
+    for pose in poses {
+        match pose {
+            Some(pose) => euler_row(&mut out, pose),
+            None => out.push_str("NOT_OPTIMIZED,\t0,\t0,\t0,\t0,\t0,\t0,\n"),
+        }
+    }
+    out
+}
+
+/// `.jtap`: one pose.
+#[must_use]
+pub fn jtap(pose: &Pose) -> String {
+    let mut out = format!("{JTA_EULER_POSE}\n{EULER_COLUMNS}");
+    euler_row(&mut out, pose);
+    out
+}
+
+const EULER_COLUMNS: &str = "X_TRAN\t\tY_TRAN\t\tZ_TRAN\t\tZ_ROT\t\tX_ROT\t\tY_ROT\n";
+
+fn euler_row(out: &mut String, pose: &Pose) {
+    let EulerPose {
+        x_mm,
+        y_mm,
+        z_mm,
+        z_rot_deg,
+        x_rot_deg,
+        y_rot_deg,
+    } = EulerPose::from(*pose);
+    let _ = writeln!(
+        out,
+        "{x_mm},\t{y_mm},\t{z_mm},\t{z_rot_deg},\t{x_rot_deg},\t{y_rot_deg},"
+    );
+}
+
+/// `.tra`: a row a frame, the bodies side by side, each 16 numbers of `camera_from_model` row by row; NaN where there is no pose.
+/// It has no heading.
+#[must_use]
+pub fn tra(bodies: &[&[Option<Pose>]]) -> String {
+    let frames = bodies.iter().map(|body| body.len()).max().unwrap_or(0);
+    let mut out = String::new();
+    for frame in 0..frames {
+        let numbers = bodies.iter().flat_map(|body| {
+            let pose = body.get(frame).copied().flatten();
+            pose.map_or([f64::NAN; 16], |pose| homogeneous(&pose))
+        });
+        let numbers: Vec<String> = numbers.map(|number| number.to_string()).collect();
+        let _ = writeln!(out, "{}", numbers.join(","));
+    }
+    out
+}
+
+fn homogeneous(pose: &Pose) -> [f64; 16] {
+    let (r, t) = (&pose.rotation, &pose.translation);
+    core::array::from_fn(|k| match (k / 4, k % 4) {
+        (3, 3) => 1.0,
+        (3, _) => 0.0,
+        (row, 3) => t[row],
+        (row, column) => r[row][column],
+    })
+}

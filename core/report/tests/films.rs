@@ -1,0 +1,266 @@
+//! A made-up film as files, figure and report: what is written reads back, and what a reader must be told stands there.
+#![allow(clippy::unwrap_used, reason = "a refusal fails the test")]
+
+use fluoropose::Side;
+use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::{COLUMNS, JointFrame};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
+use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, read, write};
+
+/// Bent from 0 to 58 degrees in 2-degree steps about a centre at (-4, 12); frame 8 has no pose, frame 5 is doubtful.
+fn film(rotation_deg: f64) -> JointFilm {
+    let row = |k: usize| {
+        let turn = (rotation_deg * (k as f64 / 29.0 - 0.5)).to_radians();
+        let mut numbers = [0.0; NUMBERS];
+        for (number, value) in numbers.iter_mut().enumerate() {
+            *value = number as f64 + 0.1 * (k as f64).sin();
+        }
+        numbers[place::FLEXION] = 2.0 * k as f64;
+        numbers[place::ROTATION] = turn.to_degrees();
+        for (ap, across, at) in [
+            (place::MEDIAL_AP, place::MEDIAL_ACROSS, 24.0),
+            (place::LATERAL_AP, place::LATERAL_ACROSS, -24.0),
+        ] {
+            numbers[ap] = -4.0 + (at - 12.0) * turn.sin();
+            numbers[across] = 12.0 + (at - 12.0) * turn.cos();
+        }
+        let deviations = (!k.is_multiple_of(3)).then_some([0.5; NUMBERS]);
+        JointRow {
+            number: k + 11,
+            joint: (k != 8).then_some(JointFrame {
+                numbers,
+                deviations,
+            }),
+            filtered: None,
+            doubt: (k == 5).then(|| "tibia doubtful: \"rim\" <inner>, or not".to_owned()),
+        }
+    };
+    JointFilm {
+        name: "a & b".to_owned(),
+        side: Side::Left,
+        plate_depth_mm: 48.0,
+        plate_width_mm: 74.0,
+        plate_outline: vec![[24.0, 37.0], [24.0, -37.0], [-24.0, -37.0], [-24.0, 37.0]],
+        frames_per_s: Some(15.0),
+        cutoff_hz: None,
+        rows: (0..30).map(row).collect(),
+    }
+}
+
+#[test]
+fn the_table_reads_back_to_the_last_bit() {
+    let film = film(12.0);
+    let table = read::table(&write::table(&film)).unwrap();
+    assert_eq!(table.rows.len(), 30);
+    assert_eq!(table.column("frame").unwrap()[0], 11.0);
+    for (number, column) in COLUMNS.iter().enumerate() {
+        let found = table.column(column.name).unwrap();
+        let wanted = film.values(number);
+        assert!(
+            found
+                .iter()
+                .zip(&wanted)
+                .all(|(a, b)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+        );
+        let sd = table.column(&format!("sd_{}", column.name)).unwrap();
+        assert_eq!((sd[1], sd[3].is_nan()), (0.5, true));
+    }
+    let text = write::table(&film);
+    for word in [
+        "version 1",
+        "filter: none",
+        "Grood and Suntay",
+        "units: mm",
+        "\"\"rim\"\"",
+    ] {
+        assert!(text.contains(word), "{word}");
+    }
+    assert!(film.values(3)[8].is_nan());
+}
+
+#[test]
+fn opensim_files_have_times_and_refuse_without() {
+    let mut film = film(12.0);
+    let text = write::mot(&film).unwrap();
+    let table = read::mot(&text).unwrap();
+    assert_eq!(table.names[0], "time");
+    assert_eq!(table.column("time").unwrap()[3], (14.0 - 1.0) / 15.0);
+    assert_eq!(table.column("flexion_deg").unwrap()[20], 40.0);
+    assert!(text.contains(&format!(
+        "nRows=30\nnColumns={}\ninDegrees=yes",
+        NUMBERS + 1
+    )));
+    film.frames_per_s = None;
+    assert!(write::mot(&film).is_err());
+    assert!(read::mot("time\t1").is_err());
+}
+
+#[test]
+fn a_matrix_has_101_points_a_film() {
+    let film = film(12.0);
+    let text = write::matrix(&[&film, &film], place::FLEXION);
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(rows.len(), 2);
+    let points: Vec<f64> = rows[0].split(',').map(|x| x.parse().unwrap()).collect();
+    assert_eq!(points.len(), 101);
+    assert!((points[100] - 58.0).abs() < 1e-9 && (points[50] - 29.0).abs() < 1e-9);
+    // Frame 8 of 29 steps is missing: what lies within one step of it.
+    let missing = points.iter().filter(|point| point.is_nan()).count();
+    assert_eq!(missing, (25..=31).count());
+}
+
+fn poses() -> Vec<Option<Pose>> {
+    (0..6)
+        .map(|k| {
+            let t = f64::from(k);
+            let pose = EulerPose {
+                x_mm: t,
+                y_mm: -3.5,
+                z_mm: -900.0 - t,
+                z_rot_deg: 20.0 * t,
+                x_rot_deg: -4.0,
+                y_rot_deg: 7.0,
+            };
+            (k != 2).then(|| Pose::from(pose))
+        })
+        .collect()
+}
+
+fn alike(a: &[Option<Pose>], b: &[Option<Pose>]) {
+    assert_eq!(a.len(), b.len());
+    for (a, b) in a.iter().zip(b) {
+        match (a, b) {
+            (Some(a), Some(b)) => {
+                assert!(geodesic_deg(&a.rotation, &b.rotation) < 1e-6);
+                assert!((a.translation[2] - b.translation[2]).abs() < 1e-9);
+            }
+            (a, b) => assert!(a.is_none() && b.is_none()),
+        }
+    }
+}
+
+#[test]
+fn poses_read_back_with_their_gaps() {
+    let poses = poses();
+    let read_jts = |text: &str| -> Vec<Option<Pose>> {
+        let rows = jts::read(text).unwrap();
+        rows.map(|row| row.unwrap().map(Pose::from)).collect()
+    };
+    alike(&read_jts(&write::jtak(&poses)), &poses);
+    alike(&read_jts(&write::jtap(&poses[0].unwrap())), &poses[..1]);
+    let text = write::tra(&[&poses, &poses[..5]]);
+    let bodies = read::tra(&text).unwrap();
+    alike(&bodies[0], &poses);
+    alike(&bodies[1][..5], &poses[..5]);
+    assert!(bodies[1][5].is_none());
+    // By columns, with tabs.
+    let pose = poses[1].unwrap();
+    let by_columns: Vec<String> = (0..16)
+        .map(|k| match (k / 4, k % 4) {
+            (3, 3) => 1.0,
+            (_, 3) => 0.0,
+            (3, row) => pose.translation[row],
+            (column, row) => pose.rotation[row][column],
+        })
+        .map(|number: f64| number.to_string())
+        .collect();
+    alike(&read::tra(&by_columns.join("\t")).unwrap()[0], &poses[1..2]);
+}
+
+#[test]
+fn faulty_files_are_refused_by_line() {
+    let text = write::tra(&[&poses()]);
+    assert_eq!(read::tra("1,2,3,4,5,6"), Err(read::ReadError::Bodies(6)));
+    let torn = text.replacen(",0,0,0,1\n", ",0,0,1,1\n", 1);
+    assert_eq!(read::tra(&torn), Err(read::ReadError::Matrix(1)));
+    let short = format!("{text}1,2\n");
+    assert!(read::tra(&short).is_err());
+    let words = read::table("# x\nframe,a,doubt\n1,2,\"\"\n2,x,\"\"\n");
+    assert_eq!(
+        words,
+        Err(read::ReadError::Row {
+            line: 4,
+            expected: 2
+        })
+    );
+}
+
+#[test]
+fn the_figure_has_four_panels_and_tells_its_centre() {
+    let picture = figure(&film(12.0));
+    for letter in ["a", "b", "c", "d"] {
+        assert!(
+            picture.contains(&format!("font-weight=\"bold\">{letter}</text>")),
+            "{letter}"
+        );
+    }
+    assert!(
+        picture
+            .contains("centre of rotation 4.0 \u{b1} 0.0 mm posterior, 12.0 \u{b1} 0.0 mm medial")
+    );
+    assert!(picture.contains("<title>Joint motion of a &amp; b</title>"));
+    assert!(
+        picture.contains("<title>frame 16: "),
+        "points name their frames"
+    );
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    // Levels at 0, 10, .. 50 degrees: a line on the tray for each but 10, whose frame is doubtful.
+    assert_eq!(picture.matches("stroke-width=\"1.5\"").count(), 5);
+    let little = figure(&film(2.0));
+    assert!(little.contains("the condyle lines turn by 2.0\u{b0} only"));
+}
+
+#[test]
+fn doubtful_frames_are_shown_and_count_for_nothing() {
+    let mut spoilt = film(12.0);
+    let joint = spoilt.rows[5].joint.as_mut().unwrap();
+    joint.numbers[place::LATERAL_AP] = 900.0;
+    joint.numbers[place::FLEXION] = -170.0;
+    let (clean, pivot) = (film(12.0).pivot().unwrap(), spoilt.pivot().unwrap());
+    assert_eq!((clean.n, pivot), (28, clean));
+    assert_eq!(spoilt.levels()[0], 0.0);
+    let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
+    assert_eq!(at(&spoilt), at(&film(12.0)));
+    assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));
+}
+
+#[test]
+fn a_film_without_anything_is_drawn_empty() {
+    let mut nothing = film(12.0);
+    nothing.rows.iter_mut().for_each(|row| row.joint = None);
+    let picture = figure(&nothing);
+    assert!(picture.contains("too few condyle lines") && !picture.contains("NaN"));
+    nothing.rows.clear();
+    assert!(html(&nothing, &Facts::default()).contains("0 frames"));
+}
+
+#[test]
+fn the_report_names_inputs_settings_doubts_and_limits() {
+    let facts = Facts {
+        made_by: "fluoropose 0".to_owned(),
+        inputs: vec![Input {
+            what: "femoral model".to_owned(),
+            name: "f.stl".to_owned(),
+            sha256: "00ff".to_owned(),
+        }],
+        settings: vec![("filter".to_owned(), "none".to_owned())],
+        remarks: vec!["The front is <guessed>.".to_owned()],
+    };
+    let page = html(&film(12.0), &facts);
+    for words in [
+        "a &amp; b: joint motion",
+        "30 frames: 29 with a pose of both components, 1 doubtful",
+        "00ff",
+        "The front is &lt;guessed&gt;.",
+        "\"rim&quot; &lt;inner&gt;".trim_start_matches('"'),
+        "empty everywhere: 19",
+        "Lowest points are not contact",
+        "<svg",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(
+        !page.contains("http://")
+            || page.matches("http://").count() == page.matches("http://www.w3.org").count()
+    );
+}

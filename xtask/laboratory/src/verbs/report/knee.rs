@@ -1,0 +1,172 @@
+//! The joint of a study, frame by frame.
+
+use anyhow::{Context, Result};
+use fluoropose::joint::low_pass::LowPass;
+use fluoropose::joint::numbers::NUMBERS;
+use fluoropose::joint::relative::{NOTHING_COMMON, Relative};
+use fluoropose::joint::{Joint, JointFrame};
+use fluoropose::mesh::anatomy::AnatomicalAxes;
+use fluoropose::{Pose, Side};
+use fluoropose_phantom::implant;
+use fluoropose_report::{JointFilm, JointRow};
+
+use super::sources::{Body, Sources};
+use crate::files::{Role, Study};
+use crate::finding::axes_of;
+
+/// Points of the tray's border.
+const BORDER: usize = 180;
+
+/// What is filtered, if anything.
+pub(super) struct Filtering {
+    frames_per_s: Option<f64>,
+    low_pass: Option<LowPass>,
+}
+
+impl Filtering {
+    pub(super) fn new(frames_per_s: Option<f64>, cutoff_hz: Option<f64>) -> Result<Self> {
+        let low_pass = match cutoff_hz.zip(frames_per_s) {
+            Some((cutoff, rate)) => Some(LowPass::new(cutoff, rate)?),
+            None => None,
+        };
+        Ok(Self {
+            frames_per_s,
+            low_pass,
+        })
+    }
+}
+
+/// The joint and the words of its axes.
+pub(super) struct Knee<'s> {
+    name: String,
+    side: Side,
+    joint: Joint<'s>,
+    pub(super) femur_axes: String,
+    pub(super) tibia_axes: String,
+    pub(super) remarks: Vec<String>,
+}
+
+impl<'s> Knee<'s> {
+    pub(super) fn new(study: &Study, sources: &'s Sources) -> Result<Self> {
+        let side = match study
+            .side
+            .context("the study does not say which knee it is: key side")?
+        {
+            implant::Side::Left => Side::Left,
+            implant::Side::Right => Side::Right,
+        };
+        let femur = axes(&sources.femur, Role::Femur)?;
+        let tibia = axes(&sources.tibia, Role::Tibia)?;
+        let mut remarks = Vec::new();
+        for (body, axes) in [(&sources.femur, &femur), (&sources.tibia, &tibia)] {
+            if !axes.front_is_known {
+                remarks.push(format!("The shape of the component {} does not tell front from back; if flexion has the wrong sign, its axes have to be stated.", body.name));
+            }
+        }
+        let joint = Joint::new(
+            (
+                *sources.femur.model.as_model().mesh(),
+                &femur.model_from_field,
+            ),
+            (
+                *sources.tibia.model.as_model().mesh(),
+                &tibia.model_from_field,
+            ),
+            side,
+        );
+        Ok(Self {
+            name: study.name.clone(),
+            side,
+            joint: joint
+                .context("no part of the tibial model faces upwards like a tray's plate")?,
+            femur_axes: femur.to_string(),
+            tibia_axes: tibia.to_string(),
+            remarks,
+        })
+    }
+
+    pub(super) fn film(&self, sources: &Sources, filtering: &Filtering) -> Result<JointFilm> {
+        let frames = sources.femur.poses.len();
+        let relative: Vec<Option<Relative>> = (0..frames)
+            .map(|frame| self.relative(sources, frame))
+            .collect();
+        let mut memory = vec![0; self.joint.memory_needed()];
+        let filtered = self.filtered(&relative, filtering, &mut memory)?;
+        let mut rows = Vec::new();
+        for (frame, relative) in relative.iter().enumerate() {
+            let joint: Option<JointFrame> = match relative {
+                Some(relative) => Some(self.joint.at(relative, &mut memory)?),
+                None => None,
+            };
+            rows.push(JointRow {
+                number: frame + 1,
+                joint,
+                filtered: filtered.get(frame).copied().flatten(),
+                doubt: sources.doubts.get(&frame).cloned(),
+            });
+        }
+        let mut outline = vec![[0.0; 2]; BORDER];
+        self.joint.plate_outline(&mut outline);
+        let plate = self.joint.plate();
+        Ok(JointFilm {
+            name: self.name.clone(),
+            side: self.side,
+            plate_depth_mm: plate.depth_mm,
+            plate_width_mm: plate.width_mm,
+            plate_outline: outline,
+            frames_per_s: filtering.frames_per_s,
+            cutoff_hz: filtering.low_pass.map(|low_pass| low_pass.cutoff_hz),
+            rows,
+        })
+    }
+
+    fn relative(&self, sources: &Sources, frame: usize) -> Option<Relative> {
+        let of = |body: &Body| {
+            let covariance = body.covariances.get(&frame).copied();
+            Some((body.poses[frame]?, covariance))
+        };
+        let (femur, tibia) = (of(&sources.femur)?, of(&sources.tibia)?);
+        let (femur, tibia) = ((&femur.0, femur.1), (&tibia.0, tibia.1));
+        Some(self.joint.relative(femur, tibia, &NOTHING_COMMON))
+    }
+
+    /// The numbers of the filtered relative poses; nothing without a filter.
+    fn filtered(
+        &self,
+        relative: &[Option<Relative>],
+        filtering: &Filtering,
+        memory: &mut [u32],
+    ) -> Result<Vec<Option<[f64; NUMBERS]>>> {
+        let Some(low_pass) = filtering.low_pass else {
+            return Ok(Vec::new());
+        };
+        let pose = |relative: &Option<Relative>| relative.map(|one| one.tibia_from_femur);
+        let mut poses: Vec<Option<Pose>> = relative.iter().map(pose).collect();
+        let mut room = vec![0.0; LowPass::pose_memory_needed(poses.len())];
+        low_pass.smooth_poses(&mut poses, &mut room)?;
+        let mut numbers = Vec::new();
+        for (pose, relative) in poses.into_iter().zip(relative) {
+            let Some((tibia_from_femur, relative)) = pose.zip(*relative) else {
+                numbers.push(None);
+                continue;
+            };
+            let smooth = Relative {
+                tibia_from_femur,
+                covariance: None,
+                ..relative
+            };
+            numbers.push(Some(self.joint.at(&smooth, memory)?.numbers));
+        }
+        Ok(numbers)
+    }
+}
+
+fn axes(body: &Body, role: Role) -> Result<AnatomicalAxes> {
+    let axes = axes_of(&body.model.as_model(), role, body.stated_axes.as_deref())?;
+    axes.with_context(|| {
+        format!(
+            "the shape of {} does not tell its axes: state them in the study",
+            body.name
+        )
+    })
+}

@@ -1,0 +1,177 @@
+//! What a report is made from: models, poses, their covariances, what is doubtful, and the digests of all of these.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use fluoropose::Pose;
+use fluoropose::mesh::OwnedModel;
+use fluoropose::pose::covariance::PoseCovariance;
+use fluoropose_report::Input;
+use sha2::{Digest as _, Sha256};
+
+use crate::files::{Component, Role, Study, name_of, read, read_model, read_poses, read_text};
+
+/// A component with its poses.
+pub(super) struct Body {
+    pub(super) name: String,
+    pub(super) stated_axes: Option<String>,
+    pub(super) model: OwnedModel,
+    pub(super) poses: Vec<Option<Pose>>,
+    /// By frame, where they are known.
+    pub(super) covariances: BTreeMap<usize, PoseCovariance>,
+}
+
+pub(super) struct Sources {
+    pub(super) femur: Body,
+    pub(super) tibia: Body,
+    /// Why a frame is doubtful, by its number from 0.
+    pub(super) doubts: BTreeMap<usize, String>,
+    pub(super) whose: String,
+    pub(super) inputs: Vec<Input>,
+}
+
+impl Sources {
+    pub(super) fn read(file: &Path, study: &Study, poses: Option<&Path>) -> Result<Self> {
+        let mut inputs = vec![
+            digest("study", file)?,
+            digest("calibration", &study.calibration)?,
+        ];
+        let mut body = |role| Body::read(study, role, poses, &mut inputs);
+        let (femur, tibia) = (body(Role::Femur)?, body(Role::Tibia)?);
+        let (a, b) = (femur.poses.len(), tibia.poses.len());
+        if a != b {
+            bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");
+        }
+        let table = poses.map(|folder| folder.join("track.csv"));
+        let doubts = match table.filter(|table| table.is_file()) {
+            Some(table) => {
+                inputs.push(digest("states of the frames", &table)?);
+                doubts(&read_text(&table)?)
+            }
+            None => BTreeMap::new(),
+        };
+        let whose = match poses {
+            Some(folder) => format!("those of the folder {}", name_of(folder)),
+            None => "the study's references".to_owned(),
+        };
+        Ok(Self {
+            femur,
+            tibia,
+            doubts,
+            whose,
+            inputs,
+        })
+    }
+}
+
+impl Body {
+    fn read(
+        study: &Study,
+        role: Role,
+        poses: Option<&Path>,
+        inputs: &mut Vec<Input>,
+    ) -> Result<Self> {
+        let word = match role {
+            Role::Femur => "femoral",
+            Role::Tibia => "tibial",
+        };
+        let component = study.components.iter().find(|one| one.role() == Some(role));
+        let component =
+            component.with_context(|| format!("{} names no {word} component", study.name))?;
+        let file = pose_file(component, poses).with_context(|| {
+            format!(
+                "{} has no reference poses: name a folder of poses",
+                component.name
+            )
+        })?;
+        inputs.push(digest(&format!("{word} model"), &component.model)?);
+        inputs.push(digest(&format!("{word} poses"), &file)?);
+        let beside = file.with_extension("covariances.csv");
+        let covariances = match poses.is_some() && beside.is_file() {
+            true => {
+                inputs.push(digest(&format!("{word} covariances"), &beside)?);
+                covariances(&read_text(&beside)?)
+                    .with_context(|| format!("in {}", beside.display()))?
+            }
+            false => BTreeMap::new(),
+        };
+        Ok(Self {
+            name: component.name.clone(),
+            stated_axes: component.axes.clone(),
+            model: read_model(&component.model)?,
+            poses: read_poses(&file)?,
+            covariances,
+        })
+    }
+}
+
+fn pose_file(component: &Component, poses: Option<&Path>) -> Option<PathBuf> {
+    match poses {
+        Some(folder) => Some(folder.join(format!("{}.jts", component.name))),
+        None => component.reference.clone(),
+    }
+}
+
+fn digest(what: &str, file: &Path) -> Result<Input> {
+    let digest = Sha256::digest(read(file)?);
+    Ok(Input {
+        what: what.to_owned(),
+        name: name_of(file),
+        sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+    })
+}
+
+/// As `track` writes them: a frame, from 1, and 36 numbers.
+fn covariances(text: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
+    let mut all = BTreeMap::new();
+    for (index, line) in text.lines().enumerate().skip(1) {
+        let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+        let numbers = numbers.with_context(|| format!("line {}", index + 1))?;
+        let (rows, rest) = numbers.get(1..).unwrap_or_default().as_chunks::<6>();
+        let matrix: Option<[[f64; 6]; 6]> = rows.try_into().ok().filter(|_| rest.is_empty());
+        let matrix =
+            matrix.with_context(|| format!("line {} does not hold 37 numbers", index + 1))?;
+        // A whole number from 1: fractions would name no frame.
+        all.insert(
+            (numbers[0] as usize).saturating_sub(1),
+            PoseCovariance { matrix },
+        );
+    }
+    Ok(all)
+}
+
+/// The reasons of `track.csv` (frame, component, state, verdict, reason) for what is not good.
+fn doubts(text: &str) -> BTreeMap<usize, String> {
+    let mut all: BTreeMap<usize, String> = BTreeMap::new();
+    for line in text.lines().skip(1) {
+        let fields = fields(line);
+        let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
+            continue;
+        };
+        let (Ok(frame), false) = (frame.parse::<usize>(), verdict == "good") else {
+            continue;
+        };
+        let why = format!("{component} {state}: {because}");
+        let all = all.entry(frame.saturating_sub(1)).or_default();
+        if !all.is_empty() {
+            all.push_str("; ");
+        }
+        all.push_str(&why);
+    }
+    all
+}
+
+/// Fields of a line, some in quotes.
+fn fields(line: &str) -> Vec<String> {
+    let (mut fields, mut field, mut quoted) = (Vec::new(), String::new(), false);
+    for letter in line.chars() {
+        match letter {
+            '"' => quoted = !quoted,
+            ',' if !quoted => fields.push(std::mem::take(&mut field)),
+            other => field.push(other),
+        }
+    }
+    fields.push(field);
+    fields
+}

@@ -1,0 +1,164 @@
+//! The verb on built-in implants that turn about a known place.
+
+use fluoropose::Pose;
+use fluoropose::pose::EulerPose;
+use fluoropose::pose::jts;
+use fluoropose_phantom::implant::{self, Parameters, femur, tibia};
+use fluoropose_phantom::stl;
+use fluoropose_report::read;
+
+use super::*;
+
+const FRAMES: usize = 24;
+/// To medial of the tray's middle, mm.
+const PIVOT: f64 = 15.0;
+
+fn pose(place: [f64; 3], turns: [f64; 3]) -> Pose {
+    let ([x_mm, y_mm, z_mm], [z_rot_deg, x_rot_deg, y_rot_deg]) = (place, turns);
+    EulerPose {
+        x_mm,
+        y_mm,
+        z_mm,
+        z_rot_deg,
+        x_rot_deg,
+        y_rot_deg,
+    }
+    .into()
+}
+
+/// A left knee at 30 degrees that turns by 12 about a place on the plate; frame 7 has no femur. While it flexed, its lowest points
+/// would wander on the condyles, and the lines would meet elsewhere.
+fn poses() -> [Vec<Option<EulerPose>>; 2] {
+    let camera = pose([10.0, -20.0, -900.0], [12.0, 4.0, -3.0]);
+    let mut both = [Vec::new(), Vec::new()];
+    for frame in 0..FRAMES {
+        let part = frame as f64 / (FRAMES - 1) as f64;
+        let about = pose([0.0, 0.0, PIVOT], [0.0, 0.0, 12.0 * (part - 0.5)]);
+        let back = pose([0.0, 0.0, -PIVOT], [0.0; 3]);
+        let flexed = pose([2.0, 30.0, 0.0], [30.0, 0.0, 0.0]);
+        let femur = camera.compose(&about).compose(&back).compose(&flexed);
+        both[0].push((frame != 6).then(|| EulerPose::from(femur)));
+        both[1].push(Some(EulerPose::from(camera)));
+    }
+    both
+}
+
+fn write_study(folder: &Path) {
+    let parameters = Parameters {
+        side: implant::Side::Left,
+        ..Parameters::default()
+    };
+    for (name, mesh) in [("femur", femur(&parameters)), ("tibia", tibia(&parameters))] {
+        stl::write_file(&mesh.unwrap(), &folder.join(format!("{name}.stl"))).unwrap();
+    }
+    for (name, poses) in ["femur", "tibia"].into_iter().zip(poses()) {
+        let mut text = String::new();
+        jts::write_heading(&mut text).unwrap();
+        for pose in &poses {
+            jts::write_row(&mut text, pose.as_ref()).unwrap();
+        }
+        std::fs::write(folder.join(format!("{name}.jts")), text).unwrap();
+        // A tenth of a degree, and 0.1 mm but for depth.
+        let mut table = String::from("frame,c11\n");
+        for frame in 1..=FRAMES {
+            let deviations = [0.002, 0.002, 0.002, 0.1, 0.1, 1.5];
+            let entry = |k: usize| match k / 6 == k % 6 {
+                true => (deviations[k % 6] * deviations[k % 6]).to_string(),
+                false => "0".to_owned(),
+            };
+            let entries: Vec<String> = (0..36).map(entry).collect();
+            table.push_str(&format!("{frame},{}\n", entries.join(",")));
+        }
+        std::fs::write(folder.join(format!("{name}.covariances.csv")), table).unwrap();
+    }
+    let track = "frame,component,state,verdict,because\n3,\"femur\",followed,good,\"fits\"\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\"\n";
+    std::fs::write(folder.join("track.csv"), track).unwrap();
+    std::fs::write(
+        folder.join("calibration.txt"),
+        "JT_INTCALIB\n1000\n0\n0\n0.3\n",
+    )
+    .unwrap();
+    let study = "name = 'pivot'\nside = 'left'\ncalibration = 'calibration.txt'\n\
+        [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n[[component]]\nname = 'tibia'\nmodel = 'tibia.stl'\n";
+    std::fs::write(folder.join("study.toml"), study).unwrap();
+}
+
+#[test]
+fn a_known_pivot_a_gap_and_a_doubt_come_through() {
+    let folder = std::env::temp_dir().join(format!("fluoropose-report-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    write_study(&folder);
+    let args = |cutoff| Args {
+        study: folder.join("study.toml"),
+        poses: Some(folder.clone()),
+        out: folder.join("out"),
+        fps: Some(15.0),
+        cutoff: Some(cutoff),
+    };
+    run(args(3.0)).unwrap();
+    let text = |name: &str| std::fs::read_to_string(folder.join("out").join(name)).unwrap();
+    let table = read::table(&text("joint.csv")).unwrap();
+    let column = |name: &str| table.column(name).unwrap();
+    assert_eq!(table.rows.len(), FRAMES);
+    let (flexion, gap) = (column("flexion_deg"), 6);
+    assert!((flexion[0] - 30.0).abs() < 0.1 && (flexion[20] - 30.0).abs() < 0.1);
+    assert!(flexion[gap].is_nan() && column("lift_off_mm")[gap].is_nan());
+    assert!(
+        column("sd_field_medial_mm")
+            .iter()
+            .filter(|sd| **sd > 1.5)
+            .count()
+            == FRAMES - 1
+    );
+    // Nothing was there to filter: a smooth film keeps its numbers.
+    let filtered = column("filtered_flexion_deg");
+    assert!((filtered[12] - flexion[12]).abs() < 0.05 && filtered[gap].is_nan());
+    let mot = read::mot(&text("joint.mot")).unwrap();
+    assert_eq!(mot.column("flexion_deg").unwrap()[3], flexion[3]);
+    assert_eq!(read::tra(&text("joint.tra")).unwrap()[0][gap], None);
+    let report = text("report.html");
+    for words in [
+        "tibia doubtful: a rim, perhaps",
+        "empty everywhere: 7",
+        "femoral covariances",
+        "3 Hz",
+    ] {
+        assert!(report.contains(words), "{words}");
+    }
+    check_centre(&text("figure.svg"), column);
+    assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// The centre that the figure tells.
+fn check_centre(figure: &str, column: impl Fn(&str) -> Vec<f64>) {
+    let words = figure
+        .split("centre of rotation ")
+        .nth(1)
+        .unwrap()
+        .split('<')
+        .next()
+        .unwrap();
+    let numbers: Vec<f64> = words
+        .split(' ')
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let [anterior, _, across, _] = numbers[..] else {
+        panic!("{words}")
+    };
+    assert!((across - PIVOT).abs() < 0.2, "{words}");
+    // The condyles lie in front of the axis, and the lines meet where that is nearest to them.
+    let ends = [
+        "medial_across_mm",
+        "lateral_across_mm",
+        "medial_ap_mm",
+        "lateral_ap_mm",
+    ];
+    let [m, l, front, rear] = ends.map(|name| column(name)[FRAMES / 2]);
+    let on_the_line = front + (rear - front) * (PIVOT - m) / (l - m);
+    assert!(
+        (anterior - on_the_line).abs() < 0.3,
+        "{words} for {on_the_line}"
+    );
+    assert!(words.ends_with("medial"), "{words}");
+}
