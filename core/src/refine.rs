@@ -29,6 +29,7 @@ mod loss;
 mod memory;
 mod options;
 mod outline;
+mod places;
 mod polarity;
 mod probe;
 mod problem;

@@ -63,10 +63,6 @@ impl BorderPixel {
         self.far > 0.0
     }
 
-    pub(super) fn is_at(&self, column: usize, row: usize) -> bool {
-        (usize::from(self.column), usize::from(self.row)) == (column, row)
-    }
-
     /// A piece of the surface or of the contour that covers the pixel.
     pub(super) fn cover(&mut self, depth: f32) {
         self.near = self.near.min(depth);

@@ -23,7 +23,7 @@ const LINES: usize = 2048;
 pub struct RefineBuffers {
     projected: Vec<Projected>,
     drawn: Vec<Word>,
-    places: Vec<u16>,
+    places: Vec<[Word; 2]>,
     border: Vec<BorderPixel>,
     lines: Vec<PathLine>,
     heads: Vec<u16>,
@@ -48,7 +48,7 @@ impl RefineBuffers {
         let (width, height) = (camera.width(), camera.height());
         grow(&mut self.projected, scratch_needed(model));
         grow(&mut self.drawn, words_needed(width, height));
-        grow(&mut self.places, width * height);
+        grow(&mut self.places, words_needed(width, height));
         grow(&mut self.border, BORDER);
         grow(&mut self.lines, LINES);
         grow(&mut self.heads, heads_needed());

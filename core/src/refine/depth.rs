@@ -8,7 +8,8 @@
 //! so holes and mixed winding do not matter.
 
 use super::border::BorderPixel;
-use super::outline::{Depth, DrawnModel, is_surrounded};
+use super::outline::{Depth, DrawnModel};
+use super::places::Places;
 use crate::image::scan::pixel_box;
 use crate::image::tiles::Tiles;
 use crate::math::dot;
@@ -19,7 +20,7 @@ impl DrawnModel<'_> {
     pub(super) fn measure_depth(
         &self,
         scratch: &mut [Projected],
-        places: &[u16],
+        places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
         if let (Depth::Edges, Some(edges)) = (self.sampling.depth, contour(self.model, scratch)) {
@@ -36,7 +37,7 @@ impl DrawnModel<'_> {
         &self,
         vertices: [u32; 2],
         [from, to]: [[f32; 2]; 2],
-        places: &[u16],
+        places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
         let along: [f32; 2] = core::array::from_fn(|k| to[k] - from[k]);
@@ -47,42 +48,29 @@ impl DrawnModel<'_> {
         for step in 0..steps {
             let fraction = step as f32 / steps as f32;
             let point = core::array::from_fn(|k| from[k] + fraction * along[k]);
-            let Some(place) = self.near_border(point) else {
+            let Some([column, row]) = self.pixel(point) else {
                 continue;
             };
-            let [near, far] =
-                *depths.get_or_insert_with(|| vertices.map(|vertex| self.depth_of_vertex(vertex)));
-            self.lay_point(near + fraction * (far - near), place, places, border);
-        }
-    }
-
-    /// The pixel of a point, where there may be border pixels in or beside it: most of a contour lies inside the silhouette.
-    fn near_border(&self, [column, row]: [f32; 2]) -> Option<[usize; 2]> {
-        let (width, height) = (self.drawn.width(), self.drawn.height());
-        if column < 1.0 || row < 1.0 || column >= (width - 1) as f32 || row >= (height - 1) as f32 {
-            return None;
-        }
-        let (column, row) = (column as usize, row as usize);
-        (!is_surrounded(self.drawn, column, row)).then_some([column, row])
-    }
-
-    fn lay_point(
-        &self,
-        depth: f32,
-        [column, row]: [usize; 2],
-        places: &[u16],
-        border: &mut [BorderPixel],
-    ) {
-        let (left, above) = (column - 1, row - 1);
-        for row_at in above..above + 3 {
-            let first = row_at * self.drawn.width() + left;
-            let three = places.get(first..first + 3).unwrap_or_default();
-            for (&place, at) in three.iter().zip(left..) {
-                if let Some(pixel) = listed(border, place, at, row_at) {
-                    pixel.cover(depth);
-                }
+            for row in row - 1..row + 2 {
+                places.within(row, column - 1..column + 2, |number| {
+                    let [near, far] = *depths
+                        .get_or_insert_with(|| vertices.map(|vertex| self.depth_of_vertex(vertex)));
+                    if let Some(pixel) = border.get_mut(number) {
+                        pixel.cover(near + fraction * (far - near));
+                    }
+                });
             }
         }
+    }
+
+    /// The pixel of a point, unless it lies at the frame's border.
+    fn pixel(&self, [column, row]: [f32; 2]) -> Option<[usize; 2]> {
+        let (width, height) = (self.drawn.width(), self.drawn.height());
+        let inside = column >= 1.0
+            && row >= 1.0
+            && column < (width - 1) as f32
+            && row < (height - 1) as f32;
+        inside.then_some([column as usize, row as usize])
     }
 
     fn depth_of_vertex(&self, vertex: u32) -> f32 {
@@ -94,7 +82,7 @@ impl DrawnModel<'_> {
     fn cover_with_triangles(
         &self,
         scratch: &mut [Projected],
-        places: &[u16],
+        places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
         let Ok(projected) = project(self.model.mesh(), self.camera, self.pose, scratch) else {
@@ -109,17 +97,12 @@ impl DrawnModel<'_> {
         let wanted = |corners| tiles.under(pixel_box(corners)).is_some();
         let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
             let cut = |column: i64| column.clamp(0, width as i64) as usize;
-            let (from, to) = (cut(from), cut(to));
-            if from >= to {
-                return;
-            }
-            let row_places = places.get(row * width + from..row * width + to);
             let mut depth = None;
-            for (&place, column) in row_places.unwrap_or_default().iter().zip(from..) {
-                if let Some(pixel) = listed(border, place, column, row) {
+            places.within(row, cut(from)..cut(to), |number| {
+                if let Some(pixel) = border.get_mut(number) {
                     pixel.cover(*depth.get_or_insert_with(|| self.depth_of(triangle)));
                 }
-            }
+            });
         };
         for_each_span(self.model, projected, height, wanted, visit);
     }
@@ -134,18 +117,6 @@ impl DrawnModel<'_> {
             .sum();
         (-sum / 3.0 - self.pose.translation[2]) as f32
     }
-}
-
-/// The border pixel at a column and row. Of pixels that are none, a place holds any number: what is
-/// listed under it says whether it was written (Briggs and Torczon, ACM LOPLAS 2, 1993).
-fn listed(
-    border: &mut [BorderPixel],
-    place: u16,
-    column: usize,
-    row: usize,
-) -> Option<&mut BorderPixel> {
-    let pixel = border.get_mut(usize::from(place))?;
-    (pixel.is_at(column, row)).then_some(pixel)
 }
 
 #[cfg(test)]
@@ -211,7 +182,7 @@ mod tests {
             sampling: Sampling::ALL,
         };
         // What the memory held before does not matter.
-        let mut places = vec![7; SIDE * SIDE];
+        let mut places = vec![[7; 2]; words_needed(SIDE, SIDE)];
         let mut border = vec![BorderPixel::default(); 4096];
         let border = outliner
             .border(&mut scratch, &mut places, &mut border)

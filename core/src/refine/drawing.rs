@@ -44,8 +44,7 @@ pub(super) fn draw<'m, 'a>(
         drawn: &drawn,
         sampling,
     };
-    let places = memory.places.get_mut(..width * height);
-    let border = outliner.border(memory.projected, places.unwrap_or_default(), memory.border)?;
+    let border = outliner.border(memory.projected, memory.places, memory.border)?;
     Ok(Drawing {
         drawn,
         border,

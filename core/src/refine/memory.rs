@@ -15,8 +15,8 @@ pub struct RefineMemory<'a> {
     pub projected: &'a mut [Projected],
     /// [`crate::image::mask::words_needed`] words of the frame's size: the model as drawn.
     pub drawn: &'a mut [Word],
-    /// One number for each pixel of the frame.
-    pub places: &'a mut [u16],
+    /// As many pairs of words: which pixels are samples of the outline, and which each is.
+    pub places: &'a mut [[Word; 2]],
     /// Samples of the outline, one for each border pixel of the drawing; some 4000 serve an implant in a frame of
     /// 1024 x 1024 pixels. An outline that is longer at any pose on the way is refused: a part of it would not say where
     /// the model is. No more than 65 535 are used.
@@ -31,11 +31,8 @@ pub const FILM_EVERY: usize = 5;
 
 pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
     let (width, height) = (camera.width(), camera.height());
-    let needed = [
-        ("words", words_needed(width, height), memory.drawn.len()),
-        ("places", width * height, memory.places.len()),
-    ];
-    for (what, needed, given) in needed {
+    let needed = words_needed(width, height);
+    for (what, given) in [("words", memory.drawn.len()), ("places", memory.places.len())] {
         check_length(what, needed, given)?;
     }
     Ok(())

@@ -3,7 +3,10 @@
 //!
 //! Border pixels and normals are read from what was drawn, so holes and mixed winding do not matter.
 
+use core::ops::Range;
+
 use super::border::{BorderPixel, Residual};
+use super::places::Places;
 use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, WORD_BITS, Word};
@@ -68,32 +71,39 @@ pub(super) struct DrawnModel<'a> {
 }
 
 impl DrawnModel<'_> {
-    /// Writes the border pixels to `border` and returns them. `scratch` is as drawing left it; `places` has one number
-    /// for each pixel of the frame, of any value.
+    /// Writes the border pixels to `border` and returns them. `scratch` is as drawing left it; `places` has a pair for each
+    /// word of the drawing, of any value.
     ///
     /// # Errors
-    /// [`TooLittleMemory`] where there are more of them than `border` holds or `places` can number.
+    /// [`TooLittleMemory`] where there are more of them than `border` holds or may hold.
     pub(super) fn border<'b>(
         &self,
         scratch: &mut [Projected],
-        places: &mut [u16],
+        places: &mut [[Word; 2]],
         border: &'b mut [BorderPixel],
     ) -> Result<&'b mut [BorderPixel], TooLittleMemory> {
         let room = border.len().min(usize::from(u16::MAX));
         let border = border.get_mut(..room).unwrap_or_default();
-        let count = self.find(places, border);
+        // The frame's own border is no border of the model: what is cut off is not known.
+        let rows = self.drawn.rows();
+        let rows = rows.start.max(1)..rows.end.min(self.drawn.height().saturating_sub(1));
+        let mut places = Places::new(places, self.drawn.width(), rows.clone());
+        let count = self.find(rows, &mut places, border);
         let border = first("border pixels", count, border)?;
-        self.measure_depth(scratch, places, border);
+        self.measure_depth(scratch, &places, border);
         Ok(border)
     }
 
-    /// Lists border pixels, writes their number to their places, and counts those too for which there is no room.
-    fn find(&self, places: &mut [u16], border: &mut [BorderPixel]) -> usize {
+    /// Lists the border pixels of some rows, enters their places, and counts those too for which there is no room.
+    fn find(
+        &self,
+        rows: Range<usize>,
+        places: &mut Places<'_>,
+        border: &mut [BorderPixel],
+    ) -> usize {
         let width = self.drawn.width();
         let mut count = 0;
-        // The frame's own border is no border of the model: what is cut off is not known.
-        let rows = self.drawn.rows();
-        for row in rows.start.max(1)..rows.end.min(self.drawn.height().saturating_sub(1)) {
+        for row in rows {
             for column in border_columns(self.drawn, row) {
                 if column == 0 || column + 1 >= width {
                     continue;
@@ -106,7 +116,7 @@ impl DrawnModel<'_> {
                 };
                 if let Some(listed) = border.get_mut(count) {
                     *listed = pixel;
-                    places[row * width + column] = count as u16;
+                    places.add(column, row, count);
                 }
                 count += 1;
             }
@@ -204,16 +214,6 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
     })
 }
 
-/// Whether all pixels up to two beside a pixel are set, so that none in or beside it is on the border.
-pub(super) fn is_surrounded(mask: &Mask<'_>, column: usize, row: usize) -> bool {
-    const FIVE: u32 = 0b11111 << (WINDOW - 2);
-    let (Some(first), last) = (row.checked_sub(2), row + 2) else {
-        return false;
-    };
-    let all = (first..=last).fold(FIVE, |all, row| all & bits_round(mask.row(row), column));
-    all == FIVE
-}
-
 /// The pixels of a row from [`WINDOW`] to the left of a column to as many to its right, from the
 /// lowest bit; none where the row has none.
 fn bits_round(row: &[Word], column: usize) -> u32 {
@@ -275,36 +275,6 @@ mod tests {
                 if set { 0.0 } else { along.max(0.0) }
             }).sum();
             prop_assert!((f64::from(sample.weight) - weight).abs() < 1e-6);
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn no_pixel_beside_a_surrounded_one_is_on_the_border(
-            unset in proptest::collection::vec((0usize..70, 0usize..9), 0..4),
-            column in 1usize..69, row in 1usize..8,
-        ) {
-            let mut words = [0; words_needed(70, 9)];
-            let mut mask = MaskMut::new(&mut words, 70, 9).expect("fits");
-            (0..9).for_each(|row| mask.fill_span(row, 0, 70));
-            for &(column, row) in &unset {
-                mask.set(column, row, false);
-            }
-            let mask = mask.into_mask();
-            let beside = |column: usize, row: usize| {
-                (column - 1..column + 2).flat_map(move |c| (row - 1..row + 2).map(move |r| (c, r)))
-            };
-            let is_border = |(column, row): (usize, usize)| {
-                let inner = (1..69).contains(&column) && (1..8).contains(&row);
-                inner && mask.get(column, row) && border_columns(&mask, row).any(|c| c == column)
-            };
-            if is_surrounded(&mask, column, row) {
-                prop_assert!(!beside(column, row).any(is_border));
-            } else if (3..67).contains(&column) && (3..6).contains(&row) {
-                // Only corners of the five by five pixels are looked at in vain.
-                let near = |&(c, r): &(usize, usize)| c.abs_diff(column) <= 2 && r.abs_diff(row) <= 2;
-                prop_assert!(unset.iter().any(near));
-            }
         }
     }
 

@@ -21,6 +21,9 @@ const EXACT: u32 = 1 << 31;
 /// See [`ViewSearch::rivals`]. A true pose is less than one step from the nearest view.
 const RIVAL_STEPS: u32 = 4;
 
+/// Minima of the bounds from which it is gone downhill; others are found by looking at all places.
+const DESCENTS: usize = 32;
+
 /// Directions of the principal axis that are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Directions {
@@ -225,10 +228,10 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn minima_up_to<const K: usize>(&mut self, most: u32) -> Vec<ViewMatch, K> {
         let places = scores_needed(self.library.views());
         let mut minima = Shortlist::up_to(most);
-        // Going downhill from the bounds' own minima finds most of them: a limit for the rest.
-        for place in 0..places {
-            let (view, reversed) = self.apart(place);
-            if self.at_least(view, reversed) <= most && self.is_minimum_of_bounds(view, reversed) {
+        // Going downhill from the least of the bounds' own minima finds most of them: a limit for the rest.
+        for (bound, place) in self.promising(most) {
+            if bound <= minima.limit() {
+                let (view, reversed) = self.apart(place);
                 let candidate = self.descend(view, reversed);
                 minima.offer(candidate);
             }
@@ -241,6 +244,23 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             }
         }
         minima.candidates
+    }
+
+    /// The least minima of the bounds, up to a limit, with their places.
+    fn promising(&self, most: u32) -> Vec<(u32, usize), DESCENTS> {
+        let mut least: Vec<(u32, usize), DESCENTS> = Vec::new();
+        let mut limit = most;
+        for place in 0..scores_needed(self.library.views()) {
+            let (view, reversed) = self.apart(place);
+            let bound = self.at_least(view, reversed);
+            if bound <= limit && self.is_minimum_of_bounds(view, reversed) {
+                keep(&mut least, (bound, place), |&(bound, _)| bound);
+                if let (true, Some(&(last, _))) = (least.is_full(), least.last()) {
+                    limit = most.min(last);
+                }
+            }
+        }
+        least
     }
 
     fn apart(&self, place: usize) -> (usize, bool) {

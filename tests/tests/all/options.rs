@@ -67,7 +67,7 @@ fn refined_in(
     let mut memory = RefineMemory {
         projected: &mut projected,
         drawn: &mut vec![0; words_needed(width, height)],
-        places: &mut vec![0; width * height],
+        places: &mut vec![[0; 2]; words_needed(width, height)],
         border: &mut vec![BorderPixel::default(); border],
         film: LineMemory::default(),
     };

@@ -217,7 +217,7 @@ impl Bench {
             refine: RefineMemory {
                 projected: &mut std::vec![Projected::default(); model.vertices().len()],
                 drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
-                places: &mut std::vec![0; SIDE * SIDE],
+                places: &mut std::vec![[0; 2]; words_needed(SIDE, SIDE)],
                 border: &mut std::vec![BorderPixel::default(); 4096],
                 film: LineMemory::default(),
             },
