@@ -11,7 +11,8 @@ use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, probe, refine,
+    CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
+    refine,
 };
 use crate::shortlist::keep;
 
@@ -130,28 +131,38 @@ struct RivalRefinement<'s, 'm> {
 impl RivalRefinement<'_, '_> {
     fn refine(&mut self, pose: &Pose, start: usize, mirrored: bool) -> Result<(), RefineError> {
         let refined = refine(self.model, self.views, pose, self.options, self.memory)?;
-        let answer = RefinedRival {
-            start,
-            mirrored,
-            from: *pose,
-            refined,
-        };
-        keep(&mut self.answers, answer, |other| other.refined.loss);
+        self.keep(*pose, refined, start, mirrored);
         Ok(())
     }
 
-    /// Refines the starts. Of several, a quick look tells where each leads, and only the poses that may be the best are
+    fn keep(&mut self, from: Pose, refined: Refined, start: usize, mirrored: bool) {
+        let answer = RefinedRival {
+            start,
+            mirrored,
+            from,
+            refined,
+        };
+        keep(&mut self.answers, answer, |other| other.refined.loss);
+    }
+
+    /// Refines the starts. Of several, the first stage tells where each leads, and only the poses that may be the best are
     /// refined to the end, each once.
     fn refine_starts(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
         let starts = &starts[..starts.len().min(STARTS)];
-        let looked = match (starts, self.is_outline()) {
-            ([_, _, ..], true) => self.look_at(starts),
-            _ => starts.iter().copied().enumerate().collect(),
-        };
         let mut failure = None;
-        for &(start, pose) in &looked {
-            if let Err(error) = self.refine(&pose, start, false) {
-                failure = Some(error);
+        if let ([_, _, ..], true) = (starts, self.is_outline()) {
+            for (start, begun) in self.begun(starts, &mut failure) {
+                let refined = finish(self.model, self.views, &begun, self.options, self.memory);
+                match refined {
+                    Ok(refined) => self.keep(starts[start], refined, start, false),
+                    Err(error) => failure = Some(error),
+                }
+            }
+        } else {
+            for (start, pose) in starts.iter().enumerate() {
+                if let Err(error) = self.refine(pose, start, false) {
+                    failure = Some(error);
+                }
             }
         }
         match failure.filter(|_| self.answers.is_empty()) {
@@ -166,40 +177,38 @@ impl RivalRefinement<'_, '_> {
         self.views.iter().all(outline)
     }
 
-    /// Where the starts lead, each pose once, and only those that may be the best; a start that a quick look leads nowhere
-    /// is kept as it is.
-    fn look_at(&mut self, starts: &[Pose]) -> Vec<(usize, Pose), STARTS> {
-        let mut seen: Vec<(usize, Pose, f64), STARTS> = Vec::new();
+    /// Where the first stage leads from the starts, each pose once, and only those that may be the best.
+    fn begun(
+        &mut self,
+        starts: &[Pose],
+        failure: &mut Option<RefineError>,
+    ) -> Vec<(usize, Refined), STARTS> {
+        let mut begun: Vec<(usize, Refined), STARTS> = Vec::new();
         for (start, pose) in starts.iter().enumerate() {
             let known = |pose: &Pose| {
-                let mut seen = seen.iter();
-                seen.any(|(_, other, _)| is_on_the_way(pose, other, LOOKED_SAME_DEG))
+                let mut begun = begun.iter();
+                begun.any(|(_, other)| is_on_the_way(pose, &other.pose, LOOKED_SAME_DEG))
             };
-            let (pose, loss) = match self.look(pose, &known) {
-                Ok(None) => continue,
-                Ok(Some(looked)) => (looked.pose, looked.loss),
-                Err(_) => (*pose, 0.0),
-            };
-            keep(&mut seen, (start, pose, loss), |&(_, _, loss)| loss);
-        }
-        let least = seen
-            .iter()
-            .map(|&(_, _, loss)| loss)
-            .filter(|&loss| loss > 0.0);
-        let limit = LOOKED_WORSE * least.fold(f64::INFINITY, f64::min).max(LOOKED_PX2);
-        let mut kept: Vec<(usize, Pose), STARTS> = Vec::new();
-        for (start, pose, loss) in seen {
-            let same = |(_, other): &(usize, Pose)| {
-                geodesic_deg(&other.rotation, &pose.rotation) < LOOKED_SAME_DEG
-            };
-            if loss <= limit && !kept.iter().any(same) {
-                // No longer than what it is made from.
-                let _ = kept.push((start, pose));
+            let (model, views, options) = (self.model, self.views, self.options);
+            match begin(model, views, pose, options, &known, self.memory) {
+                Ok(None) => {}
+                Ok(Some(one)) => {
+                    keep(&mut begun, (start, one), |(_, one)| one.loss);
+                }
+                Err(error) => *failure = Some(error),
             }
         }
-        // From further away refinement passes by more false minima.
-        for (start, pose) in &mut kept {
-            *pose = starts[*start];
+        let least = begun.first().map_or(0.0, |(_, best)| best.loss);
+        let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
+        let mut kept: Vec<(usize, Refined), STARTS> = Vec::new();
+        for (start, one) in begun {
+            let same = |(_, other): &(usize, Refined)| {
+                geodesic_deg(&other.pose.rotation, &one.pose.rotation) < LOOKED_SAME_DEG
+            };
+            if one.loss <= limit && !kept.iter().any(same) {
+                // No longer than what it is made from.
+                let _ = kept.push((start, one));
+            }
         }
         kept
     }

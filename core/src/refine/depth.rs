@@ -66,10 +66,8 @@ impl DrawnModel<'_> {
     /// The pixel of a point, unless it lies at the frame's border.
     fn pixel(&self, [column, row]: [f32; 2]) -> Option<[usize; 2]> {
         let (width, height) = (self.drawn.width(), self.drawn.height());
-        let inside = column >= 1.0
-            && row >= 1.0
-            && column < (width - 1) as f32
-            && row < (height - 1) as f32;
+        let inside =
+            column >= 1.0 && row >= 1.0 && column < (width - 1) as f32 && row < (height - 1) as f32;
         inside.then_some([column as usize, row as usize])
     }
 

@@ -32,7 +32,10 @@ pub const FILM_EVERY: usize = 5;
 pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
     let (width, height) = (camera.width(), camera.height());
     let needed = words_needed(width, height);
-    for (what, given) in [("words", memory.drawn.len()), ("places", memory.places.len())] {
+    for (what, given) in [
+        ("words", memory.drawn.len()),
+        ("places", memory.places.len()),
+    ] {
         check_length(what, needed, given)?;
     }
     Ok(())

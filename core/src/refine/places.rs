@@ -31,7 +31,9 @@ impl<'p> Places<'p> {
 
     /// Adds a sample to the right of, or below, all that were added before it; those have numbers below its own.
     pub(super) fn add(&mut self, column: usize, row: usize, number: usize) {
-        let at = row.wrapping_sub(self.rows.start).wrapping_mul(self.row_words);
+        let at = row
+            .wrapping_sub(self.rows.start)
+            .wrapping_mul(self.row_words);
         if let Some([samples, before]) = self.words.get_mut(at.wrapping_add(column / WORD_BITS)) {
             if *samples == 0 {
                 *before = number as Word;
@@ -46,7 +48,9 @@ impl<'p> Places<'p> {
             return &[];
         }
         let first = (row - self.rows.start) * self.row_words;
-        self.words.get(first..first + self.row_words).unwrap_or_default()
+        self.words
+            .get(first..first + self.row_words)
+            .unwrap_or_default()
     }
 
     /// Calls `visit` with the numbers of the samples in a row's columns.

@@ -8,6 +8,7 @@ use super::error::RefineError;
 use super::eye::Eye;
 use super::locks::{Hold, Locks};
 use super::memory::{FILM_EVERY, RefineMemory, check_memory};
+use super::options::RefineOptions;
 use super::outline::{Depth, Sampling};
 use super::result::{Iterate, Refined};
 use super::stages::{POLISHING, Pass, STAGES, Stage};
@@ -94,6 +95,31 @@ impl<'a> Problem<'a> {
         })
     }
 
+    /// To refine a start as exactly as the options ask for.
+    ///
+    /// # Errors
+    /// As [`Problem::new`].
+    pub(super) fn refining(
+        model: &'a Model<'a>,
+        views: &'a [CameraView<'a>],
+        start: &Pose,
+        options: RefineOptions,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Self, RefineError> {
+        let mut problem = Self::new(model, views, memory)?;
+        problem.hold(options.locks, start);
+        problem.effort = options.effort;
+        Ok(problem)
+    }
+
+    /// The first stage.
+    pub(super) fn first_pass(&self) -> Pass {
+        Pass {
+            drawn: self.has_film(),
+            ..Pass::default()
+        }
+    }
+
     /// Whether it is known where a pose leads.
     pub(super) fn is_known(&self, pose: &Pose) -> bool {
         self.known.is_some_and(|known| known(pose))
@@ -163,6 +189,10 @@ impl<'a> Problem<'a> {
             let mut next = *state;
             next.pose = self.apply(&step, &state.pose);
             next.offset_px += more;
+            if self.is_known(&next.pose) {
+                *state = next;
+                break;
+            }
             let tried = self.look(&mut next, pass, memory);
             state.renders = next.renders;
             match tried {
@@ -171,9 +201,6 @@ impl<'a> Problem<'a> {
                     (*state, seen) = (next, there);
                     damping = (damping * 0.2).max(1e-9);
                     trace(&seen.equations.iterate(pass, state));
-                    if self.is_known(&state.pose) {
-                        break;
-                    }
                     if gained < WORTH_GOING_ON && self.goes_on(pass) {
                         break;
                     }
@@ -183,7 +210,8 @@ impl<'a> Problem<'a> {
                 _ => {
                     damping = (damping * 8.0).max(CAUTIOUS);
                     seen.samples = None;
-                    if step.size() < GRAINED.max(GRAINED_SETTLED * SETTLED * coarser) * self.grain() {
+                    if step.size() < GRAINED.max(GRAINED_SETTLED * SETTLED * coarser) * self.grain()
+                    {
                         break;
                     }
                 }

@@ -4,7 +4,7 @@ use super::effort::Effort;
 use super::error::RefineError;
 use super::memory::RefineMemory;
 use super::options::RefineOptions;
-use super::problem::Problem;
+use super::problem::{Problem, Seen};
 use super::result::{Iterate, Refined};
 use super::stages::{Pass, STAGES};
 use super::view::CameraView;
@@ -41,16 +41,58 @@ pub fn refine_traced(
     memory: &mut RefineMemory<'_>,
     trace: &mut dyn FnMut(&Iterate),
 ) -> Result<Refined, RefineError> {
-    let mut problem = Problem::new(model, views, memory)?;
-    problem.hold(options.locks, start);
-    problem.effort = options.effort;
+    let problem = Problem::refining(model, views, start, options, memory)?;
     let mut state = Refined::at(*start);
-    let drawn = problem.has_film();
-    let mut pass = Pass {
-        drawn,
-        ..Pass::default()
-    };
-    let mut seen = problem.run(&pass, &mut state, None, memory, trace)?;
+    let seen = problem.run(&problem.first_pass(), &mut state, None, memory, trace)?;
+    go_on(&problem, options, state, Some(seen), memory, trace)
+}
+
+/// The first stage of [`refine`]: where `start` leads; `None` as soon as a pose is reached from which that is `known`. The
+/// loss is that stage's.
+///
+/// # Errors
+/// [`RefineError`].
+pub(crate) fn begin(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    known: &dyn Fn(&Pose) -> bool,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Option<Refined>, RefineError> {
+    let mut problem = Problem::refining(model, views, start, options, memory)?;
+    problem.known = Some(known);
+    let mut state = Refined::at(*start);
+    problem.run(&problem.first_pass(), &mut state, None, memory, &mut |_| ())?;
+    Ok((!problem.is_known(&state.pose)).then_some(state))
+}
+
+/// What [`refine`] makes of a start whose first stage [`begin`] has gone.
+///
+/// # Errors
+/// [`RefineError`].
+pub(crate) fn finish(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    begun: &Refined,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Refined, RefineError> {
+    let problem = Problem::refining(model, views, &begun.pose, options, memory)?;
+    go_on(&problem, options, *begun, None, memory, &mut |_| ())
+}
+
+/// All stages but the first, whose end `seen` is where it is at hand.
+fn go_on(
+    problem: &Problem<'_>,
+    options: RefineOptions,
+    mut state: Refined,
+    mut seen: Option<Seen>,
+    memory: &mut RefineMemory<'_>,
+    trace: &mut dyn FnMut(&Iterate),
+) -> Result<Refined, RefineError> {
+    let Pass { drawn, .. } = problem.first_pass();
+    let mut pass = problem.first_pass();
     for index in 1..STAGES {
         pass = Pass {
             index,
@@ -60,10 +102,10 @@ pub fn refine_traced(
         };
         // An outline is weighed again, a frame would be looked at again.
         if !drawn || problem.steps(&pass) > 0 {
-            seen = problem.run(&pass, &mut state, Some(seen), memory, trace)?;
+            seen = Some(problem.run(&pass, &mut state, seen, memory, trace)?);
         }
     }
-    if !drawn {
+    if let (false, Some(seen)) = (drawn, seen) {
         problem.polish(&pass, &mut state, seen, memory, trace)?;
     } else if options.effort != Effort::Probe {
         problem.correct(&pass, &mut state, memory, trace)?;
