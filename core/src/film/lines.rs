@@ -106,7 +106,7 @@ impl PathLine {
     }
 
     /// Adds the depth of a triangle to the places inside it. `nearness` is the reciprocal of its corners' depths.
-    fn add(&mut self, corners: &[[f64; 2]; 3], nearness: impl Fn() -> [f64; 3], side: &Side) {
+    fn add(&mut self, corners: &[[f64; 2]; 3], side: &Side, nearness: impl FnOnce() -> [f64; 3]) {
         let across = corners.map(|corner| self.across(corner));
         let [a, b, c] = across.map(|across| across > 0.0);
         if a == b && b == c {
@@ -206,7 +206,7 @@ pub fn measure(
             continue;
         }
         let side = Side { sign, middle };
-        let nearness = || triangle.map(|vertex| nearness_of(model, pose, vertex));
+        let mut nearness = None;
         let places = corners.map(|corner| corner.place().map(f64::from));
         for row in rows {
             for column in columns.clone() {
@@ -215,7 +215,11 @@ pub fn measure(
                     node = line.next[usize::from(node) % SPANNED];
                     if line.last != number as u32 + 1 {
                         line.last = number as u32 + 1;
-                        line.add(&places, nearness, &side);
+                        line.add(&places, &side, || {
+                            *nearness.get_or_insert_with(|| {
+                                triangle.map(|vertex| nearness_of(model, pose, vertex))
+                            })
+                        });
                     }
                 }
             }
@@ -227,16 +231,17 @@ pub fn measure(
 
 /// Enters each line in the lists of the tiles that it has places in.
 fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
-    let pixels = lines
+    // All places of a line lie between its ends.
+    let ends = lines
         .iter()
-        .flat_map(|line| (0..POINTS).map(|point| line.pixel(point)));
-    let tiles = Tiles::of(pixels, LEAST_PLACES);
+        .flat_map(|line| [0, POINTS - 1].map(|point| line.pixel(point)));
+    let mut tiles = Tiles::around(ends, LEAST_PLACES);
     heads.fill(NONE);
     for (number, line) in lines.iter_mut().enumerate() {
         *line = PathLine::at(line.origin, line.direction);
         let (mut entered, mut before) = (0, None);
         for point in 0..POINTS {
-            let tile = tiles.tile(line.pixel(point));
+            let tile = tiles.mark(line.pixel(point));
             if before == Some(tile) || entered == SPANNED {
                 continue;
             }

@@ -107,21 +107,39 @@ pub(crate) fn blurred(drawn: &Drawn, blur_px: f64) -> Drawn {
         *weight = exp(f64::from(-0.5 * part * part)) as f32;
         sum += if k == 0 { *weight } else { 2.0 * *weight };
     }
-    // Where nothing changes nothing is done: outside of the part everything passes.
-    let last = POINTS - 1;
-    let mut blurred = *drawn;
-    for (k, out) in blurred.iter_mut().enumerate() {
-        let ends = [k.saturating_sub(reach), (k + reach).min(last)];
-        if drawn[ends[0]..=ends[1]].iter().all(|&x| x == drawn[k]) {
-            continue;
-        }
-        let mut total = weights[0] * drawn[k];
-        for (j, weight) in weights.iter().enumerate().take(reach + 1).skip(1) {
-            total += weight * (drawn[k.saturating_sub(j)] + drawn[(k + j).min(last)]);
-        }
-        *out = total / sum;
+    // Continued on both sides, so that all places are summed alike, several at once.
+    let mut long = [0.0; POINTS + 2 * MOST];
+    for (k, value) in long.iter_mut().enumerate() {
+        *value = drawn[k.saturating_sub(MOST).min(POINTS - 1)];
     }
+    let mut totals = drawn.map(|value| weights[0] * value);
+    for (j, weight) in weights.iter().enumerate().take(reach + 1).skip(1) {
+        let (before, after) = (&long[MOST - j..], &long[MOST + j..]);
+        for ((total, before), after) in totals.iter_mut().zip(before).zip(after) {
+            *total += weight * (before + after);
+        }
+    }
+    let mut blurred = totals.map(|total| total / sum);
+    keep_level(drawn, reach, &mut blurred);
     blurred
+}
+
+/// Where nothing changes within a reach nothing is changed: outside of the part everything passes.
+fn keep_level(drawn: &Drawn, reach: usize, blurred: &mut Drawn) {
+    let mut start = 0;
+    for stretch in drawn.chunk_by(|a, b| a == b) {
+        let end = start + stretch.len();
+        let from = if start == 0 { 0 } else { start + reach };
+        let to = if end == POINTS {
+            end
+        } else {
+            end.saturating_sub(reach)
+        };
+        for k in from..to {
+            blurred[k] = drawn[k];
+        }
+        start = end;
+    }
 }
 
 /// Between places of a line, linear; beyond its ends as there.
@@ -135,6 +153,7 @@ pub(crate) fn at(drawn: &Drawn, along: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// A half space of this depth, from the origin inwards.
     fn slab(depth: f32) -> [f32; POINTS] {
@@ -211,6 +230,39 @@ mod tests {
         places
             .max_by(|a, b| slope(*a).total_cmp(&slope(*b)))
             .expect("some")
+    }
+
+    /// Oracle: a place at a time.
+    fn blurred_one_by_one(drawn: &Drawn, blur_px: f64) -> Drawn {
+        let width = (blur_px / STEP) as f32;
+        let reach = (3.2 * width) as i32 + 1;
+        let weight = |j: i32| libm::expf(-0.5 * (j as f32 / width) * (j as f32 / width));
+        let there = |k: i32| drawn[k.clamp(0, POINTS as i32 - 1) as usize];
+        let sum: f32 = (-reach..=reach).map(weight).sum();
+        core::array::from_fn(|k| {
+            let near = (-reach..=reach).map(|j| weight(j) * there(k as i32 + j));
+            near.sum::<f32>() / sum
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn blur_is_the_mean_of_what_is_near(
+            steps in proptest::collection::vec((0..POINTS, 0.0..1.0f32), 0..6),
+            blur_px in 0.3..3.0f64,
+        ) {
+            let mut drawn = [1.0; POINTS];
+            for (from, value) in steps {
+                drawn[from..].fill(value);
+            }
+            let (quick, naive) = (blurred(&drawn, blur_px), blurred_one_by_one(&drawn, blur_px));
+            for (k, (a, b)) in quick.iter().zip(&naive).enumerate() {
+                prop_assert!((a - b).abs() < 1e-5, "{} {} {}", k, a, b);
+            }
+            let first = drawn.iter().position(|&x| x != drawn[0]).unwrap_or(POINTS);
+            let reach = (3.2 * blur_px / STEP) as usize + 1;
+            prop_assert!(quick[..first.saturating_sub(reach)].iter().all(|&x| x == drawn[0]));
+        }
     }
 
     #[test]

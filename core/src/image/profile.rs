@@ -74,6 +74,20 @@ const HALF_FILTER: usize = 6;
 /// Width of the Gaussian whose derivative is taken, pixels.
 const BLUR: f64 = 1.0;
 
+/// What [`gaussian_derivative`] gives of this filter.
+const DERIVATIVE: ([f64; HALF_FILTER + 1], f64) = (
+    [
+        0.0,
+        0.4412484512922977,
+        0.6065306597126334,
+        0.4869787010375246,
+        0.2706705664732254,
+        0.10984233405851855,
+        0.033326989614726917,
+    ],
+    4.947101747703994,
+);
+
 /// How far beyond its range the filter of [`steepest_rise`] reads, pixels.
 pub const FILTER_REACH: f64 = STEP * HALF_FILTER as f64;
 
@@ -104,7 +118,7 @@ pub fn steepest_rise(
 
 /// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides.
 fn differentiate(profile: &[f64], slopes: &mut [f64]) {
-    let (weights, norm) = gaussian_derivative::<{ HALF_FILTER + 1 }>(BLUR, STEP);
+    let (weights, norm) = DERIVATIVE;
     for (index, slope) in slopes.iter_mut().enumerate() {
         let middle = index + HALF_FILTER;
         let pairs =
@@ -156,6 +170,11 @@ pub fn gaussian_derivative<const N: usize>(width: f64, step: f64) -> ([f64; N], 
 mod tests {
     use super::*;
     use crate::image::frame::Frame;
+
+    #[test]
+    fn the_filter_that_is_kept_is_the_derivative_of_a_gaussian() {
+        assert_eq!(DERIVATIVE, gaussian_derivative(BLUR, STEP));
+    }
 
     #[test]
     fn the_slope_of_a_ramp_is_found_across_it_and_along_it_there_is_none() {

@@ -19,24 +19,39 @@ pub(crate) struct Tiles {
 impl Tiles {
     /// Tiles over pixels, given as column and row, whose side is at least two to the power of `least_places`.
     pub(crate) fn of(pixels: impl Iterator<Item = [i32; 2]> + Clone, least_places: u32) -> Self {
-        let extent = |axis: usize| {
-            let along = pixels.clone().map(|pixel| pixel[axis]);
-            let least = along.clone().min().unwrap_or(0);
-            (least, (along.max().unwrap_or(0) - least) as usize)
-        };
-        let ((column, width), (row, height)) = (extent(0), extent(1));
-        let places = (width.max(height) / TILES).checked_ilog2();
-        let mut tiles = Self {
-            column,
-            row,
-            places: places.map_or(0, |log| log + 1).max(least_places),
-            marked: [0; TILES],
-        };
+        let mut tiles = Self::around(pixels.clone(), least_places);
         for pixel in pixels {
-            let [right, down] = tiles.tile(pixel);
-            tiles.marked[down] |= 1 << right;
+            tiles.mark(pixel);
         }
         tiles
+    }
+
+    /// Tiles over all pixels between some, none of which is marked.
+    pub(crate) fn around(ends: impl Iterator<Item = [i32; 2]>, least_places: u32) -> Self {
+        let (mut low, mut high) = ([i32::MAX; 2], [i32::MIN; 2]);
+        for end in ends {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(end[axis]);
+                high[axis] = high[axis].max(end[axis]);
+            }
+        }
+        let sides = [0, 1].map(|axis| i64::from(high[axis]) - i64::from(low[axis]));
+        let longest = sides.into_iter().max().unwrap_or(0).max(0) as usize;
+        let places = (longest / TILES).checked_ilog2();
+        let first = low.map(|least| if least == i32::MAX { 0 } else { least });
+        Self {
+            column: first[0],
+            row: first[1],
+            places: places.map_or(0, |log| log + 1).max(least_places),
+            marked: [0; TILES],
+        }
+    }
+
+    /// Marks the tile of a pixel.
+    pub(crate) fn mark(&mut self, pixel: [i32; 2]) -> [usize; 2] {
+        let tile = self.tile(pixel);
+        self.marked[tile[1]] |= 1 << tile[0];
+        tile
     }
 
     /// The tile of a pixel of the list: its number in its row, and that of the row.

@@ -15,6 +15,7 @@ use super::memory::{FILM_EVERY, RefineMemory};
 use super::problem::Problem;
 use super::result::{Iterate, Refined};
 use super::stages::Pass;
+use crate::render::RenderError;
 
 /// Steps at most.
 const STEPS: usize = 24;
@@ -68,8 +69,27 @@ impl Problem<'_> {
         Ok(())
     }
 
-    /// What all border pixels see: rival poses are compared by it.
+    /// What all border pixels see: rival poses are compared by it. At once where there is room for as many lines, otherwise a
+    /// fifth at a time.
     fn look_at_all(
+        &self,
+        state: &mut Refined,
+        pass: &Pass,
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Equations, RefineError> {
+        let whole = Pass {
+            whole: true,
+            ..*pass
+        };
+        match self.look(state, &whole, memory) {
+            Err(RefineError::Memory(_) | RefineError::Render(RenderError::Memory(_))) => {
+                self.look_by_fifths(state, pass, memory)
+            }
+            seen => Ok(seen?.equations),
+        }
+    }
+
+    fn look_by_fifths(
         &self,
         state: &mut Refined,
         pass: &Pass,

@@ -40,7 +40,7 @@ impl<'l> DrawnEdges<'l> {
         let lines = first("lines across the outline", border.len(), memory.lines)?;
         for (line, sample) in lines.iter_mut().zip(&mut *border) {
             // It stands for those that are left out.
-            sample.weight *= FILM_EVERY as f32;
+            sample.weight *= if stage.whole { 1.0 } else { FILM_EVERY as f32 };
             *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
         }
         measure(model, view.camera, pose, scratch, lines, memory.heads)?;

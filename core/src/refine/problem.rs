@@ -389,7 +389,9 @@ impl<'a> Problem<'a> {
         equations: &mut Equations,
     ) -> Result<usize, RefineError> {
         let pose = view.placement.compose(pose);
-        let every = if stage.drawn {
+        let every = if stage.whole {
+            1
+        } else if stage.drawn {
             FILM_EVERY
         } else {
             self.effort.every()

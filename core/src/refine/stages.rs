@@ -16,6 +16,8 @@ pub(super) struct Stage {
     pub(super) drawn: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
+    /// Whether all are, against a film too.
+    pub(super) whole: bool,
 }
 
 /// Undamped steps after the last stage at most.
@@ -36,6 +38,7 @@ impl Stage {
             loss,
             drawn: false,
             turn: 0,
+            whole: false,
         };
         match (target, index) {
             (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
@@ -65,6 +68,8 @@ pub(super) struct Pass {
     pub(super) drawn: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
+    /// Whether all are, against a film too.
+    pub(super) whole: bool,
 }
 
 impl Pass {
@@ -73,6 +78,7 @@ impl Pass {
         Stage {
             drawn: self.drawn && target.film().is_some(),
             turn: self.turn,
+            whole: self.whole,
             ..Stage::of(target, self.index, self.sigma_px)
         }
     }
