@@ -71,10 +71,8 @@ const STEP: f64 = 0.5;
 const REACH: usize = 32;
 /// Half width of the derivative's filter, readings.
 const HALF_FILTER: usize = 6;
-/// Width of the Gaussian whose derivative is taken, pixels.
-const BLUR: f64 = 1.0;
 
-/// What [`gaussian_derivative`] gives of this filter.
+/// What [`gaussian_derivative`] gives of a Gaussian of one pixel.
 const DERIVATIVE: ([f64; HALF_FILTER + 1], f64) = (
     [
         0.0,
@@ -173,7 +171,7 @@ mod tests {
 
     #[test]
     fn the_filter_that_is_kept_is_the_derivative_of_a_gaussian() {
-        assert_eq!(DERIVATIVE, gaussian_derivative(BLUR, STEP));
+        assert_eq!(DERIVATIVE, gaussian_derivative(1.0, STEP));
     }
 
     #[test]

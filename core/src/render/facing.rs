@@ -106,7 +106,8 @@ impl FacingTest {
             let [forth, back] = if certain >> at & 1 == 1 {
                 [forth.faces, back.faces].map(|faces| faces >> at & 1 == 1)
             } else {
-                Self::faces(edge, images)
+                self.own_faces(group, at)
+                    .unwrap_or_else(|| Self::faces(edge, images))
             };
             match (forth, back) {
                 (true, false) => visit([edge.from, edge.to]),
@@ -142,6 +143,21 @@ impl FacingTest {
             // Images are run clockwise where normals point away.
             faces: bits(|distance, _| distance < 0.0),
         }
+    }
+
+    /// Whether the triangles forth and back beside an edge of a group face the camera, where the margin that they need
+    /// themselves, which is less than that of all in the box, makes it certain.
+    fn own_faces(&self, group: &EdgeGroup, at: usize) -> Option<[bool; 2]> {
+        let [per_mm, least, rounding] = self.margins;
+        let [thin, small] = group.edge(at)?.needs();
+        let margin = thin * per_mm + small * least + rounding;
+        let [x, y, z] = self.place;
+        let from_plane = group
+            .duals
+            .each_ref()
+            .map(|[a, b, c, d]| a[at] * x + b[at] * y + c[at] * z - d[at]);
+        let certain = from_plane.iter().all(|distance| distance.abs() > margin);
+        certain.then(|| from_plane.map(|distance| distance < 0.0))
     }
 
     /// Whether the triangles forth and back beside an edge face the camera, by their images.

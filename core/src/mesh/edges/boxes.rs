@@ -106,14 +106,22 @@ pub(crate) fn gather(
         *group = EdgeGroup::default();
         *bounds = EdgeBox::round(edges.iter().flat_map(|edge| Dual::beside(mesh, edge)));
         for (at, edge) in edges.iter().enumerate() {
+            let duals = Dual::beside(mesh, edge);
             group.edges[at] = *edge;
-            for (dual, lanes) in Dual::beside(mesh, edge).iter().zip(&mut group.duals) {
+            group.edges[at].keep_needs(needs(&duals));
+            for (dual, lanes) in duals.iter().zip(&mut group.duals) {
                 for (lane, &x) in lanes.iter_mut().zip(&dual.point) {
                     lane[at] = x as f32;
                 }
             }
         }
     }
+}
+
+/// What both triangles beside an edge need of a margin: reciprocals of the least height and of the doubled area.
+fn needs([a, b]: &[Dual; 2]) -> [f32; 2] {
+    let greater = |a: f64, b: f64| if a >= b { a } else { b };
+    [greater(a.thin, b.thin), greater(a.small, b.small)].map(|need| need as f32)
 }
 
 /// Sorts by likeness of normals, then of planes; edges whose box would be large whatever is beside them

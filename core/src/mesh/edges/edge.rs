@@ -9,8 +9,23 @@ pub struct MeshEdge {
     pub(crate) forth: u32,
     /// Third vertex of the triangle that runs `to` -> `from`.
     pub(crate) back: u32,
-    /// Its number among the edges.
+    /// Its number among the edges; in a group, [`MeshEdge::needs`].
     pub(crate) order: u32,
+}
+
+impl MeshEdge {
+    /// Keeps what the edge's triangles need of a margin: reciprocals of the least height and of the doubled area, each
+    /// rounded up to 16 bits.
+    pub(crate) fn keep_needs(&mut self, needs: [f32; 2]) {
+        const INFINITE: u32 = f32::INFINITY.to_bits() >> 16;
+        let [thin, small] = needs.map(|need| ((need.to_bits() >> 16) + 1).min(INFINITE));
+        self.order = thin << 16 | small;
+    }
+
+    /// What was kept, no less than it was.
+    pub(crate) fn needs(&self) -> [f32; 2] {
+        [self.order & 0xffff_0000, self.order << 16].map(f32::from_bits)
+    }
 }
 
 /// A side of a triangle that no other triangle runs along in the opposite direction: the rim of a hole, of a crack or of a
