@@ -112,8 +112,9 @@ pub fn refine_rivals(
     };
     search.refine_starts(starts)?;
     search.mirror();
-    search.look_beside();
-    search.look_closer();
+    if !search.look_beside() {
+        search.look_closer();
+    }
     Ok(distinct(&search.answers))
 }
 
@@ -269,24 +270,29 @@ impl RivalRefinement<'_, '_> {
     }
 
     /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
-    /// pose, about both axes out of the image plane, it is tried whether another is there.
-    fn look_beside(&mut self) {
+    /// pose, about both axes out of the image plane, it is tried whether another is there. Gives whether all that was tried
+    /// led back: then no false minimum lies nearer either, it would have been met.
+    fn look_beside(&mut self) -> bool {
         let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
-            return;
+            return false;
         };
         if self.planes.is_empty() || !self.is_outline() || view.placement != Pose::IDENTITY {
-            return;
+            return false;
         }
         let middle = self.model.bounds().centre;
         let back = blurred_deg(&best.refined).max(BACK_DEG);
+        let mut all_back = true;
         for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
             let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
             let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
-            if let Some(found) = self.probe(&start, &best.refined, back) {
+            let led = self.probe(&start, &best.refined, back);
+            all_back &= matches!(led, Led::Back);
+            if let Led::To(found) = led {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
             }
         }
+        all_back
     }
 
     /// Where most of the outline fits exactly and a part does not, the best pose may be a false minimum near the right
@@ -305,20 +311,40 @@ impl RivalRefinement<'_, '_> {
         let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
         let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(apart) {
-            if let Some(found) = self.probe(start, &best.refined, BACK_DEG) {
+            if let Led::To(found) = self.probe(start, &best.refined, BACK_DEG) {
                 // From there it leads somewhere.
                 let _ = self.refine(&found, best.start, best.mirrored);
             }
         }
     }
 
-    /// The pose that a start leads to, unless that is the best pose again, to within `back_deg`, or a worse one, as most are.
-    fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Option<Pose> {
+    /// Where a start leads: most lead to the best pose again, to within `back_deg`, or to a worse one.
+    fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Led {
         let known = |pose: &Pose| is_on_the_way(pose, &best.pose, back_deg);
-        let found = self.look(start, &known).ok()??;
+        let found = match self.look(start, &known) {
+            Ok(Some(found)) => found,
+            Ok(None) => return Led::Back,
+            Err(_) => return Led::Nowhere,
+        };
         let apart = geodesic_deg(&found.pose.rotation, &best.pose.rotation);
-        (apart > back_deg && found.loss < ALIKE * best.loss).then_some(found.pose)
+        if apart <= back_deg {
+            Led::Back
+        } else if found.loss < ALIKE * best.loss {
+            Led::To(found.pose)
+        } else {
+            Led::Nowhere
+        }
     }
+}
+
+/// Where a quick look beside the best pose leads.
+enum Led {
+    /// To the best pose again.
+    Back,
+    /// To a worse pose, or to none.
+    Nowhere,
+    /// To a pose that may be better.
+    To(Pose),
 }
 
 /// Whether a quick look that has come to `pose` will end within so many degrees of `other`: it is well on the way there.
