@@ -40,10 +40,10 @@ pub(super) struct Problem<'a> {
 /// steps tried to the end 150 femurs and tibias came out alike within 3 % after more than twice as many drawings.
 const SETTLED: f64 = 0.05;
 /// One below this size that fails has met the grain, as larger ones do not: a more cautious one would meet it too. It is this
-/// times [`SETTLED`] at least.
+/// many times [`SETTLED`] at least, and of grey frames no more.
 const GRAINED: f64 = 0.5;
 const GRAINED_SETTLED: f64 = 2.0;
-/// Damping of the first try after one that failed, at least: with less the step is the same again.
+/// Damping of the first try after one that failed against an outline, at least: with less the step is the same again.
 const CAUTIOUS: f64 = 0.5;
 /// Standard deviation of the residuals from which an outline counts as noisy, pixels; [`Problem::coarseness`] is at most
 /// the second.
@@ -208,10 +208,14 @@ impl<'a> Problem<'a> {
                 // No step leads round it, and to stop short of it would pass for an answer.
                 Err(error @ RefineError::Memory(_)) => return Err(error),
                 _ => {
-                    damping = (damping * 8.0).max(CAUTIOUS);
+                    let (caution, grained) = match self.is_outline() {
+                        true => (CAUTIOUS, GRAINED),
+                        false => (0.0, 0.0),
+                    };
+                    damping = (damping * 8.0).max(caution);
                     seen.samples = None;
-                    if step.size() < GRAINED.max(GRAINED_SETTLED * SETTLED * coarser) * self.grain()
-                    {
+                    let grained = grained.max(GRAINED_SETTLED * SETTLED * coarser);
+                    if step.size() < grained * self.grain() {
                         break;
                     }
                 }
