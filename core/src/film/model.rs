@@ -135,8 +135,8 @@ fn keep_level(drawn: &Drawn, reach: usize, blurred: &mut Drawn) {
         } else {
             end.saturating_sub(reach)
         };
-        for k in from..to {
-            blurred[k] = drawn[k];
+        if from < to {
+            blurred[from..to].copy_from_slice(&drawn[from..to]);
         }
         start = end;
     }
