@@ -312,7 +312,7 @@ mod tests {
         let mask = Mask::new(&words, width, height).unwrap();
         let mut wide = vec![0; words_needed(width, height)];
         let mut wide = MaskMut::new(&mut wide, width, height).unwrap();
-        widen(&mask, &mut wide);
+        widen(&mask, MARGIN, &mut wide);
         // Nine columns; rows 0 to 5.
         assert_eq!(wide.as_mask().area(), 9 * 6);
         assert!(wide.as_mask().get(16, 5) && !wide.as_mask().get(15, 5));
