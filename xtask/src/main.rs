@@ -132,7 +132,7 @@ mod tests {
             .skip(1)
             .filter(|about| !about.contains("this machine"))
             .collect();
-        assert_eq!(its.len(), 12);
+        assert_eq!(its.len(), 13);
         for about in its {
             let told =
                 |verb: &clap::Command| verb.get_about().is_some_and(|a| a.to_string() == about);
