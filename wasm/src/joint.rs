@@ -7,8 +7,8 @@ use fluoropose::joint::relative::{NOTHING_COMMON, Placed, Relative};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
-use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
 
 use fluoropose_page::error::sentence;

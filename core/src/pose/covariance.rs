@@ -297,10 +297,10 @@ mod tests {
             let pose = pose(z, x, y);
             let covariance = PoseCovariance::from_independent(&deviations, &pose, &middle);
             let numbers = covariance.numbers(&pose, &middle);
-            for a in 0..6 {
-                for b in 0..6 {
+            for (a, row) in numbers.iter().enumerate() {
+                for (b, found) in row.iter().enumerate() {
                     let wanted = if a == b { deviations[a] * deviations[a] } else { 0.0 };
-                    prop_assert!((numbers[a][b] - wanted).abs() < 1e-8, "{a} {b}: {}", numbers[a][b]);
+                    prop_assert!((found - wanted).abs() < 1e-8, "{a} {b}: {found}");
                 }
             }
         }
