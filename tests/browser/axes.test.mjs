@@ -14,6 +14,7 @@ pageTest('which way a component lies', async (page, t) => {
   await panel.openDemonstration(page);
   await choose(page, await demoFile('femur.jts'), await demoFile('tibia.jts'));
   await panel.waitForWords(page, /as poses of the (femur|tibia)/);
+  await page.getByRole('button', { name: 'Joint curves' }).first().click();
 
   await step(page, t, 'is found from its shape and said in words, with arrows', async () => {
     const axes = await openAxes(page, 'Femur');
@@ -176,5 +177,5 @@ async function sayAxes(page, component, anterior, superior) {
 
 /** What the joint's curve says. @param {Page} page */
 async function curve(page) {
-  return (await page.getByRole('img', { name: /^Flexion in \d+ frames/ }).getAttribute('aria-label')) ?? '';
+  return (await page.getByRole('img', { name: /^Flexion over frame in \d+ frames/ }).getAttribute('aria-label')) ?? '';
 }

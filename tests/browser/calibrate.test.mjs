@@ -142,7 +142,8 @@ pageTest('a ruler: two marks and their length', async (page, t) => {
     const sheet = sheetOf(page);
     const [a, b] = [ideal(-8, 0), ideal(2, 0)];
     await fill(sheet, { 'Mark 1 column (px)': a[0], 'Mark 1 row (px)': a[1], 'Mark 2 column (px)': b[0], 'Mark 2 row (px)': b[1] });
-    assert.equal(await pitch(sheet), Number(TRUE_PITCH.toFixed(5)));
+    const exact = Number(TRUE_PITCH.toFixed(5));
+    await until(() => pitch(sheet), (now) => now === exact, `the pitch ${exact}`);
   });
 
   await step(page, t, 'lengths that cannot be are refused in words', async () => {

@@ -1,4 +1,4 @@
-/** Going through the work: what is next, what was checked, flags and notes, the list, the joint's curve. */
+/** Going through the work: what is next, what was checked, flags and notes, the list. */
 import assert from 'node:assert/strict';
 import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
 import { choose, downloaded, drop, file } from './support/files.mjs';
@@ -29,7 +29,6 @@ pageTest('working through a film', async (page, t) => {
   await step(page, t, 'Y, Shift+Y and Shift+J mark, flag and note; undo takes them back', () => marks(page));
   await step(page, t, 'a check is of what was looked at', () => checksOutdate(page, stage));
   await step(page, t, 'the list filters, and goes where it is told', () => list(page));
-  await step(page, t, 'the joint’s curve stands under the frames and leads to them', () => curve(page));
 
   await step(page, t, 'marks are in the session file', async () => {
     await page.getByRole('button', { name: 'Save session', exact: true }).click();
@@ -140,22 +139,6 @@ async function list(page) {
   assert.equal(await until(() => here(page), (now) => now === '3 Tibia', 'frame 3'), '3 Tibia');
   await page.keyboard.press('Escape');
   await sheet.waitFor({ state: 'hidden' });
-}
-
-/** @param {Page} page */
-async function curve(page) {
-  const chart = page.getByRole('img', { name: /^Flexion in 3 frames, [\u22120-9.]+° to [\u22120-9.]+°$/ });
-  await chart.waitFor();
-  const box = await chart.boundingBox();
-  assert(box);
-  await page.mouse.click(box.x + (0.5 / 8) * box.width, box.y + box.height / 2);
-  assert.equal(await until(() => here(page), (now) => now === '1 Tibia', 'frame 1'), '1 Tibia');
-  await page.getByRole('combobox', { name: 'Quantity of the curve' }).selectOption('Anterior');
-  await page.getByRole('img', { name: /^Anterior in 3 frames, .* mm to .* mm$/ }).waitFor();
-  await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
-  await page.getByText('Choose left or right beside the name of the study').waitFor();
-  await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('right');
-  await page.getByRole('img', { name: /^Anterior in 3 frames/ }).waitFor();
 }
 
 pageTest('a long film', async (page, t) => {

@@ -14,6 +14,7 @@ mod follower;
 mod found;
 mod frame_search;
 mod hidden;
+mod joint;
 mod library;
 mod matcher;
 mod working_model;
@@ -26,6 +27,7 @@ pub use film::{FilmFacts, FilmStudy};
 pub use follower::{FilmFollower, FollowedFilm};
 pub use found::Match;
 pub use frame_search::{FrameSearch, frames_to_search};
+pub use joint::KneeJoint;
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{
     Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,

@@ -20,6 +20,7 @@ import { FilmReader } from './jobs/film_reader';
 import { FollowLater } from './jobs/follow_later';
 import { FromHere } from './jobs/from_here';
 import { HandJudge } from './jobs/hand_judge';
+import { JointReader } from './jobs/joint_reader';
 import { Landscapes } from './jobs/landscape';
 import { Librarian } from './jobs/librarian';
 import { Keeper } from './keep/keeper';
@@ -79,6 +80,7 @@ async function start(root: HTMLElement): Promise<void> {
     hand,
     seeing: new SeeingActions(services.store, hand),
     landscapes,
+    joint: new JointReader(services, matcher),
     actions,
     calibrator,
     videos,

@@ -4,7 +4,7 @@
 //! lowest points are what is published without.
 
 use crate::joint::plate::Plate;
-use crate::math::{Vector3, add, cross, norm, scale, subtract};
+use crate::math::{Vector3, add, cross, dot, norm, scale, subtract};
 use crate::memory::{TooLittleMemory, check_length};
 use crate::mesh::Mesh;
 use crate::pose::Pose;
@@ -110,8 +110,9 @@ impl<'m> Above<'m> {
         let lowest = self.heights(&from_model, all.clone());
         let mut count = 0;
         for triangle in all {
-            let (half, corners) = self.placed(&from_model, triangle);
-            if lowest_of(&corners) < lowest[half] + NEAR_MM {
+            let height = self.height(&from_model, triangle);
+            let most = lowest[0].max(lowest[1]) + NEAR_MM;
+            if height < most && height < lowest[self.half(triangle)] + NEAR_MM {
                 memory[count] = triangle;
                 count += 1;
             }
@@ -130,8 +131,12 @@ impl<'m> Above<'m> {
         let heights = self.heights(&from_model, triangles.clone());
         let mut caps = [Cap::default(); 2];
         for triangle in triangles {
-            let (half, corners) = self.placed(&from_model, triangle);
-            caps[half].add(&corners, heights[half] + CAP_MM);
+            let half = self.half(triangle);
+            let below = heights[half] + CAP_MM;
+            if self.height(&from_model, triangle) < below {
+                let corners = self.corners(triangle);
+                caps[half].add(&corners.map(|corner| from_model.transform(&corner)), below);
+            }
         }
         let point = |half: usize| {
             let [x, _, z] = caps[half].middle();
@@ -152,32 +157,41 @@ impl<'m> Above<'m> {
         from_femur.compose(&self.joint_from_model)
     }
 
-    /// The half that a triangle belongs to, 0 for the medial one, and its corners in the plate's axes.
-    fn placed(&self, from_model: &Pose, triangle: u32) -> (usize, [Vector3; 3]) {
+    fn corners(&self, triangle: u32) -> [Vector3; 3] {
         let vertices = self.mesh.vertices();
-        let [a, b, c] = self.mesh.triangles()[triangle as usize]
-            .map(|vertex| vertices[vertex as usize].map(f64::from));
-        let [.., z] = self
-            .joint_from_model
-            .transform(&scale(&add(&add(&a, &b), &c), 1.0 / 3.0));
-        let half = usize::from(z < self.middle);
-        (half, [a, b, c].map(|corner| from_model.transform(&corner)))
+        self.mesh.triangles()[triangle as usize]
+            .map(|vertex| vertices[vertex as usize].map(f64::from))
+    }
+
+    /// The half that a triangle belongs to: 0 for the medial one.
+    fn half(&self, triangle: u32) -> usize {
+        let [a, b, c] = self.corners(triangle);
+        let middle = scale(&add(&add(&a, &b), &c), 1.0 / 3.0);
+        let [.., across] = &self.joint_from_model.rotation;
+        let z = dot(across, &middle) + self.joint_from_model.translation[2];
+        usize::from(z < self.middle)
+    }
+
+    /// How low a triangle reaches above the plate: the one of a corner's three coordinates that is asked for of all of them.
+    fn height(&self, from_model: &Pose, triangle: u32) -> f64 {
+        let [_, up, _] = &from_model.rotation;
+        let [a, b, c] = self.corners(triangle).map(|corner| dot(up, &corner));
+        a.min(b).min(c) + from_model.translation[1]
     }
 
     /// The lowest height of either half.
     fn heights(&self, from_model: &Pose, triangles: impl Iterator<Item = u32>) -> [f64; 2] {
         let mut heights = [f64::INFINITY; 2];
         for triangle in triangles {
-            let (half, corners) = self.placed(from_model, triangle);
-            heights[half] = heights[half].min(lowest_of(&corners));
+            // Most triangles are too high for either half, and which one they belong to is not asked.
+            let height = self.height(from_model, triangle);
+            if height < heights[0].max(heights[1]) {
+                let half = self.half(triangle);
+                heights[half] = heights[half].min(height);
+            }
         }
         heights
     }
-}
-
-fn lowest_of(corners: &[Vector3; 3]) -> f64 {
-    let [a, b, c] = corners.map(|corner| corner[1]);
-    a.min(b).min(c)
 }
 
 /// The part of a surface below a height: its area, and its first moment.
@@ -190,9 +204,6 @@ struct Cap {
 impl Cap {
     /// Adds the part of a triangle that lies below a height.
     fn add(&mut self, corners: &[Vector3; 3], below: f64) {
-        if lowest_of(corners) >= below {
-            return;
-        }
         let mut cut = heapless::Vec::<Vector3, 4>::new();
         for (k, corner) in corners.iter().enumerate() {
             let next = &corners[(k + 1) % 3];

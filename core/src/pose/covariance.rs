@@ -67,6 +67,22 @@ impl PoseCovariance {
         })
     }
 
+    /// The reverse of [`Self::numbers`] where nothing but the standard deviations of the six numbers was kept (mm of the
+    /// model's origin, then degrees of `z_rot`, `x_rot`, `y_rot`): their errors are taken as independent.
+    #[must_use]
+    pub fn from_independent(deviations: &[f64; 6], pose: &Pose, middle: &Vector3) -> Self {
+        let steps = steps_per_number(pose, middle);
+        let spread = core::array::from_fn(|a| {
+            core::array::from_fn(|b| {
+                let same = f64::from(u8::from(a == b));
+                same * deviations[a] * deviations[b]
+            })
+        });
+        Self {
+            matrix: congruence(&steps, &spread),
+        }
+    }
+
     /// Covariance of `x`, `y`, `z` (mm, of the model's origin), `z_rot`, `x_rot`, `y_rot` (degrees)
     /// of `pose`, to first order. `middle` is the point of the model that the turns leave in
     /// place, model coordinates, mm.
@@ -149,6 +165,31 @@ pub(crate) fn numbers_per_step(pose: &Pose, middle: &Vector3) -> Matrix6 {
             joined(&rates[row - 3].map(degrees), &[0.0; 3])
         }
     })
+}
+
+/// The inverse of [`numbers_per_step`], which exists at any angle: a turn about `middle` and a shift (rows) for each of the six
+/// numbers (columns). An angle turns about its own axis and carries the middle around the origin.
+fn steps_per_number(pose: &Pose, middle: &Vector3) -> Matrix6 {
+    let euler = EulerPose::from(*pose);
+    let (sin_z, cos_z) = sin_cos(crate::math::radians(euler.z_rot_deg));
+    let (sin_x, cos_x) = sin_cos(crate::math::radians(euler.x_rot_deg));
+    let axes = [
+        [0.0, 0.0, 1.0],
+        [cos_z, sin_z, 0.0],
+        [-sin_z * cos_x, cos_z * cos_x, sin_x],
+    ];
+    let arm = apply(&pose.rotation, middle);
+    let columns: Matrix6 = core::array::from_fn(|number| {
+        if number < 3 {
+            let mut unit = [0.0; 3];
+            unit[number] = 1.0;
+            joined(&[0.0; 3], &unit)
+        } else {
+            let turn = axes[number - 3].map(crate::math::radians);
+            joined(&turn, &cross(&turn, &arm))
+        }
+    });
+    transpose_square(&columns)
 }
 
 fn joined(turn: &Vector3, shift: &Vector3) -> [f64; 6] {
@@ -243,6 +284,23 @@ mod tests {
                     let slope = (ahead[row] - behind[row]) / 2e-5;
                     let error = (slope - analytic[row][column]).abs();
                     prop_assert!(error < 1e-3 * (1.0 + slope.abs()), "{row} {column}: {slope}");
+                }
+            }
+        }
+
+        #[test]
+        fn independent_numbers_have_the_deviations_they_came_from(
+            z in -170.0..170.0f64, x in -80.0..80.0f64, y in -170.0..170.0f64,
+            middle in proptest::array::uniform3(-60.0..60.0f64),
+            deviations in proptest::array::uniform6(0.01..3.0f64),
+        ) {
+            let pose = pose(z, x, y);
+            let covariance = PoseCovariance::from_independent(&deviations, &pose, &middle);
+            let numbers = covariance.numbers(&pose, &middle);
+            for (a, row) in numbers.iter().enumerate() {
+                for (b, found) in row.iter().enumerate() {
+                    let wanted = if a == b { deviations[a] * deviations[a] } else { 0.0 };
+                    prop_assert!((found - wanted).abs() < 1e-8, "{a} {b}: {found}");
                 }
             }
         }

@@ -8,6 +8,7 @@ import type { Keeper } from '../keep/keeper';
 import type { Librarian } from '../jobs/librarian';
 import type { Poser } from '../jobs/poser';
 import type { Services } from '../jobs/services';
+import type { JointReader } from '../jobs/joint_reader';
 import type { Landscapes } from '../jobs/landscape';
 import type { Videos } from '../exchange/videos';
 import type { Actions } from './actions';
@@ -29,6 +30,7 @@ export interface App {
   readonly hand: HandActions;
   readonly seeing: SeeingActions;
   readonly landscapes: Landscapes;
+  readonly joint: JointReader;
 }
 
 export const AppContext = createContext<App | null>(null);

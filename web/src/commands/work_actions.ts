@@ -43,6 +43,9 @@ export class WorkActions {
       case 'follow-film':
         void this.follower?.follow();
         return this.follower !== null;
+      case 'joint-curves':
+        this.#store.setJoint({ open: !this.#store.ui.joint.open });
+        return true;
       case 'work-list':
         this.#store.show({ popover: this.#store.ui.popover === 'work' ? null : 'work' });
         return true;

@@ -6,6 +6,7 @@ export type WorkCommand =
   | 'toggle-flagged'
   | 'write-note'
   | 'follow-film'
+  | 'joint-curves'
   | 'work-list'
   | 'start-anew';
 
@@ -25,6 +26,7 @@ export const WORK_KEYS: readonly WorkKey[] = [
   { shown: 'Shift + Y', key: 'y', shift: true, command: 'toggle-flagged' },
   { shown: 'Shift + J', key: 'j', shift: true, command: 'write-note' },
   { shown: 'Shift + G', key: 'g', shift: true, command: 'follow-film' },
+  { shown: 'Shift + K', key: 'k', shift: true, command: 'joint-curves' },
   { shown: 'J', key: 'j', shift: false, command: 'work-list' },
   { shown: 'Shift + Alt + N', key: 'n', shift: true, alt: true, command: 'start-anew' },
 ];

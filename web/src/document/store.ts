@@ -6,6 +6,7 @@ import type { Command, Place } from './command';
 import * as history from './history';
 import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
+import { DEFAULT_JOINT, type JointView } from '../terms/joint';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
 import { type Cell, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
 import type { ComponentName } from '../terms/component';
@@ -31,6 +32,7 @@ export interface Ui {
   /** How things are shown; `keep/taste.ts` remembers it. */
   readonly seeing: Seeing;
   readonly hand: HandSettings;
+  readonly joint: JointView;
   readonly tracing: TracingOptions;
   /** The threshold that was taken and can still be moved, grey values. */
   readonly thresholdLevel: ThresholdLevel | null;
@@ -59,7 +61,7 @@ export interface Ui {
 /** Dark like a reading room, or light for projectors. Print is light by itself. */
 export type Theme = 'dark' | 'light';
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film' | 'joint';
 
 export interface ThresholdLevel {
   readonly level: number;
@@ -120,6 +122,7 @@ const EMPTY_UI: Ui = {
   overlayOpacity: 0.35,
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
+  joint: DEFAULT_JOINT,
   tracing: USUAL_OPTIONS,
   thresholdLevel: null,
   overlaysHidden: false,
@@ -228,6 +231,10 @@ export class Store {
 
   see(change: Partial<Seeing>): void {
     this.show({ seeing: { ...this.ui.seeing, ...change } });
+  }
+
+  setJoint(change: Partial<JointView>): void {
+    this.show({ joint: { ...this.ui.joint, ...change } });
   }
 
   setTracing(change: Partial<TracingOptions>): void {

@@ -1,12 +1,12 @@
-import { progressOf } from './progress';
-import { knownAxes } from '../document/axes';
-import { NO_MARK } from '../document/marks';
-import { cellOf, chosenCandidate, type Doc } from '../document/types';
+import { isAssumed, knownAxes } from '../document/axes';
+import { checkState, markOf, NO_MARK } from '../document/marks';
+import { type Candidate, cellOf, chosenCandidate, type Doc } from '../document/types';
 import type { Directions } from '../geometry/axes';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { progressOf } from './progress';
 
-/** The six numbers of a joint, as the core gives them: mm, then degrees. */
+/** The six numbers of a joint by the field's convention, as the core gives them: mm, then degrees. */
 export interface Motion {
   readonly anterior: number;
   readonly superior: number;
@@ -16,58 +16,93 @@ export interface Motion {
   readonly internal: number;
 }
 
-export const QUANTITIES = ['flexion', 'abduction', 'internal', 'anterior', 'superior', 'lateral'] as const satisfies readonly (keyof Motion)[];
-export type Quantity = (typeof QUANTITIES)[number];
-
-/** A frame in which both components have a pose. */
-export interface JointPoint {
-  /** Of the frame, from 0. */
-  readonly index: number;
-  readonly motion: Motion;
-  /** Neither pose is doubtful. */
-  readonly sure: boolean;
-}
-
 /** A component's pose, and the anatomical axes of its model. */
 export interface PlacedInJoint {
   readonly pose: PoseNumbers;
   readonly axes: Directions;
 }
 
-type MotionOf = (femur: PlacedInJoint, tibia: PlacedInJoint, side: 'left' | 'right') => Motion;
-
 /** What is missing for the joint's motion: signs depend on the side of the body, everything on the axes of the models. */
-export type MotionNeeds = { readonly what: 'side' | 'poses'; readonly component?: undefined } | { readonly what: 'front' | 'axes'; readonly component: ComponentName };
+export type MotionNeeds = { readonly what: 'side' | 'poses' } | { readonly what: 'front' | 'axes' | 'finding'; readonly component: ComponentName };
 
-export function motionNeeds(doc: Doc): MotionNeeds {
+/** Null where nothing is missing. */
+export function motionNeeds(doc: Doc): MotionNeeds | null {
   for (const component of COMPONENT_NAMES) {
     const { axes } = doc.components[component];
     if (axes?.told === 'not the front') return { what: 'front', component };
     if (axes && axes.told !== 'all') return { what: 'axes', component };
+    if (!axes && !isAssumed(doc.components[component])) return { what: 'finding', component };
   }
-  return { what: doc.side === 'unknown' ? 'side' : 'poses' };
+  if (doc.side === 'unknown') return { what: 'side' };
+  return jointAsked(doc)?.frames.length === 0 ? { what: 'poses' } : null;
 }
 
-/** Empty while the side of the body or the axes of a model are not known. */
-export function jointMotion(doc: Doc, motionOf: MotionOf): readonly JointPoint[] {
-  const { side } = doc;
-  const [femurAxes, tibiaAxes] = [knownAxes(doc.components.femur), knownAxes(doc.components.tibia)];
-  if (side === 'unknown' || !femurAxes || !tibiaAxes) return [];
-  return doc.frames.flatMap((frame, index) => {
-    const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => cellOf(doc, frame.id, component));
-    const [a, b] = [femur && chosenCandidate(femur), tibia && chosenCandidate(tibia)];
-    if (!a || !b) return [];
-    return [{ index, motion: motionOf({ pose: a.pose, axes: femurAxes }, { pose: b.pose, axes: tibiaAxes }, side), sure: isSure(doc, frame.id, 'femur') && isSure(doc, frame.id, 'tibia') }];
+/** A frame in which both components have a pose. */
+export interface JointFrame {
+  readonly id: string;
+  /** From 0. */
+  readonly index: number;
+  readonly femur: Candidate;
+  readonly tibia: Candidate;
+}
+
+/** All that the numbers of a joint rest on. */
+export interface JointAsked {
+  readonly side: 'left' | 'right';
+  readonly axes: Readonly<Record<ComponentName, Directions>>;
+  /** SHA-256; null where there is no model. */
+  readonly models: Readonly<Record<ComponentName, string | null>>;
+  readonly frames: readonly JointFrame[];
+}
+
+const asked = new WeakMap<Doc, JointAsked>();
+
+/** Null while the side of the body or the axes of a model are not known. */
+export function jointAsked(doc: Doc): JointAsked | null {
+  const known = asked.get(doc);
+  if (known) return known;
+  const { side, components } = doc;
+  const [femur, tibia] = [knownAxes(components.femur), knownAxes(components.tibia)];
+  if (side === 'unknown' || !femur || !tibia) return null;
+  const models = { femur: components.femur.model?.sha256 ?? null, tibia: components.tibia.model?.sha256 ?? null };
+  const found = { side, axes: { femur, tibia }, models, frames: posedFrames(doc) };
+  asked.set(doc, found);
+  return found;
+}
+
+function posedFrames(doc: Doc): readonly JointFrame[] {
+  return doc.frames.flatMap(({ id }, index) => {
+    const [femur, tibia] = (['femur', 'tibia'] as const).map((component) => chosenCandidate(cellOf(doc, id, component)));
+    return femur && tibia ? [{ id, index, femur, tibia }] : [];
   });
 }
 
-function isSure(doc: Doc, frameId: string, component: ComponentName): boolean {
-  return !progressOf(cellOf(doc, frameId, component), NO_MARK, null).doubtful;
+/** How far the numbers of a frame are to be trusted: as far as the poorer of its two poses. */
+export interface JointTrust {
+  readonly doubtful: boolean;
+  readonly checked: boolean;
 }
 
-/** Points in runs of frames that follow each other: a line is drawn through a run, none across a gap. */
-export function runsOf(points: readonly JointPoint[]): readonly (readonly JointPoint[])[] {
-  const runs: JointPoint[][] = [];
+const trusts = new WeakMap<Doc, readonly JointTrust[]>();
+
+/** Of all frames, by their index. */
+export function jointTrusts(doc: Doc): readonly JointTrust[] {
+  const known = trusts.get(doc) ?? doc.frames.map(({ id }) => trustOf(doc, id));
+  trusts.set(doc, known);
+  return known;
+}
+
+function trustOf(doc: Doc, frameId: string): JointTrust {
+  const cells = COMPONENT_NAMES.map((component) => ({ cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
+  return {
+    doubtful: cells.some(({ cell }) => progressOf(cell, NO_MARK, null).doubtful),
+    checked: cells.every(({ cell, mark }) => checkState(cell, mark) === 'yes'),
+  };
+}
+
+/** What stands in frames that follow each other: a line is drawn through a run, none across a gap. */
+export function runsOf<T extends { readonly index: number }>(points: readonly T[]): readonly (readonly T[])[] {
+  const runs: T[][] = [];
   for (const point of points) {
     const run = runs.at(-1);
     if (run && run.at(-1)!.index === point.index - 1) run.push(point);

@@ -8,6 +8,7 @@ import { runHandOrSeeingKey } from './hand_keys';
 import { Panel } from './panel';
 import { Popovers } from './popovers';
 import { Rail } from './rail';
+import { JointDock } from '../steps/joint/joint_dock';
 import { Stage } from '../stage/stage';
 import { StatusLine } from './status_line';
 import { Timeline } from '../strip/timeline';
@@ -39,6 +40,7 @@ export function Page() {
       <Stage state={state} />
       {!empty && <Panel state={state} />}
       {!empty && <Timeline state={state} />}
+      {!empty && <JointDock state={state} />}
       <StatusLine state={state} />
       <Popovers state={state} />
     </div>

@@ -3,10 +3,9 @@ import { useEffect, useRef } from 'preact/hooks';
 import type { Popover, State } from '../document/store';
 import { titleOf } from '../terms/component';
 import { useApp } from '../commands/app';
-import { CalibrateSheet } from '../sheets/calibrate_sheet';
+import { later } from '../commands/later';
 import { CalibrationSheet } from '../sheets/calibration_sheet';
 import { ComponentSheet } from '../sheets/component_sheet';
-import { ConvergenceSheet } from '../sheets/convergence_sheet';
 import { FilmSheet } from '../sheets/film_sheet';
 import { Icon } from '../controls/icons';
 import { KeySheet } from '../sheets/key_sheet';
@@ -18,6 +17,10 @@ import { VideoSheet } from '../steps/open/video_sheet';
 import { ViewSheet } from '../sheets/view_sheet';
 import { ImportSheet } from '../steps/open/import_sheet';
 import { texts } from '../texts/texts';
+
+const CalibrateSheet = later(async () => (await import('../sheets/calibrate_sheet')).CalibrateSheet);
+const ConvergenceSheet = later(async () => (await import('../sheets/convergence_sheet')).ConvergenceSheet);
+const JointSheet = later(async () => (await import('../steps/joint/joint_sheet')).JointSheet);
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
 export function Popovers({ state }: { state: State }) {
@@ -45,6 +48,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   calibrate: texts.calibrate.sheet,
   video: texts.files.video.sheet,
   film: texts.film.sheet,
+  joint: texts.joint.sheet.title,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -74,6 +78,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <VideoSheet state={state} />;
     case 'film':
       return <FilmSheet state={state} />;
+    case 'joint':
+      return <JointSheet state={state} />;
     case 'view':
       return <ViewSheet state={state} />;
   }

@@ -109,6 +109,13 @@ function WayOn({ state }: { state: State }) {
       </button>
     );
   }
+  if (step === 'joint' && !state.ui.joint.open) {
+    return (
+      <button type="button" class="button primary" aria-keyshortcuts="Shift+K" title={texts.withKey(texts.joint.open, 'Shift + K')} onClick={() => actions.run({ name: 'work', command: 'joint-curves' })}>
+        {texts.joint.title}
+      </button>
+    );
+  }
   if (doc.frames.length < 2 || step === 'joint') return null;
   return (
     <button

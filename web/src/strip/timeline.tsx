@@ -6,12 +6,11 @@ import { useApp } from '../commands/app';
 import { CellRow } from './cell_row';
 import { CellSide } from './cell_side';
 import { Icon } from '../controls/icons';
-import { hasBothComponents, MotionCurve } from '../steps/joint/motion_curve';
 
 /** More cells than this are as narrow as the whole film wants them, and their signs are bars. */
 const MANY = 40;
 
-/** The frames in time, what is done in each for each component, and the joint's motion below. */
+/** The frames in time, and what is done in each for each component. */
 export function Timeline({ state }: { state: State }) {
   const { frames } = state.history.present;
   const scroll = useRef<HTMLDivElement>(null);
@@ -28,7 +27,6 @@ export function Timeline({ state }: { state: State }) {
               ))}
             </tbody>
           </table>
-          {hasBothComponents(state.history.present) && <MotionCurve state={state} />}
         </div>
       </div>
       <CellSide state={state} />

@@ -8,6 +8,7 @@ import { film } from './en_film';
 import { first } from './en_first';
 import { follow } from './en_follow';
 import { hand } from './en_hand';
+import { joint } from './en_joint';
 import { keys } from './en_keys';
 import { panel } from './en_panel';
 import { said } from './en_said';
@@ -28,6 +29,7 @@ export const en = {
   first,
   follow,
   hand,
+  joint,
   keys,
   panel,
   said,
@@ -254,6 +256,7 @@ export const en = {
       'write-note': 'Write a note',
       'follow-film': 'Follow both components through the film, or stop',
       'work-list': 'Work list',
+      'joint-curves': 'The joint’s curves',
       'start-anew': 'Start anew (undo brings everything back)',
     },
     stages: {
@@ -318,26 +321,6 @@ export const en = {
     saidUnchecked: (frame: number, component: string) => `Frame ${frame}, ${component}: no longer marked as checked.`,
     saidFlagged: (frame: number, component: string) => `Frame ${frame}, ${component}: flagged.`,
     saidUnflagged: (frame: number, component: string) => `Frame ${frame}, ${component}: the flag is gone.`,
-  },
-
-  /** The joint's motion under the cells. */
-  motion: {
-    quantities: {
-      flexion: 'Flexion',
-      abduction: 'Abduction',
-      internal: 'Internal rotation',
-      anterior: 'Anterior',
-      superior: 'Superior',
-      lateral: 'Lateral',
-    },
-    choose: 'Quantity of the curve',
-    units: { degrees: '°', millimetres: ' mm' },
-    needsBoth: 'Both components of a frame need a pose.',
-    needsSide: 'Choose left or right beside the name of the study: signs depend on it.',
-    chart: (quantity: string, frames: number, least: string, most: string) => `${quantity} in ${frames} frames, ${least} to ${most}`,
-    here: (value: string) => value,
-    none: '–',
-    title: 'Click to go to a frame; hollow: a pose there is doubtful',
   },
 
   /** Outlines and masks from files and into files. */

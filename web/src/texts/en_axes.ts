@@ -37,11 +37,6 @@ export const axes = {
     assumed: (component: string) => `No model of the ${component}: joint angles take its poses’ own axes, x anterior, y superior, z right.`,
   },
   look: 'Look and say',
-  /** In place of the joint's curve. */
-  motion: {
-    front: (component: string) => `Joint angles wait: which way is the front of the ${component}?`,
-    axes: (component: string) => `Joint angles wait for the axes of the ${component}.`,
-  },
   arrows: { anterior: 'anterior', superior: 'superior' },
   perhaps: (name: string) => `${name}?`,
 };

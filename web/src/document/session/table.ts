@@ -40,7 +40,7 @@ export function poseTable(doc: Doc, component: ComponentName): string {
     const deviations = FIELDS.map((field) => candidate?.deviations?.[field] ?? null);
     return [index + 1, frame.name, ...pose, ...deviations, candidate?.residual ?? null, ...trustIn(cell.result), ...choiceOf(cell.result)];
   });
-  return [HEAD, ...rows].map((row) => `${row.map(field).join(',')}\r\n`).join('');
+  return tableOf([HEAD, ...rows]);
 }
 
 /** How far a pose is to be trusted, as tables and audits have it. */
@@ -85,6 +85,11 @@ export function methodOf(result: Posed): string {
 function onFrameWords({ onFrame }: Posed): string {
   if (!onFrame) return '';
   return onFrame.film ? ' on the frame by its film' : ' on the frame, film unknown';
+}
+
+/** Rows with commas (RFC 4180). */
+export function tableOf(rows: readonly (readonly (string | number | null)[])[]): string {
+  return rows.map((row) => `${row.map(field).join(',')}\r\n`).join('');
 }
 
 function field(value: string | number | null): string {

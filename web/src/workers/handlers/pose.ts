@@ -7,6 +7,7 @@ import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
 import type { DistortionInput } from '../protocol/camera';
 import { byHand } from './by_hand';
+import { joint } from './joint';
 import { onFilm } from './on_film';
 import { oneClick } from './one_click';
 import { loadCore } from './core_module';
@@ -19,6 +20,7 @@ const matchers = new Map<ComponentName, Matcher>();
 serve<PoseProtocol>({
   ...byHand({ withTraced, matcherOf }),
   ...onFilm({ matcherOf, read }),
+  ...joint(ready),
   ...oneClick({ ready, matcherOf, withSurroundings, read }),
   open: async ({ component, bytes, mesh }) => {
     await ready;

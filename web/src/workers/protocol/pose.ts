@@ -2,6 +2,7 @@ import type { Axes } from '../../document/types';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { HandProtocol } from './by_hand';
+import type { JointProtocol } from './joint';
 import type { OnFilmProtocol } from './film';
 import type { ModelMesh } from './decode';
 import type { LibraryFacts } from './library';
@@ -20,7 +21,7 @@ export interface ConvergenceStep {
   readonly pose: PoseNumbers;
 }
 
-export interface PoseProtocol extends HandProtocol, OnFilmProtocol, OneClickProtocol {
+export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtocol, OneClickProtocol {
   /** With its model, the library's poses are checked by drawing it; throws when it was made from another one. */
   open: {
     input: { component: ComponentName; bytes: Uint8Array<ArrayBuffer>; mesh: ModelMesh | null };

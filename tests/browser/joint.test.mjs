@@ -1,0 +1,164 @@
+/** How the joint moves: curves with their numbers, what they wait for, and the table, by keys and by names alone. */
+import assert from 'node:assert/strict';
+import { bringAxe, isAccessible } from './support/axe.mjs';
+import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { choose, downloaded, file } from './support/files.mjs';
+import { leftKnee } from './support/joint.mjs';
+import * as panel from './support/panel.mjs';
+import { demoFile, readJts } from './support/study.mjs';
+
+/** @typedef {import('playwright-core').Page} Page */
+/** @typedef {Record<string, number> | null} Numbers of a frame, by column */
+
+const FRAMES = 8;
+/** Its tibia has no pose. */
+const GAP = 4;
+const SHOWN = /** @type {const} */ ({
+  Flexion: 'flexion_deg',
+  Abduction: 'abduction_deg',
+  'Internal rotation': 'internal_rotation_deg',
+  Anterior: 'field_anterior_mm',
+  Superior: 'field_superior_mm',
+  Medial: 'field_medial_mm',
+  'Lift-off': 'lift_off_mm',
+});
+const BY_GROOD_AND_SUNTAY = /** @type {const} */ ({ 'Anterior drawer': 'gs_anterior_mm', Distraction: 'gs_distraction_mm', 'Lateral shift': 'gs_lateral_mm' });
+
+pageTest('the joint', async (page, t) => {
+  const truth = await opened(page);
+  await step(page, t, 'is opened by a key, and its numbers are those of another program', async () => {
+    await page.keyboard.press('Shift+K');
+    await joint(page).getByRole('img', { name: /^Lift-off over frame in 7 frames, / }).waitFor();
+    await drawn(page);
+    await agrees(page, SHOWN, 1, truth);
+    for (let frame = 1; frame < FRAMES; frame++) await page.keyboard.press('f');
+    await agrees(page, SHOWN, FRAMES, truth);
+    await joint(page).getByRole('radio', { name: 'Grood–Suntay' }).press('Enter');
+    await agrees(page, BY_GROOD_AND_SUNTAY, FRAMES, truth);
+    await screenshot(page, 'joint');
+  });
+  await step(page, t, 'leads to a frame, and has a gap where a pose is missing', () => leads(page, truth));
+  await step(page, t, 'runs over time and flexion, and one curve can be alone', () => overs(page));
+  await step(page, t, 'asks for the side', () => asksForSide(page));
+  await step(page, t, 'can be used by everybody', async () => {
+    await bringAxe(page);
+    await isAccessible(page);
+    await page.keyboard.press('Shift+L');
+    await drawn(page);
+    await isAccessible(page);
+  });
+  await step(page, t, 'says what is wrong with its table before it is saved', () => saved(page, truth));
+});
+
+/** The demonstration with its poses but one. @param {Page} page @returns {Promise<Numbers[]>} */
+async function opened(page) {
+  const [femur, tibia, model] = [await demoFile('femur.jts'), await demoFile('tibia.jts'), await demoFile('femur.stl')];
+  const lines = tibia.buffer.toString().trimEnd().split(/\r?\n/);
+  lines[1 + GAP] = 'NaN, NaN, NaN, NaN, NaN, NaN';
+  const gapped = file('tibia.jts', `${lines.join('\n')}\n`);
+  await panel.openDemonstration(page);
+  await choose(page, femur, gapped);
+  await until(() => panel.cells(page), (cells) => cells.filter((name) => name.endsWith(': pose loaded')).length === 2 * FRAMES - 1, 'the poses');
+  const [femurs, tibias] = [readJts(femur.buffer.toString()), readJts(gapped.buffer.toString())];
+  return femurs.map((pose, index) => (index === GAP - 1 ? null : leftKnee(pose, tibias[index], model.buffer)));
+}
+
+/** @param {Page} page */
+function joint(page) {
+  return page.getByRole('region', { name: 'Joint', exact: true });
+}
+
+/** What stands above a curve. @param {Page} page @param {string} name @param {number} frame from 1 */
+async function shown(page, name, frame) {
+  const text = await joint(page).getByRole('status', { name: `${name} in frame ${frame}`, exact: true }).innerText();
+  return text.split('\n')[0].trim();
+}
+
+/** @param {Page} page @param {Record<string, string>} names @param {number} frame from 1 @param {Numbers[]} truth */
+async function agrees(page, names, frame, truth) {
+  for (const [name, column] of Object.entries(names)) {
+    const found = Number((await shown(page, name, frame)).replace('\u2212', '-'));
+    const wanted = truth[frame - 1]?.[column] ?? NaN;
+    // Written to hundredths.
+    assert(Math.abs(found - wanted) <= 0.00501, `${name} in frame ${frame}: ${found}, not ${wanted}`);
+  }
+}
+
+/** @param {Page} page @param {Numbers[]} truth */
+async function leads(page, truth) {
+  const plot = joint(page).getByRole('img', { name: /^Flexion over frame/ });
+  const box = await plot.boundingBox();
+  assert(box);
+  // Between the axis and the border frames are as wide as each other.
+  const [left, width] = [box.x + 44, box.width - 52];
+  const at = (/** @type {number} */ frame) => /** @type {const} */ ([left + ((frame - 0.5) / FRAMES) * width, box.y + box.height / 2]);
+  await page.mouse.move(...at(2));
+  await until(() => joint(page).getByRole('status', { name: 'Flexion in frame 2' }).count(), (count) => count === 1, 'the numbers of frame 2');
+  await agrees(page, { Flexion: 'flexion_deg' }, 2, truth);
+  await page.mouse.click(...at(3));
+  await page.getByRole('application', { name: /frame 3 of 8/ }).waitFor();
+  await page.mouse.move(box.x, box.y - 300);
+  await page.keyboard.press('f');
+  await until(() => joint(page).getByRole('status', { name: `Flexion in frame ${GAP}` }).count(), (count) => count === 1, 'the frame without a tibia');
+  assert.equal(await shown(page, 'Flexion', GAP), '–');
+}
+
+/** @param {Page} page */
+async function overs(page) {
+  await joint(page).getByRole('radio', { name: 'Time' }).press('Enter');
+  await joint(page).getByText('Say how many frames there are in a second.').waitFor();
+  await joint(page).getByRole('spinbutton', { name: 'Frames a second (1/s)' }).fill('15');
+  await joint(page).getByRole('img', { name: /^Lift-off over time in 7 frames/ }).waitFor();
+  await joint(page).getByRole('radio', { name: 'Flexion' }).press('Enter');
+  await joint(page).getByRole('img', { name: /^Lowest AP over flexion in 7 frames/ }).waitFor();
+  await joint(page).getByRole('button', { name: 'Abduction alone' }).press('Enter');
+  await until(() => joint(page).getByRole('img').count(), (count) => count === 1, 'one curve');
+  await joint(page).getByRole('button', { name: 'All curves' }).press('Enter');
+  await until(() => joint(page).getByRole('img').count(), (count) => count === 8, 'all curves');
+  const size = joint(page).getByRole('separator', { name: 'Height of the curves' });
+  await size.press('ArrowUp');
+  assert.equal(await until(() => size.getAttribute('aria-valuenow'), (now) => now !== '40', 'a higher dock'), '44');
+}
+
+/** @param {Page} page */
+async function asksForSide(page) {
+  await page.getByRole('combobox', { name: 'Side of the body' }).selectOption('side?');
+  await joint(page).getByText('Which knee is it?').waitFor();
+  await joint(page).getByRole('button', { name: 'Left' }).press('Enter');
+  await joint(page).getByRole('img', { name: /^Flexion over flexion in 7 frames/ }).waitFor();
+}
+
+/** @param {Page} page @param {Numbers[]} truth */
+async function saved(page, truth) {
+  await page.getByRole('button', { name: /^Frame 1, femur/ }).click();
+  await page.keyboard.press('y');
+  await joint(page).getByRole('button', { name: 'Save joint numbers…' }).press('Enter');
+  const sheet = page.getByRole('dialog', { name: 'Save joint numbers' });
+  await sheet.getByRole('button', { name: 'Save CSV' }).waitFor();
+  const said = await sheet.getByRole('listitem').allInnerTexts();
+  assert.deepEqual(said, [
+    '1 without a pose of both; their numbers stay empty: 4',
+    '7 with a pose from a file, which does not say how it was found: 1–3, 5–8',
+    '7 that nobody has checked: 1–3, 5–8',
+  ]);
+  await screenshot(page, 'joint sheet');
+  const table = await downloaded(page, 'Save CSV');
+  assert.match(table.name, /_joint\.csv$/);
+  const lines = table.buffer.toString().trimEnd().split('\r\n');
+  const heading = lines.filter((line) => line.startsWith('#'));
+  assert(heading.some((line) => /knee: left/.test(line)) && heading.some((line) => /Grood and Suntay 1983/.test(line)), heading.join('\n'));
+  const [head, ...rows] = lines.slice(heading.length).map((line) => line.split(','));
+  assert.equal(rows.length, FRAMES);
+  const value = (/** @type {string} */ column, /** @type {number} */ frame) => rows[frame - 1][head.indexOf(column)];
+  truth.forEach((numbers, index) => {
+    assert.equal(value('frame', index + 1), String(index + 1));
+    for (const [column, wanted] of Object.entries(numbers ?? {})) {
+      const found = value(column, index + 1);
+      assert(found !== '' && Math.abs(Number(found) - wanted) < 1e-4, `${column} in frame ${index + 1}: ${found}, not ${wanted}`);
+      // Poses of a file come without standard deviations.
+      assert.equal(value(`sd_${column}`, index + 1), '');
+    }
+  });
+  assert.deepEqual(['flexion_deg', 'lift_off_mm', 'tibia_checked'].map((column) => value(column, GAP)), ['', '', '']);
+  assert.deepEqual(['time_s', 'femur_checked', 'tibia_checked', 'femur_method'].map((column) => value(column, 1)), ['0', 'yes', 'no', 'file femur.jts']);
+}

@@ -1,0 +1,295 @@
+//! The joint's numbers, frame by frame, for curves and tables.
+
+use fluoropose::joint::floating::floating_translations;
+use fluoropose::joint::kinematics::{Side, joint_angles, joint_axes};
+use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::relative::{NOTHING_COMMON, Placed, Relative};
+use fluoropose::joint::{COLUMNS, Joint, JointFrame};
+use fluoropose::math::Vector3;
+use fluoropose::mesh::Mesh;
+use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::PoseCovariance;
+use wasm_bindgen::prelude::*;
+
+use fluoropose_page::error::sentence;
+use fluoropose_page::pose_numbers::{axes_from, from_numbers};
+
+/// Thresholds of lift-off in use, mm.
+const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
+/// Numbers of a frame that come in: a pose and its standard deviations, of either component.
+const IN: usize = 24;
+/// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold.
+const OUT: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+
+/// A component: its mesh, empty where there is no model, and the anatomical axes of its file.
+struct Part {
+    vertices: Vec<f32>,
+    triangles: Vec<u32>,
+    axes: Pose,
+}
+
+impl Part {
+    /// What the turns of a covariance leave in place.
+    fn middle(&self) -> Result<Vector3, JsError> {
+        if self.vertices.is_empty() {
+            return Ok([0.0; 3]);
+        }
+        Ok(self.mesh()?.bounds().centre)
+    }
+
+    fn mesh(&self) -> Result<Mesh<'_>, JsError> {
+        Mesh::new(self.vertices.as_chunks().0, self.triangles.as_chunks().0).map_err(sentence)
+    }
+}
+
+/// Both components of a knee.
+#[wasm_bindgen]
+pub struct KneeJoint {
+    femur: Part,
+    tibia: Part,
+    side: Side,
+    memory: Vec<u32>,
+}
+
+#[wasm_bindgen]
+impl KneeJoint {
+    /// From the models and their axes (nine numbers each, as `axes_from` takes them). Without vertices there is no model, and
+    /// the lowest points are not known. `left` is the side of the body.
+    ///
+    /// # Errors
+    /// The core's sentence about a mesh, or about axes that are no right-handed frame.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        femur_vertices: Vec<f32>,
+        femur_triangles: Vec<u32>,
+        femur_axes: &[f64],
+        tibia_vertices: Vec<f32>,
+        tibia_triangles: Vec<u32>,
+        tibia_axes: &[f64],
+        left: bool,
+    ) -> Result<Self, JsError> {
+        let femur = Part {
+            vertices: femur_vertices,
+            triangles: femur_triangles,
+            axes: axes_from(femur_axes)?,
+        };
+        let tibia = Part {
+            vertices: tibia_vertices,
+            triangles: tibia_triangles,
+            axes: axes_from(tibia_axes)?,
+        };
+        let mut joint = Self {
+            femur,
+            tibia,
+            side: if left { Side::Left } else { Side::Right },
+            memory: Vec::new(),
+        };
+        let needed = joint.joint()?.map_or(0, |joint| joint.memory_needed());
+        joint.memory = vec![0; needed];
+        Ok(joint)
+    }
+
+    /// Whether lowest points and lift-off are known: there are both models, and the tray has a plate.
+    #[wasm_bindgen(getter, js_name = hasPlate)]
+    pub fn has_plate(&self) -> bool {
+        !self.memory.is_empty()
+    }
+
+    /// The names of all numbers that a frame gets, in their order.
+    #[wasm_bindgen(getter)]
+    pub fn columns(&self) -> Vec<String> {
+        let names = COLUMNS.iter().map(|column| column.name.to_owned());
+        let deviations = COLUMNS.iter().map(|column| format!("sd_{}", column.name));
+        let beyond = THRESHOLDS_MM.map(|mm| format!("p_lift_off_over_{mm:.1}_mm"));
+        names.chain(deviations).chain(beyond).collect()
+    }
+
+    /// The numbers of frames, as many for each as there are columns; NaN for what is not known. Of each frame the femoral
+    /// pose (x, y, z in mm, then z, x and y rotation in degrees) with the standard deviations of these six, whose errors are
+    /// taken as independent, or NaN where they are not known; then those of the tibial one.
+    ///
+    /// # Errors
+    /// When a pose is not six finite numbers.
+    pub fn numbers(&mut self, frames: &[f64]) -> Result<Vec<f64>, JsError> {
+        let mut memory = core::mem::take(&mut self.memory);
+        let found = self.all(frames, &mut memory);
+        self.memory = memory;
+        found
+    }
+}
+
+impl KneeJoint {
+    fn joint(&self) -> Result<Option<Joint<'_>>, JsError> {
+        if self.femur.vertices.is_empty() || self.tibia.vertices.is_empty() {
+            return Ok(None);
+        }
+        Ok(Joint::new(
+            (self.femur.mesh()?, &self.femur.axes),
+            (self.tibia.mesh()?, &self.tibia.axes),
+            self.side,
+        ))
+    }
+
+    fn all(&self, frames: &[f64], memory: &mut [u32]) -> Result<Vec<f64>, JsError> {
+        let joint = self.joint()?;
+        let placed = |part: &Part, middle: &Vector3, numbers: &[f64]| -> Result<Placed, JsError> {
+            let (pose, covariance) = posed(numbers, middle)?;
+            let axes = joint_axes(&part.axes, self.side);
+            Ok(Placed::new(&pose, &axes, middle, covariance))
+        };
+        let middles = [self.femur.middle()?, self.tibia.middle()?];
+        let mut numbers = Vec::with_capacity(frames.len() / IN * OUT);
+        for frame in frames.as_chunks::<IN>().0 {
+            let femur = placed(&self.femur, &middles[0], &frame[..12])?;
+            let tibia = placed(&self.tibia, &middles[1], &frame[12..])?;
+            let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
+            let found = match &joint {
+                Some(joint) => joint.at(&relative, memory).map_err(sentence)?,
+                None => without_models(&relative, self.side),
+            };
+            numbers.extend(found.numbers);
+            numbers.extend(found.deviations.unwrap_or([f64::NAN; NUMBERS]));
+            let beyond = |mm| found.lift_off_probability(mm).unwrap_or(f64::NAN);
+            numbers.extend(THRESHOLDS_MM.map(beyond));
+        }
+        Ok(numbers)
+    }
+}
+
+/// A pose, and its covariance where the standard deviations of its six numbers are known.
+fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovariance>), JsError> {
+    let (pose, deviations) = numbers.split_at(6);
+    let pose = Pose::from(from_numbers(pose)?);
+    let known = deviations.iter().all(|deviation| deviation.is_finite());
+    let deviations = core::array::from_fn(|k| deviations[k]);
+    let covariance = PoseCovariance::from_independent(&deviations, &pose, middle);
+    Ok((pose, known.then_some(covariance)))
+}
+
+/// What can be told of a joint by poses and axes alone.
+fn without_models(relative: &Relative, side: Side) -> JointFrame {
+    let numbers = |pose: &Pose| {
+        let relative = pose.inverse();
+        let six = joint_angles(&relative, side);
+        let floating = floating_translations(&relative, side);
+        let mut numbers = [f64::NAN; NUMBERS];
+        numbers[..place::MEDIAL_AP].copy_from_slice(&[
+            six.anterior_mm,
+            six.superior_mm,
+            six.lateral_mm,
+            six.flexion_deg,
+            six.abduction_deg,
+            six.internal_deg,
+            floating.lateral_mm,
+            floating.anterior_mm,
+            floating.distraction_mm,
+        ]);
+        numbers
+    };
+    JointFrame {
+        numbers: numbers(&relative.tibia_from_femur),
+        deviations: relative.deviations(numbers),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OWN: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+    fn add_box(low: [f32; 3], high: [f32; 3], part: &mut (Vec<f32>, Vec<u32>)) {
+        let first = (part.0.len() / 3) as u32;
+        for corner in 0..8 {
+            let end = |axis: usize| {
+                if corner >> axis & 1 == 0 {
+                    low[axis]
+                } else {
+                    high[axis]
+                }
+            };
+            part.0.extend([end(0), end(1), end(2)]);
+        }
+        for [a, b, c, d] in [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ] {
+            let corners = [a, b, c, a, c, d];
+            part.1.extend(corners.map(|corner| first + corner));
+        }
+    }
+
+    /// A left knee of boxes: condyles whose undersides lie 10 and 9 mm below the origin, over a plate whose upper side
+    /// lies at it. x is anterior, y superior, z to the right, which is medial.
+    fn knee(with_models: bool) -> KneeJoint {
+        let (mut femur, mut tibia) = <((Vec<f32>, Vec<u32>), (Vec<f32>, Vec<u32>))>::default();
+        if with_models {
+            add_box([-5.0, -10.0, 14.0], [5.0, 10.0, 34.0], &mut femur);
+            add_box([-5.0, -9.0, -34.0], [5.0, 10.0, -14.0], &mut femur);
+            add_box([-25.0, -4.0, -38.0], [25.0, 0.0, 38.0], &mut tibia);
+            add_box([-7.0, -40.0, -5.0], [7.0, -4.0, 5.0], &mut tibia);
+        }
+        let joint = KneeJoint::new(femur.0, femur.1, &OWN, tibia.0, tibia.1, &OWN, true);
+        joint.ok().unwrap()
+    }
+
+    /// The femoral component 3 mm in front and 30 mm above, 0.3 mm uncertain upwards and 0.2 forwards; all else is certain.
+    fn frame() -> Vec<f64> {
+        let mut frame = vec![3.0, 30.0, -1000.0, 0.0, 0.0, 0.0];
+        frame.extend([0.2, 0.3, 0.0, 0.0, 0.0, 0.0]);
+        frame.extend([0.0, 0.0, -1000.0, 0.0, 0.0, 0.0]);
+        frame.extend([0.0; 6]);
+        frame
+    }
+
+    fn named(joint: &KneeJoint, numbers: &[f64], name: &str) -> f64 {
+        let at = joint.columns().iter().position(|column| column == name);
+        numbers[at.unwrap()]
+    }
+
+    #[test]
+    fn a_knee_of_boxes_has_the_numbers_that_its_drawing_has() {
+        let mut joint = knee(true);
+        assert!(joint.has_plate());
+        let numbers = joint.numbers(&frame()).ok().unwrap();
+        assert_eq!(numbers.len(), joint.columns().len());
+        for (name, wanted) in [
+            ("field_anterior_mm", 3.0),
+            ("flexion_deg", 0.0),
+            ("medial_ap_mm", 3.0),
+            ("medial_ap_percent", 56.0),
+            ("medial_height_mm", 20.0),
+            ("lateral_height_mm", 21.0),
+            ("lift_off_mm", 1.0),
+            ("sd_field_anterior_mm", 0.2),
+            ("sd_medial_ap_mm", 0.2),
+            ("sd_medial_height_mm", 0.3),
+            ("sd_lift_off_mm", 0.0),
+            ("sd_flexion_deg", 0.0),
+            ("p_lift_off_over_0.7_mm", 1.0),
+        ] {
+            let found = named(&joint, &numbers, name);
+            assert!((found - wanted).abs() < 1e-5, "{name}: {found}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_known_is_nan_frame_by_frame() {
+        let mut joint = knee(false);
+        assert!(!joint.has_plate());
+        let mut frames = frame();
+        frames.extend(frame());
+        frames[IN + 20] = f64::NAN;
+        let numbers = joint.numbers(&frames).ok().unwrap();
+        let (first, second) = numbers.split_at(OUT);
+        assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2).abs() < 1e-9);
+        assert!(named(&joint, first, "lift_off_mm").is_nan());
+        assert!((named(&joint, second, "field_anterior_mm") - 3.0).abs() < 1e-9);
+        assert!(named(&joint, second, "sd_field_anterior_mm").is_nan());
+        assert!(named(&joint, second, "p_lift_off_over_0.7_mm").is_nan());
+    }
+}

@@ -1,0 +1,120 @@
+import type { Candidate } from '../document/types';
+import { type JointNumbers, NO_NUMBERS } from '../results/joint_curves';
+import { type JointAsked, jointAsked, type JointFrame } from '../results/motion';
+import { COMPONENT_NAMES } from '../terms/component';
+import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
+import type { JointFacts, JointModels } from '../workers/protocol/joint';
+import type { PoseProtocol } from '../workers/protocol/pose';
+import { sentenceOf, type Services } from './services';
+
+/** Frames that are asked for at once: other work for the worker waits no longer than for these. */
+const AT_ONCE = 32;
+
+interface Known extends Pick<JointFrame, 'femur' | 'tibia'> {
+  readonly row: Float64Array;
+}
+
+/** Works out the numbers of the joint while somebody looks at them: of each frame once, and again when a pose of it changes. */
+export class JointReader {
+  readonly #services: Services;
+  readonly #worker: Pick<Bridge<PoseProtocol>, 'call'>;
+  /** Models, axes and side that the worker has open, and what they give; null while it has none. */
+  #open: { readonly key: string; readonly facts: JointFacts } | null = null;
+  /** What the numbers below rest on. */
+  #key = '';
+  readonly #known = new Map<string, Known>();
+  /** What the worker refused is not asked again: joints by their keys, frames by their femoral poses. */
+  readonly #refusedJoints = new Set<string>();
+  readonly #refusedFrames = new WeakSet<Candidate>();
+  #stops = 0;
+  #busy = false;
+  #shown: { readonly asked: JointAsked; readonly known: number; readonly numbers: JointNumbers } | null = null;
+  /** Counts what became known. */
+  #version = 0;
+
+  constructor(services: Services, worker: Pick<Bridge<PoseProtocol>, 'call'>) {
+    this.#services = services;
+    this.#worker = worker;
+    services.store.subscribe(() => void this.#look());
+  }
+
+  /** All that is known now of the document's joint; the same object as long as nothing changes. */
+  get numbers(): JointNumbers {
+    const asked = jointAsked(this.#services.store.doc);
+    if (!asked || !this.#open || this.#open.key !== keyOf(asked) || this.#key !== this.#open.key) return NO_NUMBERS;
+    if (this.#shown?.asked !== asked || this.#shown.known !== this.#version) {
+      const rows = asked.frames.flatMap(({ id }): [string, Float64Array][] => {
+        const row = this.#known.get(id)?.row;
+        return row ? [[id, row]] : [];
+      });
+      const numbers = { ...this.#open.facts, of: new Map(rows), waiting: this.#missing(asked).length };
+      this.#shown = { asked, known: this.#version, numbers };
+    }
+    return this.#shown.numbers;
+  }
+
+  #missing(asked: JointAsked): readonly JointFrame[] {
+    return asked.frames.filter(({ id, femur, tibia }) => {
+      const known = this.#known.get(id);
+      return (known?.femur !== femur || known.tibia !== tibia) && !this.#refusedFrames.has(femur);
+    });
+  }
+
+  async #look(): Promise<void> {
+    const { store } = this.#services;
+    if (this.#busy || !store.ui.joint.open) return;
+    const asked = jointAsked(store.doc);
+    if (!asked || asked.frames.length === 0 || !this.#hasMeshes(asked)) return;
+    const key = keyOf(asked);
+    const frames = this.#open?.key === key && this.#key === key ? this.#missing(asked) : asked.frames;
+    if (frames.length === 0 || this.#refusedJoints.has(key)) return;
+    this.#busy = true;
+    try {
+      await this.#workOut(asked, key, frames.slice(0, AT_ONCE));
+    } catch (error) {
+      this.#failed(error, key, frames.slice(0, AT_ONCE));
+    } finally {
+      this.#busy = false;
+      // No part of the state: the views are notified, and the rest is looked at.
+      this.#version += 1;
+      store.show({});
+    }
+  }
+
+  async #workOut(asked: JointAsked, key: string, frames: readonly JointFrame[]): Promise<void> {
+    if (this.#open?.key !== key) {
+      this.#open = null;
+      this.#open = { key, facts: await this.#worker.call('openJoint', this.#models(asked)) };
+    }
+    if (this.#key !== key) this.#known.clear();
+    this.#key = key;
+    const uncertain = ({ pose, deviations }: Candidate) => ({ pose, deviations });
+    const numbers = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })));
+    const width = this.#open.facts.columns.length;
+    frames.forEach(({ id, femur, tibia }, at) => this.#known.set(id, { femur, tibia, row: numbers.subarray(at * width, (at + 1) * width) }));
+  }
+
+  /** What a stopped worker held is gone, and it is opened anew: twice, because this may be what stops it. */
+  #failed(error: unknown, key: string, frames: readonly JointFrame[]): void {
+    const wasOpen = this.#open?.key === key;
+    if (error instanceof WorkerStopped) this.#open = null;
+    if (error instanceof Aborted || (error instanceof WorkerStopped && ++this.#stops < 3)) return;
+    if (wasOpen) for (const { femur } of frames) this.#refusedFrames.add(femur);
+    else this.#refusedJoints.add(key);
+    this.#services.store.say('error', sentenceOf(error));
+  }
+
+  #hasMeshes({ models }: JointAsked): boolean {
+    return COMPONENT_NAMES.every((component) => models[component] === null || this.#services.studio.meshOf(models[component]) !== null);
+  }
+
+  #models({ side, axes, models }: JointAsked): JointModels {
+    const { studio } = this.#services;
+    const mesh = (sha256: string | null) => (sha256 === null ? null : studio.meshOf(sha256));
+    return { side, femur: { mesh: mesh(models.femur), axes: axes.femur }, tibia: { mesh: mesh(models.tibia), axes: axes.tibia } };
+  }
+}
+
+function keyOf({ side, axes, models }: JointAsked): string {
+  return JSON.stringify([side, axes, models]);
+}

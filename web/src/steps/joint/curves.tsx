@@ -1,0 +1,131 @@
+import { useMemo, useState } from 'preact/hooks';
+import { useApp } from '../../commands/app';
+import { NumberField } from '../../controls/number_field';
+import { Segments } from '../../controls/segments';
+import type { State } from '../../document/store';
+import type { Doc } from '../../document/types';
+import { curvesShown, type JointNumbers } from '../../results/joint_curves';
+import { motionNeeds } from '../../results/motion';
+import { standingOf } from '../../results/steps';
+import { CONVENTIONS, DOCK, OVERS } from '../../terms/joint';
+import { texts } from '../../texts/texts';
+import { CurvePanel } from './curve_panel';
+import { DockSize } from './dock_size';
+import { Needs } from './needs';
+
+/** What the curves run over and by whose convention; the table. */
+export function JointTools({ state }: { state: State }) {
+  const { store } = useApp().services;
+  const { convention, over, rate, height } = state.ui.joint;
+  const words = texts.joint;
+  const isNext = standingOf(state.history.present).step === 'joint';
+  return (
+    <>
+      <Segments
+        label={words.over}
+        shown
+        options={OVERS.map((value) => ({ value, title: words.overs[value] }))}
+        value={over}
+        onChoose={(value) => store.setJoint({ over: value })}
+      />
+      {over === 'time' && <NumberField label={words.rate} unit="1/s" value={rate} onChange={(value) => store.setJoint({ rate: value > 0 ? value : NaN })} />}
+      <Segments
+        label={words.convention}
+        options={CONVENTIONS.map((value) => ({ value, title: words.conventions[value], hint: words.conventionHints[value] }))}
+        value={convention}
+        onChoose={(value) => store.setJoint({ convention: value })}
+      />
+      <span class="joint-room" />
+      <DockSize state={state} />
+      <button
+        type="button"
+        class="button small"
+        aria-pressed={height >= DOCK.large}
+        onClick={() => store.setJoint({ height: height >= DOCK.large ? DOCK.usual : DOCK.large })}
+      >
+        {words.large}
+      </button>
+      <button
+        type="button"
+        class={isNext ? 'button small primary' : 'button small'}
+        title={words.saveTitle}
+        aria-haspopup="dialog"
+        aria-expanded={state.ui.popover === 'joint'}
+        onClick={() => store.show({ popover: state.ui.popover === 'joint' ? null : 'joint' })}
+      >
+        {words.save}
+      </button>
+    </>
+  );
+}
+
+export function Curves({ state }: { state: State }) {
+  const { joint } = useApp();
+  const { numbers } = joint;
+  const { over, rate } = state.ui.joint;
+  const needs = motionNeeds(state.history.present);
+  if (needs) return <Needs needs={needs} />;
+  if (over === 'time' && !(rate > 0)) return <p class="joint-needs">{texts.joint.rateNeeded}</p>;
+  return <Panels state={state} numbers={numbers} />;
+}
+
+function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
+  const { store } = useApp().services;
+  const [hovered, setHovered] = useState<number | null>(null);
+  const { convention, over, rate, alone } = state.ui.joint;
+  const doc = state.history.present;
+  const along = useMemo(() => ({ over, rate }), [over, rate]);
+  const names = curvesShown(convention, numbers.hasPlate);
+  // The large one may be of the other convention.
+  const large = names.find((name) => name === alone);
+  return (
+    <>
+      <div class={large ? 'joint-panels alone' : 'joint-panels'} style={{ '--curves': Math.ceil(names.length / 2) }}>
+        {(large ? [large] : names).map((name) => (
+          <CurvePanel
+            key={name}
+            name={name}
+            doc={doc}
+            numbers={numbers}
+            along={along}
+            theme={state.ui.theme}
+            shown={hovered ?? state.ui.frameIndex}
+            current={state.ui.frameIndex}
+            alone={name === large}
+            onAlone={() => store.setJoint({ alone: large ? null : name })}
+            onHover={setHovered}
+            onPick={(index) => store.goTo(index)}
+          />
+        ))}
+      </div>
+      <Legend numbers={numbers} doc={doc} hovered={hovered} />
+    </>
+  );
+}
+
+function Legend({ numbers, doc, hovered }: { numbers: JointNumbers; doc: Doc; hovered: number | null }) {
+  const words = texts.joint;
+  const hasBands = useMemo(() => {
+    const at = numbers.columns.indexOf('sd_flexion_deg');
+    return [...numbers.of.values()].some((row) => Number.isFinite(row[at]));
+  }, [numbers]);
+  const { femur, tibia } = doc.components;
+  const noPlate = numbers.columns.length === 0 || numbers.hasPlate ? null : femur.model && tibia.model ? words.noPlate.tray : words.noPlate.models;
+  return (
+    <p class="joint-legend">
+      <span>
+        <i class="joint-point" aria-hidden="true" /> {words.good}
+      </span>
+      <span>
+        <i class="joint-point hollow" aria-hidden="true" /> {words.doubtful}
+      </span>
+      <span>
+        <i class="joint-point square" aria-hidden="true" /> {words.checked}
+      </span>
+      <span>{hasBands ? words.band : words.noBands}</span>
+      {noPlate && <span>{noPlate}</span>}
+      {hovered !== null && <span>{words.hovered(hovered + 1)}</span>}
+      {numbers.waiting > 0 && <span role="status">{words.waiting(numbers.waiting)}</span>}
+    </p>
+  );
+}

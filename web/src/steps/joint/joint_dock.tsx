@@ -1,0 +1,43 @@
+import { useLater } from '../../commands/later';
+import { useApp } from '../../commands/app';
+import type { State } from '../../document/store';
+import { cellOf, chosenCandidate, type Doc } from '../../document/types';
+import { COMPONENT_NAMES } from '../../terms/component';
+import { texts } from '../../texts/texts';
+
+const load = () => import('./curves');
+
+/** There is a place for the joint as soon as one can come about: the frame must not jump when the first pose does. */
+function hasBothComponents(doc: Doc): boolean {
+  return COMPONENT_NAMES.every((component) => {
+    const { model, libraryFile } = doc.components[component];
+    return model !== null || libraryFile !== null || doc.frames.some(({ id }) => chosenCandidate(cellOf(doc, id, component)));
+  });
+}
+
+/** How the joint moves: one line until somebody opens it, then curves. */
+export function JointDock({ state }: { state: State }) {
+  const { services } = useApp();
+  const { open, height } = state.ui.joint;
+  const loaded = useLater(open, load);
+  if (!hasBothComponents(state.history.present)) return null;
+  const words = texts.joint;
+  return (
+    <section class="joint" aria-label={words.region} style={open ? { height: `${100 * height}vh` } : undefined}>
+      <div class="joint-head">
+        <button
+          type="button"
+          class="joint-toggle"
+          aria-expanded={open}
+          aria-keyshortcuts="Shift+K"
+          title={texts.withKey(open ? words.close : words.open, 'Shift + K')}
+          onClick={() => services.store.setJoint({ open: !open })}
+        >
+          <span class="joint-sign" aria-hidden="true" /> {words.title}
+        </button>
+        {open && loaded && <loaded.JointTools state={state} />}
+      </div>
+      {open && loaded && <loaded.Curves state={state} />}
+    </section>
+  );
+}

@@ -1,0 +1,123 @@
+import { describe, expect, it } from 'vitest';
+import { addFrames, setSide, withCell } from '../../src/document/commands';
+import { bare } from '../../src/document/hand_poses';
+import { toggleChecked } from '../../src/document/marks';
+import { Store } from '../../src/document/store';
+import type { Posed } from '../../src/document/types';
+import { curvesShown, type JointNumbers, pointsOf, rangeOf } from '../../src/results/joint_curves';
+import { faultsOf, inRuns, jointTable } from '../../src/results/joint_table';
+import { jointAsked, motionNeeds, runsOf } from '../../src/results/motion';
+import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
+
+const POSE = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
+const COLUMNS = ['flexion_deg', 'field_medial_mm', 'sd_flexion_deg', 'sd_field_medial_mm'];
+
+/** A left knee of six frames; the fourth has no tibia. */
+function film(): Store {
+  const store = new Store();
+  store.perform(addFrames(Array.from({ length: 6 }, (_, k) => ({ id: `f${k}`, name: `f,${k}.png`, source: 's', indexInSource: k, width: 8, height: 8 }))));
+  store.perform(setSide('left'));
+  for (let frame = 0; frame < 6; frame++) for (const component of COMPONENT_NAMES) if (frame !== 3 || component === 'femur') pose(store, frame, component);
+  return store;
+}
+
+function pose(store: Store, frame: number, component: ComponentName, change: Partial<Posed> = {}, residual: number | null = 0.2): void {
+  const outline = { points: [], closed: true, unknownSides: [] };
+  const result: Posed = { kind: 'posed', from: 'outline', origin: 'o', candidates: [{ ...bare(POSE), residual }], chosen: 0, reason: null, decided: true, verdict: { word: 'good', because: 'a test, so' }, ...change };
+  store.amend((doc) => withCell(doc, { frameId: `f${frame}`, component }, { outline, result, resultOf: outline }));
+}
+
+const row = (...numbers: number[]) => Float64Array.from(numbers);
+
+/** Of a knee that bends and comes back. */
+function numbers(): JointNumbers {
+  const flexions = [0, 20, 40, NaN, 30, 10];
+  const rows = flexions.flatMap((flexion, k): [string, Float64Array][] => (Number.isNaN(flexion) ? [] : [[`f${k}`, row(flexion, -k, 0.1, k === 1 ? NaN : 2)]]));
+  return { columns: COLUMNS, hasPlate: false, of: new Map(rows), waiting: 0 };
+}
+
+describe('curves of a joint', () => {
+  it('have no line across a frame without both poses, whatever they run over', () => {
+    const { doc } = film();
+    for (const over of ['frame', 'time', 'flexion'] as const) {
+      const points = pointsOf(doc, numbers(), 'field_medial_mm', { over, rate: 10 });
+      expect(runsOf(points).map((run) => run.map(({ index }) => index))).toEqual([[0, 1, 2], [4, 5]]);
+    }
+  });
+
+  it('run over numbers of frames, seconds, or flexion', () => {
+    const { doc } = film();
+    const xs = (over: 'frame' | 'time' | 'flexion') => pointsOf(doc, numbers(), 'flexion_deg', { over, rate: 10 }).map(({ x }) => x);
+    expect(xs('frame')).toEqual([1, 2, 3, 5, 6]);
+    expect(xs('time')).toEqual([0, 0.1, 0.2, 0.4, 0.5]);
+    expect(xs('flexion')).toEqual([0, 20, 40, 30, 10]);
+  });
+
+  it('say which points are doubtful, and which were checked in both components', () => {
+    const store = film();
+    pose(store, 1, 'tibia', { verdict: { word: 'doubtful', because: 'its mirror image' } });
+    for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f2', component }));
+    store.perform(toggleChecked({ frameId: 'f4', component: 'femur' }));
+    const points = pointsOf(store.doc, numbers(), 'flexion_deg', { over: 'frame', rate: NaN });
+    expect(points.filter(({ doubtful }) => doubtful).map(({ index }) => index)).toEqual([1]);
+    expect(points.filter(({ checked }) => checked).map(({ index }) => index)).toEqual([2]);
+  });
+
+  it('leave room for their bands, but not for one that is far wider than the others', () => {
+    const point = (value: number, deviation: number) => ({ index: 0, x: 0, value, deviation, doubtful: false, checked: false });
+    const [low, high] = rangeOf([point(0, 1), point(10, 1), point(5, NaN)]);
+    expect(low).toBeCloseTo(-1.48);
+    expect(high).toBeCloseTo(11.48);
+    const [least, most] = rangeOf([point(0, 1), point(0, 1), point(0, 1000)]);
+    expect(most - least).toBeCloseTo(8 * 1.08);
+    expect(rangeOf([])).toEqual([0, 1]);
+  });
+
+  it('are six, and the condyles where the tray is known', () => {
+    expect(curvesShown('field', false)).toHaveLength(6);
+    expect(curvesShown('grood-suntay', true)).toEqual(['flexion', 'abduction', 'internal', 'lowest', 'gsAnterior', 'gsDistraction', 'gsLateral', 'liftOff']);
+  });
+
+  it('wait for the side, and for a frame with both poses', () => {
+    const store = film();
+    expect(motionNeeds(store.doc)).toBeNull();
+    expect(jointAsked(store.doc)?.frames.map(({ index }) => index)).toEqual([0, 1, 2, 4, 5]);
+    store.perform(setSide('unknown'));
+    expect(motionNeeds(store.doc)).toEqual({ what: 'side' });
+    expect(jointAsked(store.doc)).toBeNull();
+  });
+});
+
+describe('the table of a joint', () => {
+  it('has a row a frame, empty where nothing was found or known', () => {
+    const store = film();
+    store.perform(toggleChecked({ frameId: 'f1', component: 'femur' }));
+    const lines = jointTable(store.doc, numbers(), NaN).split('\r\n');
+    const rows = lines.filter((line) => !line.startsWith('#'));
+    expect(lines.some((line) => line.startsWith('# units: mm, degrees'))).toBe(true);
+    expect(rows[0]).toBe('frame,file,flexion_deg,field_medial_mm,sd_flexion_deg,sd_field_medial_mm,femur_verdict,tibia_verdict,femur_because,tibia_because,femur_checked,tibia_checked,femur_method,tibia_method');
+    expect(rows[2]).toBe('2,"f,1.png",20,-1,0.1,,good,good,"a test, so","a test, so",yes,no,refined,refined');
+    expect(rows[4]).toBe('4,"f,3.png",,,,,good,,"a test, so",,no,,refined,');
+    expect(rows).toHaveLength(1 + 6 + 1);
+  });
+
+  it('has times where somebody said how many frames there are in a second', () => {
+    const rows = jointTable(film().doc, numbers(), 20).split('\r\n').filter((line) => !line.startsWith('#'));
+    expect(rows[0]).toMatch(/^frame,file,time_s,flexion_deg/);
+    expect(rows[3]).toMatch(/^3,"f,2\.png",0\.1,40,/);
+  });
+
+  it('tells its faults before it is written', () => {
+    const store = film();
+    pose(store, 0, 'femur', {}, null);
+    pose(store, 1, 'femur', { from: 'file', origin: 'a.jts' }, null);
+    pose(store, 2, 'tibia', { verdict: { word: 'doubtful', because: 'so' } });
+    for (const component of COMPONENT_NAMES) store.perform(toggleChecked({ frameId: 'f5', component }));
+    expect(faultsOf(store.doc)).toEqual({ missing: [4], unrefined: [1], unknown: [2], doubtful: [3], unchecked: [1, 2, 3, 5] });
+  });
+
+  it('names frames in runs', () => {
+    expect(inRuns([1, 2, 3, 5, 8, 9])).toBe('1–3, 5, 8–9');
+    expect(inRuns([1, 3, 5, 7], 2)).toBe('1, 3 …');
+  });
+});
