@@ -178,7 +178,8 @@ async function landscape(page, stage, t) {
   await page.keyboard.press('Enter');
   await page.getByRole('radio', { name: 'View candidate', checked: true }).waitFor();
   const taken = await panel.waitForOtherPose(page, before);
-  assert(Math.abs(taken.xRot - before.xRot) < 4 && Math.abs(taken.yRot - before.yRot) < 4, 'a view nearby is a pose nearby');
+  // A step of the library is 2.5 degrees, and the best view itself is up to one beside the pose.
+  assert(Math.abs(taken.xRot - before.xRot) < 5 && Math.abs(taken.yRot - before.yRot) < 5, `a view nearby is a pose nearby: ${panel.differences(taken, before)}, from ${best} to ${beside}`);
   await page.keyboard.press('Control+z');
   await panel.waitForThePose(page, before);
   // By mouse: a corner of the grid.

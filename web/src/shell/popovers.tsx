@@ -6,21 +6,21 @@ import { useApp } from '../commands/app';
 import { later } from '../commands/later';
 import { CalibrationSheet } from '../sheets/calibration_sheet';
 import { ComponentSheet } from '../sheets/component_sheet';
-import { FilmSheet } from '../sheets/film_sheet';
 import { Icon } from '../controls/icons';
 import { KeySheet } from '../sheets/key_sheet';
 import { LogSheet } from '../sheets/log_sheet';
-import { ShapeSheet } from '../sheets/shape_sheet';
 import { SessionSheet } from '../sheets/session_sheet';
 import { WorkSheet } from '../sheets/work_sheet';
-import { VideoSheet } from '../steps/open/video_sheet';
-import { ViewSheet } from '../sheets/view_sheet';
 import { ImportSheet } from '../steps/open/import_sheet';
 import { texts } from '../texts/texts';
 
 const CalibrateSheet = later(async () => (await import('../sheets/calibrate_sheet')).CalibrateSheet);
 const ConvergenceSheet = later(async () => (await import('../sheets/convergence_sheet')).ConvergenceSheet);
+const FilmSheet = later(async () => (await import('../sheets/film_sheet')).FilmSheet);
 const JointSheet = later(async () => (await import('../steps/joint/joint_sheet')).JointSheet);
+const ShapeSheet = later(async () => (await import('../sheets/shape_sheet')).ShapeSheet);
+const VideoSheet = later(async () => (await import('../steps/open/video_sheet')).VideoSheet);
+const ViewSheet = later(async () => (await import('../sheets/view_sheet')).ViewSheet);
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
 export function Popovers({ state }: { state: State }) {
