@@ -1,4 +1,4 @@
-import type { FramePoint } from '../geometry/points';
+import { type FramePoint, framePoint } from '../geometry/points';
 
 /** What the calibration helper has before it: no part of the document until somebody takes what it found. */
 export interface Measuring {
@@ -44,4 +44,11 @@ export function withMark(marks: readonly FramePoint[], at: FramePoint): readonly
   if (marks.length < 2) return [...marks, at];
   const away = marks.map((mark) => Math.hypot(mark.column - at.column, mark.row - at.row));
   return marks.with((away[0] ?? 0) <= (away[1] ?? 0) ? 0 : 1, at);
+}
+
+/** The marks with a number that somebody typed; a mark without numbers is none. */
+export function withTyped(marks: readonly FramePoint[], index: number, typed: Partial<Pick<FramePoint, 'column' | 'row'>>): readonly FramePoint[] {
+  const all = [0, 1].map((at) => marks[at] ?? framePoint(NaN, NaN));
+  const { column, row } = { ...(all[index] ?? framePoint(NaN, NaN)), ...typed };
+  return all.with(index, framePoint(column, row)).filter((mark) => !Number.isNaN(mark.column) || !Number.isNaN(mark.row));
 }

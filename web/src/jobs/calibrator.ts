@@ -1,6 +1,6 @@
 import { setCalibration } from '../document/commands';
 import { distortionOf, fits, type Distortion } from '../document/distortion';
-import { NOTHING_MEASURED, withMark, withMovedMark, type MeasuredDistortion, type MeasuredGrid, type Measuring } from '../document/measuring';
+import { NOTHING_MEASURED, withMark, withMovedMark, withTyped, type MeasuredDistortion, type MeasuredGrid, type Measuring } from '../document/measuring';
 import { currentFrame } from '../document/store';
 import type { Doc } from '../document/types';
 import type { FramePoint } from '../geometry/points';
@@ -34,6 +34,12 @@ export class Calibrator {
   mark(at: FramePoint, begins: boolean): void {
     const { marks } = this.#services.store.ui.measuring ?? NOTHING_MEASURED;
     this.show({ marks: begins ? withMark(marks, at) : withMovedMark(marks, at) });
+  }
+
+  /** A number of a mark, typed: the others are those that are there by now, not those on view. */
+  type(index: number, typed: Parameters<typeof withTyped>[2]): void {
+    const { marks } = this.#services.store.ui.measuring ?? NOTHING_MEASURED;
+    this.show({ marks: withTyped(marks, index, typed) });
   }
 
   /** Beads of the frame on view, as it was taken. */

@@ -3,7 +3,7 @@ import { writeDistortionFile } from '../document/distortion';
 import { NOTHING_MEASURED, type MeasuredGrid, type Measuring } from '../document/measuring';
 import { currentFrame, type State } from '../document/store';
 import { sentenceOf } from '../jobs/services';
-import { framePoint, type FramePoint } from '../geometry/points';
+import type { FramePoint } from '../geometry/points';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { DistortionFindings } from './distortion_findings';
@@ -102,11 +102,6 @@ function DistortionInUse({ state }: { state: State }) {
 /** Marks by click, or typed: the mouse alone must not be needed. */
 function Ruler({ marks }: { marks: readonly FramePoint[] }) {
   const { calibrator } = useApp();
-  const typed = (index: number, column: number, row: number) => {
-    const all = [0, 1].map((at) => marks[at] ?? framePoint(NaN, NaN)).with(index, framePoint(column, row));
-    const given = all.filter((mark) => !Number.isNaN(mark.column) || !Number.isNaN(mark.row));
-    calibrator.show({ marks: given });
-  };
   return (
     <>
       <p class="sheet-text quiet">{said.rulerMeaning}</p>
@@ -114,8 +109,8 @@ function Ruler({ marks }: { marks: readonly FramePoint[] }) {
         {[0, 1].flatMap((index) => {
           const { column, row } = marks[index] ?? { column: NaN, row: NaN };
           return [
-            <NumberField key={`${index} column`} label={said.mark(index + 1, 'column')} unit="px" value={rounded(column)} onChange={(value) => typed(index, value, row)} />,
-            <NumberField key={`${index} row`} label={said.mark(index + 1, 'row')} unit="px" value={rounded(row)} onChange={(value) => typed(index, column, value)} />,
+            <NumberField key={`${index} column`} label={said.mark(index + 1, 'column')} unit="px" value={rounded(column)} onChange={(column) => calibrator.type(index, { column })} />,
+            <NumberField key={`${index} row`} label={said.mark(index + 1, 'row')} unit="px" value={rounded(row)} onChange={(row) => calibrator.type(index, { row })} />,
           ];
         })}
       </div>

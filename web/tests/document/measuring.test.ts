@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { withMark, withMovedMark } from '../../src/document/measuring';
+import { withMark, withMovedMark, withTyped } from '../../src/document/measuring';
 import { isMeant } from '../../src/exchange/reading';
 import { canvasPoint, framePoint } from '../../src/geometry/points';
 import type { Effect, Input, Situation } from '../../src/interaction/machine';
@@ -18,6 +18,17 @@ describe('marks of a ruler', () => {
   it('go with the pointer while the button is held', () => {
     expect(withMovedMark([a], framePoint(12, 11))).toEqual([framePoint(12, 11)]);
     expect(withMovedMark([a, b], framePoint(99, 11))).toEqual([a, framePoint(99, 11)]);
+  });
+});
+
+describe('numbers of marks that are typed', () => {
+  it('leave the others as they are', () => {
+    const once = withTyped([], 0, { column: 12.5 });
+    expect(once).toEqual([framePoint(12.5, NaN)]);
+    const twice = withTyped(once, 0, { row: 7 });
+    expect(withTyped(twice, 1, { row: 3 })).toEqual([framePoint(12.5, 7), framePoint(NaN, 3)]);
+    expect(withTyped(twice, 0, { column: NaN })).toEqual([framePoint(NaN, 7)]);
+    expect(withTyped([framePoint(1, NaN)], 0, { column: NaN })).toEqual([]);
   });
 });
 
