@@ -1,12 +1,12 @@
 //! Pixels of a frame whose edges are not the component's: the joint's other one lies there.
 
 use fluoropose::camera::Camera;
-use fluoropose::image::contour::{Outline, Point};
-use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
+use fluoropose::image::mask::{Mask, MaskMut, Word};
 use fluoropose_tracing::morphology::widen;
 use wasm_bindgen::JsError;
 
 use fluoropose_page::error::sentence;
+use fluoropose_page::traced::{filled, points_of};
 
 /// Round the other component, pixels: its edges are as wide as the detector's blur.
 pub(crate) const MARGIN: usize = 4;
@@ -17,16 +17,10 @@ pub(crate) const MARGIN: usize = 4;
 /// The core's sentence about the outline.
 pub(crate) fn hide(outline: &[f64], camera: &Camera, hidden: &mut [Word]) -> Result<(), JsError> {
     let (width, height) = (camera.width(), camera.height());
-    let pairs = outline.as_chunks().0.iter();
-    let points: Vec<Point> = pairs
-        .map(|&[column, row]| Point::new(column, row))
-        .collect();
-    let outline = Outline::new(&points, width, height).map_err(sentence)?;
-    let mut words = vec![0; words_needed(width, height)];
-    let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-    mask.fill_outline(&outline);
+    let words = filled(&points_of(outline), width, height)?;
+    let inside = Mask::new(&words, width, height).map_err(sentence)?;
     let mut hidden = MaskMut::new(hidden, width, height).map_err(sentence)?;
-    widen(&mask.into_mask(), MARGIN, &mut hidden);
+    widen(&inside, MARGIN, &mut hidden);
     Ok(())
 }
 

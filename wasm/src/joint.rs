@@ -1,8 +1,7 @@
 //! The joint's numbers, frame by frame, for curves and tables.
 
-use fluoropose::joint::floating::floating_translations;
-use fluoropose::joint::kinematics::{Side, joint_angles, joint_axes};
-use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::kinematics::{Side, joint_axes};
+use fluoropose::joint::numbers::NUMBERS;
 use fluoropose::joint::relative::{NOTHING_COMMON, Placed, Relative};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
 use fluoropose::math::Vector3;
@@ -145,7 +144,7 @@ impl KneeJoint {
             let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
             let found = match &joint {
                 Some(joint) => joint.at(&relative, memory).map_err(sentence)?,
-                None => without_models(&relative, self.side),
+                None => JointFrame::without_models(&relative, self.side),
             };
             numbers.extend(found.numbers);
             numbers.extend(found.deviations.unwrap_or([f64::NAN; NUMBERS]));
@@ -164,32 +163,6 @@ fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovarian
     let deviations = core::array::from_fn(|k| deviations[k]);
     let covariance = PoseCovariance::from_independent(&deviations, &pose, middle);
     Ok((pose, known.then_some(covariance)))
-}
-
-/// What can be told of a joint by poses and axes alone.
-fn without_models(relative: &Relative, side: Side) -> JointFrame {
-    let numbers = |pose: &Pose| {
-        let relative = pose.inverse();
-        let six = joint_angles(&relative, side);
-        let floating = floating_translations(&relative, side);
-        let mut numbers = [f64::NAN; NUMBERS];
-        numbers[..place::MEDIAL_AP].copy_from_slice(&[
-            six.anterior_mm,
-            six.superior_mm,
-            six.lateral_mm,
-            six.flexion_deg,
-            six.abduction_deg,
-            six.internal_deg,
-            floating.lateral_mm,
-            floating.anterior_mm,
-            floating.distraction_mm,
-        ]);
-        numbers
-    };
-    JointFrame {
-        numbers: numbers(&relative.tibia_from_femur),
-        deviations: relative.deviations(numbers),
-    }
 }
 
 #[cfg(test)]

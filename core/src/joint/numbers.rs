@@ -103,6 +103,20 @@ pub struct JointFrame {
 }
 
 impl JointFrame {
+    /// What a relative pose alone tells: the first nine numbers, to [`place::MEDIAL_AP`]. Those that need both meshes are NaN.
+    #[must_use]
+    pub fn without_models(relative: &Relative, side: Side) -> Self {
+        let numbers = |pose: &Pose| {
+            let mut numbers = [f64::NAN; NUMBERS];
+            numbers[..place::MEDIAL_AP].copy_from_slice(&of_pose(&pose.inverse(), side));
+            numbers
+        };
+        Self {
+            numbers: numbers(&relative.tibia_from_femur),
+            deviations: relative.deviations(numbers),
+        }
+    }
+
     /// Probability that one condyle is higher than the other by more than a threshold, mm; 0.7 and 1.0 are in use. `None`
     /// without a standard deviation.
     #[must_use]
@@ -111,6 +125,25 @@ impl JointFrame {
         let lift_off = self.numbers[place::LIFT_OFF];
         Some(probability_beyond(lift_off, deviation, threshold_mm))
     }
+}
+
+/// The numbers before [`place::MEDIAL_AP`], in the order of [`COLUMNS`] (mm, degrees), of a relative pose
+/// (`femur_from_tibia`, [`relative_pose`](crate::joint::kinematics::relative_pose)) in the axes of [`joint_axes`].
+#[must_use]
+pub fn of_pose(relative: &Pose, side: Side) -> [f64; place::MEDIAL_AP] {
+    let six = joint_angles(relative, side);
+    let floating = floating_translations(relative, side);
+    [
+        six.anterior_mm,
+        six.superior_mm,
+        six.lateral_mm,
+        six.flexion_deg,
+        six.abduction_deg,
+        six.internal_deg,
+        floating.lateral_mm,
+        floating.anterior_mm,
+        floating.distraction_mm,
+    ]
 }
 
 /// The two components of a knee, as their meshes and the anatomical axes of these.
@@ -207,20 +240,11 @@ impl<'m> Joint<'m> {
     }
 
     fn numbers(&self, tibia_from_femur: &Pose, condyles: &Condyles) -> [f64; NUMBERS] {
-        let relative = tibia_from_femur.inverse();
-        let six = joint_angles(&relative, self.side);
-        let floating = floating_translations(&relative, self.side);
         let Condyles { medial, lateral } = condyles;
-        [
-            six.anterior_mm,
-            six.superior_mm,
-            six.lateral_mm,
-            six.flexion_deg,
-            six.abduction_deg,
-            six.internal_deg,
-            floating.lateral_mm,
-            floating.anterior_mm,
-            floating.distraction_mm,
+        let mut numbers = [0.0; NUMBERS];
+        let (of_poses, of_condyles) = numbers.split_at_mut(place::MEDIAL_AP);
+        of_poses.copy_from_slice(&of_pose(&tibia_from_femur.inverse(), self.side));
+        of_condyles.copy_from_slice(&[
             medial.anterior_mm,
             lateral.anterior_mm,
             self.plate.percent(medial.anterior_mm),
@@ -230,7 +254,8 @@ impl<'m> Joint<'m> {
             medial.height_mm,
             lateral.height_mm,
             condyles.lift_off_mm(),
-        ]
+        ]);
+        numbers
     }
 }
 

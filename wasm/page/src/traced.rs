@@ -47,14 +47,8 @@ impl Traced {
     ) -> Result<Traced, JsError> {
         let camera = camera(calibration, width, height)?;
         let (width, height) = (camera.width(), camera.height());
-        let pairs = outline.as_chunks().0.iter();
-        let points: Vec<Point> = pairs
-            .map(|&[column, row]| Point::new(column, row))
-            .collect();
-        let outline = Outline::new(&points, width, height).map_err(sentence)?;
-        let mut words = vec![0; words_needed(width, height)];
-        let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
-        mask.fill_outline(&outline);
+        let points = points_of(outline);
+        let words = filled(&points, width, height)?;
         let unknown = match unknown {
             [] => None,
             numbers => Some(band(&points, numbers, width, height)?),
@@ -65,6 +59,26 @@ impl Traced {
             unknown,
         })
     }
+}
+
+/// Points of an outline; columns and rows by turns.
+pub fn points_of(outline: &[f64]) -> Vec<Point> {
+    let pairs = outline.as_chunks().0.iter();
+    pairs
+        .map(|&[column, row]| Point::new(column, row))
+        .collect()
+}
+
+/// A mask of the pixels of a frame inside an outline.
+///
+/// # Errors
+/// The core's sentence about the outline.
+pub fn filled(points: &[Point], width: usize, height: usize) -> Result<Vec<Word>, JsError> {
+    let outline = Outline::new(points, width, height).map_err(sentence)?;
+    let mut words = vec![0; words_needed(width, height)];
+    let mut mask = MaskMut::new(&mut words, width, height).map_err(sentence)?;
+    mask.fill_outline(&outline);
+    Ok(words)
 }
 
 impl Traced {

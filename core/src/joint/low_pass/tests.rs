@@ -1,6 +1,7 @@
 use super::*;
 
-use crate::pose::{EulerPose, geodesic_deg};
+use crate::joint::fake::pose;
+use crate::pose::geodesic_deg;
 use std::vec;
 use std::vec::Vec;
 
@@ -84,18 +85,6 @@ fn straight_lines_stay_and_runs_do_not_hear_of_each_other() {
     );
 }
 
-fn turned(place: [f64; 3], [z_rot_deg, x_rot_deg, y_rot_deg]: [f64; 3]) -> Pose {
-    let [x_mm, y_mm, z_mm] = place;
-    Pose::from(EulerPose {
-        x_mm,
-        y_mm,
-        z_mm,
-        z_rot_deg,
-        x_rot_deg,
-        y_rot_deg,
-    })
-}
-
 fn smooth(poses: &[Option<Pose>]) -> Vec<Option<Pose>> {
     let filter = LowPass::new(4.0, 30.0).expect("possible");
     let mut poses = poses.to_vec();
@@ -115,7 +104,7 @@ fn film() -> Vec<Option<Pose>> {
                 20.0 * libm::sin(t / 9.0),
                 3.0 + jitter(2.1),
             ];
-            (k != 30).then(|| turned([t + jitter(0.7), 4.0, -1000.0 + 3.0 * jitter(3.7)], turns))
+            (k != 30).then(|| pose([t + jitter(0.7), 4.0, -1000.0 + 3.0 * jitter(3.7)], turns))
         })
         .collect()
 }
@@ -126,8 +115,8 @@ fn axes_of_camera_and_model_drop_out() {
     let film = film();
     let plain = smooth(&film);
     assert!(plain[30].is_none() && plain[29].is_some());
-    let camera = turned([0.0; 3], [40.0, -70.0, 110.0]);
-    let model = turned([0.0; 3], [-95.0, 33.0, 10.0]);
+    let camera = pose([0.0; 3], [40.0, -70.0, 110.0]);
+    let model = pose([0.0; 3], [-95.0, 33.0, 10.0]);
     let moved: Vec<_> = film
         .iter()
         .map(|pose| pose.map(|pose| camera.compose(&pose).compose(&model)))
@@ -155,11 +144,11 @@ fn about_one_axis_it_filters_the_angle() {
         .collect();
     let film: Vec<_> = angles
         .iter()
-        .map(|&z| Some(turned([1.0; 3], [z, 0.0, 0.0])))
+        .map(|&z| Some(pose([1.0; 3], [z, 0.0, 0.0])))
         .collect();
     let wanted = smoothed(&angles, 4.0, 30.0);
-    for (pose, wanted) in smooth(&film).iter().flatten().zip(wanted) {
-        let wanted = turned([1.0; 3], [wanted, 0.0, 0.0]);
-        assert!(geodesic_deg(&pose.rotation, &wanted.rotation) < 1e-6);
+    for (found, wanted) in smooth(&film).iter().flatten().zip(wanted) {
+        let wanted = pose([1.0; 3], [wanted, 0.0, 0.0]);
+        assert!(geodesic_deg(&found.rotation, &wanted.rotation) < 1e-6);
     }
 }

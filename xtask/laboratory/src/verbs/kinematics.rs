@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use fluoropose::joint::floating::floating_translations;
-use fluoropose::joint::kinematics::{self, joint_angles, joint_axes, relative_pose};
-use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::kinematics::{self, joint_axes, relative_pose};
+use fluoropose::joint::numbers::{NUMBERS, of_pose, place};
 use fluoropose::joint::relative::NOTHING_COMMON;
 use fluoropose::joint::{COLUMNS, Joint};
 use fluoropose::mesh::OwnedModel;
@@ -207,26 +206,17 @@ fn joint_numbers(
     lowest: &[f64],
 ) -> impl Iterator<Item = f64> {
     let pose = EulerPose::from(*relative);
-    let joint = joint_angles(relative, side);
-    let floating = floating_translations(relative, side);
-    let numbers = [
+    let pose = [
         pose.x_mm,
         pose.y_mm,
         pose.z_mm,
         pose.z_rot_deg,
         pose.x_rot_deg,
         pose.y_rot_deg,
-        joint.anterior_mm,
-        joint.superior_mm,
-        joint.lateral_mm,
-        joint.flexion_deg,
-        joint.abduction_deg,
-        joint.internal_deg,
-        floating.lateral_mm,
-        floating.anterior_mm,
-        floating.distraction_mm,
     ];
-    numbers.into_iter().chain(lowest.iter().copied())
+    pose.into_iter()
+        .chain(of_pose(relative, side))
+        .chain(lowest.iter().copied())
 }
 
 #[cfg(test)]
