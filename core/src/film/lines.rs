@@ -5,6 +5,8 @@
 //! each line that passes through it; both triangles beside an edge are cut at the same place, so a place between them is
 //! counted once. The reciprocal of the depth is linear on the image of a triangle, however steeply that is seen.
 
+use core::ops::Range;
+
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, touched_box};
 use crate::image::tiles::{TILES, Tiles};
@@ -29,19 +31,21 @@ const NONE: u16 = u16::MAX;
 pub const MOST_LINES: usize = NONE as usize / SPANNED;
 
 /// A line across an outline, and the path of the rays to places on it through the part.
+// What every triangle asks of a line comes first and lies together: most are answered by it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct PathLine {
     /// Continuous image coordinates of the origin, and the unit direction outwards.
     origin: [f64; 2],
     direction: [f64; 2],
-    /// mm.
-    paths: [f32; POINTS],
-    /// Surfaces left minus surfaces entered; zero where the surface is closed.
-    open: [i8; POINTS],
     /// The next line in each tile that this one has places in, as [`SPANNED`] times its number and which of its tiles it is.
     next: [u16; SPANNED],
     /// The triangle that was added last, from 1.
     last: u32,
+    /// mm.
+    paths: [f32; POINTS],
+    /// Surfaces left minus surfaces entered; zero where the surface is closed.
+    open: [i8; POINTS],
 }
 
 impl Default for PathLine {
@@ -72,10 +76,10 @@ impl PathLine {
         Self {
             origin,
             direction,
-            paths: [0.0; POINTS],
-            open: [0; POINTS],
             next: [NONE; SPANNED],
             last: 0,
+            paths: [0.0; POINTS],
+            open: [0; POINTS],
         }
     }
 
@@ -112,52 +116,71 @@ impl PathLine {
         if a == b && b == c {
             return;
         }
-        let at: [[f64; 2]; 3] = core::array::from_fn(|k| [across[k], self.along(corners[k])]);
-        let nearness = nearness();
-        let mut ends = [[0.0; 2]; 2];
-        let mut found = 0;
-        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
-            if (at[from][0] > 0.0) != (at[to][0] > 0.0)
-                && let Some(end) = ends.get_mut(found)
-            {
-                // From the corner on this side to that beyond, whichever triangle asks.
-                let (near, far) = if at[from][0] > 0.0 {
-                    (to, from)
-                } else {
-                    (from, to)
-                };
-                let part = at[near][0] / (at[near][0] - at[far][0]);
-                let between = |a: f64, b: f64| a + part * (b - a);
-                *end = [
-                    between(at[near][1], at[far][1]),
-                    between(nearness[near], nearness[far]),
-                ];
-                found += 1;
-            }
+        // The line cuts both edges of the corner that is alone on its side.
+        let alone = if b == c { 0 } else { 1 + usize::from(a == b) };
+        let along = corners.map(|corner| self.along(corner));
+        let mut cuts = [(alone + 1) % 3, (alone + 2) % 3]
+            .map(|other| Cut::between(alone, other, &across))
+            .map(|cut| (cut.of(&along), cut));
+        if cuts[0].0 > cuts[1].0 {
+            cuts.swap(0, 1);
         }
-        if ends[0][0] > ends[1][0] {
-            ends.swap(0, 1);
+        let [start, end] = cuts.map(|(along, _)| first_place(along));
+        if start < end {
+            let nearness = nearness();
+            let ends = cuts.map(|(along, cut)| [along, cut.of(&nearness)]);
+            self.add_places(start..end, ends, side);
         }
-        self.add_between(ends, side);
     }
 
-    fn add_between(&mut self, [[from, near], [to, far]]: [[f64; 2]; 2], side: &Side) {
-        let [start, end] = [from, to].map(|along| {
-            let place = (along + INNER) / STEP;
-            let whole = place.clamp(0.0, POINTS as f64) as usize;
-            whole + usize::from((whole as f64) < place)
-        });
-        let per_px = if to > from {
-            (far - near) / (to - from)
-        } else {
-            0.0
-        };
-        for point in start..end.min(POINTS) {
+    fn add_places(
+        &mut self,
+        places: Range<usize>,
+        [[from, near], [to, far]]: [[f64; 2]; 2],
+        side: &Side,
+    ) {
+        let per_px = (far - near) / (to - from);
+        for point in places {
             let along = STEP * point as f64 - INNER;
             let depth = 1.0 / (near + (along - from) * per_px);
             self.paths[point] += (f64::from(side.sign) * (depth - side.middle)) as f32;
             self.open[point] = self.open[point].wrapping_add(side.sign);
         }
+    }
+}
+
+/// Number of the first place that is not before this one along a line, pixels; [`POINTS`] beyond the last.
+fn first_place(along: f64) -> usize {
+    let place = (along + INNER) / STEP;
+    let whole = place.clamp(0.0, POINTS as f64) as usize;
+    (whole + usize::from((whole as f64) < place)).min(POINTS)
+}
+
+/// Where a line cuts an edge of a triangle.
+#[derive(Clone, Copy)]
+struct Cut {
+    /// The corners on this side of the line and beyond, in this order whichever of its triangles asks.
+    near: usize,
+    far: usize,
+    /// Which part of the way from the first to the second.
+    part: f64,
+}
+
+impl Cut {
+    /// Between a corner and one on the other side of the line.
+    fn between(one: usize, other: usize, across: &[f64; 3]) -> Self {
+        let (near, far) = if across[one] > 0.0 {
+            (other, one)
+        } else {
+            (one, other)
+        };
+        let part = across[near] / (across[near] - across[far]);
+        Self { near, far, part }
+    }
+
+    /// Between the values of its ends.
+    fn of(&self, values: &[f64; 3]) -> f64 {
+        values[self.near] + self.part * (values[self.far] - values[self.near])
     }
 }
 

@@ -18,9 +18,11 @@ use super::stages::Pass;
 use crate::render::RenderError;
 
 /// Steps at most.
-const STEPS: usize = 24;
-/// A step of this size ends the work, as far as it is made: 0.002 degrees or 0.01 mm.
+const STEPS: usize = 16;
+/// A step of this size ends the work, as far as it is made: 0.002 degrees or 0.01 mm,
 const SMALL: f64 = 0.002;
+/// or one of so many standard deviations of the pose.
+const NOTHING: f64 = 0.02;
 
 impl Problem<'_> {
     /// Whether the film of any view is known.
@@ -43,7 +45,8 @@ impl Problem<'_> {
         for turn in 0..STEPS {
             let pass = &Pass { turn, ..*pass };
             fifths[turn % FILM_EVERY] = self.look(&mut next, pass, memory)?.equations;
-            let Some((step, more)) = self.step(&joined(&fifths), 0.0, pass, &next.pose) else {
+            let all = joined(&fifths);
+            let Some((step, more)) = self.step(&all, 0.0, pass, &next.pose) else {
                 return Err(RefineError::TooFar);
             };
             let has_all = turn + 1 >= FILM_EVERY;
@@ -54,7 +57,7 @@ impl Problem<'_> {
             let (step, more) = (step.scaled(1.0 / parts), more / parts);
             next.pose = self.apply(&step, &next.pose);
             next.offset_px += more;
-            if has_all && last < SMALL * parts {
+            if has_all && (last < SMALL * parts || all.deviations(&step) < NOTHING) {
                 next.converged = true;
                 break;
             }

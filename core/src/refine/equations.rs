@@ -144,6 +144,19 @@ impl Equations {
         }
     }
 
+    /// Size of a step in standard deviations of the pose, as far as these residuals tell them.
+    pub(super) fn deviations(&self, step: &Step) -> f64 {
+        let [a, b, c, x, y, z] = step.values();
+        let step = [a, b, c, x, y, z, 0.0];
+        let along: [f64; UNKNOWNS] = core::array::from_fn(|row| {
+            // Twice what is below the diagonal, which stands for both sides of it.
+            let below = 2.0 * dot(&self.normal[row], &step) - self.normal[row][row] * step[row];
+            step[row] * below
+        });
+        let square: f64 = along.iter().sum();
+        sqrt(square.max(0.0) / Self::CORRELATED) / self.residual_px().max(f64::MIN_POSITIVE)
+    }
+
     /// Whether enough of the outline is known and was found to say where the model is.
     fn is_enough(&self) -> bool {
         self.known >= LEAST_KNOWN * self.length && self.used >= LEAST_USED * self.known

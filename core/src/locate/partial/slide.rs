@@ -146,11 +146,14 @@ fn add_products<const N: usize>(
     };
     let views = w.x.array_windows::<N>().zip(w.y.array_windows::<N>());
     for ((re, im), (u, v)) in re.iter_mut().zip(im.iter_mut()).zip(views) {
+        // Both sums are kept in registers until all samples are in.
+        let (mut real, mut imaginary) = (*re, *im);
         for k in 0..N {
             let [x, y] = z[k];
-            *re += x * u[k] + y * v[k];
-            *im += x * v[k] - y * u[k];
+            real += x * u[k] + y * v[k];
+            imaginary += x * v[k] - y * u[k];
         }
+        (*re, *im) = (real, imaginary);
     }
 }
 
