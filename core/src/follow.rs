@@ -4,7 +4,8 @@
 //! ([`Trail::expect`]); it is refined on the frame ([`look`]), and where what comes of it is out of the ordinary, poses
 //! around it are searched. A [`Way`] leads from an [`Anchor`], a frame whose pose is known, over the frames beside it; where
 //! two ways meet, [`join_ways`] takes the better of both. [`mirrored_pose`] gives the rival on the other side of the mirror;
-//! [`choose_sides`] tells over the film which side is the right one, and [`mirrored_runs`] where to go over to it.
+//! [`choose_sides`] tells over the film which side is the right one, and [`mirrored_runs`] where to go over to it. Frames that then
+//! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
 //! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
 //! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for.
@@ -24,6 +25,8 @@ mod meeting;
 mod motion;
 mod near;
 mod search_order;
+#[cfg(feature = "alloc")]
+mod second_look;
 mod settle;
 mod side_samples;
 mod sides;
@@ -46,6 +49,8 @@ pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};
 pub use near::{NEAR, near_poses};
 pub use search_order::{TRIES, frames_to_search, run_to_search};
+#[cfg(feature = "alloc")]
+pub use second_look::{SecondLook, second_looks};
 pub use settle::settled;
 pub use side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
 pub use sides::{Side, SideEvidence, SideFigures, SideStep, choose_sides};

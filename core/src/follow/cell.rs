@@ -36,6 +36,15 @@ impl Cell {
         }
     }
 
+    /// Takes a better pose of the frame.
+    pub fn improve(&mut self, found: FramePose) {
+        if let Some(looked) = &mut self.looked {
+            looked.known = found.fit.known;
+            looked.found = Ok(found);
+            looked.searched = true;
+        }
+    }
+
     /// The pose, where one was found or given.
     #[must_use]
     pub fn found(&self) -> Option<&FramePose> {

@@ -15,6 +15,7 @@ use super::conclude::{conclude, trusted_depths};
 use super::conclusion::Conclusion;
 use super::frame_pose::FramePose;
 use super::search_order::{frames_to_search, run_to_search};
+use super::second_look::{SecondLook, second_looks};
 use super::side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
 use super::sides::{SideEvidence, SideStep, choose_sides};
 use super::subject::Subject;
@@ -50,6 +51,8 @@ enum Phase {
     Sides,
     /// To the other side, where that is the right one.
     GoOver,
+    /// Frames that stand out are looked at once more.
+    Again,
     Over,
     /// Frames are seen from the other side too, for who compares.
     Compare,
@@ -185,9 +188,24 @@ impl Following {
                 self.go_through(&anchor, &run);
                 Ok(Some(found))
             }
+            Some(Task::Again(look)) => Ok(self.look_again(&look, subject, image, memory)),
             Some(Task::BothSides(frame)) => Ok(self.see_both_sides(subject, image, frame, memory)),
             _ => Ok(None),
         }
+    }
+
+    fn look_again(
+        &mut self,
+        look: &SecondLook,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let better = look.run(subject, image, memory);
+        if let Some(found) = better {
+            self.cells[look.frame].improve(found);
+        }
+        Some(better.unwrap_or(look.own))
     }
 
     fn see_both_sides(
@@ -293,7 +311,13 @@ impl Following {
                 self.begin_other_sides();
                 self.phase = Phase::GoOver;
             }
-            Phase::GoOver => self.phase = Phase::Over,
+            Phase::GoOver => {
+                let looks = second_looks(&self.cells, &self.middle).into_iter();
+                let looks = looks.filter(|look| self.range.contains(&look.frame));
+                self.tasks.extend(looks.map(Box::new).map(Task::Again));
+                self.phase = Phase::Again;
+            }
+            Phase::Again => self.phase = Phase::Over,
             Phase::Followed | Phase::Over | Phase::Compare => return None,
         }
         Some(())

@@ -9,6 +9,7 @@ use crate::follow::cell::{Anchor, Cell};
 use crate::follow::frame_pose::{FramePose, frame_pose_at};
 use crate::follow::look::{Looked, look};
 use crate::follow::meeting::{have_met, join_ways};
+use crate::follow::second_look::SecondLook;
 use crate::follow::settle::settled;
 use crate::follow::subject::Subject;
 use crate::follow::way::Way;
@@ -40,6 +41,8 @@ pub(super) enum Task {
     },
     /// A frame is seen from the other side of the mirror too.
     BothSides(usize),
+    /// A frame that stands out is looked at once more.
+    Again(Box<SecondLook>),
 }
 
 impl Task {
@@ -49,6 +52,7 @@ impl Task {
             Self::Given { frame, .. } | Self::Found { frame, .. } | Self::BothSides(frame) => {
                 Some(*frame)
             }
+            Self::Again(look) => Some(look.frame),
             Self::Search { frames, .. } => frames.last().copied(),
             Self::Walk(walk) => walk.way.next(walk.to),
             Self::Span(span) => span.wanted(),

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::follow::{
-    Anchor, Cell, SideEvidence, SideSample, SideStep, choose_sides, frames_for_sides,
-    mirrored_pose, mirrored_runs, side_margin,
+    Anchor, Cell, FramePose, SecondLook, SideEvidence, SideSample, SideStep, choose_sides,
+    frames_for_sides, mirrored_pose, mirrored_runs, second_looks, side_margin,
 };
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
@@ -44,8 +44,47 @@ pub(super) fn settle(
     for (range, anchor) in mirrored_runs(&samples, &steps, cells.len()) {
         go_over(run, part, anchor, range, cells)?;
     }
+    look_again(run, part, cells)?;
     let margin = |frame| side_margin(&samples, &steps, frame);
     Ok((0..cells.len()).map(margin).collect())
+}
+
+/// Looks once more at frames that stand out.
+fn look_again(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    let looks = second_looks(cells, &part.middle());
+    let one = |look: &SecondLook| -> Result<(usize, Option<FramePose>)> {
+        let frame = look.frame;
+        let numbers = look.own.numbers().into_iter();
+        let beside = look.expected.rotation.into_iter().flatten();
+        let bits = bits_of(numbers.chain(beside));
+        let key = format!("second/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+        let better = run.journal.step(&key, || {
+            part.see(run.film, frame, |subject, image, memory| {
+                look.run(subject, image, memory)
+            })
+        })?;
+        Ok((frame, better))
+    };
+    let found: Vec<_> = looks.par_iter().map(one).collect::<Result<_>>()?;
+    for (frame, better) in found {
+        if let Some(better) = better {
+            run.debug(|| {
+                let px = better.misfit_px;
+                format!(
+                    "{} frame {}: {px:.2} px at a second look",
+                    part.name(),
+                    frame + 1
+                )
+            });
+            cells[frame].improve(better);
+        }
+    }
+    Ok(())
+}
+
+/// Tells some numbers from others.
+fn bits_of(numbers: impl Iterator<Item = f64>) -> u64 {
+    numbers.fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits())
 }
 
 /// Coronal tilt of a tibial pose against the femur of its frame, degrees, where that is known.
@@ -81,10 +120,7 @@ fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<SideSam
         let Some(&own) = cells[frame].found() else {
             return Ok(None);
         };
-        let bits: u64 = own
-            .numbers()
-            .iter()
-            .fold(0, |bits, number| bits.rotate_left(7) ^ number.to_bits());
+        let bits = bits_of(own.numbers().into_iter());
         let key = format!("mirror/{}/{}/{frame}/{bits:x}", part.number, part.phase());
         let mirrored = run.journal.step(&key, || {
             part.see(run.film, frame, |subject, image, memory| {

@@ -1,0 +1,188 @@
+//! Frames that stand out in their film, looked at once more from where the frames beside them lead.
+//!
+//! A way from frame to frame takes what is in the ordinary so far, and that may be a small minimum beside the right one. Once all
+//! frames are known such a frame stands out, and those on both sides of it tell where the right one is.
+
+use alloc::vec::Vec;
+
+use super::cell::Cell;
+use super::conclude::conclude;
+use super::frame_pose::{FramePose, From, refined_on_frame};
+use super::look::beside;
+use super::motion::between;
+use super::subject::Subject;
+use super::trail::{Usual, apart};
+use crate::math::Vector3;
+use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineMemory};
+
+/// A frame stands out that is so bad, where 1 would be doubtful.
+const STANDS_OUT: f64 = 0.7;
+/// Frames on both sides lead to it that are at most so far away.
+const REACH: usize = 6;
+/// What it costs to be so far from where they lead, in usual misfits: 20 degrees or 30 mm for one.
+const DEG: f64 = 1.0 / 20.0;
+const MM: f64 = 1.0 / 30.0;
+/// A pose that costs so much less than the one before takes its place.
+const WORTH: f64 = 0.1;
+/// Around where they lead: part of the distance.
+const PART: f64 = 0.015;
+
+/// A frame that is to be looked at once more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SecondLook {
+    /// Number of the frame, from 0.
+    pub frame: usize,
+    /// Its pose so far.
+    pub own: FramePose,
+    /// Where the frames beside it lead.
+    pub expected: Pose,
+    /// What is usual in the film.
+    pub usual: Usual,
+}
+
+/// The frames of a film that stand out; `middle` is the model's. What a person gave is as it is.
+#[must_use]
+pub fn second_looks(cells: &[Cell], middle: &Vector3) -> Vec<SecondLook> {
+    let judged = conclude(cells, &[], &[], middle);
+    let found: Vec<Option<(FramePose, bool)>> = cells
+        .iter()
+        .zip(&judged)
+        .map(|(cell, one)| Some((*cell.found()?, one.badness <= STANDS_OUT || cell.fixed)))
+        .collect();
+    let ordinary = |frame: usize| found.get(frame).copied()?.filter(|(_, is)| *is);
+    let Some(usual) = usual((0..cells.len()).filter_map(|frame| Some(ordinary(frame)?.0))) else {
+        return Vec::new();
+    };
+    let one = |(frame, found): (usize, &Option<(FramePose, bool)>)| {
+        let (own, _) = found.filter(|(_, ordinary)| !ordinary)?;
+        let before = (frame.saturating_sub(REACH)..frame)
+            .rev()
+            .find_map(|at| Some((at, ordinary(at)?.0)))?;
+        let after = (frame + 1..=frame + REACH).find_map(|at| Some((at, ordinary(at)?.0)))?;
+        let fraction = (frame - before.0) as f64 / (after.0 - before.0) as f64;
+        Some(SecondLook {
+            frame,
+            own,
+            expected: between(&before.1.pose, &after.1.pose, fraction, middle),
+            usual,
+        })
+    };
+    found.iter().enumerate().filter_map(one).collect()
+}
+
+/// The medians of some poses; `None` without any.
+fn usual(poses: impl Iterator<Item = FramePose>) -> Option<Usual> {
+    let seen: Vec<Usual> = poses.map(|pose| Usual::of(&pose)).collect();
+    let median = |of: fn(&Usual) -> f64| {
+        let mut values: Vec<f64> = seen.iter().map(of).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    Some(Usual {
+        misfit_px: median(|usual| usual.misfit_px)?,
+        step: median(|usual| usual.step)?,
+        strength: median(|usual| usual.strength)?,
+    })
+}
+
+impl SecondLook {
+    /// The best pose that leads from where the frame is expected to be and from around there, where it is better than its own.
+    #[must_use]
+    pub fn run(
+        &self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<FramePose> {
+        let middle = subject.model.bounds().centre;
+        let around = beside(&self.expected, &middle, PART).map(|pose| (pose, From::Near));
+        let here = [From::Near, From::Far].map(|from| (self.expected, from));
+        let own = self.cost(&self.own, &middle);
+        let (mut best, mut least) = (None, own - WORTH);
+        for (start, from) in here.into_iter().chain(around) {
+            let Ok(one) = refined_on_frame(subject, image, (&start, from), memory) else {
+                continue;
+            };
+            let cost = self.cost(&one, &middle);
+            if cost < least {
+                (best, least) = (Some(one), cost);
+            }
+        }
+        best
+    }
+
+    fn cost(&self, found: &FramePose, middle: &Vector3) -> f64 {
+        let [deg, mm] = apart(&self.expected, &found.pose, middle);
+        self.usual.cost(found) + DEG * deg + MM * mm
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::{Contrast, Looked};
+    use crate::pose::EulerPose;
+    use crate::refine::Fit;
+
+    const MIDDLE: Vector3 = [0.0; 3];
+
+    fn cell(flexion_deg: f64, misfit_px: f64) -> Cell {
+        let pose = Pose::from(EulerPose {
+            x_mm: 0.3 * flexion_deg,
+            y_mm: 0.0,
+            z_mm: -900.0,
+            z_rot_deg: flexion_deg,
+            x_rot_deg: 0.0,
+            y_rot_deg: 0.0,
+        });
+        let found = FramePose {
+            pose,
+            covariance: None,
+            fit: Fit {
+                met: 1.0,
+                known: 1.0,
+                ..Fit::default()
+            },
+            misfit_px,
+            contrast: Contrast {
+                step: 1.0,
+                strength: 1.0,
+                known: 1.0,
+            },
+        };
+        Cell::on_the_way(Looked {
+            found: Ok(found),
+            ordinary: true,
+            searched: false,
+            known: 1.0,
+        })
+    }
+
+    #[test]
+    fn a_frame_that_leaves_more_than_the_others_is_looked_at_from_where_they_lead() {
+        let film = |bad: &[usize]| -> Vec<Cell> {
+            (0..20)
+                .map(|k| match bad.contains(&k) {
+                    true => cell(4.0 * k as f64 + 2.0, 0.8),
+                    false => cell(4.0 * k as f64, 0.45 + 0.01 * (k % 3) as f64),
+                })
+                .collect()
+        };
+        assert!(second_looks(&film(&[]), &MIDDLE).is_empty());
+        let looks = second_looks(&film(&[7, 8, 12]), &MIDDLE);
+        let frames: Vec<usize> = looks.iter().map(|look| look.frame).collect();
+        assert_eq!(frames, [7, 8, 12]);
+        for look in &looks {
+            let Cell { looked, .. } = film(&[])[look.frame];
+            let right = looked.and_then(|looked| looked.found.ok()).expect("found");
+            let [deg, mm] = apart(&look.expected, &right.pose, &MIDDLE);
+            assert!(deg < 1e-6 && mm < 1e-6, "{deg} {mm}");
+        }
+        // At the end of a film nothing leads to it from both sides, and what a person gave stays.
+        assert!(second_looks(&film(&[0, 19]), &MIDDLE).is_empty());
+        let mut given = film(&[7]);
+        given[7].fixed = true;
+        assert!(second_looks(&given, &MIDDLE).is_empty());
+    }
+}
