@@ -12,7 +12,7 @@ use crate::refine::{ImageTarget, RefineMemory};
 
 /// Ordinary poses have at most this many times the usual misfit and so many pixels more, and at least this part of the
 /// usual strength.
-const ORDINARY: [f64; 3] = [1.35, 0.15, 0.85];
+const ORDINARY: [f64; 3] = [1.2, 0.08, 0.85];
 /// Poses that are believed at all, the same.
 const BELIEVED: [f64; 3] = [2.0, 0.3, 0.6];
 /// Least step of grey values, in usual ones: less is noise, or another thing.

@@ -24,6 +24,7 @@ mod error;
 mod observation;
 mod window;
 
+mod background;
 mod flooding;
 mod opening;
 mod statistics;

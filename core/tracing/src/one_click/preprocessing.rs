@@ -6,9 +6,9 @@ use super::flooding::flood;
 use super::memory::{OneClickMemory, OneClickNeeds};
 use super::observation::Observation;
 use super::opening::{Opening, sharpness};
-use super::state::{OneClick, RADII, SMOOTHING};
+use super::state::{OneClick, RADII, READINGS, SQUARE};
 use super::statistics::ThresholdStatistics;
-use super::window::{BLOCKED, LEVELS, levels};
+use super::window::{BLOCKED, Reading, levels};
 use fluoropose::finder::Component;
 use fluoropose::image::mask::{Mask, MaskMut, words_needed};
 use fluoropose::image::moments::Moments;
@@ -25,11 +25,15 @@ impl OneClick {
         observation: &Observation<'_>,
         memory: &mut OneClickMemory<'_>,
     ) -> f64 {
-        let how = (observation.polarity, SMOOTHING[pass % SMOOTHING.len()]);
-        let histogram = memory.statistics.get_mut(..LEVELS).unwrap_or_default();
+        let (smoothing, against) = READINGS[pass % READINGS.len()];
+        let how = Reading {
+            polarity: observation.polarity,
+            smoothing,
+            against: against.then_some(SQUARE * self.expected.size),
+        };
         let (window, grey) = (self.window, &mut *memory.grey);
         let (frame, excluded) = (observation.frame, observation.excluded);
-        let step = levels(frame, &window, how, excluded, grey, histogram);
+        let step = levels(frame, &window, how, excluded, grey, memory.statistics);
         if self.seeds.is_empty() {
             self.seeds = self.narrowed.unwrap_or(self.prompt).seeds(&window, memory);
         }
@@ -40,7 +44,7 @@ impl OneClick {
     }
 
     fn seed(&self, pass: usize) -> usize {
-        self.seeds.get(pass / SMOOTHING.len()).copied().unwrap_or(0)
+        self.seeds.get(pass / READINGS.len()).copied().unwrap_or(0)
     }
 
     /// Lists the regions of a pass that are worth matching, the best last.

@@ -22,15 +22,17 @@ pub const STARTS: usize = 4;
 /// The greatest number of refined poses that are kept.
 pub const ANSWERS: usize = 8;
 
-/// Numbers of passes of the binomial filter: variances of 1 and of 4 square pixels. Noise that hides a border at the first
-/// does not at the second, which rounds off what is thin.
-pub(super) const SMOOTHING: [usize; 2] = [2, 8];
+/// How a window is read: passes of the binomial filter (variances of 1 and of 4 square pixels: noise that hides a border at the
+/// first does not at the second, which rounds off what is thin), and whether against the background.
+pub(super) const READINGS: [(usize, bool); 3] = [(2, false), (8, false), (4, true)];
+/// Side of the square that tells the background from the implant, in expected sizes.
+pub(super) const SQUARE: f64 = 1.2;
 /// Radii of the discs that cut bridges, as fractions of the expected size.
 pub(super) const RADII: [f64; 4] = [0.0, 0.03, 0.06, 0.1];
 /// The greatest number of regions of a preprocessing pass.
 pub(super) const REGIONS: usize = RADII.len() * CHOSEN;
 
-/// What is done next. A pass is the frame preprocessed for one seed with one smoothing.
+/// What is done next. A pass is the frame preprocessed for one seed with one reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stage {
     /// A pass is brought into memory.
@@ -142,9 +144,9 @@ impl OneClick {
         &self.answers
     }
 
-    /// Number of preprocessing passes: one for each seed and smoothing. The first pass of a box finds its seeds.
+    /// Number of preprocessing passes: one for each seed and reading. The first pass of a box finds its seeds.
     pub(super) fn passes(&self) -> usize {
-        SMOOTHING.len() * self.seeds.len().max(1)
+        READINGS.len() * self.seeds.len().max(1)
     }
 
     /// What scores poses in the state that is reached.

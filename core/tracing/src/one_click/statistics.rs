@@ -2,12 +2,16 @@
 
 use heapless::Vec;
 
+use super::background::BACKGROUND;
 use super::flooding::NEVER;
 use super::window::{LEVELS, Window};
 use fluoropose::shortlist;
 
 /// Length of the working memory.
 pub(super) const STATISTICS: usize = 3 * LEVELS;
+
+// The background is found in the same memory.
+const _: () = assert!(STATISTICS >= BACKGROUND);
 
 /// The greatest number of thresholds that are tried.
 pub(super) const CHOSEN: usize = 6;

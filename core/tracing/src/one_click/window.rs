@@ -1,5 +1,6 @@
 //! The part of a frame that is searched: smoothed, with a dark implant, in integer grey levels.
 
+use super::background::subtract_background;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
 use fluoropose::refine::Polarity;
@@ -77,17 +78,26 @@ impl Window {
     }
 }
 
-/// Fills `grey` with the levels of the window's pixels, with dark metal whatever the polarity of the frame, after `passes`
-/// passes of the binomial filter 1 2 1 in both directions (each adds a variance of 1/2 square pixel). Pixels of
-/// `excluded` become [`BLOCKED`]. `histogram` is working memory of [`LEVELS`] numbers. Returns the number of grey values of
-/// the frame for one level; 0 for a uniform window.
+/// How a window is read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reading {
+    pub(super) polarity: Polarity,
+    /// Passes of the binomial filter 1 2 1 in both directions: each adds a variance of 1/2 square pixel.
+    pub(super) smoothing: usize,
+    /// Against the background, which is told from things smaller than a square of this side, pixels.
+    pub(super) against: Option<f64>,
+}
+
+/// Fills `grey` with the levels of the window's pixels, with dark metal whatever the polarity of the frame. Pixels of
+/// `excluded` become [`BLOCKED`]. `memory` are [`LEVELS`] numbers, and [`super::background::BACKGROUND`] where the background is wanted. Returns the
+/// number of grey values of the frame for one level; 0 for a uniform window.
 pub(super) fn levels(
     frame: &dyn Grey,
     window: &Window,
-    (polarity, passes): (Polarity, usize),
+    how: Reading,
     excluded: Option<&Mask<'_>>,
     grey: &mut [u16],
-    histogram: &mut [u32],
+    memory: &mut [u32],
 ) -> f64 {
     let read = |visit: &mut dyn FnMut(usize, f64)| {
         for index in 0..window.pixels() {
@@ -105,7 +115,7 @@ pub(super) fn levels(
     }
     let unit = f64::from(u16::MAX) / (high - low);
     read(&mut |index, value| {
-        let value = match polarity {
+        let value = match how.polarity {
             Polarity::DarkImplant => value - low,
             Polarity::BrightImplant => high - value,
         };
@@ -113,10 +123,13 @@ pub(super) fn levels(
             *pixel = (value * unit) as u16;
         }
     });
-    for _ in 0..passes {
+    for _ in 0..how.smoothing {
         smooth(grey, window);
     }
-    let (dark, bright) = ends(grey, histogram);
+    if let Some(side) = how.against {
+        subtract_background(grey, window, side, memory);
+    }
+    let (dark, bright) = ends(grey, memory.get_mut(..LEVELS).unwrap_or_default());
     let scale = (LEVELS - 1) as f64 / f64::from(bright - dark);
     for pixel in &mut *grey {
         let value = pixel.saturating_sub(dark).min(bright - dark);
@@ -234,14 +247,12 @@ mod tests {
             let frame = Frame::new(&pixels, 64, 64, 64).expect("fits");
             let mut grey = std::vec![0; window.pixels()];
             let mut histogram = [0; LEVELS];
-            let step = levels(
-                &frame,
-                &window,
-                (polarity, 2),
-                None,
-                &mut grey,
-                &mut histogram,
-            );
+            let how = Reading {
+                polarity,
+                smoothing: 2,
+                against: None,
+            };
+            let step = levels(&frame, &window, how, None, &mut grey, &mut histogram);
             (grey, step)
         };
         let (dark, step) = picture(Polarity::DarkImplant, false);
@@ -262,7 +273,11 @@ mod tests {
         let pixels: [u8; 128] = core::array::from_fn(|k| k as u8);
         let frame = Frame::new(&pixels, 32, 4, 32).expect("fits");
         let (mut grey, mut histogram) = ([0; 128], [0; LEVELS]);
-        let how = (Polarity::DarkImplant, 0);
+        let how = Reading {
+            polarity: Polarity::DarkImplant,
+            smoothing: 0,
+            against: None,
+        };
         assert!(
             levels(
                 &frame,
