@@ -2,7 +2,8 @@
 //!
 //! Nothing is learned, and nothing is tuned to a study. Three kinds of evidence are combined:
 //!
-//! 1. *Regions.* Metal is dark, so the threshold regions that hold the click are hypotheses. One pass finds all of them
+//! 1. *Regions.* Metal is dark, by itself or against the background (`background`), so the threshold regions that hold the
+//!    click are hypotheses. One pass finds all of them
 //!    (`flooding`), those with the sharpest borders are chosen (`statistics`), and each is tried once more with thin bridges
 //!    to other dark things cut (`opening`).
 //! 2. *Library.* The canonical form of each region is matched with the views ([`mod@fluoropose::locate`]), and the model is
@@ -22,9 +23,10 @@
 // In the order of the data.
 mod error;
 mod observation;
-mod window;
 
 mod background;
+mod window;
+
 mod flooding;
 mod opening;
 mod statistics;

@@ -4,25 +4,19 @@
 //! Analysis and Mathematical Morphology, 1982). It changes slowly, so it is found from the brightest pixel of each cell of a coarse
 //! grid.
 
-use super::window::Window;
-
 /// Cells along the longer side of a window.
 const CELLS: usize = 32;
 /// Numbers of working memory: a grid, and one of squares.
 pub(super) const BACKGROUND: usize = 2 * CELLS * CELLS;
 
-/// Subtracts the background from 16-bit grey values, in which dark things remain dark and all else is as bright as can be.
-/// `side` is that of the square, pixels; `memory` are [`BACKGROUND`] numbers.
-pub(super) fn subtract_background(
-    grey: &mut [u16],
-    window: &Window,
-    side: f64,
-    memory: &mut [u32],
-) {
-    let cell = window.width.max(window.height).div_ceil(CELLS);
+/// Subtracts the background from the 16-bit grey values of a window of this width, row by row: dark things remain dark, and all else
+/// is as bright as can be. `side` is that of the square, pixels; `memory` are [`BACKGROUND`] numbers.
+pub(super) fn subtract_background(grey: &mut [u16], width: usize, side: f64, memory: &mut [u32]) {
+    let height = grey.len() / width;
+    let cell = width.max(height).div_ceil(CELLS);
     let grid = Grid {
-        columns: window.width.div_ceil(cell),
-        rows: window.height.div_ceil(cell),
+        columns: width.div_ceil(cell),
+        rows: height.div_ceil(cell),
     };
     // Those beside the window's border are cut off there.
     let reach = ((side / (2.0 * cell as f64)) as usize).max(1);
@@ -34,7 +28,7 @@ pub(super) fn subtract_background(
     };
     brightest.fill(0);
     for (index, &value) in grey.iter().enumerate() {
-        let (column, row) = window.place(index);
+        let (column, row) = (index % width, index / width);
         let brightest = &mut brightest[row / cell * grid.columns + column / cell];
         *brightest = (*brightest).max(u32::from(value));
     }
@@ -42,7 +36,7 @@ pub(super) fn subtract_background(
     grid.gather(brightest, most, reach, u32::max);
     grid.gather(most, brightest, reach, u32::min);
     for (index, value) in grey.iter_mut().enumerate() {
-        let (column, row) = window.place(index);
+        let (column, row) = (index % width, index / width);
         let background = grid.between(brightest, cell, column, row);
         *value = u16::MAX - background.saturating_sub(*value);
     }
@@ -94,7 +88,6 @@ mod tests {
     #[test]
     fn a_dark_thing_before_a_background_that_changes_has_one_depth() {
         let (width, height) = (400, 320);
-        let window = Window::cut([0.0, 0.0, 399.0, 319.0], (width, height));
         let background = |column: usize, row: usize| 20_000 + 60 * column + 30 * row;
         let inside =
             |column: usize, row: usize| (160..240).contains(&column) && (145..175).contains(&row);
@@ -110,7 +103,7 @@ mod tests {
             .collect();
         // No threshold parts it from what is beside it: its bright end is brighter than the background's dark one.
         assert!(grey[160 * width + 239] > grey[120 * width + 120]);
-        subtract_background(&mut grey, &window, 100.0, &mut [0; BACKGROUND]);
+        subtract_background(&mut grey, width, 100.0, &mut [0; BACKGROUND]);
         let depths = |wanted: fn(bool, bool) -> bool| {
             let place = |k: usize| (k % width, k / width);
             let all = grey

@@ -127,7 +127,7 @@ pub(super) fn levels(
         smooth(grey, window);
     }
     if let Some(side) = how.against {
-        subtract_background(grey, window, side, memory);
+        subtract_background(grey, window.width, side, memory);
     }
     let (dark, bright) = ends(grey, memory.get_mut(..LEVELS).unwrap_or_default());
     let scale = (LEVELS - 1) as f64 / f64::from(bright - dark);
