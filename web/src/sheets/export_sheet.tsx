@@ -60,7 +60,7 @@ function Contents({ state }: { state: State }) {
     <>
       <ExportFaults state={state} />
       {lack ? <div class="sheet-text">{lack}</div> : <ExportPreview state={state} film={film} />}
-      <div class="sheet-buttons">
+      <div class="sheet-buttons export-write">
         <button type="button" class="button primary" disabled={lack !== null || busy} onClick={() => void save()}>
           {texts.exporting.write(name)}
         </button>

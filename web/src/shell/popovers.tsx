@@ -7,16 +7,16 @@ import { later } from '../commands/later';
 import { CalibrationSheet } from '../sheets/calibration_sheet';
 import { ComponentSheet } from '../sheets/component_sheet';
 import { Icon } from '../controls/icons';
-import { KeySheet } from '../sheets/key_sheet';
 import { LogSheet } from '../sheets/log_sheet';
 import { WorkSheet } from '../sheets/work_sheet';
-import { ImportSheet } from '../steps/open/import_sheet';
 import { texts } from '../texts/texts';
 
 const CalibrateSheet = later(async () => (await import('../sheets/calibrate_sheet')).CalibrateSheet);
 const ConvergenceSheet = later(async () => (await import('../sheets/convergence_sheet')).ConvergenceSheet);
 const ExportSheet = later(async () => (await import('../sheets/export_sheet')).ExportSheet);
 const FilmSheet = later(async () => (await import('../sheets/film_sheet')).FilmSheet);
+const ImportSheet = later(async () => (await import('../steps/open/import_sheet')).ImportSheet);
+const KeySheet = later(async () => (await import('../sheets/key_sheet')).KeySheet);
 const ShapeSheet = later(async () => (await import('../sheets/shape_sheet')).ShapeSheet);
 const VideoSheet = later(async () => (await import('../steps/open/video_sheet')).VideoSheet);
 const ViewSheet = later(async () => (await import('../sheets/view_sheet')).ViewSheet);
