@@ -167,6 +167,7 @@ async function otherForms(page) {
   assert.equal(cycle.split('\n').filter((line) => line && !line.startsWith('#'))[0].split(',').length, 101);
   const pictures = unzipped({ buffer: await forms(page, 'Overlay film', 'PNG series') });
   assert.deepEqual(Object.keys(pictures), Array.from({ length: FRAMES }, (_, index) => `frame_000${index + 1}.png`));
+  await calledOff(page);
   const tra = (await forms(page, 'Poses', 'TRA')).toString().trimEnd().split('\n');
   assert.deepEqual([tra.length, tra[GAP - 1].split(',').slice(16).every((number) => number === 'NaN')], [FRAMES, true]);
   const report = await openExport(page, 'Report');
@@ -174,6 +175,14 @@ async function otherForms(page) {
   await screenshot(page, 'export report');
   const html = (await savedFile(page)).buffer.toString();
   for (const words of ['empty everywhere: 4', 'femoral model', '<svg', 'that no person has checked', 'Frames with a pose from a file']) assert(html.includes(words), words);
+}
+
+/** Nothing is written, and the page says so. @param {Page} page */
+async function calledOff(page) {
+  const sheet = await openExport(page, 'Overlay film', 'PNG series');
+  await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
+  await page.getByRole('button', { name: 'Cancel: Writing the film' }).click();
+  await panel.waitForWords(page, /^Called off: \S+ was not written/);
 }
 
 /** @param {Page} page @param {...string} choices */
