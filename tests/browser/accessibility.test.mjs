@@ -17,7 +17,7 @@ const MAIN_CONTROLS = [
   'Tibia: tibia.stl',
   'Undo: close the outline',
   'Open files',
-  'Save session',
+  'Save and export',
   'Keys and mouse',
   'Edit points',
   'Trace points',
@@ -30,7 +30,7 @@ const MAIN_CONTROLS = [
   'Overlay opacity',
   'Window width',
   'Window level',
-  'Save femur poses',
+  'Save femur poses…',
   'Delete outline',
   'Next frame',
   'Frame',
@@ -54,7 +54,7 @@ pageTest('accessibility', async (page, t) => {
     await isAccessible(page);
   });
 
-  for (const [opener, sheet] of [['Calibration: calibration.txt', 'Calibration'], ['Femur: femur.stl', 'Femur'], ['Save session', 'Save'], ['Keys and mouse', 'Keys and mouse'], ['Log', 'Log']]) {
+  for (const [opener, sheet] of [['Calibration: calibration.txt', 'Calibration'], ['Femur: femur.stl', 'Femur'], ['Save and export', 'Save and export'], ['Keys and mouse', 'Keys and mouse'], ['Log', 'Log']]) {
     await step(page, t, `the sheet ${sheet}`, async () => {
       const button = page.getByRole('button', { name: opener, exact: true });
       await button.press('Enter');
@@ -103,7 +103,7 @@ pageTest('a narrow window', async (page, t) => {
   for (const width of [1024, 700]) {
     await step(page, t, `${width} px: nothing lies on what is to be pressed`, async () => {
       await page.setViewportSize({ width, height: 700 });
-      for (const name of [/^Calibration: /, /^Femur: /, /^Tibia: /, 'Open files', 'Save session', 'Keys and mouse', 'Next frame', 'Log']) {
+      for (const name of [/^Calibration: /, /^Femur: /, /^Tibia: /, 'Open files', 'Save and export', 'Keys and mouse', 'Next frame', 'Log']) {
         await page.getByRole('button', { name, exact: true }).first().click({ trial: true, timeout: 5000 });
       }
       await screenshot(page, `narrow ${width}`);

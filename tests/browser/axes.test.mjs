@@ -1,7 +1,8 @@
 /** Which way components lie in their files: found from the shape, said by a person or a study, asked where nobody can tell. */
 import assert from 'node:assert/strict';
 import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { choose, downloaded, drop, file } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { choose, drop, file } from './support/files.mjs';
 import { plate, stlOf, trianglesOf } from './support/models.mjs';
 import * as panel from './support/panel.mjs';
 import { demoFile, framePath } from './support/study.mjs';
@@ -37,8 +38,7 @@ pageTest('which way a component lies', async (page, t) => {
   });
 
   await step(page, t, 'a session keeps it', async () => {
-    await page.getByRole('button', { name: 'Save session', exact: true }).click();
-    const saved = await downloaded(page, 'Save session file');
+    const saved = await exported(page, 'Session');
     const { version, document } = JSON.parse(saved.buffer.toString());
     assert.equal(version, 5);
     assert.deepEqual(document.components.femur.axes, { directions: [[0, 1, 0], [0, 0, 1], [1, 0, 0]], from: 'person', told: 'all' });

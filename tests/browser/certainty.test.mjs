@@ -1,7 +1,7 @@
 /** How sure a pose is: plus-minus, rivals with the reason of the choice, stretches that are unknown, the way to the pose. */
 import assert from 'node:assert/strict';
 import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { downloaded } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, polygonWithin, readJts, trueOutline, truePose } from './support/study.mjs';
@@ -147,8 +147,7 @@ async function rivals(page, stage, t) {
 
 /** @param {Page} page */
 async function table(page) {
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
-  const { name, buffer } = await downloaded(page, 'Tibia table (.csv)');
+  const { name, buffer } = await exported(page, 'Poses', 'CSV', 'Tibia');
   assert.match(name, /_tibia\.csv$/);
   const [head, first, second] = buffer.toString().split('\r\n');
   const columns = head.split(',');
@@ -160,7 +159,6 @@ async function table(page) {
   assert.equal(value('method'), 'refined');
   assert.match(first, /By the (residual|coronal tilt)/);
   assert.match(second, /^2,0002\.png,+$/);
-  await page.keyboard.press('Escape');
 }
 
 /** A triangle is no tibial tray. @param {Page} page @param {Stage} stage */
@@ -178,18 +176,15 @@ async function refusal(page, stage) {
   const cell = page.getByRole('button', { name: 'Frame 2, tibia: no pose' });
   assert.match((await cell.getAttribute('title')) ?? '', /; The outline does not fit this model from any side/);
   await screenshot(page, 'no-pose');
-  const jts = await downloaded(page, 'Save tibia poses');
+  const jts = await exported(page, 'Poses', 'JTS', 'Tibia');
   const rows = readJts(jts.buffer.toString());
   assert(Number.isFinite(rows[0].x) && Object.values(rows[1]).every(Number.isNaN), JSON.stringify(rows.slice(0, 2)));
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
-  const session = await downloaded(page, 'Save session file');
+  const session = await exported(page, 'Session');
   const { results } = JSON.parse(session.buffer.toString()).audit;
   const verdicts = results.map((/** @type {any} */ { number, component, verdict, pose }) => [number, component, verdict?.word, pose !== null]);
   assert.deepEqual(verdicts, [[1, 'femur', 'good', true], [1, 'tibia', 'good', true], [2, 'tibia', 'none', false]]);
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
-  const { buffer } = await downloaded(page, 'Tibia table (.csv)');
+  const { buffer } = await exported(page, 'Poses', 'CSV', 'Tibia');
   assert.match(buffer.toString().split('\r\n')[2], /^2,0002\.png,{14}none,"The outline does not fit this model .*",,,,$/);
-  await page.keyboard.press('Escape');
 }
 
 /** @param {Page} page */

@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { chromium } from 'playwright-core';
 import { ADDRESS, ARGUMENTS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
+import { openExport } from './support/exporting.mjs';
 import { choose, temporaryFolder } from './support/files.mjs';
 import { png } from './support/frames.mjs';
 import * as panel from './support/panel.mjs';
@@ -102,7 +103,7 @@ pageTest('two tabs', async (page, t) => {
   });
 
   await step(page, t, 'a tab that has its work open cannot lose it to another', async () => {
-    await other.getByRole('button', { name: 'Save session', exact: true }).click();
+    await openExport(other, 'Session');
     await other.getByRole('button', { name: /^Open first/ }).click();
     await panel.waitForWords(other, /open in another tab/);
     await other.keyboard.press('Escape');
@@ -209,13 +210,13 @@ async function earlierWork(page) {
   await page.keyboard.press('Shift+Alt+n');
   await page.getByRole('button', { name: 'Open the demonstration' }).waitFor();
   await openSmall(page, 'other');
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  await openExport(page, 'Session');
   const earlier = page.getByRole('region', { name: 'Earlier work in this browser' });
   await screenshot(page, 'earlier work');
   await earlier.getByRole('button', { name: /^Open .* as it was left$/ }).first().click();
   await panel.waitForFrames(page, FRAMES);
   await until(() => panel.cells(page), (cells) => cells.includes('Frame 3, tibia: draft'), 'the draft');
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
+  await openExport(page, 'Session');
   await earlier.getByRole('button', { name: /^Delete other/ }).click();
   await earlier.getByRole('button', { name: /^Really delete other/ }).click();
   await earlier.getByText('No other work is kept in this browser.').waitFor();

@@ -1,7 +1,8 @@
 /** Outlines and masks of other programs: recognised, shown before they are taken in, and written again. */
 import assert from 'node:assert/strict';
 import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
-import { choose, downloaded, drop, file } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { choose, drop, file } from './support/files.mjs';
 import { differing, drawnMask, dropFolder, dropMasks, importAll, maskFile, maskOf, proposed, unzipped } from './support/masks.mjs';
 import * as panel from './support/panel.mjs';
 import { demoFile, framePath, truePose } from './support/study.mjs';
@@ -55,9 +56,8 @@ pageTest('outlines and masks come and go', async (page, t) => {
     await dropMasks(page, ['femur', 'tibia'], [1, 3]);
     await page.getByRole('checkbox', { name: /^Exactly along the pixels/ }).check();
     await importAll(page, 4);
-    await page.getByRole('button', { name: 'Save session', exact: true }).click();
-    for (const name of ['Outlines (.json)', 'COCO polygons (.json)', 'Masks (.zip)']) saved[name] = await downloaded(page, name);
-    const files = unzipped(saved['Masks (.zip)']);
+    for (const name of ['Our JSON', 'COCO polygons', 'Masks']) saved[name] = await exported(page, 'Outlines', name);
+    const files = unzipped(saved.Masks);
     const paths = ['femur/0001.png', 'femur/0003.png', 'tibia/0001.png', 'tibia/0003.png'];
     assert.deepEqual(Object.keys(files).filter((path) => path.endsWith('.png')).sort(), paths);
     for (const path of paths) {
@@ -67,15 +67,14 @@ pageTest('outlines and masks come and go', async (page, t) => {
     }
   });
 
-  for (const name of ['Outlines (.json)', 'COCO polygons (.json)']) {
+  for (const name of ['Our JSON', 'COCO polygons']) {
     await step(page, t, `${name} come back into a fresh page as they left`, async () => {
       await visit(page);
       await openFrames(page);
       await drop(page, saved[name]);
       assert.equal((await proposed(page)).length, 4);
       await importAll(page, 4);
-      await page.getByRole('button', { name: 'Save session', exact: true }).click();
-      const again = await downloaded(page, name);
+      const again = await exported(page, 'Outlines', name);
       assert.deepEqual(JSON.parse(again.buffer.toString()), JSON.parse(saved[name].buffer.toString()));
     });
   }

@@ -1,7 +1,8 @@
 /** A model in hand: keys as in JointTrack, the mouse, typed numbers, locks, refining from there, another set of poses. */
 import assert from 'node:assert/strict';
 import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { choose, downloaded, drop } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { choose, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, trueOutline, truePose } from './support/study.mjs';
@@ -237,8 +238,7 @@ async function compares(page) {
 /** @param {Page} page */
 async function session(page) {
   const before = await panel.shownPose(page);
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
-  const saved = await downloaded(page, 'Save session file');
+  const saved = await exported(page, 'Session');
   const { results } = JSON.parse(saved.buffer.toString()).audit;
   const own = results.find((/** @type {any} */ { number, component }) => number === 1 && component === 'femur');
   assert.deepEqual([own.method, own.verdict.word], ['by hand, refined', 'good']);

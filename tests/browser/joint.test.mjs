@@ -2,8 +2,10 @@
 import assert from 'node:assert/strict';
 import { bringAxe, isAccessible } from './support/axe.mjs';
 import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { choose, downloaded, file } from './support/files.mjs';
+import { exportSheet, openExport, savedFile } from './support/exporting.mjs';
+import { choose, file } from './support/files.mjs';
 import { leftKnee } from './support/joint.mjs';
+import { unzipped } from './support/masks.mjs';
 import * as panel from './support/panel.mjs';
 import { demoFile, readJts } from './support/study.mjs';
 
@@ -47,7 +49,7 @@ pageTest('the joint', async (page, t) => {
     await drawn(page);
     await isAccessible(page);
   });
-  await step(page, t, 'says what is wrong with its table before it is saved', () => saved(page, truth));
+  await step(page, t, 'says what is wrong with its files before they are saved', () => saved(page, truth));
 });
 
 /** The demonstration with its poses but one. @param {Page} page @returns {Promise<Numbers[]>} */
@@ -128,23 +130,80 @@ async function asksForSide(page) {
   await joint(page).getByRole('img', { name: /^Flexion over flexion in 7 frames/ }).waitFor();
 }
 
-/** @param {Page} page @param {Numbers[]} truth */
+/** Six presses from the curves to table, figure and film. @param {Page} page @param {Numbers[]} truth */
 async function saved(page, truth) {
   await page.getByRole('button', { name: /^Frame 1, femur/ }).click();
   await page.keyboard.press('y');
-  await joint(page).getByRole('button', { name: 'Save joint numbers…' }).press('Enter');
-  const sheet = page.getByRole('dialog', { name: 'Save joint numbers' });
-  await sheet.getByRole('button', { name: 'Save CSV' }).waitFor();
-  const said = await sheet.getByRole('listitem').allInnerTexts();
-  assert.deepEqual(said, [
-    '1 without a pose of both; their numbers stay empty: 4',
-    '7 with a pose from a file, which does not say how it was found: 1–3, 5–8',
-    '7 that nobody has checked: 1–3, 5–8',
+  await joint(page).getByRole('button', { name: 'Export…' }).press('Enter');
+  const sheet = exportSheet(page);
+  await sheet.getByRole('region', { name: 'Preview' }).waitFor();
+  assert.deepEqual(await sheet.getByRole('listitem').allInnerTexts(), [
+    '1 frame without a pose; they stay empty: 4',
+    '7 frames with a pose from a file, which does not say how it was found: 1–3, 5–8',
+    '7 frames that nobody has checked: 1–3, 5–8',
   ]);
-  await screenshot(page, 'joint sheet');
-  const table = await downloaded(page, 'Save CSV');
+  await screenshot(page, 'export joint');
+  checkTable(await savedFile(page), truth);
+  await openExport(page, 'Figure');
+  await sheet.getByRole('img', { name: 'Preview' }).waitFor();
+  await screenshot(page, 'export figure');
+  const figure = (await savedFile(page)).buffer.toString();
+  for (const letter of ['a', 'b', 'c', 'd']) assert(figure.includes(`font-weight="bold">${letter}</text>`), `panel ${letter}`);
+  await openExport(page, 'Overlay film');
+  await sheet.getByRole('img', { name: 'Preview' }).waitFor();
+  await screenshot(page, 'export film');
+  checkFilm(await savedFile(page));
+  await otherForms(page);
+}
+
+/** Of every form that the numbers, the figure, the report and the film have. @param {Page} page */
+async function otherForms(page) {
+  const png = await forms(page, 'Figure', 'PNG');
+  assert.deepEqual([...png.subarray(1, 4)], [...Buffer.from('PNG')]);
+  assert.equal(png.readUInt32BE(16), Math.round((180 / 25.4) * 600));
+  const motion = (await forms(page, 'Joint numbers', 'MOT')).toString();
+  assert.match(motion, /nRows=8\nnColumns=19\ninDegrees=yes/);
+  const cycle = (await forms(page, 'Joint numbers', '101 points')).toString();
+  assert.equal(cycle.split('\n').filter((line) => line && !line.startsWith('#'))[0].split(',').length, 101);
+  const pictures = unzipped({ buffer: await forms(page, 'Overlay film', 'PNG series') });
+  assert.deepEqual(Object.keys(pictures), Array.from({ length: FRAMES }, (_, index) => `frame_000${index + 1}.png`));
+  await calledOff(page);
+  const tra = (await forms(page, 'Poses', 'TRA')).toString().trimEnd().split('\n');
+  assert.deepEqual([tra.length, tra[GAP - 1].split(',').slice(16).every((number) => number === 'NaN')], [FRAMES, true]);
+  const report = await openExport(page, 'Report');
+  await report.getByRole('heading', { name: /: joint motion$/ }).waitFor();
+  await screenshot(page, 'export report');
+  const html = (await savedFile(page)).buffer.toString();
+  for (const words of ['empty everywhere: 4', 'femoral model', '<svg', 'that no person has checked', 'Frames with a pose from a file']) assert(html.includes(words), words);
+}
+
+/** Nothing is written, and the page says so. @param {Page} page */
+async function calledOff(page) {
+  const sheet = await openExport(page, 'Overlay film', 'PNG series');
+  await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
+  await page.getByRole('button', { name: 'Cancel: Writing the film' }).click();
+  await panel.waitForWords(page, /^Called off: \S+ was not written/);
+}
+
+/** @param {Page} page @param {...string} choices */
+async function forms(page, ...choices) {
+  const [kind, ...others] = choices;
+  await openExport(page, kind, ...others);
+  return (await savedFile(page)).buffer;
+}
+
+/** A film in one of two containers, with as many pictures as frames. @param {import('./support/files.mjs').FileToOpen} film */
+function checkFilm({ name, buffer }) {
+  const isMp4 = buffer.subarray(4, 8).toString() === 'ftyp';
+  const isWebM = buffer.readUInt32BE(0) === 0x1a45dfa3;
+  assert(name.endsWith(isMp4 ? '_overlay.mp4' : '_overlay.webm') && (isMp4 || isWebM), name);
+  assert(buffer.length > 20_000, `${buffer.length} bytes`);
+}
+
+/** @param {import('./support/files.mjs').FileToOpen} table @param {Numbers[]} truth */
+function checkTable(table, truth) {
   assert.match(table.name, /_joint\.csv$/);
-  const lines = table.buffer.toString().trimEnd().split('\r\n');
+  const lines = table.buffer.toString().trimEnd().split('\n');
   const heading = lines.filter((line) => line.startsWith('#'));
   assert(heading.some((line) => /knee: left/.test(line)) && heading.some((line) => /Grood and Suntay 1983/.test(line)), heading.join('\n'));
   const [head, ...rows] = lines.slice(heading.length).map((line) => line.split(','));
@@ -154,11 +213,11 @@ async function saved(page, truth) {
     assert.equal(value('frame', index + 1), String(index + 1));
     for (const [column, wanted] of Object.entries(numbers ?? {})) {
       const found = value(column, index + 1);
-      assert(found !== '' && Math.abs(Number(found) - wanted) < 1e-4, `${column} in frame ${index + 1}: ${found}, not ${wanted}`);
+      assert(found !== 'NaN' && Math.abs(Number(found) - wanted) < 1e-4, `${column} in frame ${index + 1}: ${found}, not ${wanted}`);
       // Poses of a file come without standard deviations.
-      assert.equal(value(`sd_${column}`, index + 1), '');
+      assert.equal(value(`sd_${column}`, index + 1), 'NaN');
     }
   });
-  assert.deepEqual(['flexion_deg', 'lift_off_mm', 'tibia_checked'].map((column) => value(column, GAP)), ['', '', '']);
-  assert.deepEqual(['time_s', 'femur_checked', 'tibia_checked', 'femur_method'].map((column) => value(column, 1)), ['0', 'yes', 'no', 'file femur.jts']);
+  assert.deepEqual(['flexion_deg', 'lift_off_mm', 'checked'].map((column) => value(column, GAP)), ['NaN', 'NaN', '0']);
+  assert.deepEqual(['time_s', 'checked', 'doubt'].map((column) => value(column, 1)), ['0', '0', '""']);
 }

@@ -1,7 +1,8 @@
 /** Nothing leaves the page: its policy is in force, and a whole day's work neither breaks it nor asks another computer. */
 import assert from 'node:assert/strict';
 import { ADDRESS, drawn, pageTest, step } from './support/browser.mjs';
-import { downloaded, temporaryFolder } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { temporaryFolder } from './support/files.mjs';
 import { Host } from './support/host.mjs';
 import * as panel from './support/panel.mjs';
 import { fromOpeningToPose } from './support/workflow.mjs';
@@ -35,9 +36,8 @@ pageTest('a whole workflow breaks no rule and asks nobody', async (page, t) => {
   await step(page, t, 'from the demonstration to a pose', () => fromOpeningToPose(page));
   await step(page, t, 'every sheet', () => openSheets(page));
   await step(page, t, 'what is saved is saved here', async () => {
-    await page.getByRole('button', { name: 'Save session', exact: true }).click();
-    await downloaded(page, 'Save session file');
-    await downloaded(page, 'Save femur poses');
+    await exported(page, 'Session');
+    await exported(page, 'Poses', 'JTS', 'Femur');
   });
   await step(page, t, 'nothing was asked of others, nothing was refused', async () => {
     const others = asked.filter((url) => !url.startsWith(ADDRESS) && !/^(blob|data):/.test(url));

@@ -1,7 +1,8 @@
 /** What leaves the page comes back into it: poses as .jts, the whole work as a session. */
 import assert from 'node:assert/strict';
 import { pageTest, step, until, visit } from './support/browser.mjs';
-import { choose, downloaded, drop } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { choose, drop } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, framePath, readJts, trueOutline, truePose } from './support/study.mjs';
@@ -31,7 +32,7 @@ pageTest('poses and sessions come back as they left', async (page, t) => {
   });
 
   await step(page, t, 'the .jts file holds the numbers that are shown', async () => {
-    const jts = await downloaded(page, 'Save femur poses');
+    const jts = await exported(page, 'Poses', 'JTS', 'Femur');
     assert.match(jts.name, /_femur\.jts$/);
     await checkRows(readJts(jts.buffer.toString()), traced);
     saved.push(jts);
@@ -68,8 +69,7 @@ async function savedSession(page, stage, traced) {
   await page.getByRole('textbox', { name: 'Name of the study' }).fill(NAME);
   for (const [name, value] of Object.entries(DISPLAY)) await page.getByRole('slider', { name }).fill(String(value));
   for (const work of traced) work.picture = await pictureOf(page, stage, work.frame);
-  await page.getByRole('button', { name: 'Save session', exact: true }).click();
-  const session = await downloaded(page, 'Save session file');
+  const session = await exported(page, 'Session');
   assert.equal(session.name, 'knee_7.fluoropose.json');
   return session;
 }

@@ -1,7 +1,8 @@
 /** Going through the work: what is next, what was checked, flags and notes, the list. */
 import assert from 'node:assert/strict';
 import { pageTest, screenshot, step, until, visit } from './support/browser.mjs';
-import { choose, downloaded, drop, file } from './support/files.mjs';
+import { exported } from './support/exporting.mjs';
+import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { demoFile, framePath } from './support/study.mjs';
@@ -31,8 +32,7 @@ pageTest('working through a film', async (page, t) => {
   await step(page, t, 'the list filters, and goes where it is told', () => list(page));
 
   await step(page, t, 'marks are in the session file', async () => {
-    await page.getByRole('button', { name: 'Save session', exact: true }).click();
-    const session = await downloaded(page, 'Save session file');
+    const session = await exported(page, 'Session');
     await visit(page);
     await drop(page, session);
     await panel.waitForFrames(page, 8);

@@ -10,7 +10,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
 use wasm_bindgen::prelude::*;
 
 use crate::film::film_model;
-use crate::found::deviation_numbers;
+use crate::found::{Uncertainty, uncertainty};
 use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
@@ -203,18 +203,17 @@ impl FilmFollower {
         let depths: Vec<Option<f64>> = depths.collect();
         let cells = self.following.cells();
         let frames = self.following.conclude(&depths);
-        let deviations = cells.iter().map(|cell| {
+        let middle = self.model.as_model().bounds().centre;
+        let uncertainties = cells.iter().map(|cell| {
             let found = cell.found()?;
-            let middle = self.model.as_model().bounds().centre;
-            let deviations = found.covariance?.deviations(&found.pose, &middle);
-            Some(deviation_numbers(&deviations).to_vec())
+            Some(uncertainty(&found.covariance?, &found.pose, &middle))
         });
         FollowedFilm {
             residuals: cells
                 .iter()
                 .map(|cell| cell.found().map(|found| found.fit.residual_px))
                 .collect(),
-            deviations: deviations.collect(),
+            uncertainties: uncertainties.collect(),
             rivals: (0..cells.len())
                 .map(|frame| self.following.rival(frame).copied())
                 .collect(),
@@ -228,7 +227,7 @@ impl FilmFollower {
 pub struct FollowedFilm {
     frames: Vec<Conclusion>,
     residuals: Vec<Option<f64>>,
-    deviations: Vec<Option<Vec<f64>>>,
+    uncertainties: Vec<Option<Uncertainty>>,
     rivals: Vec<Option<FramePose>>,
 }
 
@@ -250,9 +249,10 @@ impl FollowedFilm {
         Some(to_numbers(&EulerPose::from(pose)).to_vec())
     }
 
-    /// Standard deviations of the six, where they are known.
-    pub fn deviations(&self, frame: usize) -> Option<Vec<f64>> {
-        self.deviations.get(frame)?.clone()
+    /// As `Match.uncertainty`, where it is known.
+    pub fn uncertainty(&self, frame: usize) -> Option<Vec<f64>> {
+        let uncertainty = (*self.uncertainties.get(frame)?)?;
+        Some(uncertainty.to_vec())
     }
 
     /// Root mean square of what remains between outline and edges, pixels.

@@ -2,7 +2,9 @@
 
 use fluoropose::finder::Verdict;
 use fluoropose::image::mask::Word;
-use fluoropose::pose::covariance::Deviations;
+use fluoropose::math::Vector3;
+use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::PoseCovariance;
 use js_sys::{Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
@@ -16,7 +18,7 @@ pub(crate) struct Candidate {
     pub(crate) residual_px: Option<f64>,
     pub(crate) misfit: Option<f64>,
     pub(crate) verdict: Option<Verdict>,
-    pub(crate) deviations: Option<PoseNumbers>,
+    pub(crate) uncertainty: Option<Uncertainty>,
     pub(crate) start: Option<PoseNumbers>,
     pub(crate) view: [f64; 2],
     pub(crate) at_border: bool,
@@ -24,16 +26,43 @@ pub(crate) struct Candidate {
     pub(crate) library: Vec<Word>,
 }
 
-/// Standard deviations in the order of a pose's numbers.
-pub(crate) fn deviation_numbers(deviations: &Deviations) -> PoseNumbers {
-    [
+/// How uncertain a pose is, as it leaves: the standard deviations of its six numbers, in their order and units, and then the
+/// covariance that they come from, [`PoseCovariance::matrix`] from its diagonal on, row by row.
+pub(crate) type Uncertainty = [f64; 6 + UPPER];
+/// Numbers of the upper half of a covariance.
+pub(crate) const UPPER: usize = 21;
+
+pub(crate) fn uncertainty(
+    covariance: &PoseCovariance,
+    pose: &Pose,
+    middle: &Vector3,
+) -> Uncertainty {
+    let deviations = covariance.deviations(pose, middle);
+    let six = [
         deviations.x_mm,
         deviations.y_mm,
         deviations.z_mm,
         deviations.z_rot_deg,
         deviations.x_rot_deg,
         deviations.y_rot_deg,
-    ]
+    ];
+    let upper = (0..6).flat_map(|row| covariance.matrix[row][row..].iter().copied());
+    let mut all = [0.0; 6 + UPPER];
+    for (place, number) in all.iter_mut().zip(six.into_iter().chain(upper)) {
+        *place = number;
+    }
+    all
+}
+
+/// The covariance of which this is the upper half.
+pub(crate) fn covariance_of(upper: &[f64; UPPER]) -> PoseCovariance {
+    let mut matrix = [[0.0; 6]; 6];
+    let places = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
+    for ((row, column), &number) in places.zip(upper) {
+        matrix[row][column] = number;
+        matrix[column][row] = number;
+    }
+    PoseCovariance { matrix }
 }
 
 /// What was found for one outline: the best pose first, then its rival, if there is one. Asked beyond `count`, the
@@ -142,11 +171,11 @@ impl Match {
         Some(verdict.to_string())
     }
 
-    /// Standard deviations of the pose's numbers, in their order and units; nothing for a pose of the library or one that
-    /// the outline does not determine.
-    pub fn deviations(&self, index: usize) -> Option<Vec<f64>> {
-        let deviations = self.candidates.get(index)?.deviations?;
-        Some(deviations.to_vec())
+    /// Standard deviations of the pose's numbers, in their order and units, and the upper half of its covariance, as
+    /// `KneeJoint` takes it; nothing for a pose of the library or one that the outline does not determine.
+    pub fn uncertainty(&self, index: usize) -> Option<Vec<f64>> {
+        let uncertainty = self.candidates.get(index)?.uncertainty?;
+        Some(uncertainty.to_vec())
     }
 
     /// The pose that the refined one was refined from.
@@ -187,4 +216,21 @@ impl Match {
 /// Words of a mask are little-endian in JavaScript's memory as in the module's.
 fn bits_of(words: &[Word]) -> Uint8Array {
     Uint8Array::new(&Uint32Array::from(words).buffer())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_covariance_comes_back_whole() {
+        let matrix = core::array::from_fn(|a| {
+            core::array::from_fn(|b| if a == b { 9.0 } else { (a + b) as f64 / 10.0 })
+        });
+        let numbers = uncertainty(&PoseCovariance { matrix }, &Pose::IDENTITY, &[0.0; 3]);
+        // Without a middle apart from the origin, its shift is that of the numbers.
+        assert_eq!(numbers[..3], [3.0; 3]);
+        let upper = numbers[6..].try_into().unwrap();
+        assert_eq!(covariance_of(upper), PoseCovariance { matrix });
+    }
 }

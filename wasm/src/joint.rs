@@ -10,21 +10,22 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
 
+use crate::found::{UPPER, covariance_of};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
-/// Numbers of a frame that come in: a pose and its standard deviations, of either component.
-const IN: usize = 24;
+/// Numbers of a component in a frame that come in: a pose and its uncertainty ([`crate::found::Uncertainty`]).
+const PLACED: usize = 33;
 /// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold.
-const OUT: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+pub(crate) const OUT: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
 
 /// A component: its mesh, empty where there is no model, and the anatomical axes of its file.
-struct Part {
+pub(crate) struct Part {
     vertices: Vec<f32>,
     triangles: Vec<u32>,
-    axes: Pose,
+    pub(crate) axes: Pose,
 }
 
 impl Part {
@@ -44,9 +45,9 @@ impl Part {
 /// Both components of a knee.
 #[wasm_bindgen]
 pub struct KneeJoint {
-    femur: Part,
-    tibia: Part,
-    side: Side,
+    pub(crate) femur: Part,
+    pub(crate) tibia: Part,
+    pub(crate) side: Side,
     memory: Vec<u32>,
 }
 
@@ -104,8 +105,8 @@ impl KneeJoint {
     }
 
     /// The numbers of frames, as many for each as there are columns; NaN for what is not known. Of each frame the femoral
-    /// pose (x, y, z in mm, then z, x and y rotation in degrees) with the standard deviations of these six, whose errors are
-    /// taken as independent, or NaN where they are not known; then those of the tibial one.
+    /// pose (x, y, z in mm, then z, x and y rotation in degrees) with its uncertainty as `Match.uncertainty` gives it; then
+    /// the tibial one. NaN is not known: where the standard deviations alone are, their errors are taken as independent.
     ///
     /// # Errors
     /// When a pose is not six finite numbers.
@@ -118,7 +119,7 @@ impl KneeJoint {
 }
 
 impl KneeJoint {
-    fn joint(&self) -> Result<Option<Joint<'_>>, JsError> {
+    pub(crate) fn joint(&self) -> Result<Option<Joint<'_>>, JsError> {
         if self.femur.vertices.is_empty() || self.tibia.vertices.is_empty() {
             return Ok(None);
         }
@@ -137,10 +138,11 @@ impl KneeJoint {
             Ok(Placed::new(&pose, &axes, middle, covariance))
         };
         let middles = [self.femur.middle()?, self.tibia.middle()?];
-        let mut numbers = Vec::with_capacity(frames.len() / IN * OUT);
-        for frame in frames.as_chunks::<IN>().0 {
-            let femur = placed(&self.femur, &middles[0], &frame[..12])?;
-            let tibia = placed(&self.tibia, &middles[1], &frame[12..])?;
+        let mut numbers = Vec::with_capacity(frames.len() / (2 * PLACED) * OUT);
+        for frame in frames.as_chunks::<{ 2 * PLACED }>().0 {
+            let (femur, tibia) = frame.split_at(PLACED);
+            let femur = placed(&self.femur, &middles[0], femur)?;
+            let tibia = placed(&self.tibia, &middles[1], tibia)?;
             let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
             let found = match &joint {
                 Some(joint) => joint.at(&relative, memory).map_err(sentence)?,
@@ -155,14 +157,21 @@ impl KneeJoint {
     }
 }
 
-/// A pose, and its covariance where the standard deviations of its six numbers are known.
+/// A pose, and its covariance where that is known, or at least the standard deviations of its six numbers.
 fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovariance>), JsError> {
-    let (pose, deviations) = numbers.split_at(6);
+    let (pose, uncertainty) = numbers.split_at(6);
     let pose = Pose::from(from_numbers(pose)?);
-    let known = deviations.iter().all(|deviation| deviation.is_finite());
-    let deviations = core::array::from_fn(|k| deviations[k]);
-    let covariance = PoseCovariance::from_independent(&deviations, &pose, middle);
-    Ok((pose, known.then_some(covariance)))
+    let (deviations, upper) = uncertainty.split_at(6);
+    let known = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
+    let covariance = match <&[f64; UPPER]>::try_from(upper) {
+        Ok(upper) if known(upper) => Some(covariance_of(upper)),
+        _ if known(deviations) => {
+            let deviations = core::array::from_fn(|k| deviations[k]);
+            Some(PoseCovariance::from_independent(&deviations, &pose, middle))
+        }
+        _ => None,
+    };
+    Ok((pose, covariance))
 }
 
 #[cfg(test)]
@@ -214,8 +223,10 @@ mod tests {
     fn frame() -> Vec<f64> {
         let mut frame = vec![3.0, 30.0, -1000.0, 0.0, 0.0, 0.0];
         frame.extend([0.2, 0.3, 0.0, 0.0, 0.0, 0.0]);
+        frame.extend([f64::NAN; UPPER]);
         frame.extend([0.0, 0.0, -1000.0, 0.0, 0.0, 0.0]);
         frame.extend([0.0; 6]);
+        frame.extend([f64::NAN; UPPER]);
         frame
     }
 
@@ -250,13 +261,36 @@ mod tests {
         }
     }
 
+    /// The tray may be turned about z by 0.01 rad and shifted forwards by 0.3 mm. The femoral origin is 50 mm above its middle, so
+    /// it seems to move by 0.5 mm forwards and 0.3 mm back: together 0.2 mm, against each other 0.8 mm, and 0.2 mm of its own.
+    #[test]
+    fn a_whole_covariance_takes_errors_together() {
+        let mut joint = knee(true);
+        for (together, wanted) in [(1.0, 0.2), (0.0, 0.5f64.hypot(0.3)), (-1.0, 0.8)] {
+            let mut frame = frame();
+            let mut matrix = [[0.0; 6]; 6];
+            (matrix[2][2], matrix[3][3]) = (1e-4, 0.09);
+            (matrix[2][3], matrix[3][2]) = (together * 0.003, together * 0.003);
+            let upper = (0..6).flat_map(|row| matrix[row][row..].to_vec());
+            for (place, number) in frame[PLACED + 12..].iter_mut().zip(upper) {
+                *place = number;
+            }
+            let numbers = joint.numbers(&frame).ok().unwrap();
+            let found = named(&joint, &numbers, "sd_field_anterior_mm");
+            assert!(
+                (found - 0.2f64.hypot(wanted)).abs() < 1e-3,
+                "{together}: {found}"
+            );
+        }
+    }
+
     #[test]
     fn what_is_not_known_is_nan_frame_by_frame() {
         let mut joint = knee(false);
         assert!(!joint.has_plate());
         let mut frames = frame();
         frames.extend(frame());
-        frames[IN + 20] = f64::NAN;
+        frames[3 * PLACED + 8] = f64::NAN;
         let numbers = joint.numbers(&frames).ok().unwrap();
         let (first, second) = numbers.split_at(OUT);
         assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2).abs() < 1e-9);

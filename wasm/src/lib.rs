@@ -15,6 +15,7 @@ mod found;
 mod frame_search;
 mod hidden;
 mod joint;
+mod joint_report;
 mod library;
 mod matcher;
 mod working_model;
@@ -28,6 +29,7 @@ pub use follower::{FilmFollower, FollowedFilm};
 pub use found::Match;
 pub use frame_search::{FrameSearch, frames_to_search};
 pub use joint::KneeJoint;
+pub use joint_report::{JointReport, write_jtak, write_jtap, write_tra};
 pub use library::{LibraryBuilder, LibraryViews};
 pub use matcher::{
     Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,

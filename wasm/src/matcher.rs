@@ -28,11 +28,11 @@ use wasm_bindgen::prelude::*;
 
 use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
-use crate::found::{Candidate, Match, deviation_numbers};
+use crate::found::{Candidate, Match};
 use crate::working_model::{Ranked, WorkingModel};
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
-use fluoropose_page::pose_numbers::{PoseNumbers, from_numbers, to_numbers};
+use fluoropose_page::pose_numbers::{from_numbers, to_numbers};
 use fluoropose_page::traced::Traced;
 
 self_cell::self_cell!(
@@ -331,7 +331,10 @@ impl Matcher {
             residual_px: ranked.fit.map(|fit| fit.refined.residual_px),
             misfit: ranked.judged.map(|judged| judged.misfit),
             verdict: ranked.judged.map(|judged| judged.verdict),
-            deviations: self.deviations(ranked),
+            uncertainty: self
+                .model
+                .as_ref()
+                .and_then(|model| model.uncertainty_of(ranked)),
             start: ranked
                 .fit
                 .map(|fit| to_numbers(&EulerPose::from(fit.start))),
@@ -364,11 +367,6 @@ impl Matcher {
     /// Whether views are missing beyond those at its ends: there are none beyond all directions.
     fn has_border(&self) -> bool {
         !self.library.borrow_dependent().info().grid.is_around()
-    }
-
-    fn deviations(&self, ranked: &Ranked) -> Option<PoseNumbers> {
-        let deviations = self.model.as_ref()?.deviations_of(ranked)?;
-        Some(deviation_numbers(&deviations))
     }
 }
 

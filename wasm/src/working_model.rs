@@ -15,7 +15,7 @@ use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
-use fluoropose::pose::covariance::{Deviations, PoseCovariance};
+use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::{
     CameraView, Fit as OutlineFit, Iterate, Polarity, RefineOptions, Refined, Target, assess,
     film_profiles, fit_at, polarity_at, refine, refine_traced,
@@ -24,6 +24,7 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::search::kernels::Kernels;
 use wasm_bindgen::JsError;
 
+use crate::found::{Uncertainty, uncertainty};
 use fluoropose_page::error::sentence;
 
 /// A pose that explains an outline.
@@ -64,8 +65,8 @@ impl Judged {
 
 /// What a target says of a refined pose.
 pub(crate) struct Assessed {
-    /// Standard deviations of its numbers; nothing where the target does not determine them.
-    pub(crate) deviations: Option<Deviations>,
+    /// Nothing where the target does not determine the pose.
+    pub(crate) uncertainty: Option<Uncertainty>,
     /// How well the model's outline is met there.
     pub(crate) fit: OutlineFit,
 }
@@ -73,7 +74,7 @@ pub(crate) struct Assessed {
 impl Assessed {
     /// How far the pose is to be trusted by itself.
     pub(crate) fn verdict(&self) -> Verdict {
-        judge_fit(&self.fit, self.deviations.is_some(), &Limits::USUAL)
+        judge_fit(&self.fit, self.uncertainty.is_some(), &Limits::USUAL)
     }
 }
 
@@ -217,10 +218,10 @@ impl WorkingModel {
         })
     }
 
-    /// Standard deviations of a pose's numbers.
-    pub(crate) fn deviations_of(&self, ranked: &Ranked) -> Option<Deviations> {
+    /// How uncertain a pose is; nothing where that is not known.
+    pub(crate) fn uncertainty_of(&self, ranked: &Ranked) -> Option<Uncertainty> {
         let middle = self.owned.as_model().bounds().centre;
-        Some(ranked.covariance?.deviations(&ranked.pose, &middle))
+        Some(uncertainty(&ranked.covariance?, &ranked.pose, &middle))
     }
 
     /// How sure a refined pose is and how well it fits, by what a camera saw.
@@ -236,9 +237,9 @@ impl WorkingModel {
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         let found = assess(&model, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = model.bounds().centre;
-        let deviations = |covariance: PoseCovariance| covariance.deviations(&refined.pose, &middle);
+        let known = |covariance| uncertainty(&covariance, &refined.pose, &middle);
         Ok(Assessed {
-            deviations: found.covariance.map(deviations),
+            uncertainty: found.covariance.map(known),
             fit: found.fit,
         })
     }

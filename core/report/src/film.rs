@@ -17,6 +17,8 @@ pub struct JointRow {
     pub joint: Option<JointFrame>,
     /// The same numbers of the filtered poses, where a filter was asked for.
     pub filtered: Option<[f64; NUMBERS]>,
+    /// Whether a person has checked both poses as they are.
+    pub checked: bool,
     /// Why it is doubtful; `None` where it is not.
     pub doubt: Option<String>,
 }
@@ -28,7 +30,7 @@ pub struct JointFilm {
     pub name: String,
     /// Which knee.
     pub side: Side,
-    /// Anterior-posterior extent of the tray's plate, mm.
+    /// Anterior-posterior extent of the tray's plate, mm; 0 where there is no plate.
     pub plate_depth_mm: f64,
     /// Mediolateral extent, mm.
     pub plate_width_mm: f64,
@@ -86,6 +88,12 @@ impl JointFilm {
     pub fn has_deviations(&self) -> bool {
         let known = |row: &JointRow| row.joint.is_some_and(|joint| joint.deviations.is_some());
         self.rows.iter().any(known)
+    }
+
+    /// Whether there is a tray's plate that lowest points lie above.
+    #[must_use]
+    pub fn has_plate(&self) -> bool {
+        self.plate_depth_mm > 0.0 && self.plate_width_mm > 0.0
     }
 
     /// The monotonic phases of the activity, without doubtful frames.

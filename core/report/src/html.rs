@@ -6,33 +6,10 @@ use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
 use fluoropose::joint::numbers::place;
 
+use crate::facts::{CONVENTIONS, Facts, filter, times};
 use crate::figure::figure;
 use crate::film::{JointFilm, JointRow};
 use crate::svg::escaped;
-
-/// A file that a report was made from.
-#[derive(Clone, Debug)]
-pub struct Input {
-    /// What it is: `femoral model`, `calibration`.
-    pub what: String,
-    /// Its name.
-    pub name: String,
-    /// SHA-256 of its bytes, hexadecimal.
-    pub sha256: String,
-}
-
-/// What a report says beside the numbers.
-#[derive(Clone, Debug, Default)]
-pub struct Facts {
-    /// Name and version of the program.
-    pub made_by: String,
-    /// The files.
-    pub inputs: Vec<Input>,
-    /// What was chosen: a name and a value each.
-    pub settings: Vec<(String, String)>,
-    /// What a reader has to know of these data beyond what is always said.
-    pub remarks: Vec<String>,
-}
 
 const STYLE: &str = "\
 :root{color-scheme:light}body{font:10.5pt/1.45 Helvetica,Arial,'Liberation Sans',sans-serif;color:#111;background:#fff;max-width:190mm;margin:8mm auto;padding:0 4mm}\
@@ -53,7 +30,7 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
         out,
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
          <title>{name}: joint motion</title><style>{STYLE}</style></head>\n<body>\n<h1>{name}: joint motion</h1>\n<p>{}</p>\n",
-        escaped(&summary(film, facts))
+        escaped(&summary(film))
     );
     let _ = write!(
         out,
@@ -65,6 +42,7 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
     doubts(&mut out, film);
     limits(&mut out, film, facts);
     inputs(&mut out, facts);
+    settings(&mut out, film, facts);
     frames(&mut out, film);
     out.push_str("</body></html>\n");
     out
@@ -74,18 +52,18 @@ fn posed(film: &JointFilm) -> usize {
     film.rows.iter().filter(|row| row.joint.is_some()).count()
 }
 
-fn summary(film: &JointFilm, facts: &Facts) -> String {
+fn summary(film: &JointFilm) -> String {
     let side = match film.side {
         Side::Left => "Left",
         Side::Right => "Right",
     };
     let doubtful = film.rows.iter().filter(|row| row.doubt.is_some()).count();
     format!(
-        "{side} knee, {} frames: {} with a pose of both components, {doubtful} doubtful. Made by {}. Not a medical device, and not for \
+        "{side} knee, {} frames: {} with a pose of both components, {doubtful} doubtful. Made by fluoropose {}. Not a medical device, and not for \
          decisions about patients.",
         film.rows.len(),
         posed(film),
-        facts.made_by
+        env!("CARGO_PKG_VERSION")
     )
 }
 
@@ -237,13 +215,24 @@ fn inputs(out: &mut String, facts: &Facts) {
             escaped(&input.sha256)
         );
     }
-    out.push_str("</tbody></table>\n<h2>Settings and conventions</h2>\n<table><tbody>\n");
-    for (name, value) in &facts.settings {
+    out.push_str("</tbody></table>\n");
+}
+
+fn settings(out: &mut String, film: &JointFilm, facts: &Facts) {
+    out.push_str("<h2>Settings and conventions</h2>\n<table><tbody>\n");
+    let (times, filter) = (times(film), filter(film));
+    let always = [
+        ("six numbers", CONVENTIONS),
+        ("times", &times),
+        ("filter", &filter),
+    ];
+    let own = facts.settings.iter();
+    let own = own.map(|(name, value)| (name.as_str(), value.as_str()));
+    for (name, value) in always.into_iter().chain(own) {
+        let (name, value) = (escaped(name), escaped(value));
         let _ = writeln!(
             out,
-            "<tr><td>{}</td><td class=\"word\">{}</td></tr>",
-            escaped(name),
-            escaped(value)
+            "<tr><td>{name}</td><td class=\"word\">{value}</td></tr>"
         );
     }
     out.push_str("</tbody></table>\n");

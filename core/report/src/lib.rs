@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+mod facts;
 mod figure;
 mod film;
 mod html;
@@ -9,6 +10,7 @@ pub mod read;
 mod svg;
 pub mod write;
 
+pub use facts::{Facts, Input};
 pub use figure::figure;
 pub use film::{JointFilm, JointRow, Step};
-pub use html::{Facts, Input, html};
+pub use html::html;

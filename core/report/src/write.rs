@@ -42,6 +42,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
         "field_*: origin of the femoral component in the axes of the tibial one; flexion, abduction, internal rotation: tibia against femur, z-x-y, which is Grood and Suntay's sequence".to_owned(),
         "gs_*: shift of the tibial origin from the femoral one along the axes of Grood and Suntay 1983".to_owned(),
         "medial_*, lateral_*: lowest points of the femoral component above the tray's plate, from the plate's middle, anterior and medial positive; lift_off: lateral less medial height".to_owned(),
+        "checked: 1 where a person has checked both poses as they are".to_owned(),
         filter,
     ]
 }
@@ -64,7 +65,7 @@ pub fn table(film: &JointFilm) -> String {
                 .map(|column| format!("filtered_{}", column.name)),
         );
     }
-    names.push("doubt".to_owned());
+    names.extend(["checked", "doubt"].map(str::to_owned));
     let _ = writeln!(out, "{}", names.join(","));
     for row in &film.rows {
         table_row(&mut out, film, row);
@@ -90,7 +91,7 @@ fn table_row(out: &mut String, film: &JointFilm, row: &JointRow) {
         .as_deref()
         .unwrap_or_default()
         .replace('"', "\"\"");
-    let _ = writeln!(out, ",\"{doubt}\"");
+    let _ = writeln!(out, ",{},\"{doubt}\"", u8::from(row.checked));
 }
 
 /// The first frame of the film is at time 0.

@@ -32,6 +32,7 @@ fn film(rotation_deg: f64) -> JointFilm {
                 deviations,
             }),
             filtered: None,
+            checked: k == 2,
             doubt: (k == 5).then(|| "tibia doubtful: \"rim\" <inner>, or not".to_owned()),
         }
     };
@@ -65,6 +66,7 @@ fn the_table_reads_back_to_the_last_bit() {
         let sd = table.column(&format!("sd_{}", column.name)).unwrap();
         assert_eq!((sd[1], sd[3].is_nan()), (0.5, true));
     }
+    assert_eq!(table.column("checked").unwrap()[1..4], [0.0, 1.0, 0.0]);
     let text = write::table(&film);
     for word in [
         "version 1",
@@ -230,6 +232,9 @@ fn a_film_without_anything_is_drawn_empty() {
     nothing.rows.iter_mut().for_each(|row| row.joint = None);
     let picture = figure(&nothing);
     assert!(picture.contains("too few condyle lines") && !picture.contains("NaN"));
+    (nothing.plate_depth_mm, nothing.plate_width_mm) = (0.0, 0.0);
+    let picture = figure(&nothing);
+    assert!(picture.contains("lowest points are not known") && !picture.contains("NaN"));
     nothing.rows.clear();
     assert!(html(&nothing, &Facts::default()).contains("0 frames"));
 }
@@ -237,13 +242,12 @@ fn a_film_without_anything_is_drawn_empty() {
 #[test]
 fn the_report_names_inputs_settings_doubts_and_limits() {
     let facts = Facts {
-        made_by: "fluoropose 0".to_owned(),
         inputs: vec![Input {
             what: "femoral model".to_owned(),
             name: "f.stl".to_owned(),
             sha256: "00ff".to_owned(),
         }],
-        settings: vec![("filter".to_owned(), "none".to_owned())],
+        settings: vec![("poses".to_owned(), "of a <hand>".to_owned())],
         remarks: vec!["The front is <guessed>.".to_owned()],
     };
     let page = html(&film(12.0), &facts);
@@ -252,6 +256,8 @@ fn the_report_names_inputs_settings_doubts_and_limits() {
         "30 frames: 29 with a pose of both components, 1 doubtful",
         "00ff",
         "The front is &lt;guessed&gt;.",
+        "of a &lt;hand&gt;",
+        "15 frames a second",
         "\"rim&quot; &lt;inner&gt;".trim_start_matches('"'),
         "empty everywhere: 19",
         "Lowest points are not contact",

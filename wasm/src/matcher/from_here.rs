@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 
 use super::Matcher;
 use crate::film::film_model;
-use crate::found::deviation_numbers;
+use crate::found::Uncertainty;
 use crate::hidden::MARGIN;
 use crate::working_model::WorkingModel;
 use fluoropose_page::calibration::camera;
@@ -26,7 +26,7 @@ pub struct HandFit {
     pose: PoseNumbers,
     residual_px: f64,
     drawn: Option<u64>,
-    deviations: Option<PoseNumbers>,
+    uncertainty: Option<Uncertainty>,
     bright: bool,
     verdict: HandVerdict,
 }
@@ -81,10 +81,10 @@ impl HandFit {
         self.drawn.map(|drawn| drawn as f64)
     }
 
-    /// Standard deviations of the pose's numbers; nothing where numbers were locked or the pose is not determined.
+    /// As `Match.uncertainty`; nothing where numbers were locked or the pose is not determined.
     #[wasm_bindgen(getter)]
-    pub fn deviations(&self) -> Option<Vec<f64>> {
-        self.deviations.map(|numbers| numbers.to_vec())
+    pub fn uncertainty(&self) -> Option<Vec<f64>> {
+        self.uncertainty.map(|numbers| numbers.to_vec())
     }
 
     /// Whether the implant was taken to be brighter than what surrounds it.
@@ -263,13 +263,12 @@ fn fitted(
     let assessed = model.assess(&refined, view)?;
     // How sure a pose is of which a part was given is not known.
     let free = options.locks.is_empty();
-    let determined = !free || assessed.deviations.is_some();
-    let deviations = assessed.deviations.filter(|_| free);
+    let determined = !free || assessed.uncertainty.is_some();
     Ok(HandFit {
         pose: to_numbers(&EulerPose::from(refined.pose)),
         residual_px: refined.residual_px,
         drawn: None,
-        deviations: deviations.as_ref().map(deviation_numbers),
+        uncertainty: assessed.uncertainty.filter(|_| free),
         bright: false,
         verdict: HandVerdict(judge_fit(&assessed.fit, determined, &Limits::USUAL)),
     })

@@ -18,7 +18,7 @@ use super::from_here::{HiddenPixels, model_of};
 use super::{Matcher, OFFERED, RIVAL_WITHIN};
 use crate::exchange::simplified;
 use crate::film::film_model;
-use crate::found::{Candidate, Match, deviation_numbers};
+use crate::found::{Candidate, Match};
 use crate::hidden::with_mask;
 use crate::working_model::Assessed;
 use fluoropose_page::error::sentence;
@@ -262,7 +262,7 @@ impl Matcher {
             residual_px: Some(one.refined.residual_px),
             misfit: Some(misfit(&one.refined)),
             verdict: Some(assessed.verdict().or_doubt(seen.doubt(&one.refined))),
-            deviations: assessed.deviations.as_ref().map(deviation_numbers),
+            uncertainty: assessed.uncertainty,
             start: Some(to_numbers(&EulerPose::from(one.start))),
             view,
             at_border,

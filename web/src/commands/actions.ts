@@ -1,7 +1,6 @@
 import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownFraction } from '../document/sides';
-import { poseTable } from '../document/session/table';
 import { cellOf, chosenCandidate } from '../document/types';
 import { otherThan, type ComponentName } from '../terms/component';
 import { openDemonstration } from '../exchange/demonstration';
@@ -20,7 +19,6 @@ import type { Videos } from '../exchange/videos';
 import { Aborted } from '../workers/bridge';
 import { texts } from '../texts/texts';
 import { TracingActions } from './tracing_actions';
-import { ExchangeActions } from './exchange_actions';
 import { download, fileStem, pickFiles } from '../exchange/browser_files';
 import { pointerStore } from './pointer';
 import { otherTheme } from '../keep/theme';
@@ -53,7 +51,6 @@ export class Actions {
 
   /** Marks, notes and what is next. */
   readonly work: WorkActions;
-  readonly exchange: ExchangeActions;
 
   /** Whole outlines and the tools' options. */
   readonly tracing: TracingActions;
@@ -63,7 +60,6 @@ export class Actions {
     this.#store = services.store;
     this.tracing = new TracingActions(services, tracingTools, () => this.stage);
     this.work = new WorkActions(services);
-    this.exchange = new ExchangeActions(services);
   }
 
   /** Runs what a key or a button asks for. Returns false when there is nothing to do. */
@@ -319,22 +315,6 @@ export class Actions {
     store.markSaved(doc);
     store.show({ savedAt: Date.now(), popover: null });
     store.say('info', includeFiles ? texts.said.sessionSaved : texts.said.sessionSavedWithoutFiles);
-  }
-
-  savePoses(component: ComponentName): void {
-    const { store, studio } = this.#services;
-    const { doc } = store;
-    const poses = doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
-    const without = doc.frames.filter((_, index) => !poses[index]).length;
-    download([studio.writePoses(poses)], `${fileStem(doc.name)}_${component}.jts`, 'text/plain');
-    store.say('info', texts.said.posesSaved(texts.component[component], poses.length, without));
-  }
-
-  /** Poses with their standard deviations and why they were chosen, which a .jts file has no room for. */
-  saveTable(component: ComponentName): void {
-    const { doc } = this.#store;
-    download([poseTable(doc, component)], `${fileStem(doc.name)}_${component}.csv`, 'text/csv');
-    this.#store.say('info', texts.said.tableSaved(texts.component[component], doc.frames.length));
   }
 
   hasPoses(component: ComponentName): boolean {

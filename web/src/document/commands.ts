@@ -211,6 +211,11 @@ export function rename(name: string): Command {
   return { label: texts.steps.rename, mergeKey: 'name', apply: (doc) => ({ ...doc, name }) };
 }
 
+/** Frames a second; null: nobody knows. */
+export function setRate(rate: number | null): Command {
+  return { label: texts.steps.changeRate, mergeKey: 'rate', apply: (doc) => ({ ...doc, rate }) };
+}
+
 export function setSide(side: Doc['side']): Command {
   return { label: texts.steps.changeSide, apply: (doc) => ({ ...doc, side }) };
 }

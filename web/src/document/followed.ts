@@ -17,7 +17,7 @@ export interface Followed {
   readonly place: Place;
   /** Null where it was looked for and is not there. */
   readonly pose: PoseNumbers | null;
-  readonly deviations: PoseNumbers | null;
+  readonly deviations: Candidate['deviations'];
   readonly residual: number | null;
   readonly doubtful: boolean;
   /** Above 1 it is doubtful, and the worst have the most. */

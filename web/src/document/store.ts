@@ -6,6 +6,7 @@ import type { Command, Place } from './command';
 import * as history from './history';
 import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
+import { DEFAULT_EXPORTING, type Exporting } from '../terms/exporting';
 import { DEFAULT_JOINT, type JointView } from '../terms/joint';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
 import { type Cell, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
@@ -33,6 +34,7 @@ export interface Ui {
   readonly seeing: Seeing;
   readonly hand: HandSettings;
   readonly joint: JointView;
+  readonly exporting: Exporting;
   readonly tracing: TracingOptions;
   /** The threshold that was taken and can still be moved, grey values. */
   readonly thresholdLevel: ThresholdLevel | null;
@@ -61,7 +63,7 @@ export interface Ui {
 /** Dark like a reading room, or light for projectors. Print is light by itself. */
 export type Theme = 'dark' | 'light';
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'session' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film' | 'joint';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'export' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film';
 
 export interface ThresholdLevel {
   readonly level: number;
@@ -123,6 +125,7 @@ const EMPTY_UI: Ui = {
   seeing: DEFAULT_SEEING,
   hand: DEFAULT_HAND,
   joint: DEFAULT_JOINT,
+  exporting: DEFAULT_EXPORTING,
   tracing: USUAL_OPTIONS,
   thresholdLevel: null,
   overlaysHidden: false,

@@ -8,6 +8,8 @@ import { type Axes, DEFAULT_WINDOW, type Doc, type LibrarySpec } from './types';
 export interface Study {
   readonly name: string;
   readonly side: 'left' | 'right' | null;
+  /** Frames a second. */
+  readonly rate: number | null;
   readonly parts: readonly StudyPart[];
 }
 
@@ -30,7 +32,7 @@ export function componentIn({ parts }: Study, kind: 'model' | 'reference', name:
 export function takeStudy(study: Study, fileName: string): Command {
   return {
     label: texts.steps.readStudy(fileName),
-    apply: (doc) => study.parts.reduce(withPart, { ...doc, name: study.name || doc.name, side: study.side ?? doc.side }),
+    apply: (doc) => study.parts.reduce(withPart, { ...doc, name: study.name || doc.name, side: study.side ?? doc.side, rate: study.rate ?? doc.rate }),
   };
 }
 

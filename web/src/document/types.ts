@@ -1,6 +1,6 @@
 import type { Directions } from '../geometry/axes';
 import type { FramePoint } from '../geometry/points';
-import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
 import type { Distortion } from './distortion';
 
@@ -24,6 +24,8 @@ export interface Doc {
   readonly marks: Readonly<Record<string, Mark>>;
   /** How frames or outlines are undistorted; null: they stay as they were taken. */
   readonly distortion: Distortion | null;
+  /** Frames a second; null while nobody has said. */
+  readonly rate: number | null;
   /** What is known of how the frames show metal. */
   readonly film: Film;
   /** Names this work in the browser's storage; empty until there is something to keep. No part of a session file. */
@@ -222,8 +224,8 @@ export interface Candidate {
   readonly drawn: number | null;
   /** What remains between the outlines after refinement, px of the frame; null for a pose of the library or a file. */
   readonly residual: number | null;
-  /** Standard deviations of the pose's numbers; null for a pose of the library or a file, or one that is not determined. */
-  readonly deviations: PoseNumbers | null;
+  /** How uncertain the pose is; null for a pose of the library or a file, or one that is not determined. */
+  readonly deviations: Uncertainty | null;
   /** How well it fits by itself; null where it was not compared with others. */
   readonly judged: Judged | null;
   /** Part of the model's outline that lies on edges of the frame, 0 to 1; missing where it was not measured. */
@@ -280,6 +282,7 @@ export const EMPTY_DOC: Doc = {
   reference: null,
   marks: {},
   distortion: null,
+  rate: null,
   film: UNKNOWN_FILM,
   work: '',
 };

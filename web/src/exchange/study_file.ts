@@ -10,6 +10,7 @@ import { texts } from '../texts/texts';
 const readStudyText = object({
   name: optional(text),
   side: optional(oneOf('left', 'right')),
+  frames_per_s: optional(number),
   component: list(
     object({
       name: text,
@@ -25,8 +26,8 @@ const readStudyText = object({
 
 /** Throws a sentence that names the place. Parts that are neither femur nor tibia are left to the laboratory. */
 export function readStudy(content: string): Study {
-  const { name, side, component: parts } = readStudyText(parsed(content), texts.study.place);
-  return { name: name ?? '', side, parts: parts.flatMap(readPart) };
+  const { name, side, frames_per_s: rate, component: parts } = readStudyText(parsed(content), texts.study.place);
+  return { name: name ?? '', side, rate, parts: parts.flatMap(readPart) };
 }
 
 function readPart({ name, role, model, reference, axes, nominal, distance_mm: distance }: ReturnType<typeof readStudyText>['component'][number]): StudyPart[] {

@@ -1,3 +1,4 @@
+import { setRate } from '../document/commands';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { Incoming } from './incoming';
@@ -53,6 +54,7 @@ export class Videos {
     const { store } = this.#services;
     const video = this.#video;
     if (!video) return;
+    const { doc } = store;
     const abort = new AbortController();
     const taken: TakenFrame[] = [];
     let repeated = 0;
@@ -76,6 +78,8 @@ export class Videos {
       video.close();
     }
     if (taken.length > 0) await this.#open(taken);
+    // Frames that were here before may be of another film.
+    if (taken.length > 1 && doc.frames.length === 0 && doc.rate === null) store.perform(setRate(video.rate / Math.max(1, Math.round(choice.every))));
     if (abort.signal.aborted) return store.say('info', said.called(taken.length));
     store.say('info', said.taken(taken.length, video.name, repeated === 0 ? said.noneRepeated : said.repeated(repeated)));
   }

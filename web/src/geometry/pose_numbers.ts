@@ -8,6 +8,14 @@ export interface PoseNumbers {
   readonly yRot: number;
 }
 
+/**
+ * How uncertain a pose is: one standard deviation of each of its numbers and, where it is known, the covariance that they come
+ * from: the upper half, row by row, as the core has it.
+ */
+export interface Uncertainty extends PoseNumbers {
+  readonly covariance?: readonly number[];
+}
+
 export type Locks = Readonly<Record<keyof PoseNumbers, boolean>>;
 
 export const NO_LOCKS: Locks = { x: false, y: false, z: false, zRot: false, xRot: false, yRot: false };

@@ -3,7 +3,7 @@ import { type JointNumbers, NO_NUMBERS } from '../results/joint_curves';
 import { type JointAsked, jointAsked, type JointFrame } from '../results/motion';
 import { COMPONENT_NAMES } from '../terms/component';
 import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
-import type { JointFacts, JointModels } from '../workers/protocol/joint';
+import type { JointFacts, JointModels, JointText, PoseText, PublishedFilm } from '../workers/protocol/joint';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import { sentenceOf, type Services } from './services';
 
@@ -53,6 +53,15 @@ export class JointReader {
     return this.#shown.numbers;
   }
 
+  /** A text of the joint whose numbers are known, by the core. */
+  publish(film: PublishedFilm, what: JointText): Promise<string> {
+    return this.#worker.call('publish', { film, what });
+  }
+
+  poseText(text: PoseText): Promise<string> {
+    return this.#worker.call('poseText', text);
+  }
+
   #missing(asked: JointAsked): readonly JointFrame[] {
     return asked.frames.filter(({ id, femur, tibia }) => {
       const known = this.#known.get(id);
@@ -62,7 +71,7 @@ export class JointReader {
 
   async #look(): Promise<void> {
     const { store } = this.#services;
-    if (this.#busy || !store.ui.joint.open) return;
+    if (this.#busy || !(store.ui.joint.open || store.ui.popover === 'export')) return;
     const asked = jointAsked(store.doc);
     if (!asked || asked.frames.length === 0 || !this.#hasMeshes(asked)) return;
     const key = keyOf(asked);

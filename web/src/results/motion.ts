@@ -1,9 +1,10 @@
 import { isAssumed, knownAxes } from '../document/axes';
 import { checkState, markOf, NO_MARK } from '../document/marks';
-import { type Candidate, cellOf, chosenCandidate, type Doc } from '../document/types';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc, verdictOf } from '../document/types';
 import type { Directions } from '../geometry/axes';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 import { progressOf } from './progress';
 
 /** The six numbers of a joint by the field's convention, as the core gives them: mm, then degrees. */
@@ -95,9 +96,15 @@ export function jointTrusts(doc: Doc): readonly JointTrust[] {
 function trustOf(doc: Doc, frameId: string): JointTrust {
   const cells = COMPONENT_NAMES.map((component) => ({ cell: cellOf(doc, frameId, component), mark: markOf(doc, { frameId, component }) }));
   return {
-    doubtful: cells.some(({ cell }) => progressOf(cell, NO_MARK, null).doubtful),
+    doubtful: cells.some(({ cell }) => doubtOf(cell) !== null),
     checked: cells.every(({ cell, mark }) => checkState(cell, mark) === 'yes'),
   };
+}
+
+/** Why a pose is doubtful, a sentence without its full stop; null where it is not. */
+export function doubtOf(cell: Cell): string | null {
+  if (!progressOf(cell, NO_MARK, null).doubtful) return null;
+  return verdictOf(cell.result)?.because ?? texts.joint.undecided;
 }
 
 /** What stands in frames that follow each other: a line is drawn through a run, none across a gap. */

@@ -1,4 +1,4 @@
-import { currentCell, currentFrame, type State } from '../document/store';
+import { currentCell, currentFrame, type State, type Store } from '../document/store';
 import { type Cell, cellOf, chosenCandidate } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { isOutdated, missingForPose } from '../results/missing';
@@ -51,7 +51,7 @@ export function Panel({ state }: { state: State }) {
       <Display state={state} />
       <div class="panel-foot">
         {actions.hasPoses(component) && (
-          <button type="button" class="button" title={texts.panel.savePosesTitle} onClick={() => actions.savePoses(component)}>
+          <button type="button" class="button" title={texts.panel.savePosesTitle} aria-haspopup="dialog" onClick={() => openPoses(services.store, component)}>
             {texts.panel.savePoses(texts.component[component])}
           </button>
         )}
@@ -63,6 +63,10 @@ export function Panel({ state }: { state: State }) {
       </div>
     </aside>
   );
+}
+
+function openPoses(store: Store, component: ComponentName): void {
+  store.show({ popover: 'export', exporting: { ...store.ui.exporting, kind: 'poses', component } });
 }
 
 /** Scores of a closed outline that may have a pose, or models with one. */

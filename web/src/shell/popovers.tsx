@@ -7,17 +7,16 @@ import { later } from '../commands/later';
 import { CalibrationSheet } from '../sheets/calibration_sheet';
 import { ComponentSheet } from '../sheets/component_sheet';
 import { Icon } from '../controls/icons';
-import { KeySheet } from '../sheets/key_sheet';
 import { LogSheet } from '../sheets/log_sheet';
-import { SessionSheet } from '../sheets/session_sheet';
 import { WorkSheet } from '../sheets/work_sheet';
-import { ImportSheet } from '../steps/open/import_sheet';
 import { texts } from '../texts/texts';
 
 const CalibrateSheet = later(async () => (await import('../sheets/calibrate_sheet')).CalibrateSheet);
 const ConvergenceSheet = later(async () => (await import('../sheets/convergence_sheet')).ConvergenceSheet);
+const ExportSheet = later(async () => (await import('../sheets/export_sheet')).ExportSheet);
 const FilmSheet = later(async () => (await import('../sheets/film_sheet')).FilmSheet);
-const JointSheet = later(async () => (await import('../steps/joint/joint_sheet')).JointSheet);
+const ImportSheet = later(async () => (await import('../steps/open/import_sheet')).ImportSheet);
+const KeySheet = later(async () => (await import('../sheets/key_sheet')).KeySheet);
 const ShapeSheet = later(async () => (await import('../sheets/shape_sheet')).ShapeSheet);
 const VideoSheet = later(async () => (await import('../steps/open/video_sheet')).VideoSheet);
 const ViewSheet = later(async () => (await import('../sheets/view_sheet')).ViewSheet);
@@ -39,7 +38,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   tibia: titleOf('tibia'),
   keys: texts.sheets.keys,
   log: texts.sheets.log,
-  session: texts.sheets.session,
+  export: texts.exporting.title,
   convergence: texts.sheets.convergence,
   work: texts.work.list,
   import: texts.exchange.title,
@@ -48,7 +47,6 @@ const TITLES: Readonly<Record<Popover, string>> = {
   calibrate: texts.calibrate.sheet,
   video: texts.files.video.sheet,
   film: texts.film.sheet,
-  joint: texts.joint.sheet.title,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -62,8 +60,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <KeySheet />;
     case 'log':
       return <LogSheet state={state} />;
-    case 'session':
-      return <SessionSheet state={state} />;
+    case 'export':
+      return <ExportSheet state={state} />;
     case 'work':
       return <WorkSheet state={state} />;
     case 'import':
@@ -78,8 +76,6 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <VideoSheet state={state} />;
     case 'film':
       return <FilmSheet state={state} />;
-    case 'joint':
-      return <JointSheet state={state} />;
     case 'view':
       return <ViewSheet state={state} />;
   }

@@ -37,8 +37,8 @@ export function TopBar({ state }: { state: State }) {
           aria-label={texts.top.saveLabel}
           title={texts.top.saveTitle}
           aria-haspopup="dialog"
-          aria-expanded={state.ui.popover === 'session'}
-          onClick={() => toggle(services.store, 'session')}
+          aria-expanded={state.ui.popover === 'export'}
+          onClick={() => toggle(services.store, 'export')}
         >
           <Icon name="save" /> <span class="word">{texts.top.save}</span>
         </button>

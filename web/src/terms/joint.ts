@@ -15,8 +15,6 @@ export interface JointView {
   readonly open: boolean;
   readonly convention: Convention;
   readonly over: Over;
-  /** Frames a second; NaN while nobody has said. */
-  readonly rate: number;
   /** The one curve that is shown large; null: all of them. */
   readonly alone: CurveName | null;
   /** Height of the dock as a part of the window's. */
@@ -26,4 +24,4 @@ export interface JointView {
 /** Heights of the dock, parts of the window's. */
 export const DOCK = { least: 0.2, usual: 0.4, large: 0.64, step: 0.04 } as const;
 
-export const DEFAULT_JOINT: JointView = { open: false, convention: 'field', over: 'frame', rate: NaN, alone: null, height: DOCK.usual };
+export const DEFAULT_JOINT: JointView = { open: false, convention: 'field', over: 'frame', alone: null, height: DOCK.usual };

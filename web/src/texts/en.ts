@@ -3,6 +3,7 @@ import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { check } from './en_check';
+import { exporting } from './en_exporting';
 import { files } from './en_files';
 import { film } from './en_film';
 import { first } from './en_first';
@@ -24,6 +25,7 @@ export const en = {
   tracing,
   calibrate,
   check,
+  exporting,
   files,
   film,
   first,
@@ -63,8 +65,8 @@ export const en = {
     open: 'Open files',
     openTitle: 'Open files (Ctrl+O)',
     save: 'Save',
-    saveLabel: 'Save session',
-    saveTitle: 'Save the session (Ctrl+S)',
+    saveLabel: 'Save and export',
+    saveTitle: 'Session (Ctrl+S), poses, joint numbers, figure, report, film',
     keys: 'Keys and mouse',
     keysTitle: 'Keys and mouse (?)',
     keysSign: '?',
@@ -111,7 +113,6 @@ export const en = {
     calibration: 'Calibration',
     keys: 'Keys and mouse',
     log: 'Log',
-    session: 'Save',
     convergence: 'Convergence',
   },
 
@@ -159,16 +160,6 @@ export const en = {
     area: 'Canonical area',
     use: 'Use these views',
     count: (views: number) => `${views} views`,
-  },
-
-  session: {
-    meaning:
-      'A session holds frames, calibration, models, outlines, poses, window and level: everything, in one file. A table holds poses with their standard deviations, how far each is to be trusted, and the reason of each choice.',
-    include: 'Include images and models (otherwise named by their SHA-256)',
-    save: 'Save session file',
-    poses: (component: string) => `${component} poses (.jts)`,
-    table: (component: string) => `${component} table (.csv)`,
-    tableTitle: 'With standard deviations, verdicts and the reason of the choice, a row a frame',
   },
 
   convergence: {
@@ -355,10 +346,6 @@ export const en = {
     to: (number: number, name: string, component: string) => `frame ${number} (${name}), ${component}`,
     nowhere: (reason: string) => `left out: ${reason}`,
     replaces: 'replaces the outline there',
-    region: 'Outlines and masks',
-    saveOutlines: 'Outlines (.json)',
-    saveCoco: 'COCO polygons (.json)',
-    saveMasks: 'Masks (.zip)',
     saved: (count: number, drafts: number, unknown: number) =>
       `${count === 1 ? '1 outline' : `${count} outlines`} saved.${drafts > 0 ? ` ${drafts} not closed: left out.` : ''}${unknown > 0 ? ` ${unknown} with unknown sides: this format cannot say so.` : ''}`,
     noneClosed: 'No outline is closed yet: there is nothing to save in this form.',

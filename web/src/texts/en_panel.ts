@@ -3,8 +3,8 @@ export const panel = {
   region: 'Pose',
   component: 'Component',
   switchTitle: (component: string) => `${component} (C switches)`,
-  savePoses: (component: string) => `Save ${component} poses`,
-  savePosesTitle: 'As a .jts file, a row a frame',
+  savePoses: (component: string) => `Save ${component} poses…`,
+  savePosesTitle: 'As .jts, a table or others',
   deleteOutline: 'Delete outline',
   deleteOutlineTitle: 'Shift+Delete',
 

@@ -38,6 +38,7 @@ export const steps = {
   changeWindow: 'change window and level',
   rename: 'rename the study',
   changeSide: 'change the side',
+  changeRate: 'change the frames a second',
   placeModel: 'place the model',
   moveModel: 'move the model',
   turnModel: 'turn the model',

@@ -4,6 +4,7 @@ import type { CalibrateProtocol } from './protocol/calibrate';
 import type { FilmProtocol } from './protocol/film';
 import type { FollowProtocol } from './protocol/follow';
 import type { PoseProtocol } from './protocol/pose';
+import type { OverlayProtocol } from './protocol/overlay';
 import type { LibraryProtocol } from './protocol/library';
 import type { DecodeProtocol } from './protocol/decode';
 
@@ -41,6 +42,12 @@ export function followWorker(): Bridge<FollowProtocol> {
 export function masksWorker(): Bridge<MasksProtocol> {
   return new Bridge<MasksProtocol>(() =>
     port(new Worker(new URL('./handlers/masks.ts', import.meta.url), { type: 'module', name: 'masks' })),
+  );
+}
+
+export function overlayWorker(): Bridge<OverlayProtocol> {
+  return new Bridge<OverlayProtocol>(() =>
+    port(new Worker(new URL('./handlers/overlay.ts', import.meta.url), { type: 'module', name: 'overlay' })),
   );
 }
 

@@ -6,7 +6,7 @@ import { framePoint } from '../../src/geometry/points';
 const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true, unknownSides: [0, 2] };
 const pose = { x: 4.605862, y: -17.13854, z: -1083.741, zRot: 7.91024, xRot: 5.66783, yRot: -1.187261 };
 
-const deviations = { x: 0.021, y: 0.02, z: 0.31, zRot: 0.03, xRot: 0.05, yRot: 0.06 };
+const deviations = { x: 0.021, y: 0.02, z: 0.31, zRot: 0.03, xRot: 0.05, yRot: 0.06, covariance: [1e-7, 1 / 3, -2.5] };
 
 const posed: Cell = {
   outline,
@@ -51,6 +51,7 @@ const doc: Doc = {
   },
   cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
   window: { centre: 2000, width: 4095 },
+  rate: 7.5,
   film: { stated: { display: 'linear', blur: 1.2 }, known: null },
   marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
 };
@@ -71,6 +72,15 @@ const written = () => writeSession(session, 'fluoropose 0', new Date(0)).join(''
 describe('session', () => {
   it('loses nothing', () => {
     expect(readSession(written())).toEqual(session);
+  });
+
+  it('reads what was saved before whole covariances and the speed of the film were kept', () => {
+    const old = written().replace(/,"covariance":\[[^\]]*\]/g, '').replace(',"rate":7.5', '');
+    expect(old).not.toMatch(/covariance|"rate"/);
+    const { rate, cells } = readSession(old).doc;
+    const { result } = cells[cellKey('ab:0', 'femur')]!;
+    const { covariance: _, ...six } = deviations;
+    expect([rate, result?.kind === 'posed' && result.candidates[0]?.deviations]).toEqual([null, six]);
   });
 
   it('reads candidates that were saved before poses were refined', () => {

@@ -8,6 +8,7 @@ const STUDY = `
 # a comment
 name = "my study"
 side = "left"
+frames_per_s = 15
 calibration = "calibration.txt"
 [[component]]
 name = "fem size 4"
@@ -35,8 +36,8 @@ describe('a study file', () => {
     expect(componentIn(study, 'reference', 'femur.jts')).toBe('femur');
     const store = new Store();
     store.perform(takeStudy(study, 'study.toml'));
-    const { name, side, components } = store.doc;
-    expect([name, side]).toEqual(['my study', 'left']);
+    const { name, side, rate, components } = store.doc;
+    expect([name, side, rate]).toEqual(['my study', 'left', 15]);
     expect(components.femur.axes).toMatchObject({ from: 'study', told: 'all' });
     expect(wordsOf(components.femur.axes!.directions)).toEqual(['y', 'z', 'x']);
     expect(components.tibia.axes).toBeNull();

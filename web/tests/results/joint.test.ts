@@ -5,7 +5,7 @@ import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
 import { curvesShown, type JointNumbers, pointsOf, rangeOf } from '../../src/results/joint_curves';
-import { faultsOf, inRuns, jointTable } from '../../src/results/joint_table';
+import { faultsOf, inRuns } from '../../src/results/joint_faults';
 import { jointAsked, motionNeeds, runsOf } from '../../src/results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
 
@@ -88,26 +88,8 @@ describe('curves of a joint', () => {
   });
 });
 
-describe('the table of a joint', () => {
-  it('has a row a frame, empty where nothing was found or known', () => {
-    const store = film();
-    store.perform(toggleChecked({ frameId: 'f1', component: 'femur' }));
-    const lines = jointTable(store.doc, numbers(), NaN).split('\r\n');
-    const rows = lines.filter((line) => !line.startsWith('#'));
-    expect(lines.some((line) => line.startsWith('# units: mm, degrees'))).toBe(true);
-    expect(rows[0]).toBe('frame,file,flexion_deg,field_medial_mm,sd_flexion_deg,sd_field_medial_mm,femur_verdict,tibia_verdict,femur_because,tibia_because,femur_checked,tibia_checked,femur_method,tibia_method');
-    expect(rows[2]).toBe('2,"f,1.png",20,-1,0.1,,good,good,"a test, so","a test, so",yes,no,refined,refined');
-    expect(rows[4]).toBe('4,"f,3.png",,,,,good,,"a test, so",,no,,refined,');
-    expect(rows).toHaveLength(1 + 6 + 1);
-  });
-
-  it('has times where somebody said how many frames there are in a second', () => {
-    const rows = jointTable(film().doc, numbers(), 20).split('\r\n').filter((line) => !line.startsWith('#'));
-    expect(rows[0]).toMatch(/^frame,file,time_s,flexion_deg/);
-    expect(rows[3]).toMatch(/^3,"f,2\.png",0\.1,40,/);
-  });
-
-  it('tells its faults before it is written', () => {
+describe('files of a joint', () => {
+  it('tell their faults before they are written', () => {
     const store = film();
     pose(store, 0, 'femur', {}, null);
     pose(store, 1, 'femur', { from: 'file', origin: 'a.jts' }, null);
@@ -116,7 +98,14 @@ describe('the table of a joint', () => {
     expect(faultsOf(store.doc)).toEqual({ missing: [4], unrefined: [1], unknown: [2], doubtful: [3], unchecked: [1, 2, 3, 5] });
   });
 
-  it('names frames in runs', () => {
+  it('of one component have its faults alone', () => {
+    const store = film();
+    pose(store, 2, 'tibia', { verdict: { word: 'doubtful', because: 'so' } });
+    expect(faultsOf(store.doc, ['tibia'])).toMatchObject({ missing: [4], doubtful: [3] });
+    expect(faultsOf(store.doc, ['femur'])).toMatchObject({ missing: [], doubtful: [], unchecked: [1, 2, 3, 4, 5, 6] });
+  });
+
+  it('name frames in runs', () => {
     expect(inRuns([1, 2, 3, 5, 8, 9])).toBe('1–3, 5, 8–9');
     expect(inRuns([1, 3, 5, 7], 2)).toBe('1, 3 …');
   });

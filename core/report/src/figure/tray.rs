@@ -45,6 +45,11 @@ impl View {
 }
 
 pub(super) fn draw(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, at: [f64; 2]) {
+    let foot = [at[0] + WIDTH / 2.0, at[1] + HEIGHT + 8.0];
+    if !film.has_plate() {
+        let told = "lowest points are not known: they need both models, and a tray";
+        return drawing.words(foot, Anchor::Middle, 10.5, told);
+    }
     let view = View::of(film, at);
     drawing.open("tray");
     let border: Vec<[f64; 2]> = film
@@ -65,7 +70,6 @@ pub(super) fn draw(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>,
     if let Some(pivot) = pivot.filter(|pivot| !pivot.is_ill_conditioned()) {
         cross(drawing, &view, &pivot);
     }
-    let foot = [at[0] + WIDTH / 2.0, at[1] + HEIGHT + 8.0];
     let outside = pivot
         .as_ref()
         .is_some_and(|pivot| !view.holds(view.place(place_of(pivot))));

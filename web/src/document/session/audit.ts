@@ -106,9 +106,14 @@ function poseRecord(result: Posed): PoseRecord {
     candidates: result.candidates.length,
     reason: reasonOf(result),
     pose,
-    deviations,
+    deviations: deviations && sixOf(deviations),
     residual,
   };
+}
+
+/** The document has the covariance too. */
+function sixOf({ x, y, z, zRot, xRot, yRot }: PoseNumbers): PoseNumbers {
+  return { x, y, z, zRot, xRot, yRot };
 }
 
 function reasonOf(result: Posed): string | null {

@@ -26,7 +26,7 @@ import type {
   Verdict,
   ViewWindow,
 } from '../types';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 
 /**
  * A session file: the whole document as JSON, every file it needs named by its SHA-256 and, unless the person chose
@@ -141,6 +141,12 @@ const readOutline: Reader<Outline> = (value, path) => {
 
 const readPose = object<PoseNumbers>({ x: number, y: number, z: number, zRot: number, xRot: number, yRot: number });
 
+const readUncertainty: Reader<Uncertainty> = (value, path) => {
+  // Sessions from before whole covariances were kept have none.
+  const { covariance } = object({ covariance: optional(list(number)) })(value, path);
+  return { ...readPose(value, path), ...(covariance && { covariance }) };
+};
+
 const readVerdict = object<Verdict>({ word: oneOf('good', 'doubtful'), because: text });
 
 const readCandidateParts = object<Omit<Candidate, 'support'>>({
@@ -149,7 +155,7 @@ const readCandidateParts = object<Omit<Candidate, 'support'>>({
   drawn: nullable(number),
   // Sessions from before poses were refined do not have them.
   residual: optional(number),
-  deviations: optional(readPose),
+  deviations: optional(readUncertainty),
   // Sessions of versions 1 and 2 have no verdicts.
   judged: optional(object<Judged>({ misfit: number, verdict: readVerdict })),
 });
@@ -260,6 +266,8 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   marks: missingAs({}, dictionary(readMark)),
   // Sessions from before distortion could be corrected have none.
   distortion: optional(readDistortion),
+  // Sessions from before the speed of the film was kept do not say it.
+  rate: optional(number),
   film: readFilm,
 });
 

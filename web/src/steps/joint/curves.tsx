@@ -1,6 +1,5 @@
 import { useMemo, useState } from 'preact/hooks';
 import { useApp } from '../../commands/app';
-import { NumberField } from '../../controls/number_field';
 import { Segments } from '../../controls/segments';
 import type { State } from '../../document/store';
 import type { Doc } from '../../document/types';
@@ -12,11 +11,12 @@ import { texts } from '../../texts/texts';
 import { CurvePanel } from './curve_panel';
 import { DockSize } from './dock_size';
 import { Needs } from './needs';
+import { RateField } from './rate_field';
 
 /** What the curves run over and by whose convention; the table. */
 export function JointTools({ state }: { state: State }) {
   const { store } = useApp().services;
-  const { convention, over, rate, height } = state.ui.joint;
+  const { convention, over, height } = state.ui.joint;
   const words = texts.joint;
   const isNext = standingOf(state.history.present).step === 'joint';
   return (
@@ -28,7 +28,7 @@ export function JointTools({ state }: { state: State }) {
         value={over}
         onChoose={(value) => store.setJoint({ over: value })}
       />
-      {over === 'time' && <NumberField label={words.rate} unit="1/s" value={rate} onChange={(value) => store.setJoint({ rate: value > 0 ? value : NaN })} />}
+      {over === 'time' && <RateField doc={state.history.present} />}
       <Segments
         label={words.convention}
         options={CONVENTIONS.map((value) => ({ value, title: words.conventions[value], hint: words.conventionHints[value] }))}
@@ -50,8 +50,8 @@ export function JointTools({ state }: { state: State }) {
         class={isNext ? 'button small primary' : 'button small'}
         title={words.saveTitle}
         aria-haspopup="dialog"
-        aria-expanded={state.ui.popover === 'joint'}
-        onClick={() => store.show({ popover: state.ui.popover === 'joint' ? null : 'joint' })}
+        aria-expanded={state.ui.popover === 'export'}
+        onClick={() => store.show({ popover: state.ui.popover === 'export' ? null : 'export', exporting: { ...state.ui.exporting, kind: 'joint' } })}
       >
         {words.save}
       </button>
@@ -62,19 +62,20 @@ export function JointTools({ state }: { state: State }) {
 export function Curves({ state }: { state: State }) {
   const { joint } = useApp();
   const { numbers } = joint;
-  const { over, rate } = state.ui.joint;
+  const { over } = state.ui.joint;
+  const { rate } = state.history.present;
   const needs = motionNeeds(state.history.present);
   if (needs) return <Needs needs={needs} />;
-  if (over === 'time' && !(rate > 0)) return <p class="joint-needs">{texts.joint.rateNeeded}</p>;
+  if (over === 'time' && rate === null) return <p class="joint-needs">{texts.joint.rateNeeded}</p>;
   return <Panels state={state} numbers={numbers} />;
 }
 
 function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
   const { store } = useApp().services;
   const [hovered, setHovered] = useState<number | null>(null);
-  const { convention, over, rate, alone } = state.ui.joint;
+  const { convention, over, alone } = state.ui.joint;
   const doc = state.history.present;
-  const along = useMemo(() => ({ over, rate }), [over, rate]);
+  const along = useMemo(() => ({ over, rate: doc.rate ?? NaN }), [over, doc.rate]);
   const names = curvesShown(convention, numbers.hasPlate);
   // The large one may be of the other convention.
   const large = names.find((name) => name === alone);

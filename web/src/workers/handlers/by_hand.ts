@@ -1,7 +1,7 @@
 import type { HandFit, HandVerdict, Landscape, Matcher, Traced } from '../../pkg/core/fluoropose_wasm.js';
 import type { Verdict } from '../../document/types';
 import type { FitFacts, GridAxis, HandProtocol, LandscapeFacts, Minimum } from '../protocol/by_hand';
-import { poseArray, poseFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import type { MatchInput } from '../protocol/match';
 import { filmArray, type MatcherOf, onFrame } from './on_frame';
 import type { Handlers } from './serve';
@@ -34,11 +34,12 @@ export function byHand({ withTraced, matcherOf }: Held): Handlers<HandProtocol> 
 }
 
 function factsOf(fit: HandFit): FitFacts {
-  const { residual, drawn = null, deviations, bright } = fit;
+  const { residual, drawn = null, bright } = fit;
+  const deviations = uncertaintyFrom(fit.uncertainty);
   const pose = poseFrom(fit.pose);
   const verdict = verdictOf(fit.verdict);
   fit.free();
-  return { pose, residual, drawn, deviations: deviations ? poseFrom(deviations) : null, bright, verdict };
+  return { pose, residual, drawn, deviations, bright, verdict };
 }
 
 function verdictOf(raw: HandVerdict): Verdict {

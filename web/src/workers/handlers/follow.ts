@@ -3,7 +3,7 @@ import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
 import type { Beside, Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
 import type { FramePixels } from '../protocol/frame_pixels';
-import { poseArray, poseFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import { loadCore } from './core_module';
 import { imageOf } from './frame_pixels';
 import { type Context, serve } from './serve';
@@ -75,7 +75,7 @@ serve<FollowProtocol>({
       state: (film.state(frame) ?? 'unsolved') as FollowState,
       because: film.because(frame) ?? '',
       pose: posed(film.pose(frame)),
-      deviations: posed(film.deviations(frame)),
+      deviations: uncertaintyFrom(film.uncertainty(frame)),
       residual: film.residual(frame) ?? null,
       badness: film.badness(frame) ?? 0,
       rival: rivalOf(film, frame),

@@ -1,10 +1,12 @@
-import { KneeJoint } from '../../pkg/core/fluoropose_wasm.js';
+import { JointReport, KneeJoint, writeJtak, writeJtap, writeTra } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
-import type { JointPart, JointProtocol, Uncertain } from '../protocol/joint';
-import { poseArray } from '../protocol/pose_array';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { JointPart, JointProtocol, JointText, PoseText, PublishedFilm, Uncertain } from '../protocol/joint';
+import { poseArray, uncertaintyArray } from '../protocol/pose_array';
 import type { Handlers } from './serve';
 
-const UNKNOWN: readonly number[] = Array<number>(6).fill(NaN);
+const NOTHING = new Float64Array();
+const NO_POSE: readonly number[] = Array<number>(6).fill(NaN);
 
 /** The joint between two components, open in this worker. */
 export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
@@ -22,7 +24,56 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       const numbers = frames.flatMap(({ femur, tibia }) => [...uncertain(femur), ...uncertain(tibia)]);
       return open.numbers(Float64Array.from(numbers)) as Float64Array<ArrayBuffer>;
     },
+    publish: ({ film, what }) => {
+      if (!open) throw new Error('No joint is open');
+      const report = reportOf(open, film);
+      try {
+        return textOf(report, what);
+      } finally {
+        report.free();
+      }
+    },
+    poseText: async (text) => {
+      await ready;
+      return poseText(text);
+    },
   };
+}
+
+function reportOf(joint: KneeJoint, { name, rate, frames, inputs, settings, remarks }: PublishedFilm): JointReport {
+  const report = new JointReport(joint, name, rate);
+  for (const { numbers, checked, doubt } of frames) report.addFrame(numbers ?? NOTHING, checked, doubt ?? undefined);
+  for (const input of inputs) report.addInput(input.what, input.name, input.sha256);
+  for (const [setting, value] of settings) report.addSetting(setting, value);
+  for (const remark of remarks) report.addRemark(remark);
+  return report;
+}
+
+function textOf(report: JointReport, what: JointText): string {
+  switch (what.form) {
+    case 'table':
+      return report.table();
+    case 'mot':
+      return report.mot();
+    case 'cycle':
+      return report.cycle(what.column);
+    case 'figure':
+      return report.figure();
+    case 'report':
+      return report.html();
+  }
+}
+
+function poseText(text: PoseText): string {
+  const numbers = (poses: readonly (PoseNumbers | null)[]) => Float64Array.from(poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE)));
+  switch (text.form) {
+    case 'jtak':
+      return writeJtak(numbers(text.poses));
+    case 'jtap':
+      return writeJtap(numbers(text.poses));
+    case 'tra':
+      return writeTra(numbers(text.poses.femur), numbers(text.poses.tibia));
+  }
 }
 
 function partOf({ mesh, axes }: JointPart): [Float32Array, Uint32Array, Float64Array] {
@@ -30,5 +81,5 @@ function partOf({ mesh, axes }: JointPart): [Float32Array, Uint32Array, Float64A
 }
 
 function uncertain({ pose, deviations }: Uncertain): readonly number[] {
-  return [...poseArray(pose), ...(deviations ? poseArray(deviations) : UNKNOWN)];
+  return [...poseArray(pose), ...uncertaintyArray(deviations)];
 }

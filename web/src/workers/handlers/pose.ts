@@ -2,7 +2,7 @@ import { choosePose, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroun
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import type { ComponentName } from '../../terms/component';
-import { poseArray, poseFrom } from '../protocol/pose_array';
+import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
 import type { DistortionInput } from '../protocol/camera';
@@ -140,14 +140,13 @@ function copied(found: RawMatch, matcher: Matcher, milliseconds: number): Match 
 }
 
 function candidateOf(found: RawMatch, index: number, size: number): MatchedCandidate {
-  const deviations = found.deviations(index);
   const start = found.start(index);
   return {
     pose: poseFrom(found.pose(index) ?? []),
     unmatched: found.unmatched(index) ?? null,
     drawn: found.drawn(index) ?? null,
     residual: found.residual(index) ?? null,
-    deviations: deviations ? poseFrom(deviations) : null,
+    deviations: uncertaintyFrom(found.uncertainty(index)),
     judged: judgedOf(found, index),
     start: start ? poseFrom(start) : null,
     atBorder: found.atBorder(index) ?? false,

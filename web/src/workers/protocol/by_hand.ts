@@ -1,5 +1,5 @@
 import type { Verdict } from '../../document/types';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { MatchInput } from './match';
 import type { CameraInput } from './camera';
@@ -30,7 +30,7 @@ export interface FitFacts {
   /** Frame pixels that differ from the outline; null without one. */
   readonly drawn: number | null;
   /** Null where numbers were locked, or the pose is not determined. */
-  readonly deviations: PoseNumbers | null;
+  readonly deviations: Uncertainty | null;
   /** The implant was taken to be brighter than what surrounds it; of the frame alone. */
   readonly bright: boolean;
   readonly verdict: Verdict;

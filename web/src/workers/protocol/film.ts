@@ -1,5 +1,5 @@
 import type { Judged, StatedFilm } from '../../document/types';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { ComponentName } from '../../terms/component';
 import type { OnFrame } from './by_hand';
 
@@ -38,7 +38,7 @@ export interface Corrected {
   readonly from: number | null;
   readonly pose: PoseNumbers;
   readonly residual: number | null;
-  readonly deviations: PoseNumbers | null;
+  readonly deviations: Uncertainty | null;
   readonly judged: Judged | null;
   /** Part of the outline that lies on edges. */
   readonly support: number;

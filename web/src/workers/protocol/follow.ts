@@ -1,5 +1,5 @@
 import type { Candidate } from '../../document/types';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { Directions } from '../../geometry/axes';
 import type { ModelMesh } from './decode';
 import type { CameraInput } from './camera';
@@ -80,7 +80,7 @@ export interface FollowedFrame {
   /** A sentence without its full stop. */
   readonly because: string;
   readonly pose: PoseNumbers | null;
-  readonly deviations: PoseNumbers | null;
+  readonly deviations: Uncertainty | null;
   readonly residual: number | null;
   /** How bad it is: above 1 it is doubtful. */
   readonly badness: number;

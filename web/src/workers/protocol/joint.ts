@@ -1,5 +1,6 @@
 import type { Directions } from '../../geometry/axes';
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
 import type { ModelMesh } from './decode';
 
 /** One component of a joint. Without a model nothing is known of lowest points. */
@@ -21,15 +22,45 @@ export interface JointFacts {
   readonly hasPlate: boolean;
 }
 
-/** A pose, and one standard deviation of each of its numbers, where these are known. */
+/** A pose, and how uncertain it is, where that is known. */
 export interface Uncertain {
   readonly pose: PoseNumbers;
-  readonly deviations: PoseNumbers | null;
+  readonly deviations: Uncertainty | null;
 }
+
+/** A frame of what is published: its numbers, as the open joint gave them. */
+export interface PublishedFrame {
+  readonly numbers: Float64Array<ArrayBuffer> | null;
+  readonly checked: boolean;
+  /** Why it is doubtful; null where it is not. */
+  readonly doubt: string | null;
+}
+
+/** All that files, figure and report of the open joint tell. */
+export interface PublishedFilm {
+  readonly name: string;
+  /** Frames a second; NaN where nobody said. */
+  readonly rate: number;
+  readonly frames: readonly PublishedFrame[];
+  readonly inputs: readonly { readonly what: string; readonly name: string; readonly sha256: string }[];
+  readonly settings: readonly (readonly [string, string])[];
+  readonly remarks: readonly string[];
+}
+
+/** A text that is made of the numbers; `cycle`: one of them at 101 points. */
+export type JointText = { readonly form: 'table' | 'mot' | 'figure' | 'report' } | { readonly form: 'cycle'; readonly column: string };
+
+/** A text that is made of poses, a row a frame. */
+export type PoseText =
+  | { readonly form: 'jtak' | 'jtap'; readonly poses: readonly (PoseNumbers | null)[] }
+  | { readonly form: 'tra'; readonly poses: Readonly<Record<ComponentName, readonly (PoseNumbers | null)[]>> };
 
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
   /** The numbers of frames, one after another, NaN for what is not known. Throws while no joint is open. */
   joint: { input: readonly { readonly femur: Uncertain; readonly tibia: Uncertain }[]; output: Float64Array<ArrayBuffer>; progress: never };
+  /** The same text as the command line's. Throws while no joint is open, and for what needs times where there are none. */
+  publish: { input: { readonly film: PublishedFilm; readonly what: JointText }; output: string; progress: never };
+  poseText: { input: PoseText; output: string; progress: never };
 }

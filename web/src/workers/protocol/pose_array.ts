@@ -1,4 +1,4 @@
-import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 
 /** Poses as the six numbers in which they cross into WASM: mm, then degrees. */
 export function poseArray(pose: PoseNumbers): number[] {
@@ -8,4 +8,17 @@ export function poseArray(pose: PoseNumbers): number[] {
 export function poseFrom(values: ArrayLike<number>): PoseNumbers {
   const [x = 0, y = 0, z = 0, zRot = 0, xRot = 0, yRot = 0] = Array.from(values);
   return { x, y, z, zRot, xRot, yRot };
+}
+
+/** Numbers of a pose's uncertainty on the same way: six standard deviations and the upper half of a covariance. */
+const UNCERTAIN = 27;
+
+export function uncertaintyFrom(values: Float64Array | undefined): Uncertainty | null {
+  return values ? { ...poseFrom(values), covariance: Array.from(values.subarray(6, UNCERTAIN)) } : null;
+}
+
+/** NaN for what is not known. */
+export function uncertaintyArray(uncertainty: Uncertainty | null): number[] {
+  const known = uncertainty ? [...poseArray(uncertainty), ...(uncertainty.covariance ?? [])] : [];
+  return [...known, ...Array<number>(UNCERTAIN - known.length).fill(NaN)];
 }

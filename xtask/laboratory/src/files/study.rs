@@ -22,6 +22,8 @@ pub struct Study {
     pub calibration: PathBuf,
     /// Folder of frames; their names' order is their order in time.
     pub frames: Option<PathBuf>,
+    /// Frames a second, where they are known.
+    pub frames_per_s: Option<f64>,
     /// Constants of the film, where a person states them; the components state their attenuation.
     pub film: Option<StatedFilm>,
     /// The components.

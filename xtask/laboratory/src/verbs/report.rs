@@ -34,11 +34,11 @@ pub struct Args {
     /// Folder for what is written; made if absent
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Frames a second
+    /// Frames a second; without it those that the study states
     #[arg(long, value_name = "HZ")]
     fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
-    #[arg(long, value_name = "HZ", requires = "fps")]
+    #[arg(long, value_name = "HZ")]
     cutoff: Option<f64>,
 }
 
@@ -49,10 +49,10 @@ pub struct Args {
 pub fn run(args: Args) -> Result<()> {
     let study = Study::read(&args.study)?;
     let sources = Sources::read(&args.study, &study, args.poses.as_deref())?;
-    let filtering = Filtering::new(args.fps, args.cutoff)?;
+    let filtering = Filtering::new(args.fps.or(study.frames_per_s), args.cutoff)?;
     let knee = Knee::new(&study, &sources)?;
     let film = knee.film(&sources, &filtering)?;
-    let facts = facts(&args, &knee, &sources);
+    let facts = facts(&knee, &sources);
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
     write_all(&args.out, &film, &sources, &facts)?;
@@ -83,27 +83,16 @@ fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> 
     Ok(())
 }
 
-fn facts(args: &Args, knee: &Knee, sources: &Sources) -> Facts {
-    let mut settings = vec![
-        ("six numbers".to_owned(), "field: femoral origin in tibial axes; rotations z, x, y, which is Grood and Suntay's sequence; their translations in joint.csv as gs_*".to_owned()),
-        ("femoral axes".to_owned(), format!("anterior, superior, right: {}", knee.femur_axes)),
-        ("tibial axes".to_owned(), format!("anterior, superior, right: {}", knee.tibia_axes)),
-        ("poses".to_owned(), sources.whose.clone()),
-    ];
-    let rate = args.fps.map_or("not stated".to_owned(), |fps| {
-        format!("{fps} frames a second")
-    });
-    settings.push(("times".to_owned(), rate));
-    let filter = args.cutoff.map_or("none".to_owned(), |cutoff| {
-        format!("{cutoff} Hz, zero-lag Butterworth of fourth order, in joint.csv beside the others; the figure is unfiltered")
-    });
-    settings.push(("filter".to_owned(), filter));
-    Facts {
-        made_by: format!("fluoropose {}", env!("CARGO_PKG_VERSION")),
+fn facts(knee: &Knee, sources: &Sources) -> Facts {
+    let mut facts = Facts {
         inputs: sources.inputs.clone(),
-        settings,
         remarks: knee.remarks.clone(),
-    }
+        ..Facts::default()
+    };
+    facts.set_axes("femoral", &knee.femur_axes);
+    facts.set_axes("tibial", &knee.tibia_axes);
+    facts.set("poses", sources.whose.as_str());
+    facts
 }
 
 fn print(out: &Path, film: &JointFilm) {
@@ -118,7 +107,7 @@ fn print(out: &Path, film: &JointFilm) {
         println!("no standard deviations: the poses come without covariances");
     }
     if film.frames_per_s.is_none() {
-        println!("no joint.mot: it needs times (--fps)");
+        println!("no joint.mot: it needs times (--fps, or frames_per_s in the study)");
     }
     println!("{}", out.join("report.html").display());
 }

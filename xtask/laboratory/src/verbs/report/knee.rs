@@ -1,6 +1,6 @@
 //! The joint of a study, frame by frame.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use fluoropose::joint::low_pass::LowPass;
 use fluoropose::joint::numbers::NUMBERS;
 use fluoropose::joint::relative::{NOTHING_COMMON, Relative};
@@ -25,9 +25,10 @@ pub(super) struct Filtering {
 
 impl Filtering {
     pub(super) fn new(frames_per_s: Option<f64>, cutoff_hz: Option<f64>) -> Result<Self> {
-        let low_pass = match cutoff_hz.zip(frames_per_s) {
-            Some((cutoff, rate)) => Some(LowPass::new(cutoff, rate)?),
-            None => None,
+        let low_pass = match (cutoff_hz, frames_per_s) {
+            (None, _) => None,
+            (Some(cutoff), Some(rate)) => Some(LowPass::new(cutoff, rate)?),
+            (Some(_), None) => bail!("a filter needs the frames a second (--fps)"),
         };
         Ok(Self {
             frames_per_s,
@@ -41,8 +42,8 @@ pub(super) struct Knee<'s> {
     name: String,
     side: Side,
     joint: Joint<'s>,
-    pub(super) femur_axes: String,
-    pub(super) tibia_axes: String,
+    pub(super) femur_axes: AnatomicalAxes,
+    pub(super) tibia_axes: AnatomicalAxes,
     pub(super) remarks: Vec<String>,
 }
 
@@ -79,8 +80,8 @@ impl<'s> Knee<'s> {
             side,
             joint: joint
                 .context("no part of the tibial model faces upwards like a tray's plate")?,
-            femur_axes: femur.to_string(),
-            tibia_axes: tibia.to_string(),
+            femur_axes: femur,
+            tibia_axes: tibia,
             remarks,
         })
     }
@@ -102,6 +103,7 @@ impl<'s> Knee<'s> {
                 number: frame + 1,
                 joint,
                 filtered: filtered.get(frame).copied().flatten(),
+                checked: false,
                 doubt: sources.doubts.get(&frame).cloned(),
             });
         }

@@ -1,0 +1,31 @@
+import { useApp } from '../commands/app';
+import type { State } from '../document/store';
+import { FAULTS, faultsOf, inRuns } from '../results/joint_faults';
+import { COMPONENT_NAMES } from '../terms/component';
+import { texts } from '../texts/texts';
+
+/** What is unrefined, unchecked, doubtful or missing in it, before it is written. */
+export function ExportFaults({ state }: { state: State }) {
+  const { joint } = useApp();
+  const doc = state.history.present;
+  const { kind, forms, component } = state.ui.exporting;
+  if (kind === 'session' || kind === 'outlines' || doc.frames.length === 0) return null;
+  const isOfOne = kind === 'poses' && forms.poses !== 'tra';
+  const faults = faultsOf(doc, isOfOne ? [component] : COMPONENT_NAMES);
+  const found = FAULTS.filter((fault) => faults[fault].length > 0);
+  const words = texts.exporting.faults;
+  return (
+    <>
+      {kind !== 'poses' && joint.numbers.of.size > 0 && <p class="sheet-text">{words.frames(joint.numbers.of.size, doc.frames.length)}</p>}
+      {found.length === 0 ? (
+        <p class="sheet-text">{words.none}</p>
+      ) : (
+        <ul class="export-faults">
+          {found.map((fault) => (
+            <li key={fault}>{words.fault(faults[fault].length, words[fault], inRuns(faults[fault]))}</li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,34 @@
+import type { ComponentName } from './component';
+
+/** What leaves the page as a file. */
+export const EXPORTS = ['session', 'poses', 'joint', 'figure', 'report', 'film', 'outlines'] as const;
+export type ExportKind = (typeof EXPORTS)[number];
+
+/** Forms of each, the usual one first. */
+export const FORMS = {
+  session: ['whole', 'without files'],
+  poses: ['jts', 'csv', 'jtak', 'jtap', 'tra'],
+  joint: ['csv', 'mot', 'cycle'],
+  figure: ['svg', 'png'],
+  report: ['html'],
+  film: ['video', 'pictures'],
+  outlines: ['outlines', 'coco', 'masks'],
+} as const satisfies Record<ExportKind, readonly string[]>;
+export type FormOf<K extends ExportKind> = (typeof FORMS)[K][number];
+
+/** What the export sheet shows, and would write. */
+export interface Exporting {
+  readonly kind: ExportKind;
+  readonly forms: { readonly [K in ExportKind]: FormOf<K> };
+  /** Whose poses, in a file of one component. */
+  readonly component: ComponentName;
+  /** Which number at 101 points, by the core's name. */
+  readonly column: string;
+}
+
+export const DEFAULT_EXPORTING: Exporting = {
+  kind: 'session',
+  forms: { session: 'whole', poses: 'jts', joint: 'csv', figure: 'svg', report: 'html', film: 'video', outlines: 'outlines' },
+  component: 'femur',
+  column: 'flexion_deg',
+};
