@@ -2,13 +2,11 @@ import * as commands from '../document/commands';
 import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownFraction } from '../document/sides';
 import { poseTable } from '../document/session/table';
+import { unjudged } from '../document/followed';
 import { cellOf, chosenCandidate } from '../document/types';
 import { otherThan, type ComponentName } from '../terms/component';
-import { openDemonstration } from '../exchange/demonstration';
-import { openFiles } from '../exchange/opener';
 import type { Incoming } from '../exchange/incoming';
-import { readFiles, type Located } from '../exchange/reading';
-import { saveSession } from '../exchange/saver';
+import { meantFiles, type Located } from '../exchange/reading';
 import { sentenceOf, type Services } from '../jobs/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
@@ -289,23 +287,26 @@ export class Actions {
     await this.openLocated(await pickFiles('folder'));
   }
 
-  /** Reads files and opens them, whatever they are. */
+  /** Opens files, whatever they are. */
   async openLocated(files: readonly Located[], component?: ComponentName): Promise<void> {
-    try {
-      const read = await readFiles(this.#store, files);
-      if (files.length > 0 && read.length === 0) this.#store.say('info', texts.files.nothing);
-      await this.open(read.map((file) => ({ ...file, component })));
-    } catch (error) {
-      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
-    }
+    const meant = meantFiles(files);
+    if (files.length > 0 && meant.length === 0) this.#store.say('info', texts.files.nothing);
+    await this.open(meant.map((file) => ({ ...file, component })));
   }
 
   async open(files: readonly Incoming[]): Promise<void> {
-    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files, (file) => this.videos?.begin(file)));
+    if (files.length === 0) return;
+    await this.#telling(async () => {
+      const { openFiles } = await import('../exchange/opener');
+      await openFiles(this.#services, files, (file) => this.videos?.begin(file));
+    });
   }
 
   async openDemonstration(): Promise<void> {
-    await this.#telling(() => openDemonstration(this.#services));
+    await this.#telling(async () => {
+      const { openDemonstration } = await import('../exchange/demonstration');
+      await openDemonstration(this.#services);
+    });
   }
 
   async saveSession(includeFiles = true): Promise<void> {
@@ -314,6 +315,7 @@ export class Actions {
 
   async #writeSession(includeFiles: boolean): Promise<void> {
     const { store } = this.#services;
+    const { saveSession } = await import('../exchange/saver');
     const doc = store.doc;
     download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
@@ -327,14 +329,20 @@ export class Actions {
     const poses = doc.frames.map((frame) => chosenCandidate(cellOf(doc, frame.id, component))?.pose ?? null);
     const without = doc.frames.filter((_, index) => !poses[index]).length;
     download([studio.writePoses(poses)], `${fileStem(doc.name)}_${component}.jts`, 'text/plain');
-    store.say('info', texts.said.posesSaved(texts.component[component], poses.length, without));
+    this.#saySaved(component, texts.said.posesSaved(texts.component[component], poses.length, without));
   }
 
   /** Poses with their standard deviations and why they were chosen, which a .jts file has no room for. */
   saveTable(component: ComponentName): void {
     const { doc } = this.#store;
     download([poseTable(doc, component)], `${fileStem(doc.name)}_${component}.csv`, 'text/csv');
-    this.#store.say('info', texts.said.tableSaved(texts.component[component], doc.frames.length));
+    this.#saySaved(component, texts.said.tableSaved(texts.component[component], doc.frames.length));
+  }
+
+  /** What is written while the film is followed has not been judged as a whole. */
+  #saySaved(component: ComponentName, sentence: string): void {
+    const count = unjudged(this.#store.doc, component);
+    this.#store.say('info', count === 0 ? sentence : `${sentence} ${texts.follow.unjudged(count)}`);
   }
 
   hasPoses(component: ComponentName): boolean {
@@ -346,7 +354,7 @@ export class Actions {
     try {
       await work();
     } catch (error) {
-      this.#store.say('error', sentenceOf(error));
+      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
     }
   }
 }

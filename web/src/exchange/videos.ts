@@ -29,11 +29,11 @@ export class Videos {
   }
 
   /** Throws a sentence for what the browser cannot decode. */
-  async begin({ name, bytes }: Incoming): Promise<void> {
+  async begin({ name, blob }: Incoming): Promise<void> {
     const { store } = this.#services;
     const abort = new AbortController();
     const job = { title: said.measuring, unit: '', total: 0, cancel: () => abort.abort(new Aborted()) };
-    const video = await asJob(store, job, () => openVideo(name, bytes, abort.signal));
+    const video = await asJob(store, job, () => openVideo(name, blob, abort.signal));
     this.#letGo();
     this.#video = video;
     store.show({ popover: 'video' });
@@ -75,7 +75,7 @@ export class Videos {
     } finally {
       video.close();
     }
-    if (taken.length > 0) await this.#open(taken);
+    if (taken.length > 0) await this.#open(taken.map(({ name, bytes }) => ({ name, blob: new Blob([bytes]) })));
     if (abort.signal.aborted) return store.say('info', said.called(taken.length));
     store.say('info', said.taken(taken.length, video.name, repeated === 0 ? said.noneRepeated : said.repeated(repeated)));
   }
