@@ -41,7 +41,12 @@ const MAIN_CONTROLS = [
 
 pageTest('accessibility', async (page, t) => {
   await bringAxe(page);
-  await step(page, t, 'the empty page', () => isAccessible(page));
+  await step(page, t, 'the empty page', async () => {
+    await isAccessible(page);
+    // Neither a way to go nor anything to save.
+    assert.equal(await page.getByRole('button', { name: 'Save session', exact: true }).count(), 0);
+    assert.equal(await page.getByRole('list', { name: 'Steps' }).count(), 0);
+  });
 
   await step(page, t, 'with a pose', async () => {
     await panel.openDemonstration(page);
@@ -100,13 +105,24 @@ async function tabThrough(page) {
 
 pageTest('a narrow window', async (page, t) => {
   await panel.openDemonstration(page);
-  for (const width of [1024, 700]) {
+  await panel.waitForLibraries(page, 'Femur', 'Tibia');
+  for (const width of [1440, 1024, 700]) {
     await step(page, t, `${width} px: nothing lies on what is to be pressed`, async () => {
       await page.setViewportSize({ width, height: 700 });
       for (const name of [/^Calibration: /, /^Femur: /, /^Tibia: /, 'Open files', 'Save and export', 'Keys and mouse', 'Next frame', 'Log']) {
         await page.getByRole('button', { name, exact: true }).first().click({ trial: true, timeout: 5000 });
       }
+      if (width > 860) assert.deepEqual(await cutNames(page), []);
       await screenshot(page, `narrow ${width}`);
     });
   }
 });
+
+/** Names in the top bar that there is no room for. @param {Page} page */
+function cutNames(page) {
+  return page.evaluate(() =>
+    Array.from(document.querySelectorAll('.chip-head'))
+      .filter((head) => head.scrollWidth > head.clientWidth)
+      .map((head) => head.parentElement?.textContent),
+  );
+}

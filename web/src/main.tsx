@@ -29,7 +29,9 @@ import { tellLostJobs } from './keep/lost_jobs';
 import { keepForOffline } from './keep/offline';
 import { Poser } from './jobs/poser';
 import type { Services } from './jobs/services';
+import { frameDecoder } from './films/decoding';
 import { Studio } from './films/studio';
+import { FramesAhead } from './jobs/frames_ahead';
 import { Videos } from './exchange/videos';
 import { atRest, shown } from './workers/activity';
 import { decodeWorker, filmWorker, poseWorker } from './workers/start';
@@ -45,14 +47,12 @@ import { SeeingActions } from './commands/seeing_actions';
 import { rememberTaste } from './keep/taste';
 
 async function start(root: HTMLElement): Promise<void> {
-  const services: Services = {
-    store: new Store(),
-    studio: await Studio.open(),
-    assets: new Assets(),
-    decoder: decodeWorker(),
-  };
+  const assets = new Assets();
+  const studio = await Studio.open(frameDecoder(assets, decodeWorker()));
+  const services: Services = { store: new Store(), studio, assets, decoder: decodeWorker() };
   // Before anybody looks at frames: it sees to it that they are undistorted where the document says so.
   const calibrator = new Calibrator(services);
+  new FramesAhead(services);
   const keeper = new Keeper(services);
   const kept = await workToRestore(keeper).catch(() => null);
   const matcher = poseWorker();

@@ -3,11 +3,8 @@ import { currentCell, currentPlace, type Store } from '../document/store';
 import { unknownFraction } from '../document/sides';
 import { cellOf, chosenCandidate } from '../document/types';
 import { otherThan, type ComponentName } from '../terms/component';
-import { openDemonstration } from '../exchange/demonstration';
-import { openFiles } from '../exchange/opener';
 import type { Incoming } from '../exchange/incoming';
-import { readFiles, type Located } from '../exchange/reading';
-import { saveSession } from '../exchange/saver';
+import { meantFiles, type Located } from '../exchange/reading';
 import { sentenceOf, type Services } from '../jobs/services';
 import { canvasPoint } from '../geometry/points';
 import { zoomAt, type Size, type Viewport } from '../geometry/viewport';
@@ -285,23 +282,26 @@ export class Actions {
     await this.openLocated(await pickFiles('folder'));
   }
 
-  /** Reads files and opens them, whatever they are. */
+  /** Opens files, whatever they are. */
   async openLocated(files: readonly Located[], component?: ComponentName): Promise<void> {
-    try {
-      const read = await readFiles(this.#store, files);
-      if (files.length > 0 && read.length === 0) this.#store.say('info', texts.files.nothing);
-      await this.open(read.map((file) => ({ ...file, component })));
-    } catch (error) {
-      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
-    }
+    const meant = meantFiles(files);
+    if (files.length > 0 && meant.length === 0) this.#store.say('info', texts.files.nothing);
+    await this.open(meant.map((file) => ({ ...file, component })));
   }
 
   async open(files: readonly Incoming[]): Promise<void> {
-    if (files.length > 0) await this.#telling(() => openFiles(this.#services, files, (file) => this.videos?.begin(file)));
+    if (files.length === 0) return;
+    await this.#telling(async () => {
+      const { openFiles } = await import('../exchange/opener');
+      await openFiles(this.#services, files, (file) => this.videos?.begin(file));
+    });
   }
 
   async openDemonstration(): Promise<void> {
-    await this.#telling(() => openDemonstration(this.#services));
+    await this.#telling(async () => {
+      const { openDemonstration } = await import('../exchange/demonstration');
+      await openDemonstration(this.#services);
+    });
   }
 
   async saveSession(includeFiles = true): Promise<void> {
@@ -310,6 +310,7 @@ export class Actions {
 
   async #writeSession(includeFiles: boolean): Promise<void> {
     const { store } = this.#services;
+    const { saveSession } = await import('../exchange/saver');
     const doc = store.doc;
     download(await saveSession(this.#services, includeFiles), `${fileStem(doc.name)}.fluoropose.json`, 'application/json');
     store.markSaved(doc);
@@ -326,7 +327,7 @@ export class Actions {
     try {
       await work();
     } catch (error) {
-      this.#store.say('error', sentenceOf(error));
+      this.#store.say(error instanceof Aborted ? 'info' : 'error', error instanceof Aborted ? texts.files.called : sentenceOf(error));
     }
   }
 }

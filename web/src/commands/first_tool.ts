@@ -12,7 +12,7 @@ export function takeFirstTool(store: Store): void {
     if (ready === wasReady) return;
     wasReady = ready;
     const { tool } = store.ui;
-    const isBegun = Object.keys(store.doc.cells).length > 0;
+    const isBegun = !store.doc.cells.isEmpty;
     if (ready && tool === 'trace' && !isBegun) store.show({ tool: 'one-click' });
     if (!ready && tool === 'one-click') store.show({ tool: 'trace' });
   });

@@ -5,6 +5,7 @@ import { cellOf, type Outline } from '../document/types';
 import type { TracingTools } from '../tracing/tracing_tools';
 import { snappedOutline } from '../tracing/snapping';
 import type { Services } from '../jobs/services';
+import { withoutLoops } from '../geometry/loops';
 import { framePoint } from '../geometry/points';
 import { boundsOf, middleOf, moved, scaled, rotated, type Similarity } from '../geometry/similarity';
 import { RADIUS } from '../terms/tracing';
@@ -108,11 +109,18 @@ export class TracingActions {
     const outline = this.#closedOutline();
     if (!place || !outline) return true;
     if (!image) return this.#say(texts.tracing.said.noPixels(frame?.name ?? ''));
-    const { points, unknownSides, greatest, rms } = snappedOutline(image, outline, ui.tracing.bright !== true, ui.tracing.reach);
-    if (points.length === 0 || greatest === 0) return this.#say(texts.tracing.said.noEdge);
+    const snapped = snappedOutline(image, outline, ui.tracing.bright !== true, ui.tracing.reach);
+    const { greatest, rms } = snapped;
+    if (snapped.points.length === 0 || greatest === 0) {
+      store.sayAt(place, 'info', texts.tracing.said.noEdge);
+      return true;
+    }
+    // Where an edge bends more sharply than the outline, points pass each other.
+    const { points, unknownSides } = withoutLoops(snapped);
     store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
     store.show({ selectedPoint: null });
-    return this.#say(texts.tracing.said.snapped(greatest.toFixed(1), rms.toFixed(2)));
+    const isCut = points !== snapped.points;
+    return this.#say(texts.tracing.said.snapped(greatest.toFixed(1), rms.toFixed(2), isCut));
   }
 
   #allKnown(): boolean {

@@ -3,7 +3,7 @@ import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Command } from './command';
 import { list, number, object, oneOf, ReadError, type Reader } from './reader';
-import type { Axes, Cell, Component, Doc } from './types';
+import type { Axes, Component, Doc } from './types';
 
 /** What a shape told, or a person or a study said; null: what was said before no longer holds, and the shape is asked again. */
 export function setAxes(name: ComponentName, axes: Axes | null): Command {
@@ -53,12 +53,12 @@ export const OWN_AXES: Directions = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 
 /** Choices between rivals may have rested on the tilt. What a person chose stays. */
 function withOpenChoices(doc: Doc): Doc {
-  const cells = Object.entries(doc.cells).map(([key, cell]): [string, Cell] => {
+  const cells = doc.cells.map((cell) => {
     const { result } = cell;
     const open = result?.kind === 'posed' && result.from === 'outline' && result.chosen === 0 && result.candidates.length > 1;
-    return [key, open ? { ...cell, result: { ...result, decided: false } } : cell];
+    return open ? { ...cell, result: { ...result, decided: false } } : cell;
   });
-  return { ...doc, cells: Object.fromEntries(cells) };
+  return { ...doc, cells };
 }
 
 // --- Sessions -------------------------------------------------------------------------------------------------------

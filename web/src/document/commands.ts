@@ -15,6 +15,7 @@ import {
   type FrameEntry,
   type GreyWindow,
   isByHand,
+  isFromFilm,
   type LibrarySpec,
   type Outline,
 } from './types';
@@ -121,7 +122,7 @@ export function carryResult(shown: Doc, next: Doc, place: Place): Doc {
 }
 
 export function withCell(doc: Doc, place: Place, cell: Cell): Doc {
-  return { ...doc, cells: { ...doc.cells, [cellKey(place.frameId, place.component)]: cell } };
+  return { ...doc, cells: doc.cells.with(place.frameId, place.component, cell) };
 }
 
 // --- Poses ------------------------------------------------------------------------------------------------------
@@ -182,6 +183,22 @@ export function setModel(name: ComponentName, model: FileReference): Command {
     model,
     axes: component.model === null ? component.axes : null,
   }));
+}
+
+/**
+ * The models change places, with their libraries and what a person said of their axes. What was found with them is found anew;
+ * what was followed is dropped.
+ */
+export function swapModels(): Command {
+  const moved = (component: Component): Component => ({ ...component, axes: component.axes?.from === 'shape' ? null : component.axes });
+  return {
+    label: texts.steps.swapModels,
+    apply: (doc) => {
+      const { femur, tibia } = doc.components;
+      const cells = doc.cells.map((cell) => (isFromFilm(cell.result) ? { ...cell, result: null, resultOf: null } : cell));
+      return { ...doc, components: { femur: moved(tibia), tibia: moved(femur) }, cells };
+    },
+  };
 }
 
 export function setLibraryFile(name: ComponentName, libraryFile: FileReference | null): Command {

@@ -2,13 +2,12 @@ import { texts } from '../texts/texts';
 import type { Command, Place } from './command';
 import { withCell } from './commands';
 import { bare } from './hand_poses';
-import { type Candidate, type Cell, cellOf, type Doc, type Posed, type Result, type Verdict } from './types';
+import { type Candidate, type Cell, cellOf, type Doc, FOLLOWED, isFromFilm, type Posed, type Result, type Verdict } from './types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
+import type { ComponentName } from '../terms/component';
 
 /** What following a film gives to cells that nobody worked on. */
 
-/** How the origin of such results begins; the frames that they were followed from come behind it. */
-const FOLLOWED = 'followed from';
 /** The same while the film is still followed: it has not been judged as a whole. */
 const SO_FAR = 'followed so far from';
 
@@ -37,13 +36,17 @@ export function isFree({ outline, result }: Cell): boolean {
 
 /** Whether following said what is there, and nobody took another pose. */
 export function isFollowed(result: Result | null): boolean {
-  if (result === null) return false;
-  return result.kind === 'posed' ? result.from === 'film' && result.chosen === 0 : result.origin.startsWith(FOLLOWED);
+  return isFromFilm(result) && (result?.kind !== 'posed' || result.chosen === 0);
 }
 
 /** Was it found by following that has not come to its end? */
 export function isSoFar(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'film' && result.origin.startsWith(SO_FAR);
+}
+
+/** Frames in which a component is followed so far, and not judged with the film as a whole. */
+export function unjudged(doc: Doc, component: ComponentName): number {
+  return doc.frames.filter(({ id }) => isSoFar(cellOf(doc, id, component).result)).length;
 }
 
 /** Where the component seems to be in a frame, while the others are looked at. No unit of undo. */

@@ -1,10 +1,11 @@
 import type { Doc } from './types';
+import { Amended } from './amended';
 import { carryResult } from './commands';
 import type { Command, Place } from './command';
 
 /**
  * Undo and redo over immutable documents. A command is one undo unit; a gesture previews as often as it likes and
- * becomes one unit when it ends; what the machine works out (a pose) amends the present and is no unit at all.
+ * becomes one unit when it ends; what the machine works out (a pose) amends the present and is no unit at all: undo and redo keep it.
  */
 export interface History {
   readonly past: readonly Step[];
@@ -14,6 +15,8 @@ export interface History {
   readonly gestureStart: Doc | null;
   /** The document that was last written to a file or opened from one. */
   readonly saved: Doc;
+  /** What the machine made of cells of all these documents. */
+  readonly amended: Amended;
 }
 
 interface Step {
@@ -27,7 +30,7 @@ interface Step {
 const DEPTH = 2000;
 
 export function startHistory(doc: Doc): History {
-  return { past: [], present: doc, future: [], gestureStart: null, saved: doc };
+  return { past: [], present: doc, future: [], gestureStart: null, saved: doc, amended: new Amended() };
 }
 
 export function perform(history: History, command: Command): History {
@@ -65,27 +68,11 @@ export function amend(history: History, change: (doc: Doc) => Doc): History {
   const present = change(history.present);
   const gestureStart = history.gestureStart && change(history.gestureStart);
   if (present === history.present && gestureStart === history.gestureStart) return history;
+  history.amended.note(history.present.cells, present.cells);
+  if (history.gestureStart && gestureStart) history.amended.note(history.gestureStart.cells, gestureStart.cells);
   const amended = (doc: Doc) =>
     doc === history.present ? present : doc === history.gestureStart && gestureStart ? gestureStart : doc;
   return { ...history, present, gestureStart, saved: amended(history.saved) };
-}
-
-/** Changes every document that undo and redo lead to in the same way. */
-export function everywhere(history: History, change: (doc: Doc) => Doc): History {
-  const known = new Map<Doc, Doc>();
-  const changed = (doc: Doc): Doc => {
-    const after = known.get(doc) ?? change(doc);
-    known.set(doc, after);
-    return after;
-  };
-  const step = (one: Step): Step => ({ ...one, doc: changed(one.doc) });
-  return {
-    past: history.past.map(step),
-    present: changed(history.present),
-    future: history.future.map(step),
-    gestureStart: history.gestureStart && changed(history.gestureStart),
-    saved: changed(history.saved),
-  };
 }
 
 export function undo(history: History): History {
@@ -94,8 +81,8 @@ export function undo(history: History): History {
   if (!step) return quiet;
   return {
     ...quiet,
+    ...shownOf(quiet, step),
     past: quiet.past.slice(0, -1),
-    present: step.doc,
     future: [...quiet.future, { ...step, mergeKey: null, doc: quiet.present }],
   };
 }
@@ -106,10 +93,16 @@ export function redo(history: History): History {
   if (!step) return quiet;
   return {
     ...quiet,
+    ...shownOf(quiet, step),
     past: [...quiet.past, { ...step, doc: quiet.present }],
-    present: step.doc,
     future: quiet.future.slice(0, -1),
   };
+}
+
+/** A step's document with all that was worked out since, which is no work of a person that would have to be saved. */
+function shownOf({ amended, saved }: History, { doc }: Step): Pick<History, 'present' | 'saved'> {
+  const present = amended.latest(doc);
+  return { present, saved: saved === doc ? present : saved };
 }
 
 /** What undo and redo would touch, for their buttons and so that the page can show that place. */

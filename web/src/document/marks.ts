@@ -1,5 +1,5 @@
 import type { Command, Place } from './command';
-import { cellKey, cellOf, chosenCandidate, type Cell, type Doc, type Mark } from './types';
+import { cellKey, cellOf, chosenCandidate, type Cell, type Doc, type Mark, verdictOf } from './types';
 import { texts } from '../texts/texts';
 
 export const NO_MARK: Mark = { checked: null, flagged: false, note: '' };
@@ -19,6 +19,11 @@ export type CheckState = 'no' | 'yes' | 'changed since';
 export function checkState(cell: Cell, mark: Mark): CheckState {
   if (mark.checked === null) return 'no';
   return mark.checked === fingerprint(cell) ? 'yes' : 'changed since';
+}
+
+/** A person found right what the page doubts. */
+export function isAccepted(cell: Cell, mark: Mark): boolean {
+  return verdictOf(cell.result)?.word === 'doubtful' && checkState(cell, mark) === 'yes';
 }
 
 /** Marks what is there now as checked, or takes the mark away where it still holds. */

@@ -1,4 +1,4 @@
-import type { Doc, FrameEntry, Outline } from './types';
+import { cellOf, type Doc, type FrameEntry, type Outline } from './types';
 import type { ComponentName } from '../terms/component';
 
 /**
@@ -75,7 +75,7 @@ function destinationOf(doc: Doc, item: ProposedItem, component: ComponentName | 
   if (size && (size.width !== frame.width || size.height !== frame.height)) {
     return nowhere(`its image has ${size.width} x ${size.height} px, frame ${index + 1} has ${frame.width} x ${frame.height}`);
   }
-  const replaces = (doc.cells[`${frame.id}/${component}`]?.outline ?? null) !== null;
+  const replaces = cellOf(doc, frame.id, component).outline !== null;
   return { kind: 'to', frame, number: index + 1, component, replaces };
 }
 

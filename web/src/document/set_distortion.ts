@@ -31,9 +31,5 @@ function movedCells(doc: Doc, next: Distortion | null, move: (points: readonly F
   const concerned = doc.frames.filter((frame) => fits(doc.distortion, frame) || fits(next, frame)).map(({ id }) => id);
   const ids = new Set(concerned);
   const moved = (outline: Outline): Outline => ({ ...outline, points: move(outline.points) });
-  const entries = Object.entries(doc.cells).map(([key, cell]) => {
-    const frameId = key.slice(0, key.lastIndexOf('/'));
-    return [key, cell.outline && ids.has(frameId) ? { ...cell, outline: moved(cell.outline) } : cell] as const;
-  });
-  return Object.fromEntries(entries);
+  return doc.cells.map((cell, frameId) => (cell.outline && ids.has(frameId) ? { ...cell, outline: moved(cell.outline) } : cell));
 }

@@ -9,7 +9,7 @@ import type { Proposal } from './proposal';
 import { DEFAULT_EXPORTING, type Exporting } from '../terms/exporting';
 import { DEFAULT_JOINT, type JointView } from '../terms/joint';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
-import { type Cell, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
+import { type Cell, cellKey, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
 import type { ComponentName } from '../terms/component';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
@@ -43,12 +43,16 @@ export interface Ui {
   readonly popover: Popover | null;
   readonly notice: Notice | null;
   readonly log: readonly Notice[];
+  /** Why cells were left as they are, by `cellKey`; one holds as long as its cell is the same. */
+  readonly refusals: Readonly<Record<string, Refusal>>;
   readonly jobs: readonly Job[];
   /** When a session file was last written. */
   readonly savedAt: number | null;
   readonly keeping: Keeping;
   /** What is about to be imported; null while nothing is. */
   readonly proposal: Proposal | null;
+  /** Files of poses between which a person has to choose; null while there are none. */
+  readonly poseSets: PoseSets | null;
   /** What the calibration helper has before it; null before it is first opened. */
   readonly measuring: Measuring | null;
   /** Brings a newer version of the page into use; null while there is none. */
@@ -63,7 +67,7 @@ export interface Ui {
 /** Dark like a reading room, or light for projectors. Print is light by itself. */
 export type Theme = 'dark' | 'light';
 
-export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'export' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film';
+export type Popover = 'calibration' | 'femur' | 'tibia' | 'keys' | 'log' | 'export' | 'convergence' | 'view' | 'work' | 'import' | 'shape' | 'calibrate' | 'video' | 'film' | 'sets';
 
 export interface ThresholdLevel {
   readonly level: number;
@@ -77,6 +81,18 @@ export interface Notice {
   readonly at: number;
   /** A button beside the text. */
   readonly offer?: Offer;
+}
+
+/** Several files of poses of one component: one of them is used. */
+export interface PoseSets {
+  readonly names: Readonly<Record<ComponentName, readonly string[]>>;
+  /** Opens the one with this number of each component; null: none. */
+  readonly take: (chosen: Readonly<Record<ComponentName, number | null>>) => void;
+}
+
+export interface Refusal {
+  readonly text: string;
+  readonly of: Cell;
 }
 
 export interface Offer {
@@ -132,10 +148,12 @@ const EMPTY_UI: Ui = {
   popover: null,
   notice: null,
   log: [],
+  refusals: {},
   jobs: [],
   savedAt: null,
   keeping: { state: 'nothing' },
   proposal: null,
+  poseSets: null,
   measuring: null,
   update: null,
   theme: 'dark',
@@ -188,11 +206,6 @@ export class Store {
 
   amend(change: (doc: Doc) => Doc): void {
     this.#toHistory(history.amend(this.#state.history, change));
-  }
-
-  /** Of what never was an undo unit: it is changed wherever undo and redo lead, too. */
-  amendEverywhere(change: (doc: Doc) => Doc): void {
-    this.#toHistory(history.everywhere(this.#state.history, change));
   }
 
   undo(): void {
@@ -253,6 +266,13 @@ export class Store {
     this.show({ notice, log: [...this.ui.log.slice(1 - LOG_LENGTH), notice] });
   }
 
+  /** The same, and it stays with the cell that it is about until that changes. */
+  sayAt({ frameId, component }: Place, kind: Notice['kind'], text: string): void {
+    this.say(kind, text);
+    const refusal = { text, of: cellOf(this.doc, frameId, component) };
+    this.show({ refusals: { ...this.ui.refusals, [cellKey(frameId, component)]: refusal } });
+  }
+
   quiet(): void {
     if (this.ui.notice) this.show({ notice: null });
   }
@@ -297,6 +317,13 @@ export function currentFrame(state: State): FrameEntry | null {
 export function currentPlace(state: State): Place | null {
   const frame = currentFrame(state);
   return frame && { frameId: frame.id, component: state.ui.component };
+}
+
+/** Why the cell on view was left as it is; null where nothing was refused, or it has changed since. */
+export function currentRefusal(state: State): string | null {
+  const place = currentPlace(state);
+  const refusal = place && state.ui.refusals[cellKey(place.frameId, place.component)];
+  return refusal && refusal.of === currentCell(state) ? refusal.text : null;
 }
 
 export function currentCell(state: State): Cell {

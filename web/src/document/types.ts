@@ -2,6 +2,7 @@ import type { Directions } from '../geometry/axes';
 import type { FramePoint } from '../geometry/points';
 import type { PoseNumbers, Uncertainty } from '../geometry/pose_numbers';
 import type { ComponentName } from '../terms/component';
+import { Cells } from './cells';
 import type { Distortion } from './distortion';
 
 /**
@@ -14,8 +15,8 @@ export interface Doc {
   readonly frames: readonly FrameEntry[];
   readonly calibration: Calibration | null;
   readonly components: Readonly<Record<ComponentName, Component>>;
-  /** One cell a frame and component, by `cellKey`. */
-  readonly cells: Readonly<Record<string, Cell>>;
+  /** One cell a frame and component. */
+  readonly cells: Cells<Cell>;
   /** Null until a frame is opened: its own suggestion is used. */
   readonly window: GreyWindow | null;
   /** Poses to compare with: those of a file, or what was shown when somebody kept them. */
@@ -277,7 +278,7 @@ export const EMPTY_DOC: Doc = {
   frames: [],
   calibration: null,
   components: { femur: EMPTY_COMPONENT, tibia: EMPTY_COMPONENT },
-  cells: {},
+  cells: Cells.NONE,
   window: null,
   reference: null,
   marks: {},
@@ -292,7 +293,7 @@ export function cellKey(frameId: string, component: ComponentName): string {
 }
 
 export function cellOf(doc: Doc, frameId: string | undefined, component: ComponentName): Cell {
-  return (frameId !== undefined && doc.cells[cellKey(frameId, component)]) || EMPTY_CELL;
+  return (frameId === undefined ? null : doc.cells.at(frameId, component)) ?? EMPTY_CELL;
 }
 
 export function chosenCandidate(cell: Cell): Candidate | null {
@@ -303,6 +304,15 @@ export function chosenCandidate(cell: Cell): Candidate | null {
 export function isByHand(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'hand';
 }
+
+/** Found by following the film, or not found by it. */
+export function isFromFilm(result: Result | null): boolean {
+  if (result === null) return false;
+  return result.kind === 'posed' ? result.from === 'film' : result.origin.startsWith(FOLLOWED);
+}
+
+/** How the origin of what following gave begins; the frames that it was followed from come behind it. */
+export const FOLLOWED = 'followed from';
 
 /** On the pose that is chosen; null where none was given: poses of the library, of files, of old sessions. */
 export function verdictOf(result: Result | null): Verdict | null {

@@ -1,25 +1,20 @@
 import type { Asset } from '../document/assets';
 import type { Doc, FrameEntry } from '../document/types';
-import { asJob, type Services } from '../jobs/services';
+import type { Services } from '../jobs/services';
+import { bytesOf } from './incoming';
 import { COMPONENT_NAMES } from '../terms/component';
 import { texts } from '../texts/texts';
 
-/** Brings the files that a document names into the studio; returns the names of those that are not at hand. */
-export async function bringFiles(services: Services, doc: Doc, title: string): Promise<string[]> {
+/** Tells the studio of the frames of a document, and brings its models; returns the names of files that are not at hand. */
+export async function bringFiles(services: Services, doc: Doc): Promise<string[]> {
   const missing: string[] = [];
-  const never = new AbortController().signal;
-  const sources = new Map(doc.frames.map((frame) => [frame.source, frame.name.replace(/ #\d+$/, '')]));
-  const total = sources.size;
-  const job = { title, unit: texts.said.files, total, cancel: () => undefined };
-  await asJob(services.store, job, async (report) => {
-    let done = 0;
-    for (const [sha256, name] of sources) {
-      const asset = services.assets.get(sha256);
-      if (asset) await decodeFrames(services, asset, never, () => undefined);
-      else missing.push(name);
-      report(++done, total);
-    }
-  });
+  for (const { id, name, source, indexInSource } of doc.frames) {
+    const file = name.replace(/ #\d+$/, '');
+    if (services.assets.get(source)) services.studio.knowFrame(id, { sha256: source, index: indexInSource });
+    else if (!missing.includes(file)) missing.push(file);
+  }
+  // No part of the state: whoever brings frames into memory is told.
+  services.store.show({});
   for (const component of COMPONENT_NAMES) {
     const { model, libraryFile } = doc.components[component];
     const asset = model && services.assets.get(model.sha256);
@@ -33,7 +28,8 @@ export async function bringFiles(services: Services, doc: Doc, title: string): P
 /** Decodes a model and hands it to the studio; the document is left alone. What is to be said of it, the studio knows then. */
 export async function holdModel(services: Services, asset: Asset): Promise<void> {
   if (services.studio.meshOf(asset.sha256)) return;
-  const mesh = await services.decoder.call('model', { bytes: asset.bytes, name: asset.name });
+  if (!(await services.assets.check(asset))) throw new Error(texts.keep.damaged(asset.name));
+  const mesh = await services.decoder.call('model', { bytes: await bytesOf(asset.blob), name: asset.name });
   services.studio.addModel(asset.sha256, mesh);
 }
 
@@ -45,11 +41,11 @@ export async function decodeFrames(
   report: (done: number, total: number) => void,
 ): Promise<FrameEntry[]> {
   const entries: FrameEntry[] = [];
-  await decoder.call('frames', { bytes: asset.bytes, name: asset.name }, {
+  await decoder.call('frames', { blob: asset.blob, name: asset.name }, {
     signal,
     onProgress: ({ index, total, frame }) => {
       const id = `${asset.sha256.slice(0, 16)}:${index}`;
-      studio.addFrame(id, frame);
+      studio.addFrame(id, { sha256: asset.sha256, index }, frame);
       const name = total === 1 ? asset.name : `${asset.name} #${index + 1}`;
       const { width, height } = frame;
       entries.push({ id, name, source: asset.sha256, indexInSource: index, width, height });

@@ -46,8 +46,8 @@ export async function openDemonstration(services: Services): Promise<void> {
 }
 
 async function incoming(name: string, component?: ComponentName): Promise<Incoming> {
-  const bytes = new Uint8Array(await (await fetched(name)).arrayBuffer());
-  return { name: name.split('/').at(-1) ?? name, bytes, component };
+  const blob = await (await fetched(name)).blob();
+  return { name: name.split('/').at(-1) ?? name, blob, component };
 }
 
 async function fetched(name: string): Promise<Response> {

@@ -2,15 +2,16 @@ import type { State } from '../document/store';
 import { otherThan, type ComponentName } from '../terms/component';
 
 /**
- * Which component a file is for: what the person said, else what its name says, else the component that is selected,
- * unless that one has such a file and the other has none.
+ * Which component a file is for: what the person said, else what its name says, else what its shape tells, else the component
+ * that is selected, unless that one has such a file and the other has none.
  */
 export function componentFor(
   state: State,
   file: { readonly name: string; readonly component?: ComponentName | undefined },
   isTaken: (component: ComponentName) => boolean,
+  shaped: ComponentName | null = null,
 ): ComponentName {
-  const said = file.component ?? namedIn(file.name);
+  const said = file.component ?? namedIn(file.name) ?? shaped;
   if (said) return said;
   const selected = state.ui.component;
   const other = otherThan(selected);

@@ -6,7 +6,7 @@ import type { ComponentName } from '../terms/component';
 import { framePoint } from '../geometry/points';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
-import type { Incoming } from './incoming';
+import { bytesOf, type Incoming, textOf } from './incoming';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
 import type { MaskLabel, MaskPage } from '../workers/protocol/masks';
@@ -30,7 +30,7 @@ export async function propose(services: Services, files: readonly OutlineFile[],
   const failed = (file: Incoming, error: unknown) => remarks.push(`${file.name}: ${sentenceOf(error)}`);
   for (const file of files.filter(({ kind }) => kind !== 'mask')) {
     try {
-      const read = readText(file);
+      const read = await readText(file);
       items.push(...read.items);
       remarks.push(...read.remarks.map((remark) => `${file.name}: ${remark}`));
     } catch (error) {
@@ -51,8 +51,8 @@ export async function propose(services: Services, files: readonly OutlineFile[],
   });
 }
 
-function readText(file: OutlineFile): ReturnType<typeof readCoco> {
-  const json = new TextDecoder().decode(file.bytes);
+async function readText(file: OutlineFile): Promise<ReturnType<typeof readCoco>> {
+  const json = await textOf(file);
   return file.kind === 'coco' ? readCoco(json) : { items: readOutlines(json), remarks: [] };
 }
 
@@ -84,7 +84,8 @@ async function readMasks(services: Services, files: readonly OutlineFile[], rema
     await asJob(services.store, job, async (report) => {
       for (const [index, file] of files.entries()) {
         try {
-          const { bytes, name } = file;
+          const { blob, name } = file;
+          const bytes = await bytesOf(blob);
           const found = await worker.call('read', { bytes, name, tolerance: TOLERANCE }, { signal: abort.signal });
           found.forEach((page, at) => pages.push({ file, name: found.length === 1 ? name : `${name} #${at + 1}`, page }));
         } catch (error) {
@@ -171,15 +172,15 @@ function byPath(a: string, b: string): number {
 // --- Recognising --------------------------------------------------------------------------------------------------
 
 /** Which of some images are masks. Cheap for frames: what is packed less than a mask would be is not looked at. */
-export async function masksAmong(files: readonly Incoming[]): Promise<ReadonlySet<Incoming>> {
-  const candidates = files.filter(({ bytes }) => mayBeMask(bytes));
-  const masks = new Set<Incoming>();
+export async function masksAmong<F extends Incoming & { readonly head: Uint8Array<ArrayBuffer> }>(files: readonly F[]): Promise<ReadonlySet<F>> {
+  const candidates = files.filter(({ head, blob }) => mayBeMask(head, blob.size));
+  const masks = new Set<F>();
   if (candidates.length === 0) return masks;
   const worker = masksWorker();
   try {
     for (const file of candidates) {
       // What cannot be decoded is a frame's trouble, and told there.
-      const labels = await worker.call('look', { bytes: file.bytes, name: file.name }).catch(() => null);
+      const labels = await worker.call('look', { bytes: await bytesOf(file.blob), name: file.name }).catch(() => null);
       if (labels !== null) masks.add(file);
     }
   } finally {
@@ -188,15 +189,18 @@ export async function masksAmong(files: readonly Incoming[]): Promise<ReadonlySe
   return masks;
 }
 
-/** A PNG of fewer bits a pixel than an X-ray ever packs to, or any TIFF. */
-export function mayBeMask(bytes: Uint8Array<ArrayBuffer>): boolean {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  if (bytes.length < 33) return false;
+/** So many bytes of a PNG tell its size. */
+const HEAD = 33;
+
+/** By the beginning of a file and its length: a PNG of fewer bits a pixel than an X-ray ever packs to, or any TIFF. */
+export function mayBeMask(head: Uint8Array<ArrayBuffer>, length: number): boolean {
+  const view = new DataView(head.buffer, head.byteOffset, head.byteLength);
+  if (length < HEAD) return false;
   const first = view.getUint32(0);
   if (first === 0x49492a00 || first === 0x4d4d002a) return true;
   if (first !== 0x89504e47) return false;
   const pixels = view.getUint32(16) * view.getUint32(20);
-  return bytes.length < MASK_OVERHEAD + pixels * MASK_BYTES;
+  return length < MASK_OVERHEAD + pixels * MASK_BYTES;
 }
 
 /** Headers of a small PNG, and bytes a pixel of a large one. */

@@ -1,13 +1,17 @@
 import { decodeFrames, holdModel } from './bring_files';
-import type { Incoming } from './incoming';
+import { bytesOf, type Incoming, textOf } from './incoming';
+import { lookedAt, TOLD } from './reading';
 import * as commands from '../document/commands';
 import { readDistortionFile } from '../document/distortion';
 import { distinct } from '../document/same_frames';
 import { componentIn, takeStudy, type Study } from '../document/study';
 import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
+import { componentShaped } from '../results/misplaced';
+import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
+import { setsToAsk, sortedPoses, type SortedPoses } from './pose_sets';
 import type { OutlineFile } from './importer';
 import { takeDistortion } from '../jobs/take_distortion';
 import type { FileKind, StatedGeometry } from '../workers/protocol/decode';
@@ -16,6 +20,8 @@ import { mismatchOf, openSession } from './session_opener';
 
 interface Recognised extends Incoming {
   readonly kind: FileKind;
+  /** How it begins. */
+  readonly head: Uint8Array<ArrayBuffer>;
 }
 
 /**
@@ -23,8 +29,7 @@ interface Recognised extends Incoming {
  * others are opened all the same.
  */
 export async function openFiles(services: Services, files: readonly Incoming[], beginVideo: BeginVideo = () => undefined): Promise<void> {
-  const all: Recognised[] = [];
-  for (const file of files) all.push({ ...file, kind: await recognise(services, file) });
+  const all = await lookedAt(services.store, files, (file) => recognise(services, file));
   all.sort((a, b) => ORDER.indexOf(a.kind) - ORDER.indexOf(b.kind) || byName(a.path ?? a.name, b.path ?? b.name));
   const opened: string[] = [];
   const failed: string[] = [];
@@ -36,22 +41,41 @@ export async function openFiles(services: Services, files: readonly Incoming[], 
     if (sentence) failed.push(sentence);
   }
   const outlines = await outlineFiles(services, recognised);
-  const others = recognised.filter((file) => !outlines.some(({ bytes }) => bytes === file.bytes));
+  const others = recognised.filter((file) => !outlines.some(({ blob }) => blob === file.blob));
   const frames = others.filter((file) => file.kind === 'frames');
   // Of a whole folder what is not recognised is told in one sentence.
-  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.bytes.length > 0) : [];
+  const strangers = recognised.length > 1 ? others.filter((file) => file.kind === 'unknown' && file.blob.size > 0) : [];
   const single = others.filter((file) => !LATER.includes(file.kind) && !strangers.includes(file));
   for (const file of single) await attempt(file, () => openOne(services, file, failed), opened, failed);
   if (frames.length > 0) await openFrames(services, frames, opened, failed);
-  for (const file of recognised.filter((file) => file.kind === 'poses')) {
-    await attempt(file, () => openPoses(services, file), opened, failed);
-  }
+  const poses = sortedPoses(services.store.state, recognised.filter((file) => file.kind === 'poses'));
+  for (const file of poses.clear) await attempt(file, () => openPoses(services, file), opened, failed);
   if (study) opened.push(openStudy(services, study));
   if (strangers.length > 0) leftOut.push(texts.files.leftOut(strangers.length, fewNames(strangers)));
   await beginFirstVideo(others.filter((file) => file.kind === 'video'), beginVideo, failed);
   tell(services, opened, failed, leftOut);
   offerStated(services, frames.length > 0);
+  askWhichPoses(services, poses);
   if (outlines.length > 0) await proposeOutlines(services, outlines, files);
+}
+
+/** Of several files of poses of a component nothing is taken before a person says which. */
+function askWhichPoses(services: Services, poses: SortedPoses<Recognised>): void {
+  const { store } = services;
+  const sets = setsToAsk(poses, (files) => void openChosenPoses(services, files));
+  const component = COMPONENT_NAMES.find((name) => poses.contested[name].length > 0);
+  if (!sets || !component) return;
+  const choose = () => store.show({ popover: 'sets' });
+  store.show({ poseSets: sets });
+  store.say('info', texts.files.sets.ask(texts.component[component], fewNames(poses.contested[component])), { label: texts.files.sets.choose, take: choose });
+  choose();
+}
+
+async function openChosenPoses(services: Services, files: readonly Recognised[]): Promise<void> {
+  const opened: string[] = [];
+  const failed: string[] = [];
+  for (const file of files) await attempt(file, () => openPoses(services, file), opened, failed);
+  tell(services, opened, failed);
 }
 
 /** Frames, poses, studies and videos have their own time. */
@@ -63,7 +87,7 @@ async function studyAmong(files: readonly Recognised[], failed: string[]): Promi
   if (!file) return null;
   try {
     const { readStudy } = await import('./study_file');
-    return { name: file.name, study: readStudy(new TextDecoder().decode(file.bytes)) };
+    return { name: file.name, study: readStudy(await textOf(file)) };
   } catch (error) {
     failed.push(named(file.name, sentenceOf(error)));
     return null;
@@ -85,7 +109,7 @@ function asTheStudyMeans({ study }: StudyFile, files: readonly Recognised[], lef
   const others = poses.filter(({ name }) => !componentIn(study, 'reference', name));
   if (others.length === 0 || others.length === poses.length) return meant;
   leftOut.push(texts.study.otherPoses(others.length, fewNames(others)));
-  return meant.filter(({ bytes }) => !others.some((other) => other.bytes === bytes));
+  return meant.filter(({ blob }) => !others.some((other) => other.blob === blob));
 }
 
 /** What opens the first of the videos that were given. */
@@ -147,8 +171,8 @@ async function proposeOutlines(services: Services, outlines: readonly OutlineFil
     return store.say('error', texts.said.of(outlines[0]?.name ?? '', texts.said.outlinesNeedFrames));
   }
   const { propose } = await import('./importer');
-  const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ bytes }) => bytes);
-  const images = files.filter(({ bytes }) => masks.includes(bytes));
+  const masks = outlines.filter(({ kind }) => kind === 'mask').map(({ blob }) => blob);
+  const images = files.filter(({ blob }) => masks.includes(blob));
   const asFrames = () => {
     void openAsFrames(services, images);
   };
@@ -172,12 +196,17 @@ function byName(a: string, b: string): number {
   return a.localeCompare(b, undefined, { numeric: true });
 }
 
+/** So much of it is kept: an image's size stands there, bytes. */
+const HEAD = 64;
+
 /** A file is told by so much of its beginning and its length, bytes (`SNIFFED` in `wasm/decode/src/sniff.rs`). */
 const SNIFFED = 1 << 16;
 
-async function recognise({ decoder }: Services, { bytes, name }: Incoming): Promise<FileKind> {
-  const head = bytes.slice(0, SNIFFED);
-  return decoder.call('sniff', { head, length: bytes.length, name }, { transfer: [head.buffer] });
+async function recognise({ decoder }: Services, file: Incoming): Promise<Recognised> {
+  const { blob, name } = file;
+  const read = await bytesOf(blob.slice(0, SNIFFED));
+  const head = read.slice(0, HEAD);
+  return { ...file, head, kind: await decoder.call('sniff', { head: read, length: blob.size, name }, { transfer: [read.buffer] }) };
 }
 
 async function attempt(
@@ -219,35 +248,39 @@ async function openOne(services: Services, file: Recognised, remarks: string[]):
     case 'distortion':
       return openDistortion(services, file);
     default:
-      if (file.bytes.length === 0) throw new Error(texts.said.emptyFile);
+      if (file.blob.size === 0) throw new Error(texts.said.emptyFile);
       throw new Error(texts.said.notRecognised);
   }
 }
 
 // --- Each kind ----------------------------------------------------------------------------------------------------
 
-async function openCalibration({ store, studio }: Services, { name, bytes }: Incoming): Promise<string> {
-  const text = new TextDecoder().decode(bytes);
+async function openCalibration({ store, studio }: Services, file: Incoming): Promise<string> {
+  const { name } = file;
+  const text = await textOf(file);
   // Against the frames' size, where it is known.
   studio.calibrationFacts(text, store.doc.frames[0] ?? null);
   store.perform(commands.setCalibration({ name, text }));
   return texts.said.theCalibration(name);
 }
 
-async function openDistortion(services: Services, { name, bytes }: Incoming): Promise<string> {
-  takeDistortion(services, readDistortionFile(new TextDecoder().decode(bytes)));
-  return texts.calibrate.opened(name);
+async function openDistortion(services: Services, file: Incoming): Promise<string> {
+  takeDistortion(services, readDistortionFile(await textOf(file)));
+  return texts.calibrate.opened(file.name);
 }
 
 async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
-  const asset = await assets.add(file.name, file.bytes);
-  const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null);
+  const asset = await assets.add(file.name, file.blob);
   await holdModel(services, asset);
+  const shaped = componentShaped(services.studio.shapeKindOf(asset.sha256));
+  const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null, shaped);
   const remarks = services.studio.remarksOn(asset.sha256);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;
   if (!known) store.perform(commands.setModel(component, { name: file.name, sha256: asset.sha256 }));
-  const opened = texts.said.asModel(file.name, texts.component[component]);
+  const named = texts.said.asModel(file.name, texts.component[component]);
+  // What a person or a name says is done, and what the shape says is said.
+  const opened = shaped === otherThan(component) ? texts.models.besides(named, texts.models.shape[component]) : named;
   return remarks.length === 0 ? opened : texts.files.modelNotes(opened, remarks.join('; '));
 }
 
@@ -257,15 +290,15 @@ function openStudy({ store }: Services, { name, study }: StudyFile): string {
 }
 
 async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {
-  studio.checkLibrary(file.bytes);
-  const asset = await assets.add(file.name, file.bytes);
+  studio.checkLibrary(await bytesOf(file.blob));
+  const asset = await assets.add(file.name, file.blob);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));
   return texts.said.asLibrary(file.name, texts.component[component]);
 }
 
 async function openPoses({ store, studio }: Services, file: Incoming): Promise<string> {
-  const poses = studio.readPoses(new TextDecoder().decode(file.bytes));
+  const poses = studio.readPoses(await textOf(file));
   const frames = store.doc.frames.length;
   if (frames === 0) throw new Error(texts.said.posesNeedFrames);
   const component = componentFor(store.state, file, () => false);
@@ -299,14 +332,14 @@ async function openFrames(
       await attempt(
         file,
         async () => {
-          const asset = await services.assets.add(file.name, file.bytes);
+          const asset = await services.assets.add(file.name, file.blob);
           entries.push(...(await decodeFrames(services, asset, abort.signal, reportFrames)));
           return '';
         },
         [],
         failed,
       );
-      if (files.length > 1) report(index + 1, files.length);
+      if (files.length > 1 && ((index + 1) % TOLD === 0 || files.length < 4 * TOLD)) report(index + 1, files.length);
     }
   });
   if (entries.length === 0) return;

@@ -1,6 +1,7 @@
 import { knownAxes } from '../document/axes';
 import { digestOf } from '../document/digest';
 import { checkState, markOf } from '../document/marks';
+import { filesOf } from '../document/named_files';
 import { methodOf } from '../document/session/table';
 import { type Cell, cellOf, type Doc } from '../document/types';
 import type { JointNumbers } from '../results/joint_curves';
@@ -8,7 +9,6 @@ import { faultsOf, inRuns, type PoseFaults } from '../results/joint_faults';
 import { doubtOf } from '../results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { PublishedFilm, PublishedFrame } from '../workers/protocol/joint';
-import { filesOf } from './saver';
 
 /**
  * All that files, figure and report of a joint tell. Its words are the same for whoever reads them with whatever program, so they

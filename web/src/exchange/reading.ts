@@ -18,26 +18,28 @@ export function isMeant(path: string): boolean {
   return parts.every((part) => part !== '__MACOSX') && !LEFT_BY_SYSTEMS.test(parts.at(-1) ?? '');
 }
 
-/** So few files need no telling how far they are, and so much is read at once. */
-const FEW = 8;
-
-/** Reads files one after the other; nothing when it is called off. What systems leave in folders is not read. */
-export async function readFiles(store: Store, files: readonly Located[]): Promise<Incoming[]> {
+/** What is to be opened; what systems leave in folders is not. */
+export function meantFiles(files: readonly Located[]): readonly Incoming[] {
   const meant = files.length > 1 ? files.filter(({ path }) => isMeant(path)) : files;
-  const read = async ({ file, path }: Located): Promise<Incoming> => ({
-    name: file.name,
-    path,
-    bytes: new Uint8Array(await file.arrayBuffer()),
-  });
-  if (meant.length <= FEW) return Promise.all(meant.map(read));
+  return meant.map(({ file, path }) => ({ name: file.name, path, blob: file }));
+}
+
+/** So few files need no telling how far they are. */
+const FEW = 8;
+/** Whoever waits is told after so many: of thousands each takes a moment. */
+export const TOLD = 16;
+
+/** The files with what `look` tells of each, one after the other; throws `Aborted` when it is called off. */
+export async function lookedAt<T>(store: Store, files: readonly Incoming[], look: (file: Incoming) => Promise<T>): Promise<T[]> {
+  if (files.length <= FEW) return Promise.all(files.map(look));
   const abort = new AbortController();
-  const job = { title: texts.files.reading, unit: texts.files.files, total: meant.length, cancel: () => abort.abort(new Aborted()) };
+  const job = { title: texts.files.reading, unit: texts.files.files, total: files.length, cancel: () => abort.abort(new Aborted()) };
   return asJob(store, job, async (report) => {
-    const all: Incoming[] = [];
-    for (const file of meant) {
+    const all: T[] = [];
+    for (const file of files) {
       abort.signal.throwIfAborted();
-      all.push(await read(file));
-      report(all.length, meant.length);
+      all.push(await look(file));
+      if (all.length % TOLD === 0) report(all.length, files.length);
     }
     return all;
   });

@@ -2,15 +2,15 @@ import { auditTroubles } from '../document/session/audit';
 import { readSession, type Session } from '../document/session/session';
 import { texts } from '../texts/texts';
 import { bringFiles } from './bring_files';
-import type { Incoming } from './incoming';
-import { filesOf } from './saver';
+import { type Incoming, textOf } from './incoming';
+import { filesOf } from '../document/named_files';
 import type { Services } from '../jobs/services';
 
 /** Opens a session; what does not match its digests goes to `remarks`, by name. A command: undo brings back what was there. */
 export async function openSession(services: Services, file: Incoming, remarks: string[]): Promise<string> {
-  const session = readSession(new TextDecoder().decode(file.bytes));
+  const session = readSession(await textOf(file));
   await takeFiles(services, session, remarks);
-  const missing = await bringFiles(services, session.doc, texts.digests.job);
+  const missing = await bringFiles(services, session.doc);
   const { store } = services;
   store.perform({ label: texts.digests.openLabel, apply: () => session.doc });
   store.markSaved(store.doc);
@@ -26,16 +26,16 @@ export async function openSession(services: Services, file: Incoming, remarks: s
 async function takeFiles({ assets }: Services, session: Session, remarks: string[]): Promise<void> {
   for (const { name, sha256, bytes } of session.files) {
     if (!bytes) continue;
-    const asset = await assets.add(name, bytes);
+    const asset = await assets.add(name, new Blob([bytes]));
     if (asset.sha256 !== sha256) remarks.push(texts.digests.damaged(name, short(asset.sha256), short(sha256)));
   }
 }
 
 /** A sentence where a file has the name of one that the document waits for, but not its content. */
-export async function mismatchOf({ store, assets }: Services, { name, bytes }: Incoming): Promise<string | null> {
+export async function mismatchOf({ store, assets }: Services, { name, blob }: Incoming): Promise<string | null> {
   const awaited = filesOf(store.doc).filter((reference) => reference.name === name && !assets.get(reference.sha256));
   if (awaited.length === 0) return null;
-  const { sha256 } = await assets.add(name, bytes);
+  const { sha256 } = await assets.add(name, blob);
   const found = awaited.every((reference) => reference.sha256 !== sha256);
   return found ? texts.digests.another(name, short(sha256), short(awaited[0]!.sha256)) : null;
 }

@@ -28,8 +28,8 @@ const PATIENCE = 4000;
 const USUAL_RATE = 25;
 
 /** Opens a video. Throws a sentence for what the browser cannot decode. */
-export async function openVideo(name: string, bytes: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<Video> {
-  const address = URL.createObjectURL(new Blob([bytes], { type: typeOf(name) }));
+export async function openVideo(name: string, blob: Blob, signal: AbortSignal): Promise<Video> {
+  const address = URL.createObjectURL(new Blob([blob], { type: typeOf(name) }));
   const element = document.createElement('video');
   const close = () => {
     element.removeAttribute('src');

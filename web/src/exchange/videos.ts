@@ -30,11 +30,11 @@ export class Videos {
   }
 
   /** Throws a sentence for what the browser cannot decode. */
-  async begin({ name, bytes }: Incoming): Promise<void> {
+  async begin({ name, blob }: Incoming): Promise<void> {
     const { store } = this.#services;
     const abort = new AbortController();
     const job = { title: said.measuring, unit: '', total: 0, cancel: () => abort.abort(new Aborted()) };
-    const video = await asJob(store, job, () => openVideo(name, bytes, abort.signal));
+    const video = await asJob(store, job, () => openVideo(name, blob, abort.signal));
     this.#letGo();
     this.#video = video;
     store.show({ popover: 'video' });
@@ -77,7 +77,7 @@ export class Videos {
     } finally {
       video.close();
     }
-    if (taken.length > 0) await this.#open(taken);
+    if (taken.length > 0) await this.#open(taken.map(({ name, bytes }) => ({ name, blob: new Blob([bytes]) })));
     // Frames that were here before may be of another film.
     if (taken.length > 1 && doc.frames.length === 0 && doc.rate === null) store.perform(setRate(video.rate / Math.max(1, Math.round(choice.every))));
     if (abort.signal.aborted) return store.say('info', said.called(taken.length));

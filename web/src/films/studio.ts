@@ -16,11 +16,13 @@ import init, {
 import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
 import { numbersOf } from '../geometry/axes';
+import { type ShapeKind, shapeKindOf } from '../geometry/shape_kind';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
 import type { Size } from '../geometry/viewport';
 import type { Motion, PlacedInJoint } from '../results/motion';
+import { Aborted } from '../workers/bridge';
 import { poseArray, poseFrom } from '../workers/protocol/pose_array';
 import { paintPreprocessed } from './preprocessing';
 import type { Preprocessing } from '../terms/seeing';
@@ -28,6 +30,8 @@ import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { Picture } from '../workers/protocol/match';
 import type { DecodedFrame, ModelMesh, StatedGeometry } from '../workers/protocol/decode';
 import type { DistortionInput, CalibrationFacts, CameraInput } from '../workers/protocol/camera';
+import type { DecodeFrame, FrameSource } from './decoding';
+import { type Held, LeasedFrames } from './leased_frames';
 import { OverlayDistorter, UndistortedFrames } from './undistorted';
 import { numbersAt } from './wasm_view';
 
@@ -38,13 +42,21 @@ export interface FrameFacts {
   readonly window: GreyWindow;
 }
 
-interface HeldFrame {
+/** A frame that can be had, and what is known of it since it was last in memory. */
+interface KnownFrame {
+  readonly source: FrameSource;
+  facts: FrameFacts | null;
+  stated: StatedGeometry | null;
+}
+
+interface HeldFrame extends Held {
   /** As it was taken. */
   readonly image: FrameImage;
-  readonly facts: FrameFacts;
   readonly size: Size;
-  readonly stated: StatedGeometry;
 }
+
+/** Frames that are not on view are kept in so much memory, bytes; 128 of 1024 x 1024 at 16 bits. */
+const BUDGET = 256 << 20;
 
 interface HeldModel {
   readonly mesh: ModelMesh;
@@ -72,31 +84,82 @@ interface PaintedSilhouette {
  */
 export class Studio {
   readonly #memory: WebAssembly.Memory;
-  readonly #frames = new Map<string, HeldFrame>();
+  /** By what frames that look alike have in common. */
+  readonly #known = new Map<string, KnownFrame>();
+  readonly #frames: LeasedFrames<HeldFrame>;
+  /** Called when a frame has come into memory that was expected. */
+  onArrival: () => void = () => undefined;
+  /** Called when one could not be read. */
+  onTrouble: (error: unknown) => void = () => undefined;
   readonly #undistorted = new UndistortedFrames();
   #distorter: OverlayDistorter | null = null;
   /** By the file's SHA-256: undo may go back to an earlier one. */
   readonly #models = new Map<string, HeldModel>();
 
-  private constructor(memory: WebAssembly.Memory) {
+  private constructor(memory: WebAssembly.Memory, decode: DecodeFrame) {
     this.#memory = memory;
+    this.#frames = new LeasedFrames(BUDGET, async (id, signal) => {
+      const known = this.#known.get(id);
+      const frame = known ? await decode(known.source, signal) : null;
+      return known && frame ? this.#taken(known, frame) : null;
+    });
   }
 
-  static async open(): Promise<Studio> {
+  static async open(decode: DecodeFrame): Promise<Studio> {
     const { memory } = await init({ module_or_path: wasmAddress });
-    return new Studio(memory);
+    return new Studio(memory, decode);
   }
 
   // --- Frames -------------------------------------------------------------------------------------------------
 
-  addFrame(id: string, frame: DecodedFrame): void {
-    if (this.#frames.has(pictureOf(id))) return;
-    const { pixels, width, height } = frame;
+  /** A frame that was just decoded, and where to have it from when it is no longer in memory. */
+  addFrame(id: string, source: FrameSource, frame: DecodedFrame): void {
+    const known = this.knowFrame(id, source);
+    if (!this.#frames.has(pictureOf(id))) this.#frames.put(pictureOf(id), this.#taken(known, frame));
+  }
+
+  /** A frame whose file is at hand. */
+  knowFrame(id: string, source: FrameSource): KnownFrame {
+    const picture = pictureOf(id);
+    const known = this.#known.get(picture) ?? { source, facts: null, stated: null };
+    this.#known.set(picture, known);
+    return known;
+  }
+
+  /** How many frames can be had. */
+  get known(): number {
+    return this.#known.size;
+  }
+
+  #taken(known: KnownFrame, { pixels, width, height, window: stated, geometry }: DecodedFrame): HeldFrame {
     const image =
       pixels instanceof Uint8Array ? FrameImage.fromEightBit(pixels, width, height) : FrameImage.fromSixteenBit(pixels, width, height);
     const [least = 0, greatest = 255, centre = 128, windowWidth = 256] = image.greyRange();
-    const window = frame.window ?? { centre, width: windowWidth };
-    this.#frames.set(pictureOf(id), { image, facts: { least, greatest, window }, size: { width, height }, stated: frame.geometry });
+    known.facts = { least, greatest, window: stated ?? { centre, width: windowWidth } };
+    known.stated = geometry;
+    return { image, size: { width, height }, bytes: pixels.byteLength, free: () => image.free() };
+  }
+
+  /** Brings what is on view, which comes first and stays, and what will soon be. */
+  expect(ids: readonly string[]): void {
+    const pictures = ids.map(pictureOf);
+    const [onView] = pictures;
+    const isHere = onView === undefined || this.#frames.has(onView);
+    this.#frames.expect(pictures).then(
+      () => isHere || this.onArrival(),
+      (error: unknown) => {
+        // Another one is on view by now.
+        if (error instanceof Aborted || onView === undefined) return;
+        // What cannot be read is not at hand, and that is said where it would be shown.
+        this.#known.delete(onView);
+        this.onTrouble(error);
+      },
+    );
+  }
+
+  /** Waits until a frame is in memory; false where its file is not at hand. */
+  async bring(id: string): Promise<boolean> {
+    return (await this.#frames.bring(pictureOf(id))) !== null;
   }
 
   /** Frames are shown undistorted from now on, or as they were taken. */
@@ -111,7 +174,7 @@ export class Studio {
 
   /** What the file of a frame says of sizes and distances. */
   statedGeometry(id: string): StatedGeometry | null {
-    return this.#frames.get(pictureOf(id))?.stated ?? null;
+    return this.#known.get(pictureOf(id))?.stated ?? null;
   }
 
   #shown(id: string): FrameImage | null {
@@ -119,32 +182,41 @@ export class Studio {
     return held ? this.#undistorted.shown(id, held.image, held.size) : null;
   }
 
-  /** The frame in WASM memory, for tools that look at its pixels. */
+  /** The frame in WASM memory, for tools that look at its pixels; null while it is not there. */
   imageOf(id: string): FrameImage | null {
     return this.#shown(id);
   }
 
+  /** Can it be had? */
   hasFrame(id: string): boolean {
+    return this.#known.has(pictureOf(id));
+  }
+
+  /** Is it in memory? */
+  holdsFrame(id: string): boolean {
     return this.#frames.has(pictureOf(id));
   }
 
+  /** Null before it was first in memory. */
   frameFacts(id: string): FrameFacts | null {
-    return this.#frames.get(pictureOf(id))?.facts ?? null;
+    return this.#known.get(pictureOf(id))?.facts ?? null;
   }
 
   paintFrame(context: CanvasRenderingContext2D, id: string, window: GreyWindow, preprocessing: Preprocessing = 'original'): void {
-    const held = this.#frames.get(pictureOf(id));
+    const facts = this.frameFacts(id);
     const image = this.#shown(id);
-    if (held && image) paintPreprocessed(image, held.facts.window, context, window, preprocessing);
+    if (facts && image) paintPreprocessed(image, facts.window, context, window, preprocessing);
   }
 
-  /** A copy of a frame's grey values, for a worker. */
-  framePixels(id: string): FramePixels['pixels'] | null {
+  /** A copy of a frame's grey values, for a worker; null where its file is not at hand. */
+  async framePixels(id: string): Promise<FramePixels['pixels'] | null> {
+    await this.bring(id);
     return pixelsOf(this.#shown(id));
   }
 
   /** The same of the frame as it was taken, whether it is shown undistorted or not. */
-  takenPixels(id: string): FramePixels['pixels'] | null {
+  async takenPixels(id: string): Promise<FramePixels['pixels'] | null> {
+    await this.bring(id);
     return pixelsOf(this.#frames.get(pictureOf(id))?.image ?? null);
   }
 
@@ -161,6 +233,12 @@ export class Studio {
 
   meshOf(sha256: string): ModelMesh | null {
     return this.#models.get(sha256)?.mesh ?? null;
+  }
+
+  /** Null where its shape does not tell, or it is not here. */
+  shapeKindOf(sha256: string): ShapeKind | null {
+    const mesh = this.meshOf(sha256);
+    return mesh && shapeKindOf(mesh);
   }
 
   /**

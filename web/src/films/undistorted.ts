@@ -2,6 +2,9 @@ import { Undistorter, type FrameImage, type Model } from '../pkg/page/fluoropose
 import { type Distortion, distortionKey, fits, numbersOf } from '../document/distortion';
 import type { MovePoints } from '../document/set_distortion';
 
+/** Undistorted frames that are kept: each is as large as the frame itself. */
+const KEPT = 16;
+
 /** Corrections at work on the page's own thread: for points, and for frames that are shown undistorted. */
 export class UndistortedFrames {
   #distortion: Distortion | null = null;
@@ -32,11 +35,20 @@ export class UndistortedFrames {
     const distortion = this.#distortion;
     if (!fits(distortion, size)) return image;
     const known = this.#images.get(id);
-    if (known) return known;
+    this.#images.delete(id);
     this.#undistorter ??= new Undistorter(numbersOf(distortion));
-    const undistorted = this.#undistorter.frame(image);
+    const undistorted = known ?? this.#undistorter.frame(image);
+    // The one that was used last comes last.
     this.#images.set(id, undistorted);
+    const [oldest] = this.#images.keys();
+    if (oldest !== undefined && this.#images.size > KEPT) this.#letGo(oldest);
     return undistorted;
+  }
+
+  /** Nobody has used it for long. */
+  #letGo(id: string): void {
+    this.#images.get(id)?.free();
+    this.#images.delete(id);
   }
 }
 

@@ -46,7 +46,7 @@ export class Calibrator {
   async find(radius: number, bright: boolean): Promise<void> {
     const { store, studio } = this.#services;
     const frame = currentFrame(store.state);
-    const pixels = frame && studio.takenPixels(frame.id);
+    const pixels = frame && (await studio.takenPixels(frame.id));
     if (!frame || !pixels) return store.say('error', said.noFrame);
     this.show({ grid: null });
     const worker = (this.#worker ??= calibrateWorker());

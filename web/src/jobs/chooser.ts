@@ -1,9 +1,10 @@
+import { CellIndex } from '../document/cells';
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
+import { inFilmOrder } from '../document/frame_index';
 import { withItsOutline } from '../document/own_outlines';
 import type { Store } from '../document/store';
 import { type Candidate, type Cell, cellOf, isRefined, type Posed, type Verdict } from '../document/types';
-import { COMPONENT_NAMES } from '../terms/component';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Choice, Surroundings } from '../workers/protocol/match';
@@ -56,15 +57,12 @@ export class Chooser {
 
   #find(): Open | null {
     const { doc } = this.#store;
-    for (const frame of doc.frames) {
-      for (const component of COMPONENT_NAMES) {
-        const cell = cellOf(doc, frame.id, component);
-        if (!isOpen(cell)) continue;
-        const around = surroundingsOf(doc, frame.id, component);
-        if (around.counterpart === null && around.neighbours.length === 0) continue;
-        if (this.#knownThen.get(cell.result.candidates) === JSON.stringify(around)) continue;
-        return { place: { frameId: frame.id, component }, result: cell.result, around };
-      }
+    for (const { frameId, component, cell } of inFilmOrder(doc, openChoices.in(doc.cells))) {
+      if (!isOpen(cell)) continue;
+      const around = surroundingsOf(doc, frameId, component);
+      if (around.counterpart === null && around.neighbours.length === 0) continue;
+      if (this.#knownThen.get(cell.result.candidates) === JSON.stringify(around)) continue;
+      return { place: { frameId, component }, result: cell.result, around };
     }
     return null;
   }
@@ -88,6 +86,8 @@ function withDoubt(candidate: Candidate | undefined, doubt: string | null): Verd
   const alone = candidate?.judged?.verdict ?? null;
   return alone?.word === 'good' && doubt !== null ? { word: 'doubtful', because: doubt } : alone;
 }
+
+const openChoices = new CellIndex<Cell>(({ cell }) => isOpen(cell));
 
 /** Refined rivals of which none was decided or the one that was is doubtful, nor any chosen by hand. */
 function isOpen(cell: Cell): cell is Cell & { result: Posed } {

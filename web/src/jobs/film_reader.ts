@@ -4,8 +4,9 @@ import { CONSTANTS, withKnownFilm } from '../document/film';
 import { itsOutline, setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
-import { corrected, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import { indexOfFrame } from '../document/frame_index';
+import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
+import type { ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -92,12 +93,11 @@ export class FilmReader {
     const here = this.#witnesses();
     const isStated = JSON.stringify(doc.film.stated) !== this.#asked && (here.length > 0 || doc.film.known !== null);
     if (this.#isOpen(here) || isStated) return () => this.#estimate(here);
-    for (const frame of doc.frames) {
-      for (const component of COMPONENT_NAMES) {
-        const cell = needsCorrection(doc, component, frame);
-        if (cell && !this.#refused.has(cell.result) && this.#isReady(component, frame)) {
-          return () => this.#correctOnce({ component, frameId: frame.id }, cell.result);
-        }
+    for (const { frameId, component } of foundOnFrames(doc)) {
+      const frame = doc.frames[indexOfFrame(doc, frameId)]!;
+      const cell = needsCorrection(doc, component, frame);
+      if (cell && !this.#refused.has(cell.result) && this.#isReady(component, frame)) {
+        return () => this.#correctOnce({ component, frameId }, cell.result);
       }
     }
     return null;
@@ -180,7 +180,7 @@ export class FilmReader {
   /** None where the frame cannot be held against the pose. */
   async #profilesOf({ component, frameId, pose }: Witness): Promise<Float32Array<ArrayBuffer>> {
     try {
-      const input = onFrameInput(this.#services, { component, frameId });
+      const input = await onFrameInput(this.#services, { component, frameId });
       return await this.#poses.call('filmProfiles', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
     } catch (error) {
       if (error instanceof Aborted) throw error;
@@ -218,7 +218,7 @@ export class FilmReader {
   }
 
   async #correct(place: Place, result: Posed): Promise<void> {
-    const input = onFrameInput(this.#services, place);
+    const input = await onFrameInput(this.#services, place);
     const misfits = misfitsBeside(this.#services.store.doc, place);
     const { chosen } = result;
     const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));

@@ -114,7 +114,7 @@ export class FirstPoses {
   async #search(place: Place, number: number, worker: Worker, signal: AbortSignal, cancel: () => void, beside: Beside | null = null): Promise<FramePoint | null> {
     const { store, studio } = this.#services;
     const frame = store.doc.frames[number];
-    const pixels = frame && studio.framePixels(frame.id);
+    const pixels = frame && (await studio.framePixels(frame.id));
     if (!frame || !pixels) throw new Error(texts.follow.gone(number + 1));
     const job = { title: texts.follow.looking(texts.component[place.component], number + 1), unit: texts.tracing.said.percent, total: 100, cancel, place };
     const found = await asJob(store, job, (report) =>

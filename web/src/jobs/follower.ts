@@ -1,6 +1,7 @@
 import type { Place } from '../document/command';
 import { filmNumbers } from '../document/film';
 import { type Followed, takeFollowed, withoutSoFar, withSoFar } from '../document/followed';
+import { currentFrame } from '../document/store';
 import { cellOf, chosenCandidate, type FrameEntry, type Result } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { type Span, spanToFollow } from '../results/spans';
@@ -83,15 +84,25 @@ export class Follower {
     const { store } = this.#services;
     const parts = this.#parts();
     const notFound = missing.map((component) => texts.follow.notFound(texts.component[component]));
+    this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
     const total = parts.reduce((sum, { span }) => sum + span.free, 0);
     const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
     const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
     const before = parts.flatMap((part) => [...part.before.values()]);
-    store.amendEverywhere((doc) => withoutSoFar(doc, before));
+    store.amend((doc) => withoutSoFar(doc, before));
     if (found.length > 0) store.perform(takeFollowed(found));
     const done = texts.follow.done(found.filter(({ pose }) => pose).length, found.filter(isDoubtful).length, abort.signal.aborted);
     store.say(notFound.length > 0 ? 'error' : 'info', [done, ...notFound].join(' '));
+  }
+
+  /** In the card of each component, where it was looked for; the bottom line has it with what was found. */
+  #sayNotFound(missing: readonly ComponentName[]): void {
+    const { store } = this.#services;
+    const frame = currentFrame(store.state);
+    for (const component of frame ? missing : []) {
+      store.sayAt({ frameId: frame!.id, component }, 'error', texts.follow.notFound(texts.component[component]));
+    }
   }
 
   /** Why the film cannot be followed; null where it can. */
@@ -175,7 +186,7 @@ export class Follower {
     const { store, studio } = this.#services;
     for (let next = first; next !== null && !signal.aborted; ) {
       const frame = store.doc.frames[next];
-      const pixels = frame && studio.framePixels(frame.id);
+      const pixels = frame && (await studio.framePixels(frame.id));
       if (!frame || !pixels) throw new Error(texts.follow.gone(next + 1));
       const { width, height } = frame;
       const at = next;

@@ -39,9 +39,9 @@ export class FromHere {
   async refine(place: Place): Promise<void> {
     const { store } = this.#services;
     const start = chosenCandidate(cellOf(store.doc, place.frameId, place.component));
-    if (!start) return store.say('info', texts.hand.said.noPose);
+    if (!start) return store.sayAt(place, 'info', texts.hand.said.noPose);
     if (store.ui.libraries[place.component].state !== 'ready') {
-      return store.say('info', texts.hand.said.noLibrary(texts.component[place.component]));
+      return store.sayAt(place, 'info', texts.hand.said.noLibrary(texts.component[place.component]));
     }
     this.#abort?.abort();
     const abort = (this.#abort = new AbortController());
@@ -49,10 +49,10 @@ export class FromHere {
       const { locks } = store.ui.hand;
       const by = this.#by(place);
       const fit = await this.#ask(place, start, locks, abort);
-      if (this.#by(place) !== by) return store.say('info', texts.hand.said.changed);
+      if (this.#by(place) !== by) return store.sayAt(place, 'info', texts.hand.said.changed);
       this.#take(place, start, fit);
     } catch (error) {
-      if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
+      if (!(error instanceof Aborted)) store.sayAt(place, 'error', sentenceOf(error));
     }
   }
 
@@ -93,8 +93,8 @@ export class FromHere {
     return this.#worker.call('refineFrom', input, { signal });
   }
 
-  #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
-    const onFrame = onFrameInput(this.#services, place);
+  async #onFrame(place: Place, { pose }: Candidate, locks: Locks, signal: AbortSignal): Promise<FitFacts> {
+    const onFrame = await onFrameInput(this.#services, place);
     const input = { ...onFrame, start: pose, locked: flagsOf(locks) };
     return this.#worker.call('refineOnFrame', input, { signal, transfer: [onFrame.frame.pixels.buffer] });
   }
@@ -102,17 +102,17 @@ export class FromHere {
   #take(place: Place, start: Candidate, fit: HandFit): void {
     const { store } = this.#services;
     const cell: Cell = cellOf(store.doc, place.frameId, place.component);
-    if (chosenCandidate(cell) !== start) return store.say('info', texts.hand.said.changed);
+    if (chosenCandidate(cell) !== start) return store.sayAt(place, 'info', texts.hand.said.changed);
     store.perform(takeHandFit(place, fit));
     store.say('info', fit.reason);
   }
 }
 
 /** The frame itself as what a pose is held against. Throws a sentence where it cannot be. */
-export function onFrameInput({ store, studio }: Services, { component, frameId }: Place): OnFrame {
+export async function onFrameInput({ store, studio }: Services, { component, frameId }: Place): Promise<OnFrame> {
+  const pixels = await studio.framePixels(frameId);
   const { doc, ui } = store;
   const camera = cameraOf(doc, frameOf(doc, { component, frameId }));
-  const pixels = studio.framePixels(frameId);
   if (!camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
   if (!pixels) throw new Error(texts.hand.said.noPixels);
   if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);

@@ -1,9 +1,10 @@
+import { CellIndex } from '../document/cells';
 import type { Place } from '../document/command';
+import { inFilmOrder } from '../document/frame_index';
 import { withHandVerdict } from '../document/hand_poses';
 import { currentPlace } from '../document/store';
-import { type Cell, cellOf, chosenCandidate, type Posed, type Verdict } from '../document/types';
+import { type Cell, cellOf, chosenCandidate, isByHand, type Posed, type Verdict } from '../document/types';
 import { cameraOf } from '../results/keys';
-import { COMPONENT_NAMES } from '../terms/component';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { PoseProtocol } from '../workers/protocol/pose';
@@ -49,10 +50,10 @@ export class HandJudge {
   #find(): Task | null {
     const { store } = this.#services;
     const shown = currentPlace(store.state);
-    const places = store.doc.frames.flatMap(({ id: frameId }) => COMPONENT_NAMES.map((component) => ({ frameId, component })));
-    for (const place of shown ? [shown, ...places] : places) {
-      const cell = cellOf(store.doc, place.frameId, place.component);
-      if (this.#isUnjudged(cell) && store.ui.libraries[place.component].state === 'ready') return { place, cell };
+    const places = inFilmOrder(store.doc, placedByHand.in(store.doc.cells));
+    for (const { frameId, component } of shown ? [shown, ...places] : places) {
+      const cell = cellOf(store.doc, frameId, component);
+      if (this.#isUnjudged(cell) && store.ui.libraries[component].state === 'ready') return { place: { frameId, component }, cell };
     }
     return null;
   }
@@ -89,10 +90,12 @@ export class HandJudge {
     if (isClosed(cell.outline) && cell.outline && camera) {
       return this.#worker.call('judgeOutline', { component: place.component, ...flatten(cell.outline), camera, pose });
     }
-    const input = onFrameInput(this.#services, place);
+    const input = await onFrameInput(this.#services, place);
     return this.#worker.call('judgeOnFrame', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
   }
 }
+
+const placedByHand = new CellIndex<Cell>(({ cell }) => isByHand(cell.result));
 
 function isClosed(outline: Cell['outline']): boolean {
   return outline?.closed ?? false;

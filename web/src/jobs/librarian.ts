@@ -80,13 +80,13 @@ export class Librarian {
     }
   }
 
-  #openFile(component: ComponentName, sha256: string, doc: Doc, signal: AbortSignal): Promise<LibraryFacts> {
+  async #openFile(component: ComponentName, sha256: string, doc: Doc, signal: AbortSignal): Promise<LibraryFacts> {
     const { assets, studio } = this.#services;
     const asset = assets.get(sha256);
     if (!asset) throw new Error(texts.said.library.noFile);
     const { model } = doc.components[component];
     const mesh = model && studio.meshOf(model.sha256);
-    return this.#poser.call('open', { component, bytes: asset.bytes, mesh }, { signal });
+    return this.#poser.call('open', { component, bytes: new Uint8Array(await asset.blob.arrayBuffer()), mesh }, { signal });
   }
 
   async #build(component: ComponentName, doc: Doc, abort: AbortController): Promise<LibraryFacts> {

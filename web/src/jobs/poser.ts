@@ -1,11 +1,13 @@
+import { type CellEntry, CellIndex } from '../document/cells';
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
+import { inFilmOrder, indexOfFrame } from '../document/frame_index';
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
 import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Result } from '../document/types';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import type { ComponentName } from '../terms/component';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
-import { cameraOf, poseKey } from '../results/keys';
+import { cameraOf, poseKey, poseKeys } from '../results/keys';
 import { PROGRAM } from '../terms/program';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Refined } from '../workers/protocol/match';
@@ -63,6 +65,9 @@ export class Poser {
   /** Outlines that a worker stopped at. */
   readonly #stoppedAt = new WeakSet<Outline>();
   readonly #findings = new WeakMap<Outline, Findings>();
+  /** Pages of cells are looked at again when they change, or what poses are found with. */
+  readonly #index = new CellIndex<Cell>((entry) => this.#isUnsettled(entry));
+  #keyOf: ReturnType<typeof poseKeys> = () => null;
   #busy = false;
   #shownOutline: Outline | null = null;
   #changedAt = -Infinity;
@@ -146,13 +151,30 @@ export class Poser {
     const frame = currentFrame(state);
     const first = shown && frame && this.#task(method, frame, shown.component, true);
     if (first) return first;
-    for (const frame of doc.frames) {
-      for (const component of COMPONENT_NAMES) {
-        const task = this.#task(method, frame, component, false);
-        if (task) return task;
-      }
+    for (const { frameId, component } of this.#unsettled()) {
+      const task = this.#task(method, doc.frames[indexOfFrame(doc, frameId)]!, component, false);
+      if (task) return task;
     }
     return null;
+  }
+
+  /** Closed outlines without a refined pose of what is there now; what was tried in vain is among them. */
+  #unsettled(): readonly CellEntry<Cell>[] {
+    const { doc } = this.#store;
+    const { calibration, components, distortion, frames } = doc;
+    const keyOf = poseKeys(doc);
+    this.#keyOf = keyOf;
+    return inFilmOrder(doc, this.#index.in(doc.cells, calibration, components, distortion, frames));
+  }
+
+  #isUnsettled({ frameId, component, cell }: CellEntry<Cell>): boolean {
+    const { doc } = this.#store;
+    const frame = doc.frames[indexOfFrame(doc, frameId)];
+    if (!cell.outline?.closed || !frame) return false;
+    const key = this.#keyOf(component, frame);
+    if (key === null) return false;
+    const isAtRest = isLoaded(cell) || cell.result?.kind === 'failed' || (isRefined(cell.result) && this.findings(cell.outline)?.tried !== false);
+    return isStale(cell, key) || !isAtRest;
   }
 
   #task(method: Task['method'], frame: FrameEntry, component: ComponentName, shown: boolean): Task | null {

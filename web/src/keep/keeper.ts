@@ -1,9 +1,10 @@
 import { SESSION_VERSION, plainCell, plainDoc } from '../document/session/session';
 import type { Keeping, Store } from '../document/store';
-import { EMPTY_DOC, type Doc } from '../document/types';
+import { Cells } from '../document/cells';
+import { cellKey, EMPTY_DOC, type Doc } from '../document/types';
 import { texts } from '../texts/texts';
 import { PROGRAM } from '../terms/program';
-import { filesOf } from '../exchange/saver';
+import { filesOf } from '../document/named_files';
 import { sentenceOf, type Services } from '../jobs/services';
 import { Claims } from './claims';
 import { Shelf, type CellChange, type KeptWork } from './shelf';
@@ -162,7 +163,7 @@ export class Keeper {
   }
 
   #record(doc: Doc): KeptWork {
-    const { cells: _, ...document } = plainDoc({ ...doc, cells: {} });
+    const { cells: _, ...document } = plainDoc({ ...doc, cells: Cells.NONE });
     return {
       id: doc.work,
       name: doc.name,
@@ -184,7 +185,7 @@ export class Keeper {
       const asset = this.#services.assets.get(sha256);
       // A session may name files that nobody has opened yet.
       if (!asset) continue;
-      if (!(await shelf.hasFile(sha256))) await shelf.addFile({ sha256, name, bytes: asset.bytes });
+      if (!(await shelf.hasFile(sha256))) await shelf.addFile({ sha256, name, blob: asset.blob });
       this.#filesHere.add(sha256);
     }
   }
@@ -213,13 +214,7 @@ function hasSomething(doc: Doc): boolean {
 
 /** Cells that differ from what was written; cells that are gone as null. */
 export function changedCells(before: Doc, after: Doc): CellChange[] {
-  const keys = new Set([...Object.keys(before.cells), ...Object.keys(after.cells)]);
-  return [...keys]
-    .filter((key) => before.cells[key] !== after.cells[key])
-    .map((key) => {
-      const cell = after.cells[key];
-      return { key, cell: cell ? plainCell(cell) : null };
-    });
+  return before.cells.differences(after.cells).map(({ frameId, component, after: cell }) => ({ key: cellKey(frameId, component), cell: cell && plainCell(cell) }));
 }
 
 /** What the browser's refusal means for the person. */

@@ -5,7 +5,8 @@ import { texts } from '../texts/texts';
 import { bringFiles } from '../exchange/bring_files';
 import { sentenceOf, type Services } from '../jobs/services';
 import type { Keeper } from './keeper';
-import type { KeptWork } from './shelf';
+import type { KeptWork, Shelf } from './shelf';
+import { work } from '../workers/activity';
 
 /** A document nobody began: undo goes back to what was before. */
 const START_ANEW = { label: texts.keep.startAnewLabel, apply: () => EMPTY_DOC };
@@ -69,15 +70,18 @@ function showView({ store }: Services, work: KeptWork): void {
   store.goTo(frameIndex);
 }
 
-/** Bytes first, checked against their digests; then frames and models as when they were opened. */
-async function bringKeptFiles(services: Services, keeper: Keeper, work: KeptWork, doc: Doc): Promise<void> {
-  const shelf = await keeper.shelf();
-  for (const { sha256, name } of work.files) {
-    const kept = await shelf.file(sha256);
-    if (!kept) continue;
-    const asset = await services.assets.add(kept.name, kept.bytes);
-    if (asset.sha256 !== sha256) services.store.say('error', texts.keep.damaged(name));
+/** Files are looked at when they are read; models are at once, frames when they are shown. */
+async function bringKeptFiles(services: Services, keeper: Keeper, kept: KeptWork, doc: Doc): Promise<void> {
+  const over = work.begin();
+  try {
+    await bringFrom(await keeper.shelf(), services, kept, doc);
+  } finally {
+    over();
   }
-  const missing = await bringFiles(services, doc, texts.keep.job);
+}
+
+async function bringFrom(shelf: Shelf, services: Services, work: KeptWork, doc: Doc): Promise<void> {
+  for (const kept of await shelf.files(work.files.map(({ sha256 }) => sha256))) services.assets.keep(kept);
+  const missing = await bringFiles(services, doc);
   if (missing.length > 0) services.store.say('error', texts.keep.missing(texts.listed(missing), missing.length));
 }

@@ -27,10 +27,17 @@ export interface CellChange {
   readonly cell: unknown;
 }
 
+/** Pages of before kept the bytes themselves. */
+interface KeptFile {
+  readonly name: string;
+  readonly sha256: string;
+  readonly bytes: Blob | Uint8Array<ArrayBuffer>;
+}
+
 interface Schema extends DBSchema {
   works: { key: string; value: KeptWork };
   cells: { key: [work: string, cell: string]; value: unknown };
-  files: { key: string; value: Asset };
+  files: { key: string; value: KeptFile };
 }
 
 const NAME = 'fluoropose';
@@ -117,13 +124,16 @@ export class Shelf {
     return (await this.#database.count('files', sha256)) > 0;
   }
 
-  async file(sha256: string): Promise<Asset | null> {
-    return (await this.#database.get('files', sha256)) ?? null;
+  /** Those of them that are here. */
+  async files(digests: readonly string[]): Promise<readonly Asset[]> {
+    const { store } = this.#database.transaction('files');
+    const found = await Promise.all(digests.map((sha256) => store.get(sha256)));
+    return found.flatMap((kept) => (kept ? [{ name: kept.name, sha256: kept.sha256, blob: kept.bytes instanceof Blob ? kept.bytes : new Blob([kept.bytes]) }] : []));
   }
 
-  async addFile(asset: Asset): Promise<void> {
+  async addFile({ name, sha256, blob }: Asset): Promise<void> {
     const transaction = this.#database.transaction('files', 'readwrite', { durability: 'relaxed' });
-    await settled(transaction, () => [transaction.store.put(asset)]);
+    await settled(transaction, () => [transaction.store.put({ name, sha256, bytes: blob })]);
   }
 
   /** Deletes files that no work names. A work names its files before they are added, so none is taken from under it. */

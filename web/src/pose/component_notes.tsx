@@ -1,7 +1,9 @@
 import { isAssumed } from '../document/axes';
+import { swapModels } from '../document/commands';
 import type { State } from '../document/store';
 import { cellOf, chosenCandidate, type Component } from '../document/types';
 import type { ComponentName } from '../terms/component';
+import { misplacedModels } from '../results/misplaced';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { Icon } from '../controls/icons';
@@ -11,9 +13,34 @@ export function ComponentNotes({ state }: { state: State }) {
   const { component } = state.ui;
   return (
     <>
+      <MisplacedCard state={state} />
       <RemarksCard state={state} component={component} />
       <AxesCard state={state} component={component} />
     </>
+  );
+}
+
+/** A model that was taken by its name for what it is not, whichever component is on view. */
+function MisplacedCard({ state }: { state: State }) {
+  const { studio, store } = useApp().services;
+  const doc = state.history.present;
+  const { components, canSwap } = misplacedModels(doc, (sha256) => studio.shapeKindOf(sha256));
+  const key = `shape ${components.map((component) => doc.components[component].model?.sha256).join(' ')}`;
+  if (components.length === 0 || state.ui.dismissed.includes(key)) return null;
+  const words = texts.models;
+  const said = components.map((component) => words.misplaced(doc.components[component].model?.name ?? '', words.shape[component], texts.component[component]));
+  return (
+    <section class="card note" aria-label={words.card}>
+      <p class="card-note">{[...said, ...(components.length > 1 ? [words.swapped] : [])].join(' ')}</p>
+      {canSwap && (
+        <button type="button" class="button small primary" title={words.swapTitle} onClick={() => store.perform(swapModels())}>
+          {words.swap}
+        </button>
+      )}
+      <button type="button" class="button square small" aria-label={words.dismiss} onClick={() => store.show({ dismissed: [...state.ui.dismissed, key] })}>
+        <Icon name="close" />
+      </button>
+    </section>
   );
 }
 

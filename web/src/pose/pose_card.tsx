@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { referencePose } from '../document/reference';
-import { currentPlace } from '../document/store';
+import { isAccepted, markOf, NO_MARK } from '../document/marks';
+import { currentPlace, currentRefusal } from '../document/store';
 import { cellOf, chosenCandidate, isByHand, type Cell, type Result, verdictOf } from '../document/types';
 import { decimalsFor, formatDeviation, formatNumber } from '../texts/numbers';
 import { inWords } from '../results/missing';
@@ -29,7 +30,10 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
     : sourceOf(cell, findings);
   const { store } = useApp().services;
   const adjusting = store.ui.tool === 'pose';
-  const reference = store.ui.seeing.comparing ? referencePose(store.doc, currentPlace(store.state)) : null;
+  const place = currentPlace(store.state);
+  const refusal = currentRefusal(store.state);
+  const mark = place ? markOf(store.doc, place) : NO_MARK;
+  const reference = store.ui.seeing.comparing ? referencePose(store.doc, place) : null;
   return (
     <section class="card pose" aria-label={texts.panel.pose.region}>
       {adjusting && <HandNumbers pose={pose} />}
@@ -49,9 +53,10 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
         </dl>
       )}
       <div class={pose && cell.result?.kind === 'posed' && cell.result.from !== 'file' ? 'pose-note posed' : 'pose-note'}>
-        <VerdictLine result={cell.result} />
+        <VerdictLine result={cell.result} isAccepted={isAccepted(cell, mark)} />
         <p class="card-note">{pose ? source : needs(cell, missing)}</p>
       </div>
+      {refusal !== null && <p class="card-note refused">{refusal}</p>}
       {cell.result?.kind === 'failed' && <Remedies cell={cell} />}
       {!adjusting && <HandButtons cell={cell} adjusting={false} />}
     </section>
@@ -59,11 +64,18 @@ export function PoseNumbersCard({ cell, missing, outdated }: PoseNumbersCardProp
 }
 
 /** How far the pose is to be trusted, in a word, and why it is not. Its place is kept while that is worked out. */
-function VerdictLine({ result }: { result: Result | null }) {
+function VerdictLine({ result, isAccepted }: { result: Result | null; isAccepted: boolean }) {
   const words = texts.panel.pose;
   const verdict = result?.kind === 'failed' ? ({ word: 'none', because: result.sentence } as const) : verdictOf(result);
   if (!verdict) return result?.kind === 'posed' && result.from !== 'file' ? <p class="verdict" /> : null;
   const { word, because } = verdict;
+  if (isAccepted) {
+    return (
+      <p class="verdict is-accepted" role="group" aria-label={words.verdict} title={words.accepted(because)}>
+        <span class="verdict-word">{words.verdicts.accepted}</span>
+      </p>
+    );
+  }
   return (
     <p class={`verdict is-${word}`} role="group" aria-label={words.verdict} title={because}>
       <span class="verdict-word">{words.verdicts[word]}</span>

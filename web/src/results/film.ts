@@ -1,12 +1,14 @@
+import { inFilmOrder, indexOfFrame } from '../document/frame_index';
 import { CONSTANTS, filmNumbers, sameFilm } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { type Candidate, type Cell, cellKey, cellOf, type Doc, type FrameEntry, type KnownFilm, type Posed, type Verdict, verdictOf } from '../document/types';
+import { type CellEntry, CellIndex } from '../document/cells';
 import type { Place } from '../document/command';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { FilmMisfits } from '../workers/protocol/film';
-import { poseKey } from './keys';
+import { poseKey, poseKeys } from './keys';
 
 /** What the study's own frames tell of their film, and which poses it concerns. */
 
@@ -24,9 +26,16 @@ export interface Witness {
   readonly isDoubtful: boolean;
 }
 
+const onFrames = new CellIndex<Cell>(({ cell: { result } }) => result?.kind === 'posed' && result.onFrame !== undefined);
+
+/** Cells whose poses were found on frames themselves. */
+export function foundOnFrames(doc: Doc): readonly CellEntry<Cell>[] {
+  return inFilmOrder(doc, onFrames.in(doc.cells));
+}
+
 /** Was any pose found on a frame itself? */
 export function meetsFrames(doc: Doc): boolean {
-  return Object.values(doc.cells).some(({ result }) => result?.kind === 'posed' && result.onFrame !== undefined);
+  return onFrames.in(doc.cells).length > 0;
 }
 
 /**
@@ -34,11 +43,14 @@ export function meetsFrames(doc: Doc): boolean {
  * nothing better does, unless somebody checked it: a tray on the wrong rim would bend the film to explain it.
  */
 export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: FrameEntry) => boolean, isKnown: (key: string) => boolean = () => false): readonly Witness[] {
+  const entries = inFilmOrder(doc, mayTell.in(doc.cells));
+  const keyOf = poseKeys(doc);
   return COMPONENT_NAMES.flatMap((component) => {
-    const found = doc.frames.flatMap((entry, frame): Witness[] => {
-      const candidate = toldBy(doc, component, entry);
+    const found = entries.flatMap(({ frameId, component: of, cell }): Witness[] => {
+      const frame = indexOfFrame(doc, frameId);
+      const entry = doc.frames[frame]!;
+      const candidate = of === component ? toldBy(cell, keyOf(component, entry)) : null;
       if (!candidate || !isReady(component, entry)) return [];
-      const cell = cellOf(doc, entry.id, component);
       const isChecked = checkState(cell, markOf(doc, { frameId: entry.id, component })) === 'yes';
       const isDoubtful = !isChecked && verdictOf(cell.result)?.word === 'doubtful';
       return [{ key: cellKey(entry.id, component), frameId: entry.id, component, frame, pose: candidate.pose, isDoubtful }];
@@ -50,13 +62,14 @@ export function witnesses(doc: Doc, isReady: (component: ComponentName, frame: F
   });
 }
 
-function toldBy(doc: Doc, component: ComponentName, frame: FrameEntry): Candidate | null {
-  const { result, outline, resultOf } = cellOf(doc, frame.id, component);
+const mayTell = new CellIndex<Cell>(({ cell: { result } }) => result?.kind === 'posed' && result.from !== 'film');
+
+function toldBy({ result, outline, resultOf }: Cell, key: string | null): Candidate | null {
   // What was followed rests on the film as it was known then.
   if (result?.kind !== 'posed' || result.from === 'film') return null;
   const candidate = result.candidates[result.chosen];
   if (!candidate || (candidate.residual === null && result.from !== 'file')) return null;
-  const isCurrent = result.from !== 'outline' || (resultOf === outline && result.origin === poseKey(doc, component, frame));
+  const isCurrent = result.from !== 'outline' || (resultOf === outline && result.origin === key);
   return isCurrent ? candidate : null;
 }
 
@@ -111,13 +124,10 @@ export function needsCorrection(doc: Doc, component: ComponentName, frame: Frame
 /** What remains at the poses that were found on frames by their film, but for one: what is usual there. */
 export function misfitsBeside(doc: Doc, { frameId, component }: Place): FilmMisfits {
   const of = (wanted: (place: Place) => boolean) =>
-    doc.frames.flatMap(({ id }) =>
-      COMPONENT_NAMES.flatMap((other) => {
-        const { result } = cellOf(doc, id, other);
-        const misfit = result?.kind === 'posed' && result.onFrame?.film ? result.candidates[result.chosen]?.judged?.misfit : undefined;
-        return misfit !== undefined && wanted({ frameId: id, component: other }) ? [misfit] : [];
-      }),
-    );
+    foundOnFrames(doc).flatMap(({ cell: { result }, ...place }) => {
+      const misfit = result?.kind === 'posed' && result.onFrame?.film ? result.candidates[result.chosen]?.judged?.misfit : undefined;
+      return misfit !== undefined && wanted(place) ? [misfit] : [];
+    });
   return {
     own: of((place) => place.component === component && place.frameId !== frameId),
     others: of((place) => place.component !== component),
@@ -142,29 +152,32 @@ export function verdictAfter(before: Posed, [first, ...others]: readonly Candida
   return isRival && own?.word === 'good' ? before.verdict : own;
 }
 
-/** What a cell's poses are once they are corrected. */
-export type Settled = Pick<Posed, 'candidates' | 'chosen' | 'decided' | 'verdict'>;
+/** What a cell's poses are once they are corrected, and what decided between them. */
+export type Settled = Pick<Posed, 'candidates' | 'chosen' | 'decided' | 'verdict' | 'reason'>;
 
 /**
  * Corrected poses with `more` that nobody had looked at. One of them that leaves clearly less takes the place of a pose that nobody
  * chose by hand; one that leaves about as much makes it doubtful, until what is around decides.
  */
 export function settled(before: Posed, candidates: readonly Candidate[], more: readonly Candidate[]): Settled {
-  const { chosen, decided } = before;
+  const { chosen, decided, reason } = before;
   const own = candidates[chosen];
   const [best] = more.toSorted((a, b) => misfitOf(a) - misfitOf(b));
   const rest = candidates.filter((candidate) => candidate !== own);
   const all = { candidates: [...candidates, ...more], chosen };
   if (!own || !best || misfitOf(best) > DECISIVE * misfitOf(own)) {
-    return { ...all, decided, verdict: own ? verdictAfter(before, [own, ...rest]) : before.verdict };
+    // Between several poses something else decided, which still holds.
+    const why = own && best && candidates.length === 1 ? texts.film.clearer(misfitOf(own), misfitOf(best)) : reason;
+    return { ...all, decided, reason: why, verdict: own ? verdictAfter(before, [own, ...rest]) : before.verdict };
   }
   if (chosen !== 0 || DECISIVE * misfitOf(best) > misfitOf(own)) {
     const alone = own.judged?.verdict ?? null;
     const verdict: Verdict | null = alone?.word === 'good' ? { word: 'doubtful', because: texts.film.alike(misfitOf(own), misfitOf(best)) } : alone;
-    return { ...all, decided: false, verdict };
+    return { ...all, decided: false, reason: texts.film.undecided(misfitOf(candidates[0] ?? own), misfitOf(best)), verdict };
   }
   const others = [...candidates, ...more.filter((candidate) => candidate !== best)];
-  return { candidates: [best, ...others], chosen, decided, verdict: verdictAfter({ ...before, verdict: null }, [best, ...others]) };
+  const verdict = verdictAfter({ ...before, verdict: null }, [best, ...others]);
+  return { candidates: [best, ...others], chosen, decided, reason: texts.film.clearer(misfitOf(best), misfitOf(own)), verdict };
 }
 
 function misfitOf({ judged }: Candidate): number {

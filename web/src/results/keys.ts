@@ -1,4 +1,5 @@
 import { distortionKey, fits, numbersOf, type Distortion } from '../document/distortion';
+import { interned } from '../document/interned';
 import type { Doc, FrameEntry, LibrarySpec } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import type { DistortionInput, CameraInput } from '../workers/protocol/camera';
@@ -23,20 +24,34 @@ function viewsText({ views, ...settings }: LibrarySpec): string {
 
 /** What a pose in this frame is found with. */
 export function poseKey(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
+  return poseKeys(doc)(component, frame);
+}
+
+function keyFor(doc: Doc, component: ComponentName, frame: FrameEntry): string | null {
   const library = libraryKey(doc, component);
   const camera = cameraOf(doc, frame);
   if (!library || !camera) return null;
   const straightened = fits(doc.distortion, frame) ? ` straightened ${distortionKey(doc.distortion)}` : '';
-  return `${library}; frame ${camera.width}x${camera.height} camera ${JSON.stringify(camera.text)}${straightened}`;
+  return interned(`${library}; frame ${camera.width}x${camera.height} camera ${JSON.stringify(camera.text)}${straightened}`);
 }
 
+type KeyOf = (component: ComponentName, frame: FrameEntry) => string | null;
+
+const keysOf = new WeakMap<Doc, KeyOf>();
+
 /** The same for many cells of one document: keys are long texts, and frames of a sequence share them. */
-export function poseKeys(doc: Doc): (component: ComponentName, frame: FrameEntry) => string | null {
+export function poseKeys(doc: Doc): KeyOf {
+  let keyOf = keysOf.get(doc);
+  if (!keyOf) keysOf.set(doc, (keyOf = keysFor(doc)));
+  return keyOf;
+}
+
+function keysFor(doc: Doc): KeyOf {
   const known = new Map<string, string | null>();
   return (component, frame) => {
     const kind = `${component} ${frame.width} ${frame.height}`;
     let key = known.get(kind);
-    if (key === undefined) known.set(kind, (key = poseKey(doc, component, frame)));
+    if (key === undefined) known.set(kind, (key = keyFor(doc, component, frame)));
     return key;
   };
 }

@@ -12,7 +12,10 @@ export interface Progress {
   readonly stage: Stage;
   /** Model, calibration or library have changed since the pose was found. */
   readonly outdated: boolean;
-  /** It may be wrong: by its verdict, or of sessions without one, as nothing but a slightly smaller residual spoke for it. */
+  /**
+   * It may be wrong, and nobody checked it: by its verdict, or of sessions without one, as nothing but a slightly smaller residual
+   * spoke for it.
+   */
   readonly doubtful: boolean;
   /** A pose of what is there now. */
   readonly posed: boolean;
@@ -25,12 +28,13 @@ export interface Progress {
 export function progressOf(cell: Cell, mark: Mark, key: string | null): Progress {
   const stage = stageOf(cell);
   const outdated = isOutdatedResult(cell, key);
+  const check = checkState(cell, mark);
   return {
     stage,
     outdated,
-    doubtful: isDoubtful(cell),
+    doubtful: check !== 'yes' && isDoubtful(cell),
     posed: POSED.includes(stage) && !outdated,
-    check: checkState(cell, mark),
+    check,
     flagged: mark.flagged,
     note: mark.note,
   };
@@ -129,8 +133,7 @@ export function nextTask(
   for (const filter of ['unfinished', 'doubtful', 'unchecked'] as const) {
     for (let away = 1; away <= entries.length; away++) {
       const entry = entries[(((here + step * away) % entries.length) + entries.length) % entries.length];
-      const isOpen = filter !== 'doubtful' || entry?.progress.check !== 'yes';
-      if (entry && isOpen && passes(entry, filter)) return { entry, filter };
+      if (entry && passes(entry, filter)) return { entry, filter };
     }
   }
   return null;

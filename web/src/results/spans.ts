@@ -33,12 +33,13 @@ export function spanToFollow(doc: Doc, component: ComponentName): Span | null {
   const key = (frame: number) => keyAmong(given, frame);
   // Frames that were followed together with one that somebody finds right need not be followed again for it.
   const besidesAccepted = given.filter(({ isAccepted }) => !isAccepted);
+  const set = new Set(given.map(({ frame }) => frame));
   const stale = doc.frames.flatMap(({ id }, frame) => {
     const cell = cellOf(doc, id, component);
-    const isSet = given.some((one) => one.frame === frame);
+    if (set.has(frame) || !isFree(cell)) return [];
     const isFrom = (these: readonly Given[]) => isFollowed(cell.result) && cell.result?.origin.endsWith(keyAmong(these, frame));
     const isDone = isFrom(given) || (besidesAccepted.length > 0 && isFrom(besidesAccepted));
-    return isSet || !isFree(cell) || isDone ? [] : [frame];
+    return isDone ? [] : [frame];
   });
   const [from, to] = [stale[0], stale.at(-1)];
   if (from === undefined || to === undefined) return null;
@@ -62,9 +63,21 @@ function givenPoses(doc: Doc, component: ComponentName): readonly Given[] {
 }
 
 function keyAmong(given: readonly Given[], frame: number): string {
-  const before = given.filter((one) => one.frame <= frame).at(-1);
-  const after = given.find((one) => one.frame >= frame);
+  const next = firstFrom(given, frame);
+  const after = given[next];
+  const before = after?.frame === frame ? after : given[next - 1];
   return [before, after].flatMap((one) => (one ? [keyOf(one)] : [])).join(' and ');
+}
+
+/** Number of the first that is at a frame or behind it: they are in the order of the film. */
+function firstFrom(given: readonly Given[], frame: number): number {
+  let [low, high] = [0, given.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (given[middle]!.frame < frame) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }
 
 function keyOf({ frame, pose }: Given): string {

@@ -1,4 +1,5 @@
 import { tiltAxes } from '../document/axes';
+import { indexOfFrame } from '../document/frame_index';
 import { checkState, markOf } from '../document/marks';
 import { cellOf, chosenCandidate, type Doc, isByHand, verdictOf } from '../document/types';
 import type { PoseNumbers } from '../geometry/pose_numbers';
@@ -10,7 +11,7 @@ import type { Counterpart, Surroundings } from '../workers/protocol/match';
  * file. What is called doubtful speaks for nothing else, unless a person has checked it.
  */
 export function surroundingsOf(doc: Doc, frameId: string, component: ComponentName): Surroundings {
-  const index = doc.frames.findIndex((frame) => frame.id === frameId);
+  const index = indexOfFrame(doc, frameId);
   const neighbours = [index - 1, index + 1].map((frame) => reliablePose(doc, frame, component));
   return { counterpart: counterpartOf(doc, index, component), neighbours: neighbours.filter((pose) => pose !== null) };
 }

@@ -1,4 +1,5 @@
 import { useApp } from '../commands/app';
+import { unjudged } from '../document/followed';
 import type { State } from '../document/store';
 import { FAULTS, faultsOf, inRuns } from '../results/joint_faults';
 import { COMPONENT_NAMES } from '../terms/component';
@@ -11,12 +12,19 @@ export function ExportFaults({ state }: { state: State }) {
   const { kind, forms, component } = state.ui.exporting;
   if (kind === 'session' || kind === 'outlines' || doc.frames.length === 0) return null;
   const isOfOne = kind === 'poses' && forms.poses !== 'tra';
-  const faults = faultsOf(doc, isOfOne ? [component] : COMPONENT_NAMES);
+  const components = isOfOne ? [component] : COMPONENT_NAMES;
+  const faults = faultsOf(doc, components);
+  const soFar = components.filter((one) => unjudged(doc, one) > 0);
   const found = FAULTS.filter((fault) => faults[fault].length > 0);
   const words = texts.exporting.faults;
   return (
     <>
       {kind !== 'poses' && joint.numbers.of.size > 0 && <p class="sheet-text">{words.frames(joint.numbers.of.size, doc.frames.length)}</p>}
+      {soFar.map((one) => (
+        <p class="sheet-text" key={one}>
+          {texts.follow.unjudged(texts.component[one], unjudged(doc, one))}
+        </p>
+      ))}
       {found.length === 0 ? (
         <p class="sheet-text">{words.none}</p>
       ) : (

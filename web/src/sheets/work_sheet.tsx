@@ -23,7 +23,7 @@ export function WorkSheet({ state }: { state: State }) {
           </button>
         ))}
       </div>
-      {shown.length === 0 ? <p class="sheet-text quiet">{work.nothing[filter]}</p> : <EntryTable state={state} entries={shown} />}
+      {shown.length === 0 ? <p class="sheet-text quiet">{work.nothing[filter]}</p> : <EntryTable key={filter} state={state} entries={shown} />}
       <Legend />
     </div>
   );
@@ -31,9 +31,13 @@ export function WorkSheet({ state }: { state: State }) {
 
 function EntryTable({ state, entries }: { state: State; entries: readonly Entry[] }) {
   const { columns } = texts.work;
+  const [count, setCount] = useState(AT_ONCE);
+  const onScroll = ({ currentTarget: { scrollTop, scrollHeight, clientHeight } }: { currentTarget: HTMLElement }) => {
+    if (count < entries.length && scrollTop + 2 * clientHeight > scrollHeight) setCount(count + AT_ONCE);
+  };
   return (
-    <div class="work-scroll">
-      <table class="work-table" aria-label={texts.work.list}>
+    <div class="work-scroll" onScroll={onScroll}>
+      <table class="work-table" aria-label={texts.work.list} aria-rowcount={entries.length + 1}>
         <thead>
           <tr>
             {Object.values(columns).map((column) => (
@@ -44,7 +48,7 @@ function EntryTable({ state, entries }: { state: State; entries: readonly Entry[
           </tr>
         </thead>
         <tbody>
-          {entries.map((entry) => (
+          {entries.slice(0, count).map((entry) => (
             <EntryRow key={`${entry.frame.id}/${entry.place.component}`} state={state} entry={entry} />
           ))}
         </tbody>
@@ -52,6 +56,9 @@ function EntryTable({ state, entries }: { state: State; entries: readonly Entry[
     </div>
   );
 }
+
+/** A long film has thousands of rows: more come as somebody scrolls. */
+const AT_ONCE = 160;
 
 function EntryRow({ state, entry }: { state: State; entry: Entry }) {
   const { actions } = useApp();
@@ -94,7 +101,19 @@ function EntryRow({ state, entry }: { state: State; entry: Entry }) {
   );
 }
 
-const STAGES: readonly Stage[] = ['draft', 'traced', 'posed', 'refined', 'by hand', 'pose loaded', 'no pose'];
+/** All of them: one that is forgotten here is no type. */
+const IN_LEGEND: Readonly<Record<Exclude<Stage, 'empty'>, true>> = {
+  draft: true,
+  traced: true,
+  posed: true,
+  refined: true,
+  'by hand': true,
+  followed: true,
+  'followed so far': true,
+  'pose loaded': true,
+  'no pose': true,
+};
+const STAGES = Object.keys(IN_LEGEND) as readonly Stage[];
 const PLAIN = { stage: 'refined', outdated: false, doubtful: false, posed: true, check: 'no', flagged: false, note: '' } as const;
 
 /** What the marks in the cells mean. */

@@ -3,14 +3,16 @@ import { type Cell, cellOf, chosenCandidate } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { isOutdated, missingForPose } from '../results/missing';
 import { useApp } from '../commands/app';
+import { later } from '../commands/later';
 import { Display } from './display';
 import { PoseNumbersCard } from '../pose/pose_card';
 import { Candidates } from '../pose/candidates';
-import { CompareCard } from '../pose/compare_card';
 import { ComponentNotes } from '../pose/component_notes';
 import { FilmNote } from '../pose/film_note';
-import { Pictures } from '../pose/pictures';
 import { texts } from '../texts/texts';
+
+const CompareCard = later(async () => (await import('../pose/compare_card')).CompareCard);
+const Pictures = later(async () => (await import('../pose/pictures')).Pictures);
 
 /**
  * The right side: the selected component's pose, how far to trust it, and how the frame is shown. A card is there when it

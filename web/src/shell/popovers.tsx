@@ -4,22 +4,23 @@ import type { Popover, State } from '../document/store';
 import { titleOf } from '../terms/component';
 import { useApp } from '../commands/app';
 import { later } from '../commands/later';
-import { CalibrationSheet } from '../sheets/calibration_sheet';
-import { ComponentSheet } from '../sheets/component_sheet';
 import { Icon } from '../controls/icons';
 import { LogSheet } from '../sheets/log_sheet';
-import { WorkSheet } from '../sheets/work_sheet';
 import { texts } from '../texts/texts';
 
 const CalibrateSheet = later(async () => (await import('../sheets/calibrate_sheet')).CalibrateSheet);
+const CalibrationSheet = later(async () => (await import('../sheets/calibration_sheet')).CalibrationSheet);
+const ComponentSheet = later(async () => (await import('../sheets/component_sheet')).ComponentSheet);
 const ConvergenceSheet = later(async () => (await import('../sheets/convergence_sheet')).ConvergenceSheet);
 const ExportSheet = later(async () => (await import('../sheets/export_sheet')).ExportSheet);
 const FilmSheet = later(async () => (await import('../sheets/film_sheet')).FilmSheet);
 const ImportSheet = later(async () => (await import('../steps/open/import_sheet')).ImportSheet);
 const KeySheet = later(async () => (await import('../sheets/key_sheet')).KeySheet);
+const SetsSheet = later(async () => (await import('../steps/open/sets_sheet')).SetsSheet);
 const ShapeSheet = later(async () => (await import('../sheets/shape_sheet')).ShapeSheet);
 const VideoSheet = later(async () => (await import('../steps/open/video_sheet')).VideoSheet);
 const ViewSheet = later(async () => (await import('../sheets/view_sheet')).ViewSheet);
+const WorkSheet = later(async () => (await import('../sheets/work_sheet')).WorkSheet);
 
 /** What opens over the page, one at a time. Nothing here is modal: the page behind goes on working. */
 export function Popovers({ state }: { state: State }) {
@@ -47,6 +48,7 @@ const TITLES: Readonly<Record<Popover, string>> = {
   calibrate: texts.calibrate.sheet,
   video: texts.files.video.sheet,
   film: texts.film.sheet,
+  sets: texts.files.sets.title,
 };
 
 function contents(popover: Popover, state: State): ComponentChildren {
@@ -76,6 +78,8 @@ function contents(popover: Popover, state: State): ComponentChildren {
       return <VideoSheet state={state} />;
     case 'film':
       return <FilmSheet state={state} />;
+    case 'sets':
+      return <SetsSheet state={state} />;
     case 'view':
       return <ViewSheet state={state} />;
   }

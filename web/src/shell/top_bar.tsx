@@ -13,7 +13,9 @@ import { texts } from '../texts/texts';
 const SIDES: readonly Side[] = ['unknown', 'left', 'right'];
 
 export function TopBar({ state }: { state: State }) {
-  const { actions, services } = useApp();
+  const { actions } = useApp();
+  // Before there is a frame there is neither a way to go nor anything to save.
+  const isEmpty = state.history.present.frames.length === 0;
   return (
     <header class="top-bar" aria-label={texts.top.region}>
       <h1 class="for-readers">{texts.program}</h1>
@@ -24,25 +26,15 @@ export function TopBar({ state }: { state: State }) {
           <ComponentChip key={component} state={state} component={component} />
         ))}
       </div>
-      {state.history.present.frames.length > 0 && <StepBar state={state} />}
+      {!isEmpty && <StepBar state={state} />}
       <div class="bar-buttons">
         <WayOn state={state} />
         <UndoAndRedo state={state} />
-        <button type="button" class={state.history.present.frames.length > 0 ? 'button' : 'button unseen'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
+        <button type="button" class={isEmpty ? 'button unseen' : 'button'} aria-label={texts.top.open} title={texts.top.openTitle} onClick={() => void actions.openPicked()}>
           <Icon name="open" /> <span class="word first-to-go">{texts.top.open}</span>
         </button>
-        <button
-          type="button"
-          class="button"
-          aria-label={texts.top.saveLabel}
-          title={texts.top.saveTitle}
-          aria-haspopup="dialog"
-          aria-expanded={state.ui.popover === 'export'}
-          onClick={() => toggle(services.store, 'export')}
-        >
-          <Icon name="save" /> <span class="word">{texts.top.save}</span>
-        </button>
-        <SavedState state={state} />
+        {!isEmpty && <SaveButton state={state} />}
+        {!isEmpty && <SavedState state={state} />}
         {state.ui.update ? (
           <button type="button" class="button update" title={texts.top.updateTitle} onClick={state.ui.update}>
             {texts.top.update}
@@ -51,6 +43,23 @@ export function TopBar({ state }: { state: State }) {
         <ThemeAndKeys state={state} />
       </div>
     </header>
+  );
+}
+
+function SaveButton({ state }: { state: State }) {
+  const { store } = useApp().services;
+  return (
+    <button
+      type="button"
+      class="button"
+      aria-label={texts.top.saveLabel}
+      title={texts.top.saveTitle}
+      aria-haspopup="dialog"
+      aria-expanded={state.ui.popover === 'export'}
+      onClick={() => toggle(store, 'export')}
+    >
+      <Icon name="save" /> <span class="word">{texts.top.save}</span>
+    </button>
   );
 }
 
@@ -172,6 +181,9 @@ function ComponentChip({ state, component }: { state: State; component: Componen
   return <Chip state={state} popover={component} label={titleOf(component)} text={text + suffix} missing={!model && !libraryFile} tint={component} />;
 }
 
+/** Names are cut before so many last letters: what tells files of a study apart mostly stands there. */
+const TAIL = 9;
+
 interface ChipProps {
   readonly state: State;
   readonly popover: Popover;
@@ -189,11 +201,15 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
       class={`chip${missing ? ' missing' : ''}${tint ? ` ${tint}` : ''}`}
       aria-haspopup="dialog"
       aria-expanded={state.ui.popover === popover}
+      aria-label={texts.top.chip(label, text)}
       title={texts.top.chip(label, text)}
       onClick={() => toggle(store, popover)}
     >
       <span class="chip-label">{label}:</span>{' '}
-      <span class="chip-text">{text}</span>
+      <span class="chip-text">
+        <span class="chip-head">{text.slice(0, -TAIL)}</span>
+        <span class="chip-tail">{text.slice(-TAIL)}</span>
+      </span>
     </button>
   );
 }

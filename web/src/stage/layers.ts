@@ -29,7 +29,7 @@ export class FrameLayer extends Layer {
   update(studio: Studio, frame: { id: string; width: number; height: number }, window: GreyWindow, preprocessing: Preprocessing): void {
     const sameWindow = this.#window?.centre === window.centre && this.#window.width === window.width;
     const same = this.#id === frame.id && sameWindow && this.#preprocessing === preprocessing && this.#framesKey === studio.framesKey;
-    if (same || !studio.hasFrame(frame.id)) return;
+    if (same || !studio.holdsFrame(frame.id)) return;
     studio.paintFrame(this.context(frame), frame.id, window, preprocessing);
     this.#preprocessing = preprocessing;
     this.#framesKey = studio.framesKey;

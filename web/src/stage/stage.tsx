@@ -44,7 +44,7 @@ export function Stage({ state }: { state: State }) {
       {frame && <ScaleBar state={state} />}
       {frame && <GuideCard state={state} />}
       {frame && <CheckLater state={state} />}
-      {!frame && <EmptyState />}
+      {!frame && <EmptyState state={state} />}
       {frame && !app.services.studio.hasFrame(frame.id) && (
         <p class="absent">{words.absent(frame.name)}</p>
       )}

@@ -109,6 +109,8 @@ export class StageView {
     this.#letTracingToolsWork();
     const { state } = this.#store;
     const frame = currentFrame(state);
+    // The frame before stays for the moment that it takes to bring this one, with all that is drawn on it.
+    if (frame && this.#studio.hasFrame(frame.id) && !this.#studio.holdsFrame(frame.id)) return;
     const view = this.viewport(state);
     const hit = this.#hit(state, view);
     const hand = this.hand(state);
@@ -158,7 +160,7 @@ export class StageView {
     const lens = lensAt(pointer, view, this.#size);
     drawLens(context, lens, () => {
       context.imageSmoothingEnabled = false;
-      if (this.#studio.hasFrame(frame.id)) drawFrameSized(context, this.#frameLayer.canvas, frame, lens.view);
+      if (this.#studio.holdsFrame(frame.id)) drawFrameSized(context, this.#frameLayer.canvas, frame, lens.view);
       if (state.ui.overlaysHidden) return;
       // A line to the pointer ends in the middle of the lens.
       this.#pointer = lens.centre;
@@ -204,7 +206,7 @@ export class StageView {
     this.#drawnFrame = key;
     const drawn = new OffscreenCanvas(this.#picture.width, this.#picture.height);
     const context = drawn.getContext('2d');
-    if (context && frame && this.#studio.hasFrame(frame.id)) {
+    if (context && frame && this.#studio.holdsFrame(frame.id)) {
       context.scale(devicePixelRatio, devicePixelRatio);
       this.#frameLayer.update(this.#studio, frame, this.window(state), state.ui.seeing.preprocessing);
       // Pixels are shown as pixels as soon as they are large enough to be told apart.
@@ -217,7 +219,7 @@ export class StageView {
 
   #frameKey(state: State, frame: FrameEntry, view: Viewport): string {
     const window = this.window(state);
-    return `${frame.id} ${this.#studio.framesKey} ${state.ui.seeing.preprocessing} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
+    return `${frame.id} ${this.#studio.holdsFrame(frame.id)} ${this.#studio.framesKey} ${state.ui.seeing.preprocessing} ${window.centre} ${window.width} ${view.scale} ${view.left} ${view.top}`;
   }
 
   #drawVectors(context: CanvasRenderingContext2D, state: State, frame: FrameEntry, view: Viewport, hit: Hit): void {

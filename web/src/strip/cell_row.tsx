@@ -6,31 +6,55 @@ import { type Cell, cellOf, chosenCandidate, verdictOf } from '../document/types
 import { type ComponentName, titleOf } from '../terms/component';
 import { poseKeys } from '../results/keys';
 import { texts } from '../texts/texts';
+import type { Stretch } from '../controls/in_view';
 import { useApp } from '../commands/app';
 
-/** One component's cells, a column a frame. */
-export function CellRow({ state, component }: { state: State; component: ComponentName }) {
+/** One component's cells, a column a frame; of those out of sight their room alone. */
+export function CellRow({ state, component, columns: { first, last } }: { state: State; component: ComponentName; columns: Stretch }) {
   const doc = state.history.present;
   const { frameIndex, jobs } = state.ui;
   const keyOf = poseKeys(doc);
   return (
     <tr class={component}>
       <th scope="row">{titleOf(component)}</th>
-      {doc.frames.map((frame, index) => (
-        <CellButton
-          key={frame.id}
-          component={component}
-          index={index}
-          cell={cellOf(doc, frame.id, component)}
-          mark={markOf(doc, { frameId: frame.id, component })}
-          poseKey={keyOf(component, frame)}
-          isBusy={jobs.some(({ place }) => place?.frameId === frame.id && place.component === component)}
-          column={index === frameIndex}
-          selected={index === frameIndex && component === state.ui.component}
-        />
-      ))}
+      {spacers(first)}
+      {doc.frames.slice(first, last).map((frame, at) => {
+        const index = first + at;
+        return (
+          <CellButton
+            key={frame.id}
+            component={component}
+            index={index}
+            cell={cellOf(doc, frame.id, component)}
+            mark={markOf(doc, { frameId: frame.id, component })}
+            poseKey={keyOf(component, frame)}
+            isBusy={jobs.some(({ place }) => place?.frameId === frame.id && place.component === component)}
+            column={index === frameIndex}
+            selected={index === frameIndex && component === state.ui.component}
+            isStop={isStop(doc.frames.length, index === frameIndex && component === state.ui.component)}
+          />
+        );
+      })}
+      {spacers(doc.frames.length - last)}
     </tr>
   );
+}
+
+/** A cell of a table spans no more columns than this. */
+const WIDEST = 1000;
+
+/** Room for columns that are out of sight. */
+function spacers(count: number) {
+  return Array.from({ length: Math.ceil(count / WIDEST) }, (_, at) => (
+    <td key={`room ${at}`} colSpan={Math.min(WIDEST, count - at * WIDEST)} aria-hidden="true" />
+  ));
+}
+
+/** Of more cells than this the selected one alone is a stop of the Tab key: D, F and C lead to the others. */
+const STOPS = 40;
+
+function isStop(frames: number, selected: boolean): boolean {
+  return selected || frames <= STOPS;
 }
 
 interface CellButtonProps {
@@ -45,10 +69,12 @@ interface CellButtonProps {
   /** In the current frame. */
   readonly column: boolean;
   readonly selected: boolean;
+  /** The Tab key stops at it. */
+  readonly isStop: boolean;
 }
 
 /** Made again only when something of it changes: a film has hundreds. */
-function CellButton({ component, index, cell, mark, poseKey, isBusy, column, selected }: CellButtonProps) {
+function CellButton({ component, index, cell, mark, poseKey, isBusy, column, selected, isStop }: CellButtonProps) {
   const { store } = useApp().services;
   return useMemo(() => {
     const progress = progressOf(cell, mark, poseKey);
@@ -58,9 +84,10 @@ function CellButton({ component, index, cell, mark, poseKey, isBusy, column, sel
       store.selectComponent(component);
     };
     return (
-      <td>
+      <td aria-colindex={index + 2}>
         <button
           type="button"
+          tabIndex={isStop ? undefined : -1}
           class={classOf(progress, column, isBusy)}
           aria-busy={isBusy}
           aria-label={name}
@@ -72,7 +99,7 @@ function CellButton({ component, index, cell, mark, poseKey, isBusy, column, sel
         </button>
       </td>
     );
-  }, [store, component, index, cell, mark, poseKey, isBusy, column, selected]);
+  }, [store, component, index, cell, mark, poseKey, isBusy, column, selected, isStop]);
 }
 
 /** Everything that is marked has a sign of its own: none is told by colour alone. */

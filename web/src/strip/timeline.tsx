@@ -5,6 +5,7 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { CellRow } from './cell_row';
 import { CellSide } from './cell_side';
+import { type Layout, useInView } from '../controls/in_view';
 import { Icon } from '../controls/icons';
 
 /** More cells than this are as narrow as the whole film wants them, and their signs are bars. */
@@ -14,16 +15,17 @@ const MANY = 40;
 export function Timeline({ state }: { state: State }) {
   const { frames } = state.history.present;
   const scroll = useRef<HTMLDivElement>(null);
+  const columns = useInView(scroll, frames.length, columnLayout);
   useEffect(() => showFrame(scroll.current, state.ui.frameIndex, frames.length), [state.ui.frameIndex, frames.length]);
   return (
     <section class={frames.length > MANY ? 'timeline dense' : 'timeline'} aria-label={texts.work.region} style={{ '--count': Math.max(1, frames.length) }}>
       <div class="timeline-scroll" ref={scroll}>
         <div class="timeline-track">
           <FrameSlider state={state} />
-          <table class="cells" aria-label={texts.work.cells}>
+          <table class="cells" aria-label={texts.work.cells} aria-colcount={frames.length + 1}>
             <tbody>
               {COMPONENT_NAMES.map((component) => (
-                <CellRow key={component} state={state} component={component} />
+                <CellRow key={component} state={state} component={component} columns={columns} />
               ))}
             </tbody>
           </table>
@@ -69,6 +71,13 @@ function FrameSlider({ state }: { state: State }) {
     </div>
   );
 }
+
+/** Columns beside what names the rows. */
+const columnLayout: Layout = (scroll) => {
+  const side = scroll.querySelector<HTMLElement>('.frame-steps')?.offsetWidth ?? 0;
+  const columns = Number(scroll.querySelector('.cells')?.getAttribute('aria-colcount')) - 1;
+  return [scroll.scrollLeft, scroll.clientWidth - side, (scroll.scrollWidth - side) / Math.max(1, columns)];
+};
 
 /** Where there are more frames than fit, the current one is brought into sight, with one beside it. */
 function showFrame(scroll: HTMLElement | null, index: number, count: number): void {

@@ -221,7 +221,6 @@ export const en = {
     lost: (titles: string) => `The page was left while this was under way, and it came to no end: ${titles}.`,
     damaged: (name: string) => `${name}: its copy in this browser is damaged (its SHA-256 differs); drop the original on the page.`,
     missing: (names: string, count: number) => `Not kept in this browser: ${names}. Drop ${count === 1 ? 'it' : 'them'} on the page.`,
-    job: 'Bringing the work back',
     earlier: 'Earlier work in this browser',
     noEarlier: 'No other work is kept in this browser.',
     row: (name: string, frames: number, when: string) => `${name || 'Study'}: ${frames === 1 ? '1 frame' : `${frames} frames`}, ${when}`,
@@ -339,6 +338,7 @@ export const en = {
     leftOut: (count: number) => (count === 0 ? '' : `${count} left out`),
     subjects: 'What the outlines are of',
     subject: (name: string) => name,
+    severalSets: (component: string, names: string) => `There are several outlines of the ${component}: ${names}. One of them is used; choose which.`,
     subjectIs: (name: string) => `Component of ${name}`,
     leaveOut: 'leave out',
     table: 'Where each outline goes',
@@ -353,7 +353,6 @@ export const en = {
 
   /** What does not match the SHA-256 by which a session names it. */
   digests: {
-    job: 'Opening the session',
     openLabel: 'open a session',
     trouble: (what: string) => `Not as it was saved: ${what}.`,
     damaged: (name: string, found: string, wanted: string) =>

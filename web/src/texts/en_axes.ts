@@ -1,3 +1,5 @@
+import type { ComponentName } from '../terms/component';
+
 /** English of anatomical axes: which way a component lies in the coordinates of its file. */
 export const axes = {
   heading: 'Axes',
@@ -46,6 +48,13 @@ export const models = {
   card: 'About the model',
   remarks: (name: string, remarks: readonly string[]) => `${name}: ${remarks.join('. ')}.`,
   dismiss: 'Dismiss',
+  /** Of a model that lies where the other one belongs. */
+  shape: { femur: 'a tibial tray', tibia: 'a femoral component' } satisfies Record<ComponentName, string>,
+  misplaced: (name: string, shape: string, component: string) => `${name} has the shape of ${shape} and is the model of the ${component}.`,
+  swapped: 'Femur and tibia seem to be swapped.',
+  swap: 'Swap them',
+  swapTitle: 'Each model becomes that of the other component, and poses are found anew; Ctrl+Z takes it back',
+  besides: (what: string, shape: string) => `${what}, though it has the shape of ${shape}`,
   dismissTitle: 'It stays readable under the component above',
 };
 

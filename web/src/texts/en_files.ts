@@ -10,6 +10,18 @@ export const files = {
   called: 'Reading was called off; nothing was opened.',
   modelNotes: (what: string, notes: string) => `${what} (${notes})`,
 
+  /** Several files of poses of one component. */
+  sets: {
+    title: 'Which poses?',
+    meaning: 'There are several files of poses of one component. One of them is used, as the poses to begin with and to compare with.',
+    of: (component: string) => `Poses of the ${component}`,
+    leaveOut: 'None of them',
+    use: 'Use these',
+    none: 'There is nothing to choose.',
+    ask: (component: string, names: string) => `There are several files of poses of the ${component}: ${names}. Which one?`,
+    choose: 'Choose',
+  },
+
   video: {
     sheet: 'Frames of a video',
     facts: (name: string, width: number, height: number, seconds: string, rate: string) =>

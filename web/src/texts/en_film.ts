@@ -9,6 +9,10 @@ export const film = {
   unknown: 'The film is not known yet: depth may be off by many millimetres, and ± says so.',
   stays: 'You checked this pose before that was known; it stays as it was.',
   alike: (px: number, other: number) => `its mirror image fits this film as well (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
+  /** Why a pose comes first, once its mirror image was looked at. */
+  clearer: (px: number, other: number) =>
+    `On this film it leaves ${px.toFixed(2)} px, its mirror image ${Number.isFinite(other) ? `${other.toFixed(2)} px` : 'meets no edges'}.`,
+  undecided: (px: number, other: number) => `Not decided: on this film it leaves ${px.toFixed(2)} px, its mirror image ${other.toFixed(2)} px.`,
   another: (px: number, other: number) => `another pose leaves less on this film (${other.toFixed(2)} px against ${px.toFixed(2)} px)`,
   before: 'This pose was refined before that was known; it stays as it was.',
   about:

@@ -11,6 +11,8 @@ export const follow = {
   unit: 'frames',
   source: 'Followed through the film; checking it, or setting the pose by hand, keeps it.',
   soFar: 'the film has not been judged as a whole yet: it is being followed, or that was broken off, and Follow goes on',
+  unjudged: (component: string, frames: number) =>
+    `${frames === 1 ? 'One frame' : `${frames} frames`} of the ${component} ${frames === 1 ? 'is' : 'are'} followed so far and not yet judged with the whole film: save again when that is done.`,
   fromDoubtful: 'it was followed from a pose that is doubtful itself: check that one, or set it by hand',
   oneFrame: 'There is no film to follow: open at least two frames.',
   sizes: 'The frames have different sizes: a film has one.',

@@ -27,6 +27,7 @@ export const steps = {
   loadPoses: (component: string) => `load poses of the ${component}`,
   openFrames: (count: number) => (count === 1 ? 'open a frame' : `open ${count} frames`),
   openModel: (component: string) => `open a model of the ${component}`,
+  swapModels: 'swap the models',
   openLibrary: (component: string) => `open a library of the ${component}`,
   changeLibrary: (component: string) => `change the library of the ${component}`,
   changeAxes: (component: string) => `change the axes of the ${component}`,

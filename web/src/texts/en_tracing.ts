@@ -89,7 +89,8 @@ export const tracing = {
     nothingToErase: 'There is no outline here to erase from.',
     allErased: 'All of the outline was erased; Ctrl+Z brings it back.',
     noEdge: 'No edges were found near the outline: it stays as it was.',
-    snapped: (greatest: string, rms: string) => `Snapped to the edges: ${greatest} px at most, ${rms} px on the whole. Ctrl+Z takes it back.`,
+    snapped: (greatest: string, rms: string, isCut: boolean) =>
+      `Snapped to the edges: ${greatest} px at most, ${rms} px on the whole.${isCut ? ' Where it crossed itself the loop was cut off.' : ''} Ctrl+Z takes it back.`,
     noPixels: (frame: string) => `The pixels of ${frame} are not here: drop the file on the page.`,
     changedMeanwhile: 'The outline was changed in the meantime: what one click found was dropped.',
     needsCalibration: 'One click needs a calibration: drop its file on the page, or type its numbers.',

@@ -5,6 +5,7 @@ import { cellKey, cellOf, type FrameEntry } from '../document/types';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
 import { cameraOf, poseKey } from '../results/keys';
+import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { OneClickFacts, OneClickInput } from '../workers/protocol/one_click';
 import { libraryReady } from '../jobs/library_ready';
@@ -51,7 +52,7 @@ export class OneClick {
     this.#asked.set(key, asked);
     const before = this.#turn;
     const answered = this.#answer(asked, before).catch((error: unknown) => {
-      if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
+      if (!(error instanceof Aborted)) store.sayAt(place, 'error', sentenceOf(error));
     });
     this.#turn = Promise.all([before, answered]).then(() => undefined);
     await answered;
@@ -77,7 +78,8 @@ export class OneClick {
   async #find({ prompt, place, frame, bright, abort }: Asked, report: (done: number, total: number) => void): Promise<void> {
     const { store } = this.#services;
     const { component } = place;
-    const input = this.#input(prompt, place, frame, bright);
+    const pixels = await this.#services.studio.framePixels(frame.id);
+    const input = this.#input(prompt, place, frame, bright, pixels);
     const before = cellOf(store.doc, frame.id, component).outline;
     const key = input.withModel ? poseKey(store.doc, component, frame) : null;
     const answer = await this.#worker.call('oneClick', input, {
@@ -86,17 +88,16 @@ export class OneClick {
       onProgress: ({ fraction }) => report(Math.round(100 * fraction), 100),
     });
     const changed = cellOf(store.doc, frame.id, component).outline !== before;
-    if (changed) return store.say('info', texts.tracing.said.changedMeanwhile);
+    if (changed) return store.sayAt(place, 'info', texts.tracing.said.changedMeanwhile);
     // What a good click tells of the film holds for the next, and for the other tools.
     if (store.ui.tracing.bright === null && answer.match?.verdict?.word === 'good') store.setTracing({ bright: answer.bright });
     this.#take(answer, place, key, input.film);
   }
 
-  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null): OneClickInput {
-    const { store, studio } = this.#services;
+  #input(prompt: Prompt, { component }: Place, frame: FrameEntry, bright: boolean | null, pixels: FramePixels['pixels'] | null): OneClickInput {
+    const { store } = this.#services;
     const camera = cameraOf(store.doc, frame);
     if (!camera) throw new Error(texts.tracing.said.needsCalibration);
-    const pixels = studio.framePixels(frame.id);
     if (!pixels) throw new Error(texts.tracing.said.noPixels(frame.name));
     if (camera.distortion) throw new Error(texts.calibrate.distortedFrame);
     const other = cellOf(store.doc, frame.id, otherThan(component)).outline;

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { Cells } from '../../src/document/cells';
 import {
   type Distortion,
   distortionKey,
@@ -30,10 +31,10 @@ function docOf(size = { width: 400, height: 300 }): Doc {
   const outline = { points: [framePoint(10, 20), framePoint(50, 20), framePoint(30, 60)], closed: true, unknownSides: [1] };
   const frame = { id: 'a:0', name: 'a.png', source: 'a', indexInSource: 0, ...size };
   const calibration = { name: 'c', text: 'JT_INTCALIB\n1000\n0\n0\n0.3\n' };
-  return { ...EMPTY_DOC, frames: [frame], calibration, cells: { [cellKey('a:0', 'femur')]: { outline, result: null, resultOf: null } } };
+  return { ...EMPTY_DOC, frames: [frame], calibration, cells: Cells.from([[cellKey('a:0', 'femur'), { outline, result: null, resultOf: null }]]) };
 }
 
-const columns = (doc: Doc) => doc.cells[cellKey('a:0', 'femur')]?.outline?.points.map((point) => point.column);
+const columns = (doc: Doc) => doc.cells.at('a:0', 'femur')?.outline?.points.map((point) => point.column);
 
 describe('a correction of distortion', () => {
   it('is the numbers of the core, and back', () => {
@@ -62,7 +63,7 @@ describe('a correction of distortion', () => {
     const start = startHistory(docOf());
     const applied = perform(start, setDistortion(shift(5), null, move(5)));
     expect(columns(applied.present)).toEqual([15, 55, 35]);
-    expect(applied.present.cells[cellKey('a:0', 'femur')]?.outline?.unknownSides).toEqual([1]);
+    expect(applied.present.cells.at('a:0', 'femur')?.outline?.unknownSides).toEqual([1]);
     const other = perform(applied, setDistortion(shift(9), move(-5), move(9)));
     expect(columns(other.present)).toEqual([19, 59, 39]);
     const away = perform(other, setDistortion(null, move(-9), null));

@@ -47,6 +47,37 @@ describe('history', () => {
     expect(history.nextRedo(h)).toBeNull();
   });
 
+  it('undo and redo keep what was found meanwhile, in other cells and in ones that come back', () => {
+    const found: Result = { kind: 'failed', origin: 'k', sentence: 's' };
+    const better: Result = { ...found, sentence: 't' };
+    const elsewhere = { frameId: 'g', component: 'tibia' } as const;
+    const amended = (h: history.History, at: typeof place | typeof elsewhere, result: Result) =>
+      history.amend(h, (doc) => withCell(doc, at, { ...cellOf(doc, at.frameId, at.component), result }));
+    const frames = ['f', 'g'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 }));
+    let h = history.startHistory({ ...EMPTY_DOC, frames });
+    for (const column of [1, 2, 3]) h = history.perform(h, addPoint(place, at(column)));
+    h = history.perform(h, closeOutline(place));
+    h = amended(h, place, found);
+    h = history.perform(h, setWindow({ centre: 1, width: 1 }));
+    h = amended(amended(h, place, better), elsewhere, found);
+    h = history.undo(h);
+    expect(h.present.window).toBeNull();
+    expect([cellOf(h.present, 'f', 'femur').result, cellOf(h.present, 'g', 'tibia').result]).toEqual([better, found]);
+    h = history.redo(history.undo(history.undo(h)));
+    // Two points of a draft never had a result; what is elsewhere has nothing to do with them.
+    expect([outlineIn(h)?.closed, cellOf(h.present, 'f', 'femur').result, cellOf(h.present, 'g', 'tibia').result]).toEqual([false, null, found]);
+    expect(cellOf(history.redo(h).present, 'f', 'femur').result).toEqual(better);
+  });
+
+  it('what a person took back stays taken back', () => {
+    const found: Result = { kind: 'failed', origin: 'k', sentence: 's' };
+    let h = history.perform(traced(1, 2, 3), closeOutline(place));
+    const undone = history.undo(h);
+    h = history.amend(history.redo(undone), (doc) => withCell(doc, place, { ...cellOf(doc, 'f', 'femur'), result: found }));
+    expect(cellOf(history.undo(h).present, 'f', 'femur').result).toBeNull();
+    expect(history.undo(history.undo(h)).present).toBe(history.undo(undone).present);
+  });
+
   it('merges commands with the same key, and only those that follow each other', () => {
     let h = history.perform(history.startHistory(EMPTY_DOC), setWindow({ centre: 1, width: 2 }));
     h = history.perform(h, setWindow({ centre: 3, width: 4 }));

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { addFrames, addPoint, closeOutline, movePoint } from '../../src/document/commands';
 import type { Command, Place } from '../../src/document/command';
-import { checkState, markOf, setNote, toggleChecked, toggleFlagged } from '../../src/document/marks';
+import { checkState, isAccepted, markOf, setNote, toggleChecked, toggleFlagged } from '../../src/document/marks';
 import { entriesOf, nextTask, passes, type Filter } from '../../src/results/progress';
 import { Store } from '../../src/document/store';
 import { type Candidate, type Cell, cellOf, type Posed } from '../../src/document/types';
@@ -33,10 +33,9 @@ function pose(x: number): Candidate {
 
 function giveResult(store: Store, at: Place, result: Partial<Posed> = {}): void {
   store.amend((doc) => {
-    const key = `${at.frameId}/${at.component}`;
     const cell = cellOf(doc, at.frameId, at.component);
     const posed = { kind: 'posed', from: 'outline', origin: KEY, candidates: [pose(1)], chosen: 0, reason: null, decided: true, verdict: null, ...result } as const;
-    return { ...doc, cells: { ...doc.cells, [key]: { ...cell, result: posed, resultOf: cell.outline } satisfies Cell } };
+    return { ...doc, cells: doc.cells.with(at.frameId, at.component, { ...cell, result: posed, resultOf: cell.outline } satisfies Cell) };
   });
 }
 
@@ -102,6 +101,18 @@ describe('progress', () => {
     expect(count('doubtful')).toEqual([5]);
     giveResult(store, place(5), { candidates: [pose(1), pose(2)], decided: false, chosen: 1 });
     expect(entriesOf(store.doc, keyOf, ['femur'])[5]?.progress.doubtful).toBe(false);
+  });
+
+  it('what a person found right is accepted, and no longer called doubtful', () => {
+    const store = film(1);
+    giveResult(store, place(0), { verdict: { word: 'doubtful', because: 'a part is hidden' } });
+    const cell = () => cellOf(store.doc, place(0).frameId, 'femur');
+    const progress = () => entriesOf(store.doc, keyOf, ['femur'])[0]!.progress;
+    expect([isAccepted(cell(), markOf(store.doc, place(0))), progress().doubtful]).toEqual([false, true]);
+    store.perform(toggleChecked(place(0)));
+    expect([isAccepted(cell(), markOf(store.doc, place(0))), progress().doubtful, progress().check]).toEqual([true, false, 'yes']);
+    giveResult(store, place(0), { candidates: [pose(2)], verdict: { word: 'doubtful', because: 'a part is hidden' } });
+    expect([isAccepted(cell(), markOf(store.doc, place(0))), progress().doubtful]).toEqual([false, true]);
   });
 
   it('a verdict says what is doubtful; who took another candidate has that one\u2019s', () => {

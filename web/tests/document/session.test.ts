@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { Cells } from '../../src/document/cells';
 import { decodeBase64, encodeBase64, readSession, writeSession, type Session } from '../../src/document/session/session';
 import { cellKey, EMPTY_DOC, type Cell, type Doc, type Outline } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
@@ -49,7 +50,7 @@ const doc: Doc = {
     ...EMPTY_DOC.components,
     tibia: { ...EMPTY_DOC.components.tibia, axes: { directions: [[0, 0, 1], [0, -1, 0], [1, 0, 0]], from: 'shape', told: 'not the front' } },
   },
-  cells: { [cellKey('ab:0', 'femur')]: posed, [cellKey('ab:0', 'tibia')]: stale, 'x/femur': loaded },
+  cells: Cells.from<Cell>([[cellKey('ab:0', 'femur'), posed], [cellKey('ab:0', 'tibia'), stale], ['x/femur', loaded]]),
   window: { centre: 2000, width: 4095 },
   rate: 7.5,
   film: { stated: { display: 'linear', blur: 1.2 }, known: null },
@@ -78,7 +79,7 @@ describe('session', () => {
     const old = written().replace(/,"covariance":\[[^\]]*\]/g, '').replace(',"rate":7.5', '');
     expect(old).not.toMatch(/covariance|"rate"/);
     const { rate, cells } = readSession(old).doc;
-    const { result } = cells[cellKey('ab:0', 'femur')]!;
+    const { result } = cells.at('ab:0', 'femur')!;
     const { covariance: _, ...six } = deviations;
     expect([rate, result?.kind === 'posed' && result.candidates[0]?.deviations]).toEqual([null, six]);
   });
@@ -88,21 +89,21 @@ describe('session', () => {
       .replace(/,"judged":(null|\{.*?\}\})(,"support":[\d.]+)?/g, '')
       .replace(/,"residual":[^{}]*(\{[^{}]*\}|null)?(?=\})/g, '');
     expect(old).not.toMatch(/residual|deviations|judged/);
-    const result = readSession(old).doc.cells['ab:0/femur']?.result;
+    const result = readSession(old).doc.cells.at('ab:0', 'femur')?.result;
     expect(result?.kind === 'posed' && result.candidates[0]).toMatchObject({ pose, residual: null, deviations: null, judged: null });
   });
 
   it('reads outlines and choices that were saved before sides could be marked and choices had reasons', () => {
     const old = written().replace(/,"(unknownSides|reason|decided)":(\[[^\]]*\]|"[^"]*"|\w+)/g, '');
     expect(old).not.toMatch(/unknownSides|reason|decided/);
-    const cell = readSession(old).doc.cells['ab:0/femur'];
+    const cell = readSession(old).doc.cells.at('ab:0', 'femur');
     expect(cell?.outline).toEqual({ ...outline, unknownSides: [] });
     expect(cell?.result).toMatchObject({ reason: null, decided: false, chosen: 0 });
   });
 
   it('knows which results belong to their outlines', () => {
     const { cells } = readSession(written()).doc;
-    const [first, second] = [cells['ab:0/femur'], cells['ab:0/tibia']];
+    const [first, second] = [cells.at('ab:0', 'femur'), cells.at('ab:0', 'tibia')];
     expect(first?.resultOf).toBe(first?.outline);
     expect(second?.resultOf).toBeNull();
   });

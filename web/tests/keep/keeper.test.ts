@@ -54,7 +54,7 @@ async function bench(manager = locks()) {
   const assets = new Assets();
   const kept = memory();
   const keeper = new Keeper({ store, assets }, new Claims(manager), async () => kept.shelf);
-  const { sha256 } = await assets.add('f.png', Uint8Array.of(1, 2, 3));
+  const { sha256 } = await assets.add('f.png', new Blob([Uint8Array.of(1, 2, 3)]));
   const open = () => store.perform(addFrames([{ id: 'f', name: 'f.png', source: sha256, indexInSource: 0, width: 9, height: 9 }]));
   return { store, keeper, open, sha256, ...kept };
 }

@@ -30,7 +30,7 @@ const BARE: Doc = {
 function posed(doc: Doc, frame: string, part: Partial<Posed> = {}): Doc {
   const origin = poseKey(doc, 'femur', doc.frames[0]!)!;
   const result: Posed = { kind: 'posed', from: 'outline', origin, candidates: [candidate(0.2)], chosen: 0, reason: null, decided: true, verdict: GOOD, onFrame: { film: null }, ...part };
-  return { ...doc, cells: { ...doc.cells, [cellKey(frame, 'femur')]: { outline: OUTLINE, result, resultOf: OUTLINE } } };
+  return { ...doc, cells: doc.cells.with(frame, 'femur', { outline: OUTLINE, result, resultOf: OUTLINE }) };
 }
 
 const told = (doc: Doc, numbers = [...K, ...COVARIANCE]): Doc => ({ ...doc, film: { ...doc.film, known: known(numbers) } });
@@ -100,8 +100,8 @@ describe('what a known film changes', () => {
     expect(needsCorrection(posed(BARE, 'a'), 'femur', frame)).toBeNull();
     expect(needsCorrection(told(posed(BARE, 'a', { onFrame: { film: K } })), 'femur', frame)).toBeNull();
     expect(needsCorrection(told(posed(BARE, 'a', { from: 'hand' })), 'femur', frame)).toBeNull();
-    const { onFrame: _, ...traced } = open.cells[cellKey('a', 'femur')]!.result as Posed;
-    expect(needsCorrection({ ...open, cells: { [cellKey('a', 'femur')]: { outline: OUTLINE, result: traced, resultOf: OUTLINE } } }, 'femur', frame)).toBeNull();
+    const { onFrame: _, ...traced } = open.cells.at('a', 'femur')!.result as Posed;
+    expect(needsCorrection({ ...open, cells: open.cells.with('a', 'femur', { outline: OUTLINE, result: traced, resultOf: OUTLINE }) }, 'femur', frame)).toBeNull();
   });
 
   it('nothing that a person checked', () => {
@@ -124,7 +124,7 @@ describe('what a known film changes', () => {
   });
 
   it('the verdict is that of the corrected pose, and a rival that was open stays open', () => {
-    const before = (posed(BARE, 'a', { verdict: RIVAL }).cells[cellKey('a', 'femur')]!.result as Posed);
+    const before = (posed(BARE, 'a', { verdict: RIVAL }).cells.at('a', 'femur')!.result as Posed);
     expect(verdictAfter(before, [candidate(0.3)])).toEqual(RIVAL);
     const weak: Verdict = { word: 'doubtful', because: 'little of it is met' };
     expect(verdictAfter(before, [candidate(0.3, weak)])).toEqual(weak);
@@ -132,19 +132,19 @@ describe('what a known film changes', () => {
   });
 
   it('a pose that leaves clearly more than another is not good', () => {
-    const before = posed(BARE, 'a', { verdict: GOOD }).cells[cellKey('a', 'femur')]!.result as Posed;
+    const before = posed(BARE, 'a', { verdict: GOOD }).cells.at('a', 'femur')!.result as Posed;
     expect(verdictAfter(before, [candidate(0.44), candidate(0.13)])?.word).toBe('doubtful');
     expect(verdictAfter(before, [candidate(0.13), candidate(0.44)])).toEqual(GOOD);
     expect(verdictAfter(before, [candidate(0.5), candidate(0.45)])).toEqual(GOOD);
   });
 
   describe('mirror images that nobody had looked at', () => {
-    const before = (verdict: Verdict) => posed(BARE, 'a', { verdict }).cells[cellKey('a', 'femur')]!.result as Posed;
+    const before = (verdict: Verdict) => posed(BARE, 'a', { verdict }).cells.at('a', 'femur')!.result as Posed;
     const own = candidate(0.2);
 
     it('one that leaves clearly less takes the place of the pose', () => {
       const better = candidate(0.1);
-      expect(settled(before(GOOD), [own], [better])).toEqual({ candidates: [better, own], chosen: 0, decided: true, verdict: GOOD });
+      expect(settled(before(GOOD), [own], [better])).toEqual({ candidates: [better, own], chosen: 0, decided: true, verdict: GOOD, reason: 'On this film it leaves 0.10 px, its mirror image 0.20 px.' });
     });
 
     it('but not of one that a person chose', () => {
@@ -158,9 +158,19 @@ describe('what a known film changes', () => {
       expect(settled(before(GOOD), [own], [other])).toMatchObject({ candidates: [own, other], chosen: 0, decided: false, verdict: { word: 'doubtful' } });
     });
 
+    it('and the reason no longer says that there is only one', () => {
+      const alone: Posed = { ...before(GOOD), reason: 'The only pose found.' };
+      const reasons = [0.1, 0.25, 0.3].map((misfit) => settled(alone, [own], [candidate(misfit)]).reason);
+      expect(reasons).toHaveLength(3);
+      for (const reason of reasons) expect(reason).toMatch(/its mirror image/);
+      expect(reasons[1]).toMatch(/^Not decided/);
+      expect(settled(alone, [own], []).reason).toBe('The only pose found.');
+      expect(settled({ ...alone, chosen: 1 }, [candidate(0.3), own], [candidate(0.25)]).reason).toMatch(/^Not decided/);
+    });
+
     it('one that leaves more is a candidate, and no more than that', () => {
       const worse = candidate(0.3);
-      expect(settled(before(GOOD), [own], [worse])).toEqual({ candidates: [own, worse], chosen: 0, decided: true, verdict: GOOD });
+      expect(settled(before(GOOD), [own], [worse])).toEqual({ candidates: [own, worse], chosen: 0, decided: true, verdict: GOOD, reason: 'On this film it leaves 0.20 px, its mirror image 0.30 px.' });
     });
   });
 

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { Cells } from '../../src/document/cells';
 import { poseTable } from '../../src/document/session/table';
 import { cellKey, EMPTY_DOC, type Candidate, type Doc, type Failed, type Posed } from '../../src/document/types';
 import { decimalsFor, formatDeviation, formatNumber } from '../../src/texts/numbers';
@@ -33,7 +34,7 @@ const refined: Candidate = { pose, unmatched: 600, drawn: 40, residual: 0.21, de
 const frame = (id: string, name: string) => ({ id, name, source: id, indexInSource: 0, width: 9, height: 9 });
 
 function docOf(result: Posed | Failed): Doc {
-  return { ...EMPTY_DOC, frames: [frame('a', 'a, "1".png'), frame('b', 'b.png')], cells: { [cellKey('a', 'tibia')]: { outline: null, result, resultOf: null } } };
+  return { ...EMPTY_DOC, frames: [frame('a', 'a, "1".png'), frame('b', 'b.png')], cells: Cells.from([[cellKey('a', 'tibia'), { outline: null, result, resultOf: null }]]) };
 }
 
 describe('the table of poses', () => {

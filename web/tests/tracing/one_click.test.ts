@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
-import { addFrames, setCalibration, setModel } from '../../src/document/commands';
-import { Store } from '../../src/document/store';
+import { addFrames, addPoint, setCalibration, setModel } from '../../src/document/commands';
+import { currentRefusal, Store } from '../../src/document/store';
 import { cellOf } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { OneClick } from '../../src/tracing/one_click';
@@ -76,6 +76,23 @@ describe('one click', () => {
     await settle();
     expect(asked).toHaveLength(1);
     expect(outlineOf('tibia')).toBeNull();
+  });
+
+  it('what was refused stands in the cell, too, until that changes', async () => {
+    const { store, click } = bench();
+    store.perform(setCalibration(null));
+    click(1);
+    await settle();
+    await settle();
+    expect(store.ui.notice?.kind).toBe('error');
+    expect(currentRefusal(store.state)).toBe(store.ui.notice?.text);
+    store.selectComponent('tibia');
+    expect(currentRefusal(store.state)).toBeNull();
+    store.selectComponent('femur');
+    store.quiet();
+    expect(currentRefusal(store.state)).toMatch(/needs a calibration/);
+    store.perform(addPoint({ frameId: store.doc.frames[0]!.id, component: 'femur' }, framePoint(1, 1)));
+    expect(currentRefusal(store.state)).toBeNull();
   });
 
   it('waits for a library that is being built', async () => {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { Cells } from '../../src/document/cells';
 import { chooseCandidate, movePoint } from '../../src/document/commands';
 import * as history from '../../src/document/history';
 import { type Answer, oneClickOutline } from '../../src/tracing/one_click_result';
@@ -26,7 +27,7 @@ function outlineOf(points: readonly (readonly [number, number])[], unknownSides:
 const SQUARE = outlineOf([[100, 100], [200, 100], [200, 200], [100, 200]]);
 
 function docWith(outline: Outline): Doc {
-  return { ...EMPTY_DOC, cells: { 'f/femur': { ...EMPTY_CELL, outline } } };
+  return { ...EMPTY_DOC, cells: Cells.from([['f/femur', { ...EMPTY_CELL, outline }]]) };
 }
 
 /** A tool on an outline, a frame shown at its own size. */
@@ -229,7 +230,7 @@ describe('copying from another frame', () => {
   const doc: Doc = {
     ...EMPTY_DOC,
     frames: ['a', 'b', 'c', 'd'].map(frame),
-    cells: { 'a/femur': { ...EMPTY_CELL, outline: SQUARE }, 'b/femur': { ...EMPTY_CELL, outline: open }, 'd/tibia': { ...EMPTY_CELL, outline: SQUARE } },
+    cells: Cells.from(Object.entries({ 'a/femur': { ...EMPTY_CELL, outline: SQUARE }, 'b/femur': { ...EMPTY_CELL, outline: open }, 'd/tibia': { ...EMPTY_CELL, outline: SQUARE } })),
   };
 
   it('takes the nearest closed outline of the same component', () => {

@@ -1,30 +1,33 @@
 import { framePoint, type FramePoint } from '../../geometry/points';
 import { readAudit, type Audit } from './audit';
 import { readAxes } from '../axes';
+import { Cells } from '../cells';
 import { readDistortion } from '../distortion';
 import { readFilm } from '../film';
+import { interned } from '../interned';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
-import type {
-  AllDirections,
-  Calibration,
-  Candidate,
-  Cell,
-  Component,
-  Doc,
-  Failed,
-  FileReference,
-  FrameEntry,
-  GreyWindow,
-  Judged,
-  LibrarySpec,
-  Mark,
-  OnFrame,
-  Outline,
-  Posed,
-  Reference,
-  Result,
-  Verdict,
-  ViewWindow,
+import {
+  type AllDirections,
+  type Calibration,
+  type Candidate,
+  type Cell,
+  cellKey,
+  type Component,
+  type Doc,
+  type Failed,
+  type FileReference,
+  type FrameEntry,
+  type GreyWindow,
+  type Judged,
+  type LibrarySpec,
+  type Mark,
+  type OnFrame,
+  type Outline,
+  type Posed,
+  type Reference,
+  type Result,
+  type Verdict,
+  type ViewWindow,
 } from '../types';
 import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 
@@ -108,7 +111,7 @@ function parse(json: string): Record<string, unknown> {
 
 /** The document as JSON has it. Which work it is in this browser is of no use elsewhere. */
 export function plainDoc({ work: _, ...doc }: Doc): Record<string, unknown> {
-  const cells = Object.entries(doc.cells).map(([key, cell]) => [key, plainCell(cell)]);
+  const cells = doc.cells.entries().map(({ frameId, component, cell }) => [cellKey(frameId, component), plainCell(cell)]);
   return { ...doc, cells: Object.fromEntries(cells) };
 }
 
@@ -178,7 +181,8 @@ const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt'>>({
 
 const readPosed: Reader<Posed> = (value, path) => {
   const { program, onFrame, doubt } = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number) })(value, path);
-  const parts = readPosedParts(value, path);
+  const read = readPosedParts(value, path);
+  const parts = { ...read, origin: interned(read.origin) };
   const found = onFrame ?? (isByClick(parts) ? { film: null } : null);
   return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }) };
 };
@@ -207,6 +211,8 @@ const readCell: Reader<Cell> = (value, path) => {
   const { outline, result, resultIsCurrent } = readPlainCell(value, path);
   return { outline, result, resultOf: resultIsCurrent ? outline : null };
 };
+
+const readCells: Reader<Cells<Cell>> = (value, path) => Cells.from(Object.entries(dictionary(readCell)(value, path)));
 
 const readFrame = object<FrameEntry>({
   id: text,
@@ -260,7 +266,7 @@ const readDocParts = object<Omit<Doc, 'work'>>({
   frames: list(readFrame),
   calibration: nullable(object<Calibration>({ name: text, text })),
   components: object({ femur: readComponent, tibia: readComponent }),
-  cells: dictionary(readCell),
+  cells: readCells,
   window: nullable(object<GreyWindow>({ centre: number, width: number })),
   reference: readPosesToCompare,
   marks: missingAs({}, dictionary(readMark)),

@@ -22,7 +22,7 @@ const MARGIN = 0.2;
 export function drawRival(canvas: HTMLCanvasElement, studio: Studio, scene: RivalScene, pose: PoseNumbers): void {
   const context = canvas.getContext('2d');
   const { frame, camera, component, model, window } = scene;
-  if (!context || !studio.hasFrame(frame.id)) return;
+  if (!context || !studio.holdsFrame(frame.id)) return;
   const whole = scratch(frame);
   if (!whole) return;
   const { rgb, light } = COMPONENT_COLOURS[component];

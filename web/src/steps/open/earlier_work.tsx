@@ -6,8 +6,8 @@ import { sentenceOf } from '../../jobs/services';
 import { texts } from '../../texts/texts';
 import { useApp } from '../../commands/app';
 
-/** What else this browser keeps, to be opened or deleted. */
-export function EarlierWork({ state }: { state: State }) {
+/** What else this browser keeps, to be opened or deleted. `isAlone`: nothing is open; then it is there only where there is some. */
+export function EarlierWork({ state, isAlone = false }: { state: State; isAlone?: boolean }) {
   const { services, keeper } = useApp();
   const { store } = services;
   const [works, setWorks] = useState<readonly KeptWork[] | null>(null);
@@ -21,6 +21,7 @@ export function EarlierWork({ state }: { state: State }) {
     await look();
     store.say('info', texts.keep.deleted(name));
   };
+  if (isAlone && others.length === 0) return null;
   return (
     <section class="earlier" aria-label={texts.keep.earlier}>
       <h3>{texts.keep.earlier}</h3>
@@ -28,12 +29,14 @@ export function EarlierWork({ state }: { state: State }) {
       {others.map((work) => (
         <Row key={work.id} work={work} onOpen={() => trying(() => openKept(services, keeper, work.id))} onDelete={() => trying(() => remove(work))} />
       ))}
-      <div class="sheet-buttons">
-        <button type="button" class="button" title={texts.withKey(texts.keep.startAnew, 'Shift+Alt+N')} disabled={current === ''} onClick={() => startAnew(services)}>
-          {texts.keep.startAnew}
-        </button>
-        <PersistButton />
-      </div>
+      {!isAlone && (
+        <div class="sheet-buttons">
+          <button type="button" class="button" title={texts.withKey(texts.keep.startAnew, 'Shift+Alt+N')} disabled={current === ''} onClick={() => startAnew(services)}>
+            {texts.keep.startAnew}
+          </button>
+          <PersistButton />
+        </div>
+      )}
     </section>
   );
 }

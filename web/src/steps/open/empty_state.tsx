@@ -1,7 +1,10 @@
 import { useApp } from '../../commands/app';
+import type { State } from '../../document/store';
 import { texts } from '../../texts/texts';
+import { EarlierWork } from './earlier_work';
 
-export function EmptyState() {
+/** Before there is a frame: what to bring, and what was left here earlier. */
+export function EmptyState({ state }: { state: State }) {
   const { actions } = useApp();
   return (
     <section class="empty" aria-label={texts.empty.region}>
@@ -18,6 +21,7 @@ export function EmptyState() {
           {texts.files.folder}
         </button>
       </div>
+      <EarlierWork state={state} isAlone />
     </section>
   );
 }

@@ -1,5 +1,5 @@
 import { importProposal } from '../../document/importing';
-import { assignments, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
+import { assignments, componentNamed, type Assignment, type FrameMatching, type Proposal } from '../../document/proposal';
 import type { State, Store } from '../../document/store';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../../terms/component';
 import { texts } from '../../texts/texts';
@@ -101,6 +101,11 @@ function Subjects({ proposal, change }: { proposal: Proposal; change: Change }) 
   };
   return (
     <div class="subjects" role="group" aria-label={exchange.subjects}>
+      {severalSets(proposal).map((sentence) => (
+        <p key={sentence} class="sheet-text">
+          {sentence}
+        </p>
+      ))}
       {Object.entries(proposal.subjects).map(([subject, component]) => (
         <label key={subject} class="subject">
           <span>{exchange.subject(subject)}</span>
@@ -116,6 +121,14 @@ function Subjects({ proposal, change }: { proposal: Proposal; change: Change }) 
       ))}
     </div>
   );
+}
+
+/** Of several sources of one component's outlines one is used, and a person says which. */
+function severalSets({ subjects }: Proposal): readonly string[] {
+  return COMPONENT_NAMES.flatMap((component) => {
+    const names = Object.keys(subjects).filter((subject) => componentNamed(subject) === component);
+    return names.length > 1 ? [texts.exchange.severalSets(texts.component[component], texts.listed(names))] : [];
+  });
 }
 
 function Assignments({ rows, proposal }: { rows: readonly Assignment[]; proposal: Proposal }) {

@@ -13,15 +13,24 @@ serve<DecodeProtocol>({
     await ready;
     return kindOf(sniff(head, length, name));
   },
-  frames: async ({ bytes, name }, context) => {
+  frames: async ({ blob, name }, context) => {
     await ready;
-    const file = new FrameFile(bytes, name);
+    const file = await opened(blob, name);
     try {
       await decodeAll(file, context);
       return file.count;
     } finally {
       file.free();
     }
+  },
+  frame: async ({ key, blob, name, index }) => {
+    await ready;
+    if (held?.key !== key) {
+      held?.file.free();
+      held = null;
+      held = { key, file: await opened(blob, name) };
+    }
+    return taken(held.file, index);
   },
   model: async ({ bytes, name }) => {
     await ready;
@@ -34,13 +43,26 @@ serve<DecodeProtocol>({
   },
 });
 
+/** The file that a frame was last taken from: a film in one file is read once. */
+let held: { readonly key: string; readonly file: FrameFile } | null = null;
+
+async function opened(blob: Blob, name: string): Promise<FrameFile> {
+  return new FrameFile(new Uint8Array(await blob.arrayBuffer()), name);
+}
+
+function taken(file: FrameFile, index: number): DecodedFrame {
+  const raw = file.frame(index);
+  try {
+    return copied(raw);
+  } finally {
+    raw.free();
+  }
+}
+
 async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Promise<void> {
   const total = file.count;
   for (let index = 0; index < total; index++) {
-    const raw = file.frame(index);
-    const frame = copied(raw);
-    raw.free();
-    context.report({ index, total, frame });
+    context.report({ index, total, frame: taken(file, index) });
     await context.breathe();
   }
 }

@@ -38,9 +38,11 @@ export interface DecodeProtocol {
   sniff: { input: { head: Uint8Array<ArrayBuffer>; length: number; name: string }; output: FileKind; progress: never };
   /** Frames arrive one by one as progress. */
   frames: {
-    input: { bytes: Uint8Array<ArrayBuffer>; name: string };
+    input: { blob: Blob; name: string };
     output: number;
     progress: { readonly index: number; readonly total: number; readonly frame: DecodedFrame };
   };
+  /** One of them. `key` names the file: one that is open already is not read again. */
+  frame: { input: { key: string; blob: Blob; name: string; index: number }; output: DecodedFrame; progress: never };
   model: { input: { bytes: Uint8Array<ArrayBuffer>; name: string }; output: ModelMesh; progress: never };
 }

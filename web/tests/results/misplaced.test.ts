@@ -1,0 +1,56 @@
+import { describe, expect, it } from 'vitest';
+import { setAxes } from '../../src/document/axes';
+import { setModel, swapModels, withCell } from '../../src/document/commands';
+import { takeFollowed } from '../../src/document/followed';
+import { Store } from '../../src/document/store';
+import { cellOf, type Result } from '../../src/document/types';
+import type { ShapeKind } from '../../src/geometry/shape_kind';
+import { misplacedModels } from '../../src/results/misplaced';
+
+const KINDS: Readonly<Record<string, ShapeKind | null>> = { bow: 'bow', tray: 'tray', lump: null };
+const kindOf = (sha256: string) => KINDS[sha256] ?? null;
+
+function models(femur: string | null, tibia: string | null): Store {
+  const store = new Store();
+  if (femur) store.perform(setModel('femur', { name: `${femur}.stl`, sha256: femur }));
+  if (tibia) store.perform(setModel('tibia', { name: `${tibia}.stl`, sha256: tibia }));
+  return store;
+}
+
+describe('models in the wrong place', () => {
+  it.each([
+    ['bow', 'tray', [], false],
+    ['tray', 'bow', ['femur', 'tibia'], true],
+    ['tray', null, ['femur'], true],
+    ['lump', 'bow', ['tibia'], true],
+    // Two of a kind: to change them mends nothing.
+    ['bow', 'bow', ['tibia'], false],
+    ['lump', 'lump', [], false],
+    [null, null, [], false],
+  ] as const)('femur %s, tibia %s', (femur, tibia, components, canSwap) => {
+    expect(misplacedModels(models(femur, tibia).doc, kindOf)).toEqual({ components, canSwap });
+  });
+
+  it('change places in one step back, with what a person said of them; what was followed is dropped', () => {
+    const store = models('tray', 'bow');
+    const stated = { directions: [[0, 0, 1], [0, 1, 0], [-1, 0, 0]], from: 'person', told: 'all' } as const;
+    store.perform(setAxes('femur', stated));
+    store.perform(setAxes('tibia', { ...stated, from: 'shape' }));
+    const place = { frameId: 'f', component: 'femur' } as const;
+    const pose = { x: 0, y: 0, z: -900, zRot: 0, xRot: 0, yRot: 0 };
+    store.perform(takeFollowed([{ place, pose, deviations: null, residual: null, doubtful: true, badness: 2, rival: null, because: 'so', from: 'frame 1' }]));
+    const refused: Result = { kind: 'failed', origin: 'k', sentence: 's' };
+    store.perform({ label: 'click', apply: (doc) => withCell(doc, { ...place, component: 'tibia' }, { outline: null, result: refused, resultOf: null }) });
+    const before = store.doc;
+    store.perform(swapModels());
+    const { femur, tibia } = store.doc.components;
+    expect([femur.model?.sha256, tibia.model?.sha256]).toEqual(['bow', 'tray']);
+    expect([femur.axes, tibia.axes]).toEqual([null, stated]);
+    expect(cellOf(store.doc, 'f', 'femur').result).toBeNull();
+    expect(cellOf(store.doc, 'f', 'tibia').result).toBe(refused);
+    expect(misplacedModels(store.doc, kindOf).components).toEqual([]);
+    store.undo();
+    expect(store.doc.components).toBe(before.components);
+    expect(cellOf(store.doc, 'f', 'femur').result?.kind).toBe('posed');
+  });
+});
