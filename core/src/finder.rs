@@ -26,7 +26,7 @@ pub use around::look_around;
 pub use buffers::FinderBuffers;
 pub use candidate::{CANDIDATES, Candidate};
 pub use component::Component;
-pub use corrected::{correct_candidates, onto_image};
+pub use corrected::{correct_candidates, onto_target};
 pub use error::FindError;
 pub use find::{Found, Goal, find};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};

@@ -11,7 +11,7 @@ use crate::mesh::Model;
 use crate::mesh::symmetry::SymmetryPlane;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
-    CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, assess, correct,
+    CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Target, assess, correct,
 };
 use crate::shortlist::keep;
 
@@ -22,14 +22,15 @@ const ON_IMAGE: usize = 3;
 const HOPELESS: f64 = 2.0;
 const HOPELESS_PX: f64 = 0.5;
 
-/// Brings the best poses that an outline led to onto the edges of a frame; best first.
+/// Brings the best poses that an outline led to onto what else was seen: the edges of a frame, or the outline as it is known to
+/// lie ([`crate::image::silhouette::Silhouette::lying_off`]); best first.
 ///
 /// # Errors
 /// [`RefineError`] where none can be brought there.
-pub fn onto_image(
+pub fn onto_target<'t>(
     model: &Model<'_>,
     camera: &Camera,
-    image: ImageTarget<'_>,
+    target: impl Into<Target<'t>>,
     outline: &[Candidate],
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
@@ -39,7 +40,8 @@ pub fn onto_image(
     let open = outline.iter().take_while(|found| found.misfit() <= limit);
     let starts = open.take(ON_IMAGE).map(|found| found.pose);
     let starts: Vec<Pose, ON_IMAGE> = starts.collect();
-    let view = CameraView::only(camera, image);
+    let target = target.into();
+    let view = CameraView::only(camera, target);
     // Their mirror images are among them.
     let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
     let mut candidates = Vec::new();

@@ -5,14 +5,14 @@ use heapless::Vec;
 use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{ChoiceContext, choose};
 use super::component::Component;
-use super::corrected::{add_assessed, onto_image};
+use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
 use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
 use super::rivals::{RefinedRival, STARTS, refine_rivals, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
-use crate::image::silhouette::Silhouette;
+use crate::image::silhouette::{CommonOffset, Silhouette};
 use crate::locate::rerank::Reranked;
 use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineOptions, fit_at};
@@ -27,6 +27,9 @@ pub enum Goal<'g> {
     Outline,
     /// Then onto the edges of the grey frame.
     Image(ImageTarget<'g>),
+    /// Onto an outline that a tool laid on the edges of a frame whose film is not known: it lies off the implant's by a distance
+    /// that nobody knows ([`CommonOffset::ON_EDGES`]). Where the film is known, its image tells more.
+    Edges,
 }
 
 /// The poses that explain what a camera saw.
@@ -67,6 +70,10 @@ pub fn find(
     if component.library.info().model != component.model.digest() {
         return Err(FindError::OtherModel);
     }
+    let silhouette = &match goal {
+        Goal::Edges => silhouette.lying_off(CommonOffset::ON_EDGES),
+        _ => *silhouette,
+    };
     let first = first_poses(component, camera, silhouette, memory)?;
     let mut way = Way {
         component,
@@ -77,7 +84,7 @@ pub fn find(
     };
     let candidates = match goal {
         Goal::Library => way.as_the_library_has_them(&first)?,
-        Goal::Outline => way.on_outline(&first)?,
+        Goal::Outline | Goal::Edges => way.on_outline(&first)?,
         Goal::Image(image) => way.on_image(&first, image)?,
     };
     Ok(Found {
@@ -159,7 +166,9 @@ impl Way<'_, '_> {
         let outline = self.on_outline(first)?;
         let (model, camera, options) = (self.component.model, self.camera, self.options);
         let memory = &mut self.memory.refine;
-        Ok(onto_image(model, camera, image, &outline, options, memory)?)
+        Ok(onto_target(
+            model, camera, image, &outline, options, memory,
+        )?)
     }
 
     fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {

@@ -2,6 +2,7 @@
 //! frame, or never traced.
 
 use crate::image::mask::{Mask, MaskError};
+use crate::math::sqrt;
 
 /// A mask, and the pixels of which it says nothing.
 ///
@@ -11,6 +12,50 @@ use crate::image::mask::{Mask, MaskError};
 pub struct Silhouette<'a> {
     mask: &'a Mask<'a>,
     unknown: Option<&'a Mask<'a>>,
+    common: CommonOffset,
+}
+
+/// How far an outline lies outside of the implant's everywhere alike, which leaves no residual and moves depth: masks of a
+/// network, outlines that a tool laid on a frame's edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CommonOffset {
+    /// How far, pixels; below zero inside.
+    pub px: f64,
+    /// The standard deviation of that.
+    pub deviation_px: f64,
+}
+
+impl CommonOffset {
+    /// Of outlines on the edges of a frame whose film is not known: edges of films seen so far lie 0.2 to 0.9 px inside.
+    pub const ON_EDGES: Self = Self {
+        px: 0.0,
+        deviation_px: 0.65,
+    };
+    /// What edges of a known film leave unknown of it.
+    const OF_FILM_PX: f64 = 0.1;
+
+    /// That of masks of one source, from what single ones lie off by; `None` of none. What it deviates by is that of single masks.
+    #[must_use]
+    pub fn of(single: &[f64]) -> Option<Self> {
+        let px = median(single, |px| px)?;
+        // As if they were normal, whatever lies far out.
+        let spread = 1.4826 * median(single, |one| (one - px).abs())?;
+        Some(Self {
+            px,
+            deviation_px: sqrt(spread * spread + Self::OF_FILM_PX * Self::OF_FILM_PX),
+        })
+    }
+}
+
+/// The lower median; not of many, so that it is found by counting.
+fn median(values: &[f64], of: impl Fn(f64) -> f64) -> Option<f64> {
+    let rank = values.len().checked_sub(1)? / 2;
+    let mut all = values.iter().map(|&value| of(value));
+    all.find(|&value| {
+        let count =
+            |is: &dyn Fn(f64) -> bool| values.iter().filter(|&&other| is(of(other))).count();
+        count(&|other| other < value) <= rank && rank < count(&|other| other <= value)
+    })
 }
 
 impl<'a> From<&'a Mask<'a>> for Silhouette<'a> {
@@ -18,6 +63,7 @@ impl<'a> From<&'a Mask<'a>> for Silhouette<'a> {
         Self {
             mask,
             unknown: None,
+            common: CommonOffset::default(),
         }
     }
 }
@@ -34,7 +80,21 @@ impl<'a> Silhouette<'a> {
         Ok(Self {
             mask,
             unknown: Some(unknown),
+            common: CommonOffset::default(),
         })
+    }
+
+    /// The same, known to lie off the implant's outline by so much everywhere: refinement takes that away, and what is not known
+    /// of it widens the covariance.
+    #[must_use]
+    pub fn lying_off(self, common: CommonOffset) -> Self {
+        Self { common, ..self }
+    }
+
+    /// How far it lies off everywhere alike.
+    #[must_use]
+    pub fn common_offset(&self) -> CommonOffset {
+        self.common
     }
 
     /// The mask, unknown pixels among the rest.
@@ -101,6 +161,14 @@ mod tests {
             }
             prop_assert_eq!(silhouette.unmatched(&masks[2]), Some(naive));
         }
+    }
+
+    #[test]
+    fn masks_of_a_source_lie_off_by_their_median() {
+        assert_eq!(CommonOffset::of(&[]), None);
+        let off = CommonOffset::of(&[0.5, 0.4, 0.6, 7.0]).expect("some");
+        assert_eq!(off.px, 0.5);
+        assert!((off.deviation_px - 0.178).abs() < 1e-3, "{off:?}");
     }
 
     #[test]

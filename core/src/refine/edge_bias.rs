@@ -11,14 +11,13 @@ use super::view::{CameraView, ImageTarget, Target};
 use crate::film::model::CONSTANTS;
 use crate::film::{FilmModel, PathLine};
 use crate::image::display::QuickCurve;
+use crate::image::silhouette::CommonOffset;
 use crate::math::{inverse_spd, sqrt};
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 
 /// Standard deviation of the common distance, pixels, where the film is known. Depths on synthetic films are off by some 0.06 px
 /// of outline; real films hold more that is not modelled. A judgement, not a fit.
 const KNOWN_PX: f64 = 0.1;
-/// And where it is not: edges of films seen so far lie 0.2 to 0.9 px inside the outline.
-const UNKNOWN_PX: f64 = 0.65;
 /// Edges that move farther than this have jumped to others, pixels.
 const JUMP: f64 = 1.0;
 
@@ -42,9 +41,14 @@ impl EdgeBias {
         lines: &[PathLine],
     ) {
         match (&view.target, view.target.film().filter(|_| stage.drawn)) {
-            // It is where it is.
-            (Target::Silhouette(_), _) => self.add_moved(border, 0.0, |_, _| [0.0; CONSTANTS]),
-            (Target::Image(_), None) => self.add_moved(border, UNKNOWN_PX, |_, _| [0.0; CONSTANTS]),
+            (Target::Silhouette(silhouette), _) => {
+                let common = silhouette.common_offset().deviation_px;
+                self.add_moved(border, common, |_, _| [0.0; CONSTANTS]);
+            }
+            (Target::Image(_), None) => {
+                let common = CommonOffset::ON_EDGES.deviation_px;
+                self.add_moved(border, common, |_, _| [0.0; CONSTANTS]);
+            }
             (Target::Image(image), Some(film)) => {
                 self.add_by_film(image, film, stage, border, lines);
             }

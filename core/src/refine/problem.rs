@@ -418,7 +418,7 @@ impl<'a> Problem<'a> {
             drawn,
             edges,
             centre: pose.transform(&self.middle),
-            offset,
+            offset: offset + view.target.offset_px(),
             stage,
         };
         eye.measure(border, equations);

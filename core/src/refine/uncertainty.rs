@@ -106,7 +106,7 @@ pub fn fit_at(
 }
 
 /// Looks at the outline at a pose as the last stage of refinement does; `each` gets the samples of every view.
-fn observe(
+pub(super) fn observe(
     model: &Model<'_>,
     views: &[CameraView<'_>],
     refined: &Refined,

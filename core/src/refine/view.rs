@@ -50,6 +50,14 @@ impl Target<'_> {
         }
     }
 
+    /// How far the target's outline is known to lie off the implant's everywhere, pixels.
+    pub(super) fn offset_px(&self) -> f64 {
+        match self {
+            Self::Silhouette(silhouette) => silhouette.common_offset().px,
+            Self::Image(_) => 0.0,
+        }
+    }
+
     /// Columns and rows.
     pub(super) fn size(&self) -> (usize, usize) {
         match self {

@@ -7,6 +7,7 @@ mod golden;
 mod joint;
 mod library;
 mod mirrored;
+mod offset;
 mod options;
 mod parity;
 mod partial;

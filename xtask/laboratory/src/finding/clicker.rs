@@ -4,14 +4,15 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::finder::{Candidate, Component, FinderBuffers};
+use fluoropose::finder::{Candidate, Component, FindError, FinderBuffers, Goal, find};
 use fluoropose::follow::Subject;
 use fluoropose::image::frame::Grey;
+use fluoropose::image::mask::Mask;
 use fluoropose::library::Library;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
-use fluoropose::refine::{ImageTarget, Polarity};
+use fluoropose::refine::{ImageTarget, Polarity, RefineOptions};
 use fluoropose_tracing::one_click::{
     Answer, Observation, OneClick, OneClickBuffers, OneClickError, Prompt, Start, candidates,
 };
@@ -111,6 +112,30 @@ impl<'l> Clicker<'l> {
             took,
             longest,
         })
+    }
+
+    /// Poses that explain an outline which a tool laid on the edges of a frame; see [`Goal::Edges`].
+    ///
+    /// # Errors
+    /// Those of [`find`].
+    pub fn trace(&mut self, outline: &Mask<'_>) -> Result<Vec<Candidate>, FindError> {
+        let component = Component {
+            library: &self.library,
+            model: &self.mesh,
+            planes: &self.planes,
+        };
+        let kernels = fluoropose_kernels::fastest();
+        let mut memory = self.finder.borrow(&component, &self.camera, kernels);
+        let (camera, options) = (&self.camera, RefineOptions::default());
+        let found = find(
+            &component,
+            camera,
+            &outline.into(),
+            Goal::Edges,
+            options,
+            &mut memory,
+        )?;
+        Ok(found.candidates.to_vec())
     }
 
     /// Looks for the component in a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame).

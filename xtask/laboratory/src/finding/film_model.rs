@@ -5,7 +5,7 @@ use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::pool::profiles_of_each;
 use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
-use fluoropose::finder::{correct_candidates, look_around, onto_image};
+use fluoropose::finder::{correct_candidates, look_around, onto_target};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
@@ -223,7 +223,7 @@ impl Filmed<'_> {
         Ok(profiles)
     }
 
-    fn options(&self) -> RefineOptions {
+    pub(super) fn options(&self) -> RefineOptions {
         RefineOptions {
             edge_offset: self.edges.edge_offset,
             ..RefineOptions::default()
@@ -244,7 +244,7 @@ impl Filmed<'_> {
                 let mut memory = buffers.borrow(&self.model, &camera);
                 let (model, options) = (&self.model, self.options());
                 let outline = &outline.candidates;
-                Ok(onto_image(
+                Ok(onto_target(
                     model,
                     &camera,
                     image,

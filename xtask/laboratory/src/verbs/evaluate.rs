@@ -17,6 +17,7 @@ use crate::finding::{EdgeOptions, Method};
 use crate::noise::{DisturbanceOptions, Noise};
 use anyhow::{Result, bail};
 use found::{Found, Part, find_parts};
+pub use inside::Inside;
 pub use request::Request;
 pub use table::{Row, StartDifference, Table, Verdicts};
 
@@ -25,7 +26,8 @@ pub use table::{Row, StartDifference, Table, Verdicts};
 #[command(
     after_help = format!("For each component and each folder of masks that STUDY.toml names: root mean square and median absolute error against \
 the reference poses, and the other methods' pose files named there in the same table. wrong counts frames whose pose is nearer to the \
-reference's mirror image than to the reference. The mean error stands below as bias, and then the percent of frames in which each number lies within one and two of its standard deviations of the reference's: 68 and 95 where they are told right. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
+reference's mirror image than to the reference. The mean error stands below as bias, and then the percent of frames in which each number lies within one and two of its standard deviations of the reference's: 68 and 95 where they are told right; then the same \
+without the mean error, which no frame tells: the reference's, the calibration's, the model's. No frame is left out: those without a pose are counted, and the uncertainty table says why; a verdict (good, doubtful, none) says how far a pose is to be trusted. A component without a reference has its poses written and no row.\n\n\
 Of several poses of a frame one is chosen by its residual, where it decides; of a tibia by the coronal tilt against the femur of the same \
 source; then by continuity over the frames. How many frames were chosen by what stands below each row. Components are femur and tibia by their names or \
 by the key role = \"femur\" or \"tibia\".\n\n\
@@ -49,6 +51,9 @@ pub struct Args {
     method: Method,
     #[command(flatten)]
     edges: EdgeOptions,
+    /// Method refined: take away how far the masks of a source lie off the film's edges everywhere, as the key frames tell it
+    #[arg(long)]
+    centred: bool,
     /// Write the table as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -70,6 +75,7 @@ pub fn run(args: Args) -> Result<()> {
         source: args.source.as_deref(),
         method: args.method,
         edges: args.edges,
+        centred: args.centred,
         disturbance: args.disturbance,
         poses: args.poses.as_deref(),
     };
@@ -85,9 +91,9 @@ pub fn run(args: Args) -> Result<()> {
 pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
     request.disturbance.check()?;
     let study = Study::read(path)?;
-    if request.method == Method::Image && study.frames.is_none() {
+    if request.asks_frames() && study.frames.is_none() {
         bail!(
-            "{} has no key 'frames': the method image needs the folder of the grey frames, frames = \"folder\"",
+            "{} has no key 'frames': this needs the folder of the grey frames, frames = \"folder\"",
             path.display()
         );
     }
@@ -144,7 +150,7 @@ impl Part<'_> {
         let noise = Noise::of(&request.disturbance, 1);
         let mesh = self.model.as_model();
         let middle = mesh.bounds().centre;
-        [row.inside_1sd, row.inside_2sd] = inside::inside(&found.decisions, reference, &middle);
+        row.inside = inside::Inside::of(&found.decisions, reference, &middle);
         row.limits = Some(limits::against(reference, mesh, found, noise, &row.rms)?);
         Ok(Some(row))
     }

@@ -23,7 +23,7 @@ use crate::files::{Component, MaskBuffer, Role, Study, read_model};
 use crate::finding::misfits::Misfits;
 use crate::finding::{
     Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
-    build_library, find_poses, first_poses, stated_model,
+    build_library, find_poses, first_poses, offset_words, stated_model,
 };
 use crate::measure::accuracy::median_absolute;
 use crate::sequence::{Folders, Seen, Sequence, Source};
@@ -90,7 +90,7 @@ pub(super) fn find_parts<'s>(
     // On a core each.
     let components = study.components.par_iter();
     let mut parts: Vec<Part<'s>> = components.map(find).collect::<Result<_>>()?;
-    if request.method == Method::Image {
+    if request.asks_frames() {
         by_film(&mut parts, study, request)?;
     }
     let is = |role: Role| move |part: &Part<'_>| part.component.role() == Some(role);
@@ -193,7 +193,7 @@ impl<'s> Part<'s> {
             let folders = Folders {
                 masks,
                 unknown: component.unknown.get(name).map(PathBuf::as_path),
-                frames: frames.filter(|_| request.method == Method::Image),
+                frames: frames.filter(|_| request.asks_frames()),
             };
             let source = Source::read(&folders, calibration)?;
             let found = part.find_source(name, source, calibration, request)?;
@@ -385,12 +385,25 @@ fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Resu
             ));
         }
         let stated: Vec<_> = rest.iter().map(|(stated, ..)| *stated).collect();
+        let outlines: Vec<_> = filmed.iter().map(|part| part.found.clone()).collect();
         let known = bring_onto_frames(&mut filmed, study.film.map(|_| &stated[..]));
-        for ((part, (_, reference, (film, is_known), starts)), model) in
-            filmed.iter().zip(rest).zip(&known.models)
+        let offsets: Vec<_> = filmed.iter().map(Filmed::mask_offset).collect();
+        for ((part, offset), outlines) in filmed.iter_mut().zip(&offsets).zip(&outlines) {
+            if let (true, Some(common)) = (request.is_centred(), offset) {
+                *part.found = part.without_offset(outlines, *common);
+            }
+        }
+        for (((part, (_, reference, (film, is_known), starts)), model), offset) in
+            filmed.iter().zip(rest).zip(&known.models).zip(offsets)
         {
-            *film = Some(known.words.clone());
+            let lying = offset.map_or(String::new(), |common| {
+                format!("; {}", offset_words(common))
+            });
+            *film = Some(known.words.clone() + &lying);
             *is_known = model.is_some();
+            if request.is_centred() {
+                continue;
+            }
             *starts = reference
                 .as_ref()
                 .map(|reference| from_reference(part, reference, *model));

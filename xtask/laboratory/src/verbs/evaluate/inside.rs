@@ -1,41 +1,69 @@
 //! Whether poses are as sure as they are said to be.
 
+use std::array;
+
 use fluoropose::pose::Pose;
+use serde::Serialize;
 
 use super::reference::{Reference, in_front};
 use crate::choice::Decision;
 use crate::choice::report::Numbers;
 use crate::measure::accuracy::Errors;
 
-/// The part of frames in which each number lies within so many standard deviations of the reference's, for one and for two.
-/// `None` where no pose says how sure it is.
-pub(super) fn inside(
-    decisions: &[Option<Decision>],
-    reference: &Reference,
-    middle: &[f64; 3],
-) -> [Option<Numbers>; 2] {
-    let frames = decisions.iter().zip(&reference.poses);
-    let ratios: Vec<[f64; 6]> = frames
-        .filter_map(|(decision, known)| ratios(decision.as_ref()?, known.as_ref()?, middle))
-        .collect();
+/// The parts of frames in which each number lies within one and two standard deviations of the reference's.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Inside {
+    /// As it is.
+    pub whole: [Numbers; 2],
+    /// Without the mean difference, which no frame tells: of the reference, of the calibration, of the model.
+    pub scatter: [Numbers; 2],
+}
+
+impl Inside {
+    /// `None` where no pose says how sure it is. `middle` is that of the model's box.
+    pub(super) fn of(
+        decisions: &[Option<Decision>],
+        reference: &Reference,
+        middle: &[f64; 3],
+    ) -> Option<Self> {
+        let frames = decisions.iter().zip(&reference.poses);
+        let told: Vec<[[f64; 2]; 6]> = frames
+            .filter_map(|(decision, known)| told(decision.as_ref()?, known.as_ref()?, middle))
+            .collect();
+        let count = told.len() as f64;
+        let mean: [f64; 6] =
+            array::from_fn(|k| told.iter().map(|one| one[k][0]).sum::<f64>() / count);
+        // One of so many differences is the mean's.
+        let wider = (count / (count - 1.0)).sqrt();
+        (told.len() > 1).then(|| Self {
+            whole: parts(&told, |_, error| error),
+            scatter: parts(&told, |number, error| (error - mean[number]) * wider),
+        })
+    }
+}
+
+fn parts(told: &[[[f64; 2]; 6]], off: impl Fn(usize, f64) -> f64) -> [Numbers; 2] {
     [1.0, 2.0].map(|reach| {
         let part = |number: usize| {
-            let within = ratios.iter().filter(|ratios| ratios[number] <= reach);
-            within.count() as f64 / ratios.len() as f64
+            let within = |one: &&[[f64; 2]; 6]| {
+                let [error, sd] = one[number];
+                off(number, error).abs() <= reach * sd
+            };
+            told.iter().filter(within).count() as f64 / told.len() as f64
         };
-        (!ratios.is_empty()).then(|| Numbers {
+        Numbers {
             x_mm: part(0),
             y_mm: part(1),
             z_mm: part(2),
             z_rot_deg: part(3),
             x_rot_deg: part(4),
             y_rot_deg: part(5),
-        })
+        }
     })
 }
 
-/// How far each number is off, in its standard deviations.
-fn ratios(decision: &Decision, known: &Pose, middle: &[f64; 3]) -> Option<[f64; 6]> {
+/// How far each number is off, and its standard deviation.
+fn told(decision: &Decision, known: &Pose, middle: &[f64; 3]) -> Option<[[f64; 2]; 6]> {
     let pose = decision.pose()?;
     let sd = Numbers::deviations(&decision.chosen, middle)?.all();
     let errors = Errors::of(&pose, &in_front(known));
@@ -47,5 +75,5 @@ fn ratios(decision: &Decision, known: &Pose, middle: &[f64; 3]) -> Option<[f64; 
         errors.x_rot_deg,
         errors.y_rot_deg,
     ];
-    Some(std::array::from_fn(|k| errors[k].abs() / sd[k]))
+    Some(array::from_fn(|k| [errors[k], sd[k]]))
 }

@@ -1,5 +1,6 @@
 //! The table for a person.
 
+use super::inside::Inside;
 use super::table::{Row, Table, Verdicts};
 use crate::choice::report::Numbers;
 use crate::measure::accuracy::Errors;
@@ -45,12 +46,11 @@ fn print_row(row: &Row) {
     );
     println!("{:LEFT$} {}", "", numbers(&row.median));
     println!("{:>LEFT$} {}", "bias", numbers(&row.bias));
-    for (name, inside) in [
-        ("within 1 SD, %", &row.inside_1sd),
-        ("within 2 SD, %", &row.inside_2sd),
-    ] {
-        if let Some(inside) = inside {
-            println!("{name:>LEFT$} {}", percents(inside));
+    if let Some(Inside { whole, scatter }) = &row.inside {
+        let lines = [("", whole), (" about the bias", scatter)];
+        for (of, [one, two]) in lines {
+            println!("{:>LEFT$} {}", format!("within 1 SD{of}, %"), percents(one));
+            println!("{:>LEFT$} {}", format!("within 2 SD{of}, %"), percents(two));
         }
     }
     if row.not_found > 0 {

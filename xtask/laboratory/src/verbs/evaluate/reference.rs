@@ -61,8 +61,7 @@ impl Reference {
                 .iter()
                 .filter(|(found, known)| is_wrong_side(found, known, &self.planes))
                 .count(),
-            inside_1sd: None,
-            inside_2sd: None,
+            inside: None,
             verdicts: None,
             reasons: None,
             femur: None,

@@ -14,6 +14,8 @@ pub struct Request<'a> {
     pub method: Method,
     /// How edges are looked for.
     pub edges: EdgeOptions,
+    /// Whether what masks have in common is taken away from them, as the frames tell it.
+    pub centred: bool,
     /// What is done to each mask before.
     pub disturbance: DisturbanceOptions,
     /// Where poses and uncertainty tables are written to. `None`: those of components without a
@@ -22,12 +24,22 @@ pub struct Request<'a> {
 }
 
 impl Request<'_> {
+    /// Whether the grey frames are looked at.
+    pub(super) fn asks_frames(&self) -> bool {
+        self.method == Method::Image || self.is_centred()
+    }
+
+    pub(super) fn is_centred(&self) -> bool {
+        self.method == Method::Refined && self.centred
+    }
+
     /// A method with everything else as it is by default.
     pub fn of(method: Method) -> Self {
         Self {
             source: None,
             method,
             edges: EdgeOptions::default(),
+            centred: false,
             disturbance: DisturbanceOptions::default(),
             poses: None,
         }

@@ -3,10 +3,11 @@
 use fluoropose::pose::Pose;
 use serde::Serialize;
 
-use crate::choice::report::Numbers;
 use crate::choice::{Decision, Reasons};
 use crate::measure::accuracy::{Errors, rms};
 use crate::measure::bound::Comparison;
+
+use super::inside::Inside;
 
 /// The table of a study.
 #[derive(Debug, Serialize)]
@@ -38,11 +39,9 @@ pub struct Row {
     pub bias: Errors,
     /// Median absolute errors.
     pub median: Errors,
-    /// Of poses found here that say how sure they are: the part of frames in which each number lies within one standard
-    /// deviation of the reference's. 68 % would be right.
-    pub inside_1sd: Option<Numbers>,
-    /// The same within two. 95 % would be right.
-    pub inside_2sd: Option<Numbers>,
+    /// Of poses found here that say how sure they are: the part of frames in which each number lies within one and two standard
+    /// deviations of the reference's. 68 and 95 % would be right.
+    pub inside: Option<Inside>,
     /// Frames nearer to the reference's mirror image than to the reference.
     pub wrong_side: usize,
     /// Of poses found here: how far they are to be trusted.

@@ -102,7 +102,7 @@ pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<Fi
         let built = build_library(models[part], camera, &ViewOptions::default(), DISTANCE);
         built.map(|built| built.bytes)
     };
-    let libraries = match what.ways.contains(&FilmWay::Click) {
+    let libraries = match what.ways.iter().any(|way| way.is_found()) {
         true => Some([library(0)?, library(1)?]),
         false => None,
     };

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use fluoropose::camera::Camera;
 use fluoropose::image::frame::Frame;
-use fluoropose::image::mask::Mask;
+use fluoropose::image::mask::{Mask, Word};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_phantom::film::motion::{DEEPEST_DEG, knee};
 use fluoropose_phantom::film::{self, Physics, Placed, Scene};
@@ -30,6 +30,8 @@ pub(super) struct Film {
     pub(super) truth: [Pose; 2],
     /// Where a person clicks: where each component is thickest.
     pub(super) clicks: [Prompt; 2],
+    /// Their true silhouettes.
+    silhouettes: [Vec<Word>; 2],
 }
 
 impl Film {
@@ -40,6 +42,15 @@ impl Film {
     pub(super) fn frame(&self, camera: &Camera) -> Result<Frame<'_, u8>> {
         let (width, height) = (camera.width(), camera.height());
         Ok(Frame::new(&self.pixels, width, height, width)?)
+    }
+
+    /// The true silhouette of a component.
+    ///
+    /// # Errors
+    /// For a camera of another size.
+    pub(super) fn silhouette(&self, part: usize, camera: &Camera) -> Result<Mask<'_>> {
+        let words = &self.silhouettes[part];
+        Ok(Mask::new(words, camera.width(), camera.height())?)
     }
 }
 
@@ -68,16 +79,20 @@ pub(super) fn draw(
         femur,
         tibia,
     };
-    let click = |placed: &Placed<'_>| -> Result<Prompt> {
-        let words = film::silhouette(&camera, placed)?;
-        let mask = Mask::new(&words, camera.width(), camera.height())?;
+    let silhouettes = [
+        film::silhouette(&camera, &femur)?,
+        film::silhouette(&camera, &tibia)?,
+    ];
+    let click = |words: &[Word]| -> Result<Prompt> {
+        let mask = Mask::new(words, camera.width(), camera.height())?;
         let click = Kind::Deepest.prompt(&mask, None, number.frame);
         click.context("a silhouette has a middle")
     };
     Ok(Film {
         pixels: film::expose(&scene, physics, number.seed, number.frame)?,
         truth,
-        clicks: [click(&femur)?, click(&tibia)?],
+        clicks: [click(&silhouettes[0])?, click(&silhouettes[1])?],
+        silhouettes,
     })
 }
 

@@ -38,7 +38,7 @@ impl Study<'_> {
         for _ in 0..ROUNDS {
             let known = known_films(&self.profiles(way)?, way);
             self.correct(&known)?;
-            if way == FilmWay::Click {
+            if way.is_found() {
                 self.look_around(&known)?;
             }
         }
@@ -116,7 +116,7 @@ impl Study<'_> {
     fn profiles(&self, way: FilmWay) -> Result<Vec<[Vec<FilmProfile>; 2]>> {
         let each = match way {
             FilmWay::Alone => profiles_of_each(1),
-            FilmWay::Click | FilmWay::Image => profiles_of_each(2 * self.films.len()),
+            _ => profiles_of_each(2 * self.films.len()),
         };
         let read = |buffers: &mut RefineBuffers, (number, film): (usize, &Film)| {
             let frame = film.frame(&self.camera)?;

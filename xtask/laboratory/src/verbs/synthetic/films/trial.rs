@@ -10,13 +10,18 @@ use fluoropose::mesh::Model;
 use fluoropose::refine::{CameraView, ImageTarget, Polarity, RefineOptions, assess};
 
 use super::draw::Film;
-use crate::finding::{Clicker, Refiner};
+use crate::finding::{Clicker, Refiner, threshold_outline, wire_outline};
+use fluoropose_tracing::one_click::Prompt;
 
 /// How a pose was come by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum FilmWay {
     /// From one click, the tray's with the femur's pose known; corrected by what all frames of both components tell of the film
     Click,
+    /// From the region around the click at a grey level, an outline on edges; corrected alike
+    Threshold,
+    /// From a live-wire around the component, the same
+    Wire,
     /// Refined on the film from the true pose, and corrected alike
     Image,
     /// The same, but the film is told by this component in this frame alone
@@ -27,10 +32,17 @@ impl FilmWay {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Click, Self::Image, Self::Alone];
 
+    /// Whether poses are found, by libraries, and not refined from the truth.
+    pub(super) fn is_found(self) -> bool {
+        matches!(self, Self::Click | Self::Threshold | Self::Wire)
+    }
+
     /// The word for it in tables.
     pub fn word(self) -> &'static str {
         match self {
             Self::Click => "click",
+            Self::Threshold => "threshold",
+            Self::Wire => "wire",
             Self::Image => "image",
             Self::Alone => "alone",
         }
@@ -86,6 +98,7 @@ impl<'b> Bench<'b> {
             let begin = Instant::now();
             let candidates = match way {
                 FilmWay::Click => self.clicked(&frame, film, part),
+                FilmWay::Threshold | FilmWay::Wire => self.traced(&frame, film, part, way),
                 FilmWay::Image | FilmWay::Alone => self.refined(&frame, film, part),
             };
             Attempt {
@@ -105,15 +118,30 @@ impl<'b> Bench<'b> {
         clicked.map_or_else(Vec::new, |clicked| clicked.candidates)
     }
 
+    /// From the outline of a tool; none where the tool gives none or nothing explains it.
+    fn traced(
+        &mut self,
+        frame: &Frame<'_, u8>,
+        film: &Film,
+        part: usize,
+        way: FilmWay,
+    ) -> Vec<Candidate> {
+        let outline = match (way, film.clicks[part]) {
+            (FilmWay::Threshold, Prompt::Click(at)) => threshold_outline(frame, at),
+            _ => film
+                .silhouette(part, &self.camera)
+                .and_then(|mask| wire_outline(frame, &mask).map(Some)),
+        };
+        let (Ok(Some(outline)), Some(clickers)) = (outline, &mut self.clickers) else {
+            return Vec::new();
+        };
+        let found = clickers[part].trace(&outline.mask());
+        found.unwrap_or_default()
+    }
+
     /// Refinement on the film from the truth.
     fn refined(&mut self, frame: &Frame<'_, u8>, film: &Film, part: usize) -> Vec<Candidate> {
-        let target = ImageTarget {
-            frame,
-            unknown: None,
-            polarity: Polarity::DarkImplant,
-            film: None,
-        };
-        let view = CameraView::only(&self.camera, target);
+        let view = CameraView::only(&self.camera, target(frame));
         let (truth, refiner) = (film.truth[part], &mut self.refiners[part]);
         let refined = refiner.refine_as_given(&[view], &[truth]);
         let candidate = refined.ok().and_then(|found| {
@@ -130,5 +158,15 @@ impl<'b> Bench<'b> {
             })
         });
         candidate.into_iter().collect()
+    }
+}
+
+/// A film of which nothing is known.
+fn target<'a>(frame: &'a Frame<'a, u8>) -> ImageTarget<'a> {
+    ImageTarget {
+        frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: None,
     }
 }

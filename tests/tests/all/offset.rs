@@ -1,0 +1,83 @@
+//! Outlines that lie off the implant's everywhere alike: taken away where it is known, told where it is not.
+
+use fluoropose::camera::Camera;
+use fluoropose::image::mask::Mask;
+use fluoropose::image::silhouette::{CommonOffset, Silhouette};
+use fluoropose::mesh::Model;
+use fluoropose::pose::covariance::Deviations;
+use fluoropose::pose::{EulerPose, Pose};
+use fluoropose::refine::{
+    CameraView, RefineBuffers, RefineOptions, assess, outline_offset, refine,
+};
+use fluoropose_laboratory::files::MaskBuffer;
+use fluoropose_phantom::film::{Placed, silhouette};
+use fluoropose_tests::{camera, femur, surface};
+
+const TRUE: EulerPose = EulerPose {
+    x_mm: 10.0,
+    y_mm: 5.0,
+    z_mm: -1084.0,
+    z_rot_deg: 20.0,
+    x_rot_deg: 3.0,
+    y_rot_deg: -4.0,
+};
+
+/// The same with all pixels that touch it, as a network might see it.
+fn widened(mask: &Mask<'_>) -> MaskBuffer {
+    let (width, height) = (mask.width(), mask.height());
+    let mut wide = MaskBuffer::new(width, height).expect("a mask");
+    wide.draw(|wide| {
+        for (column, row) in (1..height - 1).flat_map(|row| (1..width - 1).map(move |c| (c, row))) {
+            let beside = [(0, 1), (1, 0), (1, 1), (1, 2), (2, 1)];
+            let touches = |&(right, down): &_| mask.get(column + right - 1, row + down - 1);
+            wide.set(column, row, beside.iter().any(touches));
+        }
+    });
+    wide
+}
+
+/// How far z is off, and its standard deviation, mm.
+fn depth(model: &Model<'_>, camera: &Camera, seen: Silhouette<'_>) -> [f64; 2] {
+    let (view, mut buffers) = ([CameraView::only(camera, seen)], RefineBuffers::default());
+    let mut memory = buffers.borrow(model, camera);
+    let (truth, options) = (Pose::from(TRUE), RefineOptions::default());
+    let refined = refine(model, &view, &truth, options, &mut memory).expect("refined");
+    let told = assess(model, &view, &refined, &mut memory).expect("assessed");
+    let covariance = told.covariance.expect("determined");
+    let Deviations { z_mm, .. } = covariance.deviations(&refined.pose, &model.bounds().centre);
+    [EulerPose::from(refined.pose).z_mm - TRUE.z_mm, z_mm]
+}
+
+#[test]
+fn a_common_offset_is_found_taken_away_and_told() {
+    let (femur, camera) = (femur(), camera());
+    let truth = Pose::from(TRUE);
+    let words = silhouette(&camera, &Placed::at_rest(&femur, TRUE.into())).expect("drawn");
+    let mask = Mask::new(&words, camera.width(), camera.height()).expect("fits");
+    let wide = widened(&mask);
+    let (wide, model) = (wide.mask(), surface(femur));
+    let (wide, model) = (Silhouette::from(&wide), model.as_model());
+
+    let mut buffers = RefineBuffers::default();
+    let mut memory = buffers.borrow(&model, &camera);
+    let view = CameraView::only(&camera, wide);
+    let px = outline_offset(&model, view, &truth, &mut memory).expect("seen");
+    let px = px.expect("met");
+    assert!((0.6..1.1).contains(&px), "{px}");
+
+    let [off, told] = depth(&model, &camera, wide);
+    assert!(off > 3.0 && told < 1.0, "{off} {told}");
+    let unknown = CommonOffset {
+        px: 0.0,
+        deviation_px: px,
+    };
+    let [still_off, told] = depth(&model, &camera, wide.lying_off(unknown));
+    assert_eq!(still_off, off);
+    assert!((off - told).abs() < 0.2 * off, "{off} {told}");
+    let known = CommonOffset {
+        px,
+        deviation_px: 0.0,
+    };
+    let [off, told] = depth(&model, &camera, wide.lying_off(known));
+    assert!(off.abs() < 0.5 && told < 1.0, "{off} {told}");
+}
