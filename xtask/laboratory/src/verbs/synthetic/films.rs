@@ -45,7 +45,7 @@ pub(super) struct FilmArgs {
     /// With --films: only kinds whose name holds this
     #[arg(long, value_name = "WORDS")]
     only: Option<String>,
-    /// With --films: how poses are come by [default: all]
+    /// With --films: how poses are come by [default: click, image, alone]
     #[arg(long, value_enum, value_name = "WAY")]
     way: Vec<FilmWay>,
 }
@@ -77,7 +77,7 @@ pub(super) fn run(args: &FilmArgs, seed: u64, json: Option<&Path>) -> Result<()>
         count: args.count,
         seed,
         ways: match &args.way[..] {
-            [] => &FilmWay::ALL,
+            [] => &FilmWay::USUAL,
             ways => ways,
         },
     };

@@ -14,7 +14,7 @@ pub struct FilmRow {
     pub films: String,
     /// `femur` or `tibia`.
     pub component: &'static str,
-    /// `click`, `image` or `alone`.
+    /// How the poses were come by, in a word.
     pub way: &'static str,
     /// Films.
     pub frames: usize,
@@ -105,7 +105,7 @@ impl FilmRow {
 
 pub(super) fn print_heading() {
     println!(
-        "{:<36} {:<5} {:<5} {:>6} {:>4} {:>5} {:>4} {:>6} | {:>6} {:>6} {:>6} {:>7} {:>6} | {:>6} {:>5} | {:<27} | {:<27} | {:>5}",
+        "{:<36} {:<5} {:<9} {:>6} {:>4} {:>5} {:>4} {:>6} | {:>6} {:>6} {:>6} {:>7} {:>6} | {:>6} {:>5} | {:<27} | {:<27} | {:>5}",
         "films",
         "part",
         "way",
@@ -134,7 +134,7 @@ pub(super) fn print(row: &FilmRow) {
         cells.concat()
     };
     println!(
-        "{:<36} {:<5} {:<5} {:>6} {:>4} {:>5} {:>4} {:>6} | {:6.2} {:6.2} {:6.2} {:7.3} {:6.3} | {:>6} {:>5} | {:<27} | {:<27} | {:5.0}",
+        "{:<36} {:<5} {:<9} {:>6} {:>4} {:>5} {:>4} {:>6} | {:6.2} {:6.2} {:6.2} {:7.3} {:6.3} | {:>6} {:>5} | {:<27} | {:<27} | {:5.0}",
         row.films,
         row.component,
         row.way,

@@ -29,8 +29,8 @@ pub enum FilmWay {
 }
 
 impl FilmWay {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Click, Self::Image, Self::Alone];
+    /// Those that are measured where none is named.
+    pub const USUAL: [Self; 3] = [Self::Click, Self::Image, Self::Alone];
 
     /// Whether poses are found, by libraries, and not refined from the truth.
     pub(super) fn is_found(self) -> bool {
