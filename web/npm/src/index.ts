@@ -125,7 +125,8 @@ function verdictOf({ verdict: word, because = '' }: Match): Verdict | null {
 }
 
 function candidate(match: Match, index: number): Candidate {
-  const deviations = match.deviations(index);
+  // Its first six numbers; the rest is their covariance.
+  const deviations = match.uncertainty(index);
   return {
     pose: pose(match.pose(index) ?? []),
     deviations: deviations ? pose(deviations) : null,

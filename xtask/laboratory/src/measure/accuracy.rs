@@ -25,6 +25,15 @@ pub struct Errors {
     pub geodesic_deg: f64,
 }
 
+/// A pose in our camera frame, which looks along -z.
+pub fn in_front(pose: &Pose) -> Pose {
+    if pose.translation[2] > 0.0 {
+        pose.flip_camera_axes()
+    } else {
+        *pose
+    }
+}
+
 impl Errors {
     /// `found` minus `reference`; angles are taken the short way round.
     pub fn of(found: &Pose, reference: &Pose) -> Self {

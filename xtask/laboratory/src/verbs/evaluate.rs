@@ -150,7 +150,7 @@ impl Part<'_> {
         let noise = Noise::of(&request.disturbance, 1);
         let mesh = self.model.as_model();
         let middle = mesh.bounds().centre;
-        row.inside = inside::Inside::of(&found.decisions, reference, &middle);
+        row.inside = inside::Inside::of(&found.decisions, &reference.poses, &middle);
         row.limits = Some(limits::against(reference, mesh, found, noise, &row.rms)?);
         Ok(Some(row))
     }

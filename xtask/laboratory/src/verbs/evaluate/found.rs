@@ -16,7 +16,7 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::RefineBuffers;
 use rayon::prelude::*;
 
-use super::reference::{Reference, in_front};
+use super::reference::Reference;
 use super::request::Request;
 use crate::choice::{Decision, decide};
 use crate::files::{Component, MaskBuffer, Role, Study, read_model};
@@ -25,7 +25,7 @@ use crate::finding::{
     Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
     build_library, find_poses, first_poses, offset_words, stated_model,
 };
-use crate::measure::accuracy::median_absolute;
+use crate::measure::accuracy::{in_front, median_absolute};
 use crate::sequence::{Folders, Seen, Sequence, Source};
 use fluoropose::mesh::OwnedModel;
 

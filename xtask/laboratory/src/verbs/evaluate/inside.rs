@@ -5,10 +5,9 @@ use std::array;
 use fluoropose::pose::Pose;
 use serde::Serialize;
 
-use super::reference::{Reference, in_front};
 use crate::choice::Decision;
 use crate::choice::report::Numbers;
-use crate::measure::accuracy::Errors;
+use crate::measure::accuracy::{Errors, in_front};
 
 /// The parts of frames in which each number lies within one and two standard deviations of the reference's.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -23,10 +22,10 @@ impl Inside {
     /// `None` where no pose says how sure it is. `middle` is that of the model's box.
     pub(super) fn of(
         decisions: &[Option<Decision>],
-        reference: &Reference,
+        reference: &[Option<Pose>],
         middle: &[f64; 3],
     ) -> Option<Self> {
-        let frames = decisions.iter().zip(&reference.poses);
+        let frames = decisions.iter().zip(reference);
         let told: Vec<[[f64; 2]; 6]> = frames
             .filter_map(|(decision, known)| told(decision.as_ref()?, known.as_ref()?, middle))
             .collect();

@@ -4,9 +4,9 @@ use anyhow::{Context, Result};
 use fluoropose::mesh::Model;
 
 use super::found::Found;
-use super::reference::{Reference, in_front};
+use super::reference::Reference;
 use crate::files::MaskBuffer;
-use crate::measure::accuracy::Errors;
+use crate::measure::accuracy::{Errors, in_front};
 use crate::measure::bound::{Comparison, Outlines, PoseLimits};
 use crate::noise::Noise;
 

@@ -72,15 +72,6 @@ impl Reference {
     }
 }
 
-/// A pose in our camera frame, which looks along -z.
-pub(super) fn in_front(pose: &Pose) -> Pose {
-    if pose.translation[2] > 0.0 {
-        pose.flip_camera_axes()
-    } else {
-        *pose
-    }
-}
-
 /// Both poses in the reference's own camera frame. A reference in front of a camera that looks
 /// along +z (computer vision, as camera-matrix studies may have) has positive z; ours never do.
 fn in_frame_of(found: Pose, reference: Pose) -> (Pose, Pose) {
