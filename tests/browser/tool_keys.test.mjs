@@ -58,6 +58,8 @@ async function byKeyboard(page, t) {
 async function sheetOfKeys(page) {
   await page.keyboard.press('?');
   const sheet = page.getByRole('dialog', { name: 'Keys and mouse' });
+  // What it tells comes when it is first opened.
+  await sheet.getByText('Live-wire').first().waitFor();
   const text = await sheet.innerText();
   for (const words of ['Live-wire', 'Threshold', 'One click', 'Brush', 'Snap the outline', 'Copy the outline of the previous frame']) {
     assert(text.includes(words), `the sheet says nothing of ${words}`);

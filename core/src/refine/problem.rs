@@ -208,14 +208,9 @@ impl<'a> Problem<'a> {
                 // No step leads round it, and to stop short of it would pass for an answer.
                 Err(error @ RefineError::Memory(_)) => return Err(error),
                 _ => {
-                    let (caution, grained) = match self.is_outline() {
-                        true => (CAUTIOUS, GRAINED),
-                        false => (0.0, 0.0),
-                    };
-                    damping = (damping * 8.0).max(caution);
+                    damping = self.after_failure(damping);
                     seen.samples = None;
-                    let grained = grained.max(GRAINED_SETTLED * SETTLED * coarser);
-                    if step.size() < grained * self.grain() {
+                    if step.size() < self.grained() {
                         break;
                     }
                 }
@@ -223,6 +218,19 @@ impl<'a> Problem<'a> {
         }
         seen.equations.report(state);
         Ok(seen)
+    }
+
+    /// Damping of the step that is tried after one that failed.
+    fn after_failure(&self, damping: f64) -> f64 {
+        let least = if self.is_outline() { CAUTIOUS } else { 0.0 };
+        (damping * 8.0).max(least)
+    }
+
+    /// A step below this size that fails has met the grain.
+    fn grained(&self) -> f64 {
+        let least = if self.is_outline() { GRAINED } else { 0.0 };
+        let settled = GRAINED_SETTLED * SETTLED * self.effort.coarser();
+        least.max(settled) * self.grain()
     }
 
     /// Most steps tried in a stage.
