@@ -12,8 +12,9 @@ thread_local! {
 pub(crate) struct Lane {
     /// What stands before each of its lines.
     pub(crate) name: &'static str,
-    /// Whether its programs give way to those of other lanes: a compiler can wait, a browser's test has a clock.
-    pub(crate) gives_way: bool,
+    /// How much its programs give way to those of other lanes, as the program `nice` counts: a compiler can wait, a browser's
+    /// test has a clock.
+    pub(crate) gives_way: u8,
 }
 
 impl Lane {

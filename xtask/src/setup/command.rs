@@ -43,11 +43,11 @@ fn is_executable(file: &Path) -> bool {
 
 /// A command that gives way to others where its lane does.
 pub(crate) fn of_lane(program: impl AsRef<OsStr>) -> Command {
-    let gives_way = output::lane().is_some_and(|lane| lane.gives_way);
-    match find(&["nice"]).filter(|_| gives_way) {
+    let gives_way = output::lane().map_or(0, |lane| lane.gives_way);
+    match find(&["nice"]).filter(|_| gives_way > 0) {
         Some(nice) => {
             let mut command = Command::new(nice);
-            command.args(["-n", "10"]).arg(program);
+            command.args(["-n", &gives_way.to_string()]).arg(program);
             command
         }
         None => Command::new(program),
@@ -207,7 +207,7 @@ mod tests {
     fn in_a_lane_both_outputs_are_shown_and_failures_told() {
         let lane = Lane {
             name: "lane",
-            gives_way: true,
+            gives_way: 10,
         };
         lane.work(|| {
             let mut shell = of_lane("sh");

@@ -35,10 +35,11 @@ type Suite = (Lane, fn(&mut Report));
 pub(crate) fn run(chosen: Chosen) -> Report {
     let lane = |name, gives_way| Lane { name, gives_way };
     let suites: [(bool, Suite); 3] = [
-        (chosen.native, (lane("native", true), native::run)),
-        (chosen.firmware, (lane("firmware", true), firmware::run)),
+        (chosen.native, (lane("native", 10), native::run)),
+        // It is done long before the native suite, which nothing is to hold up.
+        (chosen.firmware, (lane("firmware", 15), firmware::run)),
         // Its tests have clocks.
-        (chosen.browser, (lane("browser", false), browser::run)),
+        (chosen.browser, (lane("browser", 0), browser::run)),
     ];
     let suites = suites.into_iter().filter(|(chosen, _)| *chosen);
     let suites: Vec<Suite> = suites.map(|(_, suite)| suite).collect();
@@ -48,7 +49,7 @@ pub(crate) fn run(chosen: Chosen) -> Report {
         return report;
     }
     thread::scope(|scope| {
-        scope.spawn(|| lane("fetch", true).work(|| fetch(chosen)));
+        scope.spawn(|| lane("fetch", 10).work(|| fetch(chosen)));
         let run = |(lane, run): Suite| {
             lane.work(|| {
                 let mut report = Report::new();
