@@ -74,31 +74,7 @@ pub fn shape_axes(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Corners and triangles of a box, appended.
-    fn add_box(low: [f32; 3], high: [f32; 3], vertices: &mut Vec<f32>, triangles: &mut Vec<u32>) {
-        let first = (vertices.len() / 3) as u32;
-        for corner in 0..8 {
-            let ends = [0, 1, 2].map(|axis| {
-                if corner >> axis & 1 == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
-            });
-            vertices.extend(ends);
-        }
-        for [a, b, c, d] in [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ] {
-            triangles.extend([a, b, c, a, c, d].map(|corner| first + corner));
-        }
-    }
+    use crate::fake::add_box;
 
     /// A plate 76 mm wide on a keel, with its notch behind or without one; x is anterior and y superior.
     fn tray(notched: bool) -> (Vec<f32>, Vec<u32>) {

@@ -177,43 +177,27 @@ fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovarian
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fake::add_box;
 
     const OWN: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-
-    fn add_box(low: [f32; 3], high: [f32; 3], part: &mut (Vec<f32>, Vec<u32>)) {
-        let first = (part.0.len() / 3) as u32;
-        for corner in 0..8 {
-            let end = |axis: usize| {
-                if corner >> axis & 1 == 0 {
-                    low[axis]
-                } else {
-                    high[axis]
-                }
-            };
-            part.0.extend([end(0), end(1), end(2)]);
-        }
-        for [a, b, c, d] in [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ] {
-            let corners = [a, b, c, a, c, d];
-            part.1.extend(corners.map(|corner| first + corner));
-        }
-    }
 
     /// A left knee of boxes: condyles whose undersides lie 10 and 9 mm below the origin, over a plate whose upper side
     /// lies at it. x is anterior, y superior, z to the right, which is medial.
     fn knee(with_models: bool) -> KneeJoint {
         let (mut femur, mut tibia) = <((Vec<f32>, Vec<u32>), (Vec<f32>, Vec<u32>))>::default();
         if with_models {
-            add_box([-5.0, -10.0, 14.0], [5.0, 10.0, 34.0], &mut femur);
-            add_box([-5.0, -9.0, -34.0], [5.0, 10.0, -14.0], &mut femur);
-            add_box([-25.0, -4.0, -38.0], [25.0, 0.0, 38.0], &mut tibia);
-            add_box([-7.0, -40.0, -5.0], [7.0, -4.0, 5.0], &mut tibia);
+            for (low, high) in [
+                ([-5.0, -10.0, 14.0], [5.0, 10.0, 34.0]),
+                ([-5.0, -9.0, -34.0], [5.0, 10.0, -14.0]),
+            ] {
+                add_box(low, high, &mut femur.0, &mut femur.1);
+            }
+            for (low, high) in [
+                ([-25.0, -4.0, -38.0], [25.0, 0.0, 38.0]),
+                ([-7.0, -40.0, -5.0], [7.0, -4.0, 5.0]),
+            ] {
+                add_box(low, high, &mut tibia.0, &mut tibia.1);
+            }
         }
         let joint = KneeJoint::new(femur.0, femur.1, &OWN, tibia.0, tibia.1, &OWN, true);
         joint.ok().unwrap()

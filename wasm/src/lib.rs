@@ -9,6 +9,8 @@ mod anatomy;
 mod bead_grid;
 mod choice;
 mod exchange;
+#[cfg(test)]
+mod fake;
 mod film;
 mod follower;
 mod found;

@@ -4,6 +4,7 @@ use std::vec::Vec;
 
 use crate::math::{sin_cos, sqrt};
 use crate::mesh::Mesh;
+use crate::mesh::edges::fake;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 use crate::pose::{EulerPose, Pose};
 
@@ -32,30 +33,7 @@ impl Parts {
     }
 
     pub(crate) fn add_box(&mut self, low: [f32; 3], high: [f32; 3]) {
-        let first = self.vertices.len() as u32;
-        for corner in 0..8 {
-            let side = |k: usize| {
-                if corner >> k & 1 == 0 {
-                    low[k]
-                } else {
-                    high[k]
-                }
-            };
-            self.vertices.push([side(0), side(1), side(2)]);
-        }
-        let faces = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        for [a, b, c, d] in faces {
-            for triangle in [[a, b, c], [a, c, d]] {
-                self.triangles.push(triangle.map(|corner| first + corner));
-            }
-        }
+        fake::add_box(low, high, &mut self.vertices, &mut self.triangles);
     }
 
     fn add_sphere(&mut self, middle: [f64; 3], radius: f64, rings: u32) {

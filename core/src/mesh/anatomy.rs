@@ -141,46 +141,25 @@ fn upright(axis: Vector3) -> Vector3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::edges::fake::add_box;
     use crate::mesh::symmetry::symmetry_planes;
     use crate::pose::{EulerPose, Pose};
     use proptest::prelude::*;
     use std::vec::Vec;
 
-    /// Corners of a box from one corner to the opposite one, appended.
-    fn add_box(low: [f64; 3], high: [f64; 3], parts: &mut (Vec<Vector3>, Vec<[u32; 3]>)) {
-        let first = parts.0.len() as u32;
-        for corner in 0..8 {
-            parts.0.push(core::array::from_fn(|k| {
-                if corner >> k & 1 == 0 {
-                    low[k]
-                } else {
-                    high[k]
-                }
-            }));
-        }
-        let faces = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        for [a, b, c, d] in faces {
-            for triangle in [[a, b, c], [a, c, d]] {
-                parts.1.push(triangle.map(|corner| first + corner));
-            }
-        }
-    }
-
     /// A plate 50 x 4 x 76 mm (x anterior, y up, z lateral) with a notch behind and a keel.
     fn tray() -> (Vec<Vector3>, Vec<[u32; 3]>) {
-        let mut parts = (Vec::new(), Vec::new());
-        add_box([-20.0, 0.0, -38.0], [25.0, 4.0, 38.0], &mut parts);
-        add_box([-25.0, 0.0, 12.0], [-20.0, 4.0, 38.0], &mut parts);
-        add_box([-25.0, 0.0, -38.0], [-20.0, 4.0, -12.0], &mut parts);
-        add_box([-8.0, -40.0, -5.0], [6.0, 0.0, 5.0], &mut parts);
-        parts
+        let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+        for (low, high) in [
+            ([-20.0, 0.0, -38.0], [25.0, 4.0, 38.0]),
+            ([-25.0, 0.0, 12.0], [-20.0, 4.0, 38.0]),
+            ([-25.0, 0.0, -38.0], [-20.0, 4.0, -12.0]),
+            ([-8.0, -40.0, -5.0], [6.0, 0.0, 5.0]),
+        ] {
+            add_box(low, high, &mut vertices, &mut triangles);
+        }
+        let vertices = vertices.iter().map(|vertex| vertex.map(f64::from));
+        (vertices.collect(), triangles)
     }
 
     proptest! {

@@ -88,20 +88,14 @@ impl OwnedModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::edges::fake::add_box;
+    use std::vec;
 
     fn box_of(size: f32) -> OwnedModel {
-        let corner = |k: u32| [k & 1, k >> 1 & 1, k >> 2].map(|bit| size * bit as f32);
-        let vertices = (0..8).flat_map(corner).collect();
-        let sides = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
-        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [a, b, c, a, c, d]);
-        OwnedModel::new(vertices, triangles.collect()).expect("a box")
+        let (mut vertices, mut triangles) = (vec![], vec![]);
+        add_box([0.0; 3], [size; 3], &mut vertices, &mut triangles);
+        let (vertices, triangles) = (vertices.as_flattened(), triangles.as_flattened());
+        OwnedModel::new(vertices.to_vec(), triangles.to_vec()).expect("a box")
     }
 
     #[test]

@@ -78,27 +78,9 @@ fn sphere(radius: f64, around: u32, across: u32) -> (Vec<[f32; 3]>, Vec<[u32; 3]
 
 /// A box of these half widths.
 fn slab(half: [f32; 3]) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
-    let corner = |k: u32| {
-        core::array::from_fn(|axis| {
-            if k >> axis & 1 == 0 {
-                -half[axis]
-            } else {
-                half[axis]
-            }
-        })
-    };
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = quads
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
-    ((0..8).map(corner).collect(), triangles.collect())
+    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    fake::add_box(half.map(|x| -x), half, &mut vertices, &mut triangles);
+    (vertices, triangles)
 }
 
 /// Lines of all directions about a circle.

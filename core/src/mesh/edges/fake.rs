@@ -95,3 +95,26 @@ pub(crate) fn plate() -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     }
     (vertices, triangles)
 }
+
+/// Appends a box between two opposite corners, its sides looking outwards.
+pub(crate) fn add_box(
+    low: [f32; 3],
+    high: [f32; 3],
+    vertices: &mut Vec<[f32; 3]>,
+    triangles: &mut Vec<[u32; 3]>,
+) {
+    let first = vertices.len() as u32;
+    let ends = [low, high];
+    vertices.extend((0..8).map(|corner| core::array::from_fn(|k| ends[corner >> k & 1][k])));
+    for [a, b, c, d] in [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ] {
+        let sides = [[a, b, c], [a, c, d]];
+        triangles.extend(sides.map(|side| side.map(|corner| first + corner)));
+    }
+}
