@@ -2,12 +2,14 @@
 
 pub mod border;
 pub mod contour;
+pub mod crop;
 pub mod display;
 pub mod frame;
 pub mod mask;
 pub mod moments;
 pub mod profile;
 pub mod region;
+pub mod runs;
 pub mod scan;
 pub mod silhouette;
 pub(crate) mod tiles;

@@ -76,13 +76,13 @@ impl CanonicalSpec {
 
     /// Area of every canonical silhouette before sampling, pixels.
     #[must_use]
-    pub fn area(&self) -> u32 {
+    pub const fn area(&self) -> u32 {
         self.area
     }
 
     /// Words of a canonical mask: the working memory of [`super::canonicalise()`].
     #[must_use]
-    pub fn words_needed(&self) -> usize {
+    pub const fn words_needed(&self) -> usize {
         words_needed(self.size, self.size)
     }
 }

@@ -15,7 +15,7 @@ use crate::camera::Camera;
 use crate::image::silhouette::{CommonOffset, Silhouette};
 use crate::locate::rerank::Reranked;
 use crate::pose::Pose;
-use crate::refine::{CameraView, ImageTarget, RefineOptions, fit_at};
+use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
 use crate::shortlist::keep;
 
 /// How far poses are brought.
@@ -123,14 +123,17 @@ impl Way<'_, '_> {
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         let view = CameraView::only(self.camera, *self.silhouette);
+        let (model, memory) = (self.component.model, &mut self.memory.refine);
+        let mut beyond = None;
         for located in poses.iter().take(CANDIDATES) {
             let pose = located.located.pose;
-            let fit = fit_at(
-                self.component.model,
-                &[view],
-                &pose,
-                &mut self.memory.refine,
-            )?;
+            let fit = match fit_at(model, &[view], &pose, memory) {
+                Err(error @ RefineError::BeyondCrop) => {
+                    beyond = Some(error);
+                    continue;
+                }
+                fit => fit?,
+            };
             let candidate = Candidate {
                 pose,
                 start: pose,
@@ -141,7 +144,10 @@ impl Way<'_, '_> {
             };
             keep(candidates, candidate, Candidate::misfit);
         }
-        Ok(())
+        match beyond.filter(|_| candidates.is_empty()) {
+            Some(error) => Err(error.into()),
+            None => Ok(()),
+        }
     }
 
     /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those

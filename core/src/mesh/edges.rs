@@ -7,9 +7,15 @@ pub(crate) mod fake;
 mod link;
 mod list;
 mod orient;
+mod packed;
 
 pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
 pub use edge::{MeshEdge, RimEdge};
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;
+pub(crate) use packed::unpacked;
+pub use packed::{
+    PackMemory, PackedBox, PackedEdge, PackedEdges, PackedNeeds, PackedRim, pack_edges,
+    packed_needed,
+};
