@@ -121,6 +121,11 @@ impl<'e> PackedEdges<'e> {
         boxes.zip(self.edges.chunks(IN_BOX))
     }
 
+    /// All edges.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<'e> {
+        self.edges.iter().map(unpacked)
+    }
+
     /// Edges of one triangle alone.
     pub(crate) fn rims(&self) -> impl Iterator<Item = RimEdge> + use<'e> {
         self.rims.iter().map(|&rim| {
