@@ -9,7 +9,7 @@ use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
 use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, STARTS, refine_rivals, worth_refining};
+use super::rivals::{RefinedRival, STARTS, add_rivals, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::{CommonOffset, Silhouette};
@@ -82,16 +82,19 @@ pub fn find(
         options,
         memory,
     };
-    let candidates = match goal {
-        Goal::Library => way.as_the_library_has_them(&first)?,
-        Goal::Outline | Goal::Edges => way.on_outline(&first)?,
-        Goal::Image(image) => way.on_image(&first, image)?,
-    };
-    Ok(Found {
-        candidates,
+    let mut found = Found {
+        candidates: Vec::new(),
         clipped: first.clipped,
         partial: first.partial,
-    })
+    };
+    // Filled in place: a copy of all candidates takes kilobytes of stack.
+    let candidates = &mut found.candidates;
+    match goal {
+        Goal::Library => way.as_the_library_has_them(&first, candidates)?,
+        Goal::Outline | Goal::Edges => way.on_outline(&first, candidates)?,
+        Goal::Image(image) => way.on_image(&first, image, candidates)?,
+    }
+    Ok(found)
 }
 
 /// From first poses to candidates.
@@ -106,15 +109,19 @@ struct Way<'w, 'm> {
 type Candidates = Vec<Candidate, CANDIDATES>;
 
 impl Way<'_, '_> {
-    fn as_the_library_has_them(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
-        let mut candidates = Vec::new();
-        self.add_unrefined(&first.poses, &mut candidates)?;
+    #[inline(never)]
+    fn as_the_library_has_them(
+        &mut self,
+        first: &FirstPoses,
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        self.add_unrefined(&first.poses, candidates)?;
         if !first.partial && !first.explain(self.silhouette) {
             // A second opinion: where there is none, the first stands.
             let pieces = self.pieces();
-            self.add_unrefined(&pieces, &mut candidates)?;
+            self.add_unrefined(&pieces, candidates)?;
         }
-        Ok(candidates)
+        Ok(())
     }
 
     fn add_unrefined(
@@ -152,29 +159,39 @@ impl Way<'_, '_> {
 
     /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
     /// that pieces of the outline lead to are refined too.
-    fn on_outline(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
-        let mut candidates = Vec::new();
-        self.add_refined(worth_refining(&first.poses), &mut candidates)?;
+    fn on_outline(
+        &mut self,
+        first: &FirstPoses,
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        self.add_refined(worth_refining(&first.poses), candidates)?;
         let met = candidates.first().map_or(0.0, |best| best.fit.met);
         if !first.partial && met < Limits::USUAL.good_met {
-            let pieces = self.pieces();
-            // A second opinion that leads nowhere is none.
-            let _ = self.add_refined(worth_refining(&pieces), &mut candidates);
+            self.add_of_pieces(candidates);
         }
-        Ok(candidates)
+        Ok(())
     }
 
+    #[inline(never)]
+    fn add_of_pieces(&mut self, candidates: &mut Candidates) {
+        let pieces = self.pieces();
+        // A second opinion that leads nowhere is none.
+        let _ = self.add_refined(worth_refining(&pieces), candidates);
+    }
+
+    #[inline(never)]
     fn on_image(
         &mut self,
         first: &FirstPoses,
         image: ImageTarget<'_>,
-    ) -> Result<Candidates, FindError> {
-        let outline = self.on_outline(first)?;
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        let mut outline = Vec::new();
+        self.on_outline(first, &mut outline)?;
         let (model, camera, options) = (self.component.model, self.camera, self.options);
         let memory = &mut self.memory.refine;
-        Ok(onto_target(
-            model, camera, image, &outline, options, memory,
-        )?)
+        *candidates = onto_target(model, camera, image, &outline, options, memory)?;
+        Ok(())
     }
 
     fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
@@ -191,7 +208,16 @@ impl Way<'_, '_> {
         let view = CameraView::only(self.camera, *self.silhouette);
         let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;
-        let refined = refine_rivals(model, &[view], &starts, planes, self.options, memory)?;
+        let mut refined = Vec::new();
+        add_rivals(
+            model,
+            &[view],
+            &starts,
+            planes,
+            self.options,
+            memory,
+            &mut refined,
+        )?;
         let located = |found: &RefinedRival| worth.get(found.start).copied();
         Ok(add_assessed(
             model, &view, &refined, located, memory, candidates,
