@@ -1,3 +1,7 @@
+#![doc = include_str!("../EMBEDDING.md")]
+//!
+//! # Module
+//!
 //! One file for all that is known of an implant, read in place: its surface, the edges that it is drawn from, its planes of
 //! symmetry, its library, and how much memory they take.
 //!
@@ -8,6 +12,7 @@
 mod arena;
 mod check;
 mod error;
+mod header;
 mod needs;
 mod open;
 mod wire;

@@ -33,7 +33,7 @@ pub enum Goal<'g> {
 }
 
 /// The poses that explain what a camera saw.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Found {
     /// Best first: by the loss after refinement, or by the pixels that differ when the model is drawn. At least one.
     pub candidates: Vec<Candidate, CANDIDATES>,
@@ -44,6 +44,13 @@ pub struct Found {
 }
 
 impl Found {
+    /// Nothing found: what static memory is filled with.
+    pub const NOTHING: Self = Self {
+        candidates: Vec::new(),
+        clipped: false,
+        partial: false,
+    };
+
     /// Chooses among the candidates by what else is known of the frame, and judges the choice. `None` where there is no
     /// candidate.
     #[must_use]
@@ -67,6 +74,26 @@ pub fn find(
     options: RefineOptions,
     memory: &mut FinderMemory<'_>,
 ) -> Result<Found, FindError> {
+    let mut found = Found::NOTHING;
+    find_into(
+        component, camera, silhouette, goal, options, memory, &mut found,
+    )?;
+    Ok(found)
+}
+
+/// The same into memory that the caller keeps, for stacks that have no room for two copies of all candidates, 8 KB each.
+///
+/// # Errors
+/// As [`find`]; what `found` holds then means nothing.
+pub fn find_into(
+    component: &Component<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    goal: Goal<'_>,
+    options: RefineOptions,
+    memory: &mut FinderMemory<'_>,
+    found: &mut Found,
+) -> Result<(), FindError> {
     if component.library.info().model != component.model.digest() {
         return Err(FindError::OtherModel);
     }
@@ -82,19 +109,14 @@ pub fn find(
         options,
         memory,
     };
-    let mut found = Found {
-        candidates: Vec::new(),
-        clipped: first.clipped,
-        partial: first.partial,
-    };
-    // Filled in place: a copy of all candidates takes kilobytes of stack.
     let candidates = &mut found.candidates;
+    candidates.clear();
+    (found.clipped, found.partial) = (first.clipped, first.partial);
     match goal {
-        Goal::Library => way.as_the_library_has_them(&first, candidates)?,
-        Goal::Outline | Goal::Edges => way.on_outline(&first, candidates)?,
-        Goal::Image(image) => way.on_image(&first, image, candidates)?,
+        Goal::Library => way.as_the_library_has_them(&first, candidates),
+        Goal::Outline | Goal::Edges => way.on_outline(&first, candidates),
+        Goal::Image(image) => way.on_image(&first, image, candidates),
     }
-    Ok(found)
 }
 
 /// From first poses to candidates.

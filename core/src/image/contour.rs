@@ -1,34 +1,12 @@
 //! Outlines: polygons traced around a silhouette, in sub-pixel image coordinates.
 
-mod crossing;
-
-pub use crossing::first_crossing;
-
-use crossing::orientation;
 use heapless::Vec;
 use thiserror::Error;
 
-/// A point of the image plane in continuous coordinates: the centre of the first pixel is
-/// (0.5, 0.5), `row` grows downwards.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Point {
-    /// Pixels to the right of the frame's left border.
-    pub column: f64,
-    /// Pixels below the frame's upper border.
-    pub row: f64,
-}
+use super::crossing::orientation;
 
-impl Point {
-    /// The point at a column and row.
-    #[must_use]
-    pub fn new(column: f64, row: f64) -> Self {
-        Self { column, row }
-    }
-
-    fn is_finite(self) -> bool {
-        self.column.is_finite() && self.row.is_finite()
-    }
-}
+pub use super::crossing::first_crossing;
+pub use super::point::Point;
 
 /// A traced polygon in fixed memory: at most `N` vertices.
 pub type Contour<const N: usize> = Vec<Point, N>;
@@ -106,7 +84,8 @@ impl<'a> Outline<'a> {
         if on_one_line(points) {
             return Err(OutlineError::ZeroArea);
         }
-        match first_crossing(points.len(), |number| points[number]) {
+        let at = |number: usize| points.get(number).copied().unwrap_or_default();
+        match first_crossing(points.len(), at) {
             Some((first, second)) => Err(OutlineError::SelfCrossing { first, second }),
             None => Ok(Self { points }),
         }

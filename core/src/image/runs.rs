@@ -61,7 +61,8 @@ pub struct RunBuilder<'m> {
     memory: &'m mut [PixelRun],
     count: usize,
     moments: Moments,
-    columns: Range<usize>,
+    /// The first column, and the one after the last.
+    columns: [usize; 2],
     frame: [usize; 2],
 }
 
@@ -77,7 +78,7 @@ impl<'m> RunBuilder<'m> {
             memory,
             count: 0,
             moments: Moments::default(),
-            columns: MAX_SIDE..0,
+            columns: [MAX_SIDE, 0],
             frame: [width, height],
         })
     }
@@ -114,8 +115,8 @@ impl<'m> RunBuilder<'m> {
         };
         self.count += 1;
         self.moments.add_run(row, &columns);
-        self.columns.start = self.columns.start.min(columns.start);
-        self.columns.end = self.columns.end.max(columns.end);
+        let [first, end] = self.columns;
+        self.columns = [first.min(columns.start), end.max(columns.end)];
         Ok(())
     }
 
@@ -164,7 +165,7 @@ impl<'m> RunBuilder<'m> {
         Runs {
             runs: memory.get(..count).unwrap_or_default(),
             moments,
-            columns: [columns.start, columns.end],
+            columns,
             frame,
         }
     }

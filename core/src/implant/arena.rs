@@ -2,9 +2,10 @@
 
 use super::wire::{COUNTS_AT, HEADER_BYTES, SIZES};
 use crate::canonical::CanonicalSpec;
-use crate::image::mask::words_needed;
+use crate::image::mask::{Word, words_needed};
 use crate::locate::workspace_bytes_needed;
-use crate::render::scratch_for;
+use crate::refine::BorderPixel;
+use crate::render::{Projected, scratch_for};
 use crate::search::scores_needed;
 
 /// Lengths of the working memory with which [`crate::find()`] finds the implant of a file in a part of a frame.
@@ -23,6 +24,14 @@ pub struct ArenaNeeds {
 }
 
 impl ArenaNeeds {
+    /// Bytes of all of it, for outlines of at most `border` pixels.
+    #[must_use]
+    pub const fn bytes_for(&self, border: usize) -> usize {
+        let masks = 2 * size_of::<Word>() * self.canonical + 4 * size_of::<Word>() * self.words;
+        let lists = size_of::<u32>() * self.scores + self.bytes;
+        masks + lists + size_of::<Projected>() * self.projected + size_of::<BorderPixel>() * border
+    }
+
     /// Read from the header of an implant file when a program is built, for a part of `columns` x `rows` pixels. Of bytes
     /// that are no such file, building ends with a panic.
     #[must_use]
@@ -67,7 +76,7 @@ const fn u32_at(bytes: &[u8], at: usize) -> u32 {
 /// Declares a type that owns all working memory with which [`crate::find()`] finds the implant of a file in a part of a frame,
 /// of one size that is known when the program is built: for a `static`.
 ///
-/// ```ignore
+/// ```text
 /// static FEMUR: Aligned<[u8; 98_304]> = Aligned(*include_bytes!("femur.implant"));
 /// fluoropose::finder_arena!(pub Arena, &FEMUR.0, columns: 192, rows: 192, border: 900);
 /// static ARENA: Mutex<Arena> = Mutex::new(Arena::new());

@@ -3,8 +3,9 @@
 use crc::Digest;
 
 use super::error::ImplantError;
+use super::header::Header;
 use super::open::{ImplantFile, Parts};
-use super::wire::{CRC, HEADER_BYTES, Header};
+use super::wire::{CRC, HEADER_BYTES};
 use crate::library::Library;
 use crate::mesh::Mesh;
 
@@ -15,6 +16,18 @@ pub struct ImplantCheck<'a> {
     digest: Digest<'static, u32>,
     /// Bytes that are in the sum.
     at: usize,
+}
+
+impl<'a> ImplantFile<'a> {
+    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, triangles and edges have
+    /// theirs, that surface and library are of one model, and all that [`Library::open`] checks. Takes time proportional
+    /// to the length, once; [`ImplantCheck`] takes it in slices.
+    ///
+    /// # Errors
+    /// [`ImplantError`] says what is wrong. A file in which any one bit was flipped is refused.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, ImplantError> {
+        ImplantCheck::new(bytes)?.finish()
+    }
 }
 
 static TABLE: crc::Crc<u32> = CRC;

@@ -52,10 +52,10 @@ pub fn contour_needed(model: &Model<'_>) -> ContourNeeds {
         let view = [ring * cos, height, ring * sin];
         let seen = linked().filter(|edge| is_silhouette(model, edge, &view));
         let (count, length) = seen.fold((0, 0.0), |(count, length), edge| {
-            (count + 1, length + apart(model, &edge))
+            (count + 1, length + length_seen(model, &edge, &view))
         });
-        // As if every edge ran across the rows, of an outline twice its width high.
-        let rows = model.bounds().radius;
+        // As if every edge ran across the rows; a part of a frame has as many as the part may be long.
+        let rows = 2.0 * model.bounds().radius;
         most.edges = most.edges.max(count + edges.rims().count());
         most.crossings_a_row = most.crossings_a_row.max((length / rows) as usize + 1);
     }
@@ -67,9 +67,10 @@ fn place(model: &Model<'_>, vertex: u32) -> [f64; 3] {
     vertex.copied().unwrap_or_default().map(f64::from)
 }
 
-fn apart(model: &Model<'_>, edge: &MeshEdge) -> f64 {
+/// How long an edge is as it is seen along a unit vector, mm.
+fn length_seen(model: &Model<'_>, edge: &MeshEdge, view: &[f64; 3]) -> f64 {
     let side = subtract(&place(model, edge.to), &place(model, edge.from));
-    crate::math::norm(&side)
+    crate::math::norm(&cross(&side, view))
 }
 
 fn is_silhouette(model: &Model<'_>, edge: &MeshEdge, view: &[f64; 3]) -> bool {

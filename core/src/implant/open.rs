@@ -1,9 +1,8 @@
 //! Opening an implant file.
 
-use super::check::ImplantCheck;
 use super::error::ImplantError;
+use super::header::{Header, Places};
 use super::needs::ContourNeeds;
-use super::wire::{Header, Places};
 use crate::finder::Component;
 use crate::library::{Library, digest_in};
 use crate::mesh::edges::PackedEdges;
@@ -19,22 +18,13 @@ pub struct Aligned<T: ?Sized>(pub T);
 /// All that is known of an implant, read in place.
 #[derive(Clone, Debug)]
 pub struct ImplantFile<'a> {
+    bytes: &'a [u8],
     header: Header,
     model: Model<'a>,
     library: Library<'a>,
 }
 
 impl<'a> ImplantFile<'a> {
-    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, triangles and edges have
-    /// theirs, that surface and library are of one model, and all that [`Library::open`] checks. Takes time proportional
-    /// to the length, once; [`ImplantCheck`] takes it in slices.
-    ///
-    /// # Errors
-    /// [`ImplantError`] says what is wrong. A file in which any one bit was flipped is refused.
-    pub fn open(bytes: &'a [u8]) -> Result<Self, ImplantError> {
-        ImplantCheck::new(bytes)?.finish()
-    }
-
     /// Reads the header of bytes of which it is known that they are whole and right: [`Self::open`] accepted them before,
     /// or a boot loader has checked a signature over them. Of other bytes the poses mean nothing.
     ///
@@ -45,10 +35,17 @@ impl<'a> ImplantFile<'a> {
         let parts = Parts::of(&header, bytes)?;
         let library = Library::trusted(parts.library)?;
         Ok(Self {
+            bytes,
             model: parts.model(&header)?,
             header,
             library,
         })
+    }
+
+    /// All of its bytes.
+    #[must_use]
+    pub fn bytes(&self) -> &'a [u8] {
+        self.bytes
     }
 
     /// The surface with the edges that it is drawn from.

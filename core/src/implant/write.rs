@@ -4,8 +4,9 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 use super::error::ImplantError;
+use super::header::Header;
 use super::needs::contour_needed;
-use super::wire::{CRC, HEADER_BYTES, Header};
+use super::wire::{CRC, HEADER_BYTES};
 use crate::library::Library;
 use crate::mesh::Model;
 use crate::mesh::edges::{PackMemory, pack_edges, packed_needed};

@@ -7,6 +7,7 @@ pub(crate) mod fake;
 mod link;
 mod list;
 mod orient;
+mod pack;
 mod packed;
 
 pub(crate) use boxes::IN_BOX;
@@ -14,8 +15,6 @@ pub use boxes::{EdgeBox, EdgeGroup};
 pub use edge::{MeshEdge, RimEdge};
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;
+pub use pack::{PackMemory, PackedNeeds, pack_edges, packed_needed};
 pub(crate) use packed::unpacked;
-pub use packed::{
-    PackMemory, PackedBox, PackedEdge, PackedEdges, PackedNeeds, PackedRim, pack_edges,
-    packed_needed,
-};
+pub use packed::{PackedBox, PackedEdge, PackedEdges, PackedRim};

@@ -5,8 +5,6 @@
 
 use super::boxes::{EdgeBox, IN_BOX};
 use super::edge::{MeshEdge, RimEdge};
-use super::list::Edges;
-use crate::memory::{TooLittleMemory, first};
 
 /// A box as numbers: middle and reach of its triangles' duals, greatest reciprocals of a height and of a doubled area.
 pub type PackedBox = [f32; 10];
@@ -14,74 +12,6 @@ pub type PackedBox = [f32; 10];
 pub type PackedEdge = [u16; 4];
 /// A rim as vertices: from, to, and the third one of its triangle.
 pub type PackedRim = [u16; 3];
-
-/// Memory of [`pack_edges`].
-#[derive(Debug)]
-pub struct PackMemory<'m> {
-    /// [`PackedNeeds::boxes`].
-    pub boxes: &'m mut [PackedBox],
-    /// [`PackedNeeds::edges`].
-    pub edges: &'m mut [PackedEdge],
-    /// [`PackedNeeds::rims`].
-    pub rims: &'m mut [PackedRim],
-}
-
-/// Lengths of a [`PackMemory`]'s slices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PackedNeeds {
-    /// Of `boxes`.
-    pub boxes: usize,
-    /// Of `edges`.
-    pub edges: usize,
-    /// Of `rims`.
-    pub rims: usize,
-}
-
-/// What the edges of a surface take when they are packed.
-#[must_use]
-pub fn packed_needed(edges: &Edges<'_>) -> PackedNeeds {
-    let linked = edges.groups().flat_map(|(_, group)| group.edges());
-    PackedNeeds {
-        boxes: edges.groups().count(),
-        edges: linked.count(),
-        rims: edges.rims().count(),
-    }
-}
-
-/// Writes edges that [`super::link()`] found as plain numbers, of which all have the same order as before. `None` where a
-/// vertex has a number above 65 535.
-///
-/// # Errors
-/// [`TooLittleMemory`] names the slice.
-pub fn pack_edges<'m>(
-    edges: &Edges<'_>,
-    memory: PackMemory<'m>,
-) -> Result<Option<PackedEdges<'m>>, TooLittleMemory> {
-    let needs = packed_needed(edges);
-    let boxes = first("boxes of edges", needs.boxes, memory.boxes)?;
-    let packed = first("packed edges", needs.edges, memory.edges)?;
-    let rims = first("packed rims", needs.rims, memory.rims)?;
-    let mut small = true;
-    let mut number = |vertex: u32| {
-        small &= vertex <= u32::from(u16::MAX);
-        vertex as u16
-    };
-    for (place, (bounds, _)) in boxes.iter_mut().zip(edges.groups()) {
-        *place = bounds.numbers();
-    }
-    let linked = edges.groups().flat_map(|(_, group)| group.edges());
-    for (place, edge) in packed.iter_mut().zip(linked) {
-        *place = [edge.from, edge.to, edge.forth, edge.back].map(&mut number);
-    }
-    for (place, rim) in rims.iter_mut().zip(edges.rims()) {
-        *place = [rim.from, rim.to, rim.third].map(&mut number);
-    }
-    Ok(small.then_some(PackedEdges {
-        boxes,
-        edges: packed,
-        rims,
-    }))
-}
 
 /// Edges as plain numbers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -92,7 +22,7 @@ pub struct PackedEdges<'e> {
 }
 
 impl<'e> PackedEdges<'e> {
-    /// What [`pack_edges`] wrote; `None` where boxes and edges do not belong together.
+    /// What [`super::pack_edges`] wrote; `None` where boxes and edges do not belong together.
     #[must_use]
     pub fn new(
         boxes: &'e [PackedBox],

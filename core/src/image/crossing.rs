@@ -5,7 +5,7 @@
 
 use core::ops::Range;
 
-use super::Point;
+use super::point::Point;
 
 /// The first two sides of a closed line through `count` points, all finite, that meet where they should not.
 #[must_use]
