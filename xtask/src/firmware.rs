@@ -29,6 +29,9 @@ const PITCH_MM: f64 = 0.4;
 /// From focus to implant in the library's views, mm.
 const LIBRARY_DISTANCE_MM: f64 = 900.0;
 
+/// How finely the implant is made that the firmware holds: some 6000 triangles, as real ones have.
+const IMPLANT_RESOLUTION: f64 = 0.7;
+
 /// Rotation about x and y in the middle of the library's views, degrees: as
 /// the pose on the frame before would give it.
 const NOMINAL_DEG: [f64; 2] = [3.0, -4.0];
@@ -56,10 +59,13 @@ pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
     )?;
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     write_if_changed(&folder.join("femur.library"), &library(mesh, camera)?)?;
-    write_if_changed(
-        &folder.join("femur.implant"),
-        &implant_file(&femur, camera)?,
-    )?;
+    let parameters = implant::Parameters {
+        resolution: IMPLANT_RESOLUTION,
+        ..implant::Parameters::default()
+    };
+    let coarser = implant::femur(&parameters)?;
+    let implant = implant_file(&coarser, camera)?;
+    write_if_changed(&folder.join("femur.implant"), &implant)?;
     write_if_changed(&folder.join("femur.outline"), &outline(&mesh, &camera)?)
 }
 

@@ -20,8 +20,11 @@ type Lines = heapless::String<8192>;
 
 #[entry]
 fn main() -> ! {
+    // Made by the linker: a value that is moved into a static may pass over the stack, all of it.
+    static mut MEMORY: Memory = Memory::new();
+    static mut LINES: Lines = Lines::new();
     stack::paint();
-    let outcome = run();
+    let outcome = run(MEMORY, LINES);
     debug::exit(match outcome {
         Ok(()) => debug::EXIT_SUCCESS,
         Err(_) => debug::EXIT_FAILURE,
@@ -31,10 +34,8 @@ fn main() -> ! {
     }
 }
 
-fn run() -> fmt::Result {
+fn run(memory: &mut Memory, lines: &mut Lines) -> fmt::Result {
     let mut console = hio::hstdout().map_err(|()| fmt::Error)?;
-    let memory = cortex_m::singleton!(: Memory = Memory::new()).ok_or(fmt::Error)?;
-    let lines = cortex_m::singleton!(: Lines = Lines::new()).ok_or(fmt::Error)?;
     let mut clock = Clock::start(cortex_m::Peripherals::take().ok_or(fmt::Error)?.SYST);
     let mut stages: heapless::Vec<(u64, heapless::String<40>), 8> = heapless::Vec::new();
     let mut stage = |name: &str| {

@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use fluoropose::finder::choice::ChoiceContext;
-use fluoropose::finder::{FindError, Goal, find};
+use fluoropose::finder::{Decision, FindError, Found, Goal, find_into};
 use fluoropose::image::contour::Outline;
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::MaskError;
@@ -30,7 +30,7 @@ pub(crate) static IMPLANT: Aligned<
 const COLUMNS: usize = 224;
 const ROWS: usize = 288;
 /// Pixels of the longest outline.
-const BORDER: usize = 1200;
+const BORDER: usize = 900;
 
 fluoropose::finder_arena!(pub Arena, &IMPLANT.0, columns: COLUMNS, rows: ROWS, border: BORDER);
 
@@ -38,6 +38,7 @@ fluoropose::finder_arena!(pub Arena, &IMPLANT.0, columns: COLUMNS, rows: ROWS, b
 pub struct FindingMemory {
     points: fluoropose::Contour<MAX_POINTS>,
     arena: Arena,
+    found: Found,
 }
 
 impl FindingMemory {
@@ -46,6 +47,7 @@ impl FindingMemory {
         Self {
             points: fluoropose::Contour::new(),
             arena: Arena::new(),
+            found: Found::NOTHING,
         }
     }
 }
@@ -95,8 +97,8 @@ impl From<MaskError> for FindingFailure {
     }
 }
 
-/// Finds the pose of `outline` (as in [`crate::OUTLINE`]) and writes candidates, choice and verdict to `out`, in hundredths of
-/// a millimetre and of a degree, which must agree between targets.
+/// Finds the pose of `outline` (as in [`crate::OUTLINE`]) and writes candidates, choice and verdict to `out`, with every bit,
+/// which must agree between targets.
 ///
 /// `stage` is called with a stage's name after it.
 ///
@@ -107,7 +109,7 @@ pub fn find_pose(
     memory: &mut FindingMemory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
-) -> Result<EulerPose, FindingFailure> {
+) -> Result<(), FindingFailure> {
     ImplantFile::open(&IMPLANT.0).map_err(FindingFailure::Implant)?;
     stage("implant opened, checked");
     let implant = ImplantFile::trusted(&IMPLANT.0).map_err(FindingFailure::Implant)?;
@@ -125,19 +127,30 @@ pub fn find_pose(
     let camera = camera.cropped(&crop).map_err(|_| FindingFailure::Outline)?;
     let component = implant.component();
     let options = RefineOptions::default();
-    let found = find(
+    let found = &mut memory.found;
+    find_into(
         &component,
         &camera,
         &silhouette,
         Goal::Outline,
         options,
         &mut finder,
+        found,
     )
     .map_err(FindingFailure::Find)?;
     let decision = found
         .decide(&ChoiceContext::default())
         .ok_or(FindingFailure::Outline)?;
     stage("candidates, mirror images, verdict");
+    report(out, &crop, found, &decision)
+}
+
+fn report(
+    out: &mut dyn Write,
+    crop: &Crop,
+    found: &Found,
+    decision: &Decision,
+) -> Result<(), FindingFailure> {
     writeln!(
         out,
         "{} x {} pixels, {} candidates, {} chosen",
@@ -160,9 +173,9 @@ pub fn find_pose(
         ("y_rot deg", euler.y_rot_deg),
     ];
     for (name, value) in numbers {
-        writeln!(out, "  found {name}: {value:.6} ({:016x})", value.to_bits())?;
+        writeln!(out, "  {name}: {value:.6} ({:016x})", value.to_bits())?;
     }
     let drawings = best.refined.map_or(0, |refined| refined.renders);
     writeln!(out, "{drawings} drawings led to it")?;
-    Ok(euler)
+    Ok(())
 }

@@ -47,7 +47,7 @@ mod way {
         out: &mut dyn Write,
         stage: &mut dyn FnMut(&str),
     ) -> Result<(), FindingFailure> {
-        find_pose(OUTLINE, memory, out, stage).map(|_| ())
+        find_pose(OUTLINE, memory, out, stage)
     }
 }
 
