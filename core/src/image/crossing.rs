@@ -10,7 +10,8 @@ use super::point::Point;
 /// The first two sides of a closed line through `count` points, all finite, that meet where they should not.
 #[must_use]
 pub fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usize, usize)> {
-    let line = Line { count, at };
+    // One copy of the code for all callers.
+    let line = Line { count, at: &at };
     // Which are the first is asked only where there are some.
     line.meets(0..count).then(|| line.first_pair()).flatten()
 }
@@ -18,12 +19,12 @@ pub fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usiz
 /// Sides whose pairs are looked at one by one.
 const FEW: usize = 8;
 
-struct Line<At> {
+struct Line<'l> {
     count: usize,
-    at: At,
+    at: &'l dyn Fn(usize) -> Point,
 }
 
-impl<At: Fn(usize) -> Point> Line<At> {
+impl Line<'_> {
     fn side(&self, number: usize) -> (Point, Point) {
         let next = if number + 1 == self.count {
             0

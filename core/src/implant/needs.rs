@@ -42,7 +42,8 @@ pub fn contour_needed(model: &Model<'_>) -> ContourNeeds {
     };
     let linked = || {
         let groups = edges.groups().flat_map(|(_, group)| group.edges());
-        groups.chain(edges.packed().edges())
+        let packed = edges.packed().into_iter();
+        groups.chain(packed.flat_map(|(packed, _)| packed.edges()))
     };
     for number in 0..DIRECTIONS {
         // A spiral (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006).

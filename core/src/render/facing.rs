@@ -10,15 +10,13 @@
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
 use crate::math::{norm, sqrt};
-use crate::mesh::edges::{EdgeBox, EdgeGroup, IN_BOX, MeshEdge, PackedEdge, unpacked};
+use crate::mesh::edges::{EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdge, unpacked};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::render::project::Images;
 
 /// Part of a distance that rounding to 32 bits changes at most, with some to spare.
 const SINGLE: f32 = 4e-6;
-/// Twelve roundings to 32 bits, as part of a number.
-const ROUNDINGS: f32 = 12.0 * f32::EPSILON;
 /// Poses are rigid but for this.
 const RIGID: f64 = 1e-9;
 
@@ -123,7 +121,7 @@ impl FacingTest {
     pub(crate) fn packed_contour(
         &self,
         bounds: &EdgeBox,
-        group: &[PackedEdge],
+        (group, measure): (&[PackedEdge], Facing),
         images: &mut Images<'_>,
         mut visit: impl FnMut([u32; 2]),
     ) {
@@ -140,8 +138,8 @@ impl FacingTest {
             let [Some(from), Some(to), Some(forth), Some(back)] = places else {
                 continue;
             };
-            let forth = self.faces_surely([from, to, forth]);
-            let sides = forth.zip(self.faces_surely([to, from, back]));
+            let faces = |corners| measure(&self.place, self.margins, corners);
+            let sides = faces([from, to, forth]).zip(faces([to, from, back]));
             let sides = sides.map_or_else(|| Self::faces(&edge, images), |(a, b)| [a, b]);
             match sides {
                 [true, false] => visit([edge.from, edge.to]),
@@ -149,29 +147,6 @@ impl FacingTest {
                 _ => {}
             }
         }
-    }
-
-    /// Whether a triangle faces the camera, where its own margin makes it certain.
-    ///
-    /// Doubled area times distance from the plane is a determinant of two sides and the way from the camera. Sides are
-    /// differences of numbers of 32 bits, so they err by one rounding of themselves alone, and the determinant by less than
-    /// twelve roundings of the product of three lengths; a doubled area is below the product of its longest side with itself.
-    fn faces_surely(&self, [a, b, c]: [&[f32; 3]; 3]) -> Option<bool> {
-        let minus = |p: &[f32; 3], q: &[f32; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-        // No less than the length.
-        let length = |p: &[f32; 3]| p[0].abs() + p[1].abs() + p[2].abs();
-        let ([p, q], way) = ([minus(b, a), minus(c, a)], minus(&self.place, a));
-        let normal = [
-            p[1] * q[2] - p[2] * q[1],
-            p[2] * q[0] - p[0] * q[2],
-            p[0] * q[1] - p[1] * q[0],
-        ];
-        let from_plane = normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2];
-        let longest = length(&p).max(length(&q)).max(length(&minus(c, b)));
-        let [per_mm, least, rounding] = self.margins;
-        let rounding = rounding + ROUNDINGS * length(&way);
-        let margin = longest * per_mm + least + longest * longest * rounding;
-        (from_plane.abs() > margin).then_some(from_plane < 0.0)
     }
 
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.
@@ -249,8 +224,12 @@ mod tests {
         }
         let packed = linked.packed();
         let mut again = Vec::new();
-        for (bounds, group) in packed.edges().packed().groups() {
-            facing.packed_contour(&bounds, group, &mut images, |ends| again.push(ends));
+        let edges = packed.edges();
+        let (groups, faces) = edges.packed().expect("they are packed");
+        for (bounds, group) in groups.groups() {
+            facing.packed_contour(&bounds, (group, faces), &mut images, |ends| {
+                again.push(ends)
+            });
         }
         assert_eq!(again, found);
         let images = project(mesh, &camera, pose, &mut slots).expect("in front");

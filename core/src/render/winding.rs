@@ -112,8 +112,12 @@ fn find_contour(
     for (bounds, group) in edges.groups() {
         facing.contour(bounds, group, images, |ends| keep(ends, &mut both));
     }
-    for (bounds, group) in edges.packed().groups() {
-        facing.packed_contour(&bounds, group, images, |ends| keep(ends, &mut both));
+    if let Some((packed, faces)) = edges.packed() {
+        for (bounds, group) in packed.groups() {
+            facing.packed_contour(&bounds, (group, faces), images, |ends| {
+                keep(ends, &mut both)
+            });
+        }
     }
     let faces = |rim: &RimEdge, images: &mut Images<'_>| {
         let corners = [rim.from, rim.to, rim.third].map(|vertex| images.of(vertex));

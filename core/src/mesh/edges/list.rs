@@ -2,6 +2,7 @@
 
 use super::boxes::{EdgeBox, EdgeGroup};
 use super::edge::RimEdge;
+use super::measured::{Facing, faces_surely};
 use super::packed::PackedEdges;
 use crate::mesh::surface::SurfaceMark;
 
@@ -14,6 +15,8 @@ pub struct Edges<'e> {
     rims: &'e [RimEdge],
     /// Instead of all of these, where edges were packed.
     packed: PackedEdges<'e>,
+    /// Tells of packed edges; a program that opens no packed ones has no code for them.
+    faces: Option<Facing>,
     mark: SurfaceMark,
 }
 
@@ -32,6 +35,7 @@ impl<'e> Edges<'e> {
             groups,
             rims,
             packed: PackedEdges::default(),
+            faces: None,
             mark,
         })
     }
@@ -44,6 +48,7 @@ impl<'e> Edges<'e> {
             groups: &[],
             rims: &[],
             packed,
+            faces: Some(faces_surely),
             mark,
         }
     }
@@ -65,9 +70,9 @@ impl<'e> Edges<'e> {
         self.boxes.iter().zip(self.groups)
     }
 
-    /// Packed edges; none of those that were just linked.
-    pub(crate) fn packed(&self) -> &PackedEdges<'e> {
-        &self.packed
+    /// Packed edges, and how to tell which way a triangle faces; none of those that were just linked.
+    pub(crate) fn packed(&self) -> Option<(&PackedEdges<'e>, Facing)> {
+        self.faces.map(|faces| (&self.packed, faces))
     }
 
     /// Edges of one triangle alone; none of a closed surface.
