@@ -2,12 +2,16 @@
 
 pub mod border;
 pub mod contour;
+pub mod crop;
+mod crossing;
 pub mod display;
 pub mod frame;
 pub mod mask;
 pub mod moments;
+mod point;
 pub mod profile;
 pub mod region;
+pub mod runs;
 pub mod scan;
 pub mod silhouette;
 pub(crate) mod tiles;

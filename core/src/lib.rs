@@ -18,6 +18,7 @@
 //! | [`mod@locate`] | a silhouette, whole or in part | first poses |
 //! | [`mod@refine`] | a first pose | [`Refined`], and how certain it is |
 //! | [`finder`] | a silhouette or a frame | all poses that explain it, the one chosen, why, and a verdict |
+//! | [`implant`] | a model, its library | one file of all that is known of an implant, read in place |
 //! | [`follow`] | a pose in one frame of a film | those in the frames beside it, and which of them to doubt |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -57,6 +58,8 @@ pub mod locate;
 pub mod refine;
 
 pub mod finder;
+
+pub mod implant;
 
 pub mod follow;
 

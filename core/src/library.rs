@@ -23,4 +23,5 @@ pub(crate) use compact::Sketches;
 pub use error::{BuildError, LibraryError};
 pub use info::{LibraryInfo, ViewAxis, ViewGrid, ViewRecord};
 pub use open::Library;
+pub(crate) use wire::digest_in;
 pub use wire::{HEADER_BYTES, RECORD_BYTES, VERSION};

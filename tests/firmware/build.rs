@@ -12,7 +12,7 @@ fn main() {
         || package.join("../../target/firmware/inputs"),
         PathBuf::from,
     );
-    for name in ["femur.library", "femur.outline"] {
+    for name in ["femur.library", "femur.outline", "femur.implant"] {
         let file = inputs.join(name);
         if !file.is_file() {
             println!(

@@ -9,12 +9,14 @@ use fluoropose::canonical::CanonicalSpec;
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::implant::write_implant;
 use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
-use fluoropose::mesh::Model;
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::render::{Projected, render, scratch_needed};
 
-use fluoropose_phantom::implant;
+use fluoropose_phantom::implant::{self, Triangles};
 
 /// Columns and rows of the firmware's frame, pixels.
 const FRAME_SIDE: usize = 512;
@@ -26,6 +28,9 @@ const PRINCIPAL_DISTANCE_MM: f64 = 1000.0;
 const PITCH_MM: f64 = 0.4;
 /// From focus to implant in the library's views, mm.
 const LIBRARY_DISTANCE_MM: f64 = 900.0;
+
+/// How finely the implant is made that the firmware holds: some 6000 triangles, as real ones have.
+const IMPLANT_RESOLUTION: f64 = 0.7;
 
 /// Rotation about x and y in the middle of the library's views, degrees: as
 /// the pose on the frame before would give it.
@@ -54,7 +59,61 @@ pub(crate) fn write_inputs(folder: &Path) -> Result<()> {
     )?;
     fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     write_if_changed(&folder.join("femur.library"), &library(mesh, camera)?)?;
+    let parameters = implant::Parameters {
+        resolution: IMPLANT_RESOLUTION,
+        ..implant::Parameters::default()
+    };
+    let coarser = implant::femur(&parameters)?;
+    let implant = implant_file(&coarser, camera)?;
+    write_if_changed(&folder.join("femur.implant"), &implant)?;
     write_if_changed(&folder.join("femur.outline"), &outline(&mesh, &camera)?)
+}
+
+/// All that refinement needs: 7 x 9 views, 5 degrees apart, in a frame of 64 x 64 pixels.
+fn implant_file(femur: &Triangles, camera: Camera) -> Result<Vec<u8>> {
+    let numbers = |triples: &[[f32; 3]]| triples.iter().flatten().copied().collect();
+    let triangles = femur.triangles.iter().flatten().copied().collect();
+    let owned = OwnedModel::new(numbers(&femur.vertices), triangles)?;
+    let model = owned.as_model();
+    let axis = |count: usize| ViewAxis {
+        first: -5.0 * (count / 2) as f64,
+        step: 5.0,
+        count,
+    };
+    let grid = ViewGrid {
+        x: axis(7),
+        y: axis(9),
+    };
+    let library = compact(model, camera, CanonicalSpec::COARSE, grid)?;
+    let planes = symmetry_planes(model.mesh());
+    Ok(write_implant(&model, &library, &planes, 0.0)?)
+}
+
+/// A compact library.
+fn compact(
+    model: Model<'_>,
+    camera: Camera,
+    canonical: CanonicalSpec,
+    grid: ViewGrid,
+) -> Result<Vec<u8>> {
+    let builder = Builder::new(model, camera, canonical, grid, LIBRARY_DISTANCE_MM)?;
+    let mut scratch = ViewScratch {
+        projected: &mut vec![Projected::default(); builder.projected_needed()],
+        render: &mut vec![0; builder.render_words_needed()],
+        canonical: &mut vec![0; canonical.words_needed()],
+    };
+    let mut packed = Vec::new();
+    for view in 0..builder.views() {
+        let mut bytes = vec![0; builder.packed_most()];
+        let length = builder.pack_view(view, &mut scratch, &mut bytes)?;
+        bytes.truncate(length);
+        packed.push(bytes);
+    }
+    let packed: Vec<&[u8]> = packed.iter().map(Vec::as_slice).collect();
+    let assembly = builder.assemble(&packed)?;
+    let mut bytes = vec![0; assembly.bytes_needed()];
+    assembly.write(scratch.canonical, &mut bytes)?;
+    Ok(bytes)
 }
 
 /// 7 x 9 views, a degree apart: 63 x 8 KiB of flash.

@@ -1,9 +1,13 @@
 //! Verb `test`: sets up what is missing, runs the suites and sums them up.
 
-use anyhow::{Result, ensure};
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
 
 use crate::clock::since_the_command;
 use crate::suite::changed;
+use crate::suite::firmware;
 use crate::suite::side_by_side::{self, Chosen};
 
 /// Options of `test`.
@@ -22,6 +26,9 @@ pub(crate) struct Args {
     /// The Cortex-M4F application under QEMU, compared with this machine line by line
     #[arg(long)]
     firmware: bool,
+    /// With --firmware: write what the board took to this file too, {"rows": [{"board", "work", "value", "unit"}]}
+    #[arg(long, value_name = "FILE", requires = "firmware")]
+    json: Option<PathBuf>,
     /// For work in progress: only what differs from the branch's origin can touch, and says what is left out
     #[arg(long, conflicts_with_all = ["native", "browser", "firmware"])]
     changed: bool,
@@ -37,6 +44,7 @@ impl Args {
             native: true,
             browser: true,
             firmware: true,
+            json: None,
             changed: false,
             since: None,
         }
@@ -64,6 +72,10 @@ pub(crate) fn run(args: Args) -> Result<()> {
         side_by_side::run(args.chosen())
     };
     print!("{report}");
+    if let Some(file) = args.json {
+        let figures = firmware::figures();
+        fs::copy(&figures, &file).with_context(|| format!("cannot write {}", file.display()))?;
+    }
     let seconds = since_the_command().as_secs_f64();
     println!("{seconds:.0} s since the command was entered");
     ensure!(

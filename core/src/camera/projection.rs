@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::image::contour::Point;
+use crate::image::crop::Crop;
 use crate::image::mask::MAX_SIDE;
 use crate::math::Vector3;
 
@@ -112,6 +113,24 @@ impl Camera {
             height as f64 / 2.0 - offset[1] / pitch,
         ];
         Self::new(width, height, [focal, focal], centre)
+    }
+
+    /// The camera of a part of its frames: it sees there what this one sees, so that poses are the same.
+    ///
+    /// # Errors
+    /// [`CameraError::Value`] where that is no part of this camera's frames, or so far from the principal point as no
+    /// frame may be.
+    pub fn cropped(&self, crop: &Crop) -> Result<Self, CameraError> {
+        let [width, height] = crop.frame();
+        let own = |side: usize| move |value: f64| value == side as f64;
+        let rule = "that of the frame which was cropped";
+        check("frame width", self.width as f64, rule, own(width))?;
+        check("frame height", self.height as f64, rule, own(height))?;
+        let centre = [
+            self.cx - crop.columns().start as f64,
+            self.cy - crop.rows().start as f64,
+        ];
+        Self::new(crop.width(), crop.height(), self.focal(), centre)
     }
 
     /// Columns of the frame.

@@ -57,15 +57,20 @@ impl CanonicalSpec {
     /// # Errors
     /// [`CanonicalError::Spec`].
     pub fn new(size: usize, area: u32) -> Result<Self, CanonicalError> {
-        let frame = size * size;
-        let possible = size.is_multiple_of(WORD_BITS)
-            && (WORD_BITS..=1024).contains(&size)
-            && (64..=frame / 2).contains(&(area as usize));
-        if possible {
-            Ok(Self { size, area })
-        } else {
-            Err(CanonicalError::Spec { size, area })
+        Self::possible(size, area).ok_or(CanonicalError::Spec { size, area })
+    }
+
+    /// The same where that is possible.
+    #[must_use]
+    pub const fn possible(size: usize, area: u32) -> Option<Self> {
+        if !size.is_multiple_of(WORD_BITS) || size < WORD_BITS || size > 1024 {
+            return None;
         }
+        let most = size * size / 2;
+        if area < 64 || area as usize > most {
+            return None;
+        }
+        Some(Self { size, area })
     }
 
     /// Side of the canonical frame, pixels.
@@ -76,13 +81,13 @@ impl CanonicalSpec {
 
     /// Area of every canonical silhouette before sampling, pixels.
     #[must_use]
-    pub fn area(&self) -> u32 {
+    pub const fn area(&self) -> u32 {
         self.area
     }
 
     /// Words of a canonical mask: the working memory of [`super::canonicalise()`].
     #[must_use]
-    pub fn words_needed(&self) -> usize {
+    pub const fn words_needed(&self) -> usize {
         words_needed(self.size, self.size)
     }
 }

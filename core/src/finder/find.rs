@@ -9,13 +9,13 @@ use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
 use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, STARTS, refine_rivals, worth_refining};
+use super::rivals::{RefinedRival, STARTS, add_rivals, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::{CommonOffset, Silhouette};
 use crate::locate::rerank::Reranked;
 use crate::pose::Pose;
-use crate::refine::{CameraView, ImageTarget, RefineOptions, fit_at};
+use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
 use crate::shortlist::keep;
 
 /// How far poses are brought.
@@ -33,7 +33,7 @@ pub enum Goal<'g> {
 }
 
 /// The poses that explain what a camera saw.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Found {
     /// Best first: by the loss after refinement, or by the pixels that differ when the model is drawn. At least one.
     pub candidates: Vec<Candidate, CANDIDATES>,
@@ -44,6 +44,13 @@ pub struct Found {
 }
 
 impl Found {
+    /// Nothing found: what static memory is filled with.
+    pub const NOTHING: Self = Self {
+        candidates: Vec::new(),
+        clipped: false,
+        partial: false,
+    };
+
     /// Chooses among the candidates by what else is known of the frame, and judges the choice. `None` where there is no
     /// candidate.
     #[must_use]
@@ -67,6 +74,26 @@ pub fn find(
     options: RefineOptions,
     memory: &mut FinderMemory<'_>,
 ) -> Result<Found, FindError> {
+    let mut found = Found::NOTHING;
+    find_into(
+        component, camera, silhouette, goal, options, memory, &mut found,
+    )?;
+    Ok(found)
+}
+
+/// The same into memory that the caller keeps, for stacks that have no room for two copies of all candidates, 8 KB each.
+///
+/// # Errors
+/// As [`find`]; what `found` holds then means nothing.
+pub fn find_into(
+    component: &Component<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    goal: Goal<'_>,
+    options: RefineOptions,
+    memory: &mut FinderMemory<'_>,
+    found: &mut Found,
+) -> Result<(), FindError> {
     if component.library.info().model != component.model.digest() {
         return Err(FindError::OtherModel);
     }
@@ -82,16 +109,14 @@ pub fn find(
         options,
         memory,
     };
-    let candidates = match goal {
-        Goal::Library => way.as_the_library_has_them(&first)?,
-        Goal::Outline | Goal::Edges => way.on_outline(&first)?,
-        Goal::Image(image) => way.on_image(&first, image)?,
-    };
-    Ok(Found {
-        candidates,
-        clipped: first.clipped,
-        partial: first.partial,
-    })
+    let candidates = &mut found.candidates;
+    candidates.clear();
+    (found.clipped, found.partial) = (first.clipped, first.partial);
+    match goal {
+        Goal::Library => way.as_the_library_has_them(&first, candidates),
+        Goal::Outline | Goal::Edges => way.on_outline(&first, candidates),
+        Goal::Image(image) => way.on_image(&first, image, candidates),
+    }
 }
 
 /// From first poses to candidates.
@@ -106,15 +131,19 @@ struct Way<'w, 'm> {
 type Candidates = Vec<Candidate, CANDIDATES>;
 
 impl Way<'_, '_> {
-    fn as_the_library_has_them(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
-        let mut candidates = Vec::new();
-        self.add_unrefined(&first.poses, &mut candidates)?;
+    #[inline(never)]
+    fn as_the_library_has_them(
+        &mut self,
+        first: &FirstPoses,
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        self.add_unrefined(&first.poses, candidates)?;
         if !first.partial && !first.explain(self.silhouette) {
             // A second opinion: where there is none, the first stands.
             let pieces = self.pieces();
-            self.add_unrefined(&pieces, &mut candidates)?;
+            self.add_unrefined(&pieces, candidates)?;
         }
-        Ok(candidates)
+        Ok(())
     }
 
     fn add_unrefined(
@@ -123,14 +152,17 @@ impl Way<'_, '_> {
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         let view = CameraView::only(self.camera, *self.silhouette);
+        let (model, memory) = (self.component.model, &mut self.memory.refine);
+        let mut beyond = None;
         for located in poses.iter().take(CANDIDATES) {
             let pose = located.located.pose;
-            let fit = fit_at(
-                self.component.model,
-                &[view],
-                &pose,
-                &mut self.memory.refine,
-            )?;
+            let fit = match fit_at(model, &[view], &pose, memory) {
+                Err(error @ RefineError::BeyondCrop) => {
+                    beyond = Some(error);
+                    continue;
+                }
+                fit => fit?,
+            };
             let candidate = Candidate {
                 pose,
                 start: pose,
@@ -141,34 +173,47 @@ impl Way<'_, '_> {
             };
             keep(candidates, candidate, Candidate::misfit);
         }
-        Ok(())
+        match beyond.filter(|_| candidates.is_empty()) {
+            Some(error) => Err(error.into()),
+            None => Ok(()),
+        }
     }
 
     /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
     /// that pieces of the outline lead to are refined too.
-    fn on_outline(&mut self, first: &FirstPoses) -> Result<Candidates, FindError> {
-        let mut candidates = Vec::new();
-        self.add_refined(worth_refining(&first.poses), &mut candidates)?;
+    fn on_outline(
+        &mut self,
+        first: &FirstPoses,
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        self.add_refined(worth_refining(&first.poses), candidates)?;
         let met = candidates.first().map_or(0.0, |best| best.fit.met);
         if !first.partial && met < Limits::USUAL.good_met {
-            let pieces = self.pieces();
-            // A second opinion that leads nowhere is none.
-            let _ = self.add_refined(worth_refining(&pieces), &mut candidates);
+            self.add_of_pieces(candidates);
         }
-        Ok(candidates)
+        Ok(())
     }
 
+    #[inline(never)]
+    fn add_of_pieces(&mut self, candidates: &mut Candidates) {
+        let pieces = self.pieces();
+        // A second opinion that leads nowhere is none.
+        let _ = self.add_refined(worth_refining(&pieces), candidates);
+    }
+
+    #[inline(never)]
     fn on_image(
         &mut self,
         first: &FirstPoses,
         image: ImageTarget<'_>,
-    ) -> Result<Candidates, FindError> {
-        let outline = self.on_outline(first)?;
+        candidates: &mut Candidates,
+    ) -> Result<(), FindError> {
+        let mut outline = Vec::new();
+        self.on_outline(first, &mut outline)?;
         let (model, camera, options) = (self.component.model, self.camera, self.options);
         let memory = &mut self.memory.refine;
-        Ok(onto_target(
-            model, camera, image, &outline, options, memory,
-        )?)
+        *candidates = onto_target(model, camera, image, &outline, options, memory)?;
+        Ok(())
     }
 
     fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
@@ -185,7 +230,16 @@ impl Way<'_, '_> {
         let view = CameraView::only(self.camera, *self.silhouette);
         let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;
-        let refined = refine_rivals(model, &[view], &starts, planes, self.options, memory)?;
+        let mut refined = Vec::new();
+        add_rivals(
+            model,
+            &[view],
+            &starts,
+            planes,
+            self.options,
+            memory,
+            &mut refined,
+        )?;
         let located = |found: &RefinedRival| worth.get(found.start).copied();
         Ok(add_assessed(
             model, &view, &refined, located, memory, candidates,

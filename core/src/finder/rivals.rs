@@ -102,20 +102,36 @@ pub fn refine_rivals(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
+    let mut answers = Vec::new();
+    add_rivals(model, views, starts, planes, options, memory, &mut answers)?;
+    Ok(answers)
+}
+
+/// The same into an empty list, which is long: a copy of it takes kilobytes of stack.
+pub(super) fn add_rivals(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    starts: &[Pose],
+    planes: &[SymmetryPlane],
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+    answers: &mut Vec<RefinedRival, ANSWERS>,
+) -> Result<(), RefineError> {
     let mut search = RivalRefinement {
         model,
         views,
         planes,
         options,
         memory,
-        answers: Vec::new(),
+        answers,
     };
     search.refine_starts(starts)?;
     search.mirror();
     if !search.look_beside() {
         search.look_closer();
     }
-    Ok(distinct(&search.answers))
+    keep_distinct(answers);
+    Ok(())
 }
 
 /// Refinement from a growing list of starts.
@@ -126,7 +142,7 @@ struct RivalRefinement<'s, 'm> {
     options: RefineOptions,
     memory: &'s mut RefineMemory<'m>,
     /// By rising loss.
-    answers: Vec<RefinedRival, ANSWERS>,
+    answers: &'s mut Vec<RefinedRival, ANSWERS>,
 }
 
 impl RivalRefinement<'_, '_> {
@@ -143,7 +159,7 @@ impl RivalRefinement<'_, '_> {
             from,
             refined,
         };
-        keep(&mut self.answers, answer, |other| other.refined.loss);
+        keep(self.answers, answer, |other| other.refined.loss);
     }
 
     /// Refines the starts. Of several, the first stage tells where each leads, and only the poses that may be the best are
@@ -216,13 +232,23 @@ impl RivalRefinement<'_, '_> {
 
     /// Refines the mirror images of all poses so far, where they cover what was seen.
     fn mirror(&mut self) {
-        for RefinedRival { start, refined, .. } in distinct(&self.answers) {
+        let mut distinct: Vec<(usize, Pose), ANSWERS> = Vec::new();
+        for RefinedRival { start, refined, .. } in &*self.answers {
+            if !distinct
+                .iter()
+                .any(|(_, other)| is_same(other, &refined.pose))
+            {
+                // No longer than what it is made from.
+                let _ = distinct.push((*start, refined.pose));
+            }
+        }
+        for (start, pose) in distinct {
             for plane in self.planes {
-                let mirrored = mirror_pose(&refined.pose, plane);
+                let mirrored = mirror_pose(&pose, plane);
                 let near = self
                     .views
                     .iter()
-                    .all(|view| is_near(self.model, view, &mirrored, &refined.pose, self.memory));
+                    .all(|view| is_near(self.model, view, &mirrored, &pose, self.memory));
                 if near && self.leads_elsewhere(&mirrored) {
                     // A mirror image that leads nowhere is no rival.
                     let _ = self.refine(&mirrored, start, true);
@@ -236,13 +262,14 @@ impl RivalRefinement<'_, '_> {
         let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
             return true;
         };
-        let answers = self.answers.clone();
+        let answers = &*self.answers;
         let known = |pose: &Pose| {
             answers.iter().any(|RefinedRival { refined, .. }| {
                 is_on_the_way(pose, &refined.pose, blurred_deg(refined))
             })
         };
-        let Ok(Some(looked)) = self.look(start, &known) else {
+        let (model, views, options) = (self.model, self.views, self.options);
+        let Ok(Some(looked)) = probe(model, views, start, options, &known, self.memory) else {
             return false;
         };
         let known = |RefinedRival { refined, .. }: &RefinedRival| {
@@ -392,17 +419,20 @@ fn is_near(
     there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
 
-/// Each pose once.
-fn distinct(answers: &[RefinedRival]) -> Vec<RefinedRival, ANSWERS> {
-    let mut kept: Vec<RefinedRival, ANSWERS> = Vec::new();
-    for answer in answers {
-        let rotation = &answer.refined.pose.rotation;
-        let same =
-            |other: &RefinedRival| geodesic_deg(&other.refined.pose.rotation, rotation) < SAME_DEG;
-        if !kept.iter().any(same) {
-            // No longer than what it is made from.
-            let _ = kept.push(*answer);
+/// Keeps each pose once, where it comes first.
+fn keep_distinct(answers: &mut Vec<RefinedRival, ANSWERS>) {
+    let mut place = 0;
+    while let Some(RefinedRival { refined, .. }) = answers.get(place) {
+        let pose = refined.pose;
+        let mut before = answers.iter().take(place);
+        if before.any(|other| is_same(&other.refined.pose, &pose)) {
+            answers.remove(place);
+        } else {
+            place += 1;
         }
     }
-    kept
+}
+
+fn is_same(a: &Pose, b: &Pose) -> bool {
+    geodesic_deg(&a.rotation, &b.rotation) < SAME_DEG
 }

@@ -3,27 +3,10 @@
 use heapless::Vec;
 use thiserror::Error;
 
-/// A point of the image plane in continuous coordinates: the centre of the first pixel is
-/// (0.5, 0.5), `row` grows downwards.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Point {
-    /// Pixels to the right of the frame's left border.
-    pub column: f64,
-    /// Pixels below the frame's upper border.
-    pub row: f64,
-}
+use super::crossing::orientation;
 
-impl Point {
-    /// The point at a column and row.
-    #[must_use]
-    pub fn new(column: f64, row: f64) -> Self {
-        Self { column, row }
-    }
-
-    fn is_finite(self) -> bool {
-        self.column.is_finite() && self.row.is_finite()
-    }
-}
+pub use super::crossing::first_crossing;
+pub use super::point::Point;
 
 /// A traced polygon in fixed memory: at most `N` vertices.
 pub type Contour<const N: usize> = Vec<Point, N>;
@@ -74,8 +57,7 @@ pub struct Outline<'a> {
 }
 
 impl<'a> Outline<'a> {
-    /// Checks `points` against a frame of `width` x `height` pixels. Time grows with the square
-    /// of the number of points.
+    /// Checks `points` against a frame of `width` x `height` pixels.
     ///
     /// # Errors
     /// An [`OutlineError`] that names the first offending point or pair of sides.
@@ -102,7 +84,8 @@ impl<'a> Outline<'a> {
         if on_one_line(points) {
             return Err(OutlineError::ZeroArea);
         }
-        match first_crossing(points.len(), |number| points[number]) {
+        let at = |number: usize| points.get(number).copied().unwrap_or_default();
+        match first_crossing(points.len(), at) {
             Some((first, second)) => Err(OutlineError::SelfCrossing { first, second }),
             None => Ok(Self { points }),
         }
@@ -149,68 +132,6 @@ fn on_one_line(points: &[Point]) -> bool {
     let first = points.first().copied().unwrap_or_default();
     let other = points.iter().copied().find(|&point| point != first);
     other.is_none_or(|other| points.iter().all(|&p| orientation(first, other, p) == 0.0))
-}
-
-/// The first two sides of a closed line through `count` points that meet where they should not.
-#[must_use]
-pub fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usize, usize)> {
-    let side = |number: usize| (at(number), at((number + 1) % count));
-    for first in 0..count {
-        let a = side(first);
-        for second in first + 1..count {
-            let b = side(second);
-            let neighbours = second == first + 1 || (first == 0 && second == count - 1);
-            let touch = if neighbours {
-                folds_back(a, b)
-            } else {
-                // Most pairs are far apart: boxes are compared before anything is multiplied.
-                boxes_meet(a, b) && segments_meet(a, b)
-            };
-            if touch {
-                return Some((first, second));
-            }
-        }
-    }
-    None
-}
-
-fn boxes_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let overlap = |a: f64, b: f64, c: f64, d: f64| a.max(b) >= c.min(d) && c.max(d) >= a.min(b);
-    overlap(a.row, b.row, c.row, d.row) && overlap(a.column, b.column, c.column, d.column)
-}
-
-/// Twice the signed area of the triangle `a b c`.
-fn orientation(a: Point, b: Point, c: Point) -> f64 {
-    (b.column - a.column) * (c.row - a.row) - (b.row - a.row) * (c.column - a.column)
-}
-
-fn within_box(a: Point, b: Point, p: Point) -> bool {
-    let between = |x: f64, y: f64, v: f64| v >= x.min(y) && v <= x.max(y);
-    between(a.column, b.column, p.column) && between(a.row, b.row, p.row)
-}
-
-/// Whether two segments have a point in common (Cormen et al., *Introduction to Algorithms*, 33.1).
-fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let (o1, o2) = (orientation(a, b, c), orientation(a, b, d));
-    let (o3, o4) = (orientation(c, d, a), orientation(c, d, b));
-    let straddles = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
-    (straddles(o1, o2) && straddles(o3, o4))
-        || (o1 == 0.0 && within_box(a, b, c))
-        || (o2 == 0.0 && within_box(a, b, d))
-        || (o3 == 0.0 && within_box(c, d, a))
-        || (o4 == 0.0 && within_box(c, d, b))
-}
-
-/// Whether two sides with a common vertex lie on each other, or one of them has no length.
-fn folds_back(a: (Point, Point), b: (Point, Point)) -> bool {
-    let (before, shared, after) = if a.1 == b.0 {
-        (a.0, a.1, b.1)
-    } else {
-        (b.0, b.1, a.1)
-    };
-    let ahead = (shared.column - before.column) * (after.column - shared.column)
-        + (shared.row - before.row) * (after.row - shared.row);
-    orientation(before, shared, after) == 0.0 && ahead <= 0.0
 }
 
 #[cfg(test)]

@@ -46,6 +46,9 @@ pub enum MaskError {
     /// No pixel is set.
     #[error("the mask is empty: no pixel belongs to the silhouette")]
     Empty,
+    /// A silhouette reaches the side of a part of the frame that is to hold all of it.
+    #[error("the silhouette reaches beyond the part of the frame that is to hold all of it")]
+    Cropped,
     /// Two masks of one frame differ in size.
     #[error("two masks of one frame differ in size")]
     Sizes,
@@ -235,7 +238,10 @@ impl<'a> Mask<'a> {
 
 /// The runs of set pixels in words of a row, of which the first is number `first`.
 #[inline(always)]
-fn runs_of(words: &[Word], first: usize) -> impl Iterator<Item = core::ops::Range<usize>> {
+pub(crate) fn runs_of(
+    words: &[Word],
+    first: usize,
+) -> impl Iterator<Item = core::ops::Range<usize>> {
     // The present word and those of its set pixels that have not been passed yet.
     let (mut at, mut left) = (0, words.first().copied().unwrap_or(0));
     core::iter::from_fn(move || {

@@ -3,6 +3,8 @@
 //! Running sums in floating point lose the orientation of shapes that are nearly round; sums of
 //! integers lose nothing, and only their result is rounded.
 
+use core::ops::Range;
+
 use crate::image::contour::Point;
 use crate::image::mask::Mask;
 
@@ -34,6 +36,32 @@ impl Moments {
         }
     }
 
+    /// Adds a run of pixels of a row.
+    pub(super) fn add_run(&mut self, row: usize, run: &Range<usize>) {
+        let y = row as u64;
+        let (n, columns, squares) = run_sums(run.start as u64, run.end as u64);
+        self.area += n;
+        self.column += columns;
+        self.row += y * n;
+        self.column_column += squares;
+        self.column_row += y * columns;
+        self.row_row += y * y * n;
+    }
+
+    /// Those of the same pixels so many columns and rows further right and down: of a part of a frame, in the frame.
+    #[must_use]
+    pub fn moved(&self, columns: usize, rows: usize) -> Self {
+        let (x, y) = (columns as u64, rows as u64);
+        Self {
+            area: self.area,
+            column: self.column + x * self.area,
+            row: self.row + y * self.area,
+            column_column: self.column_column + 2 * x * self.column + x * x * self.area,
+            column_row: self.column_row + x * self.row + y * self.column + x * y * self.area,
+            row_row: self.row_row + 2 * y * self.row + y * y * self.area,
+        }
+    }
+
     /// Central second moments divided by the area (column-column, column-row, row-row), in
     /// square pixels. The difference is taken in integers; only its result is rounded.
     #[must_use]
@@ -57,15 +85,8 @@ impl Mask<'_> {
     pub fn moments(&self) -> Moments {
         let mut sum = Moments::default();
         for row in self.rows() {
-            let y = row as u64;
             for run in self.runs(row) {
-                let (n, columns, squares) = run_sums(run.start as u64, run.end as u64);
-                sum.area += n;
-                sum.column += columns;
-                sum.row += y * n;
-                sum.column_column += squares;
-                sum.column_row += y * columns;
-                sum.row_row += y * y * n;
+                sum.add_run(row, &run);
             }
         }
         sum

@@ -60,6 +60,14 @@ impl FixedPoint {
         (point, inside(column) & inside(row))
     }
 
+    /// The same place where a column and row, not beyond any mask, are the first: exact.
+    pub(crate) fn counted_from(self, [column, row]: [usize; 2]) -> Self {
+        Self {
+            column: self.column - column as i32 * ONE as i32,
+            row: self.row - row as i32 * ONE as i32,
+        }
+    }
+
     /// Twice the signed area of the triangle `a`, `b`, `c`, in squares of 1/4096 pixel; positive
     /// where it is run clockwise as seen on the screen.
     pub(crate) fn doubled_area([a, b, c]: [Self; 3]) -> i64 {

@@ -1,6 +1,7 @@
 //! A silhouette of which a part may be unknown: hidden by the other component, cut off by the
 //! frame, or never traced.
 
+use crate::image::crop::Crop;
 use crate::image::mask::{Mask, MaskError};
 use crate::math::sqrt;
 
@@ -13,6 +14,7 @@ pub struct Silhouette<'a> {
     mask: &'a Mask<'a>,
     unknown: Option<&'a Mask<'a>>,
     common: CommonOffset,
+    crop: Option<Crop>,
 }
 
 /// How far an outline lies outside of the implant's everywhere alike, which leaves no residual and moves depth: masks of a
@@ -64,6 +66,7 @@ impl<'a> From<&'a Mask<'a>> for Silhouette<'a> {
             mask,
             unknown: None,
             common: CommonOffset::default(),
+            crop: None,
         }
     }
 }
@@ -81,6 +84,7 @@ impl<'a> Silhouette<'a> {
             mask,
             unknown: Some(unknown),
             common: CommonOffset::default(),
+            crop: None,
         })
     }
 
@@ -89,6 +93,44 @@ impl<'a> Silhouette<'a> {
     #[must_use]
     pub fn lying_off(self, common: CommonOffset) -> Self {
         Self { common, ..self }
+    }
+
+    /// The same, whose mask is of a part of the frame: the frame goes on beyond it and holds nothing of the implant there.
+    /// Only of a silhouette that is known as a whole; pieces of an outline are looked for in all of a frame.
+    ///
+    /// # Errors
+    /// [`MaskError::Sizes`] where the mask is not of that part's size or has unknown pixels beside it,
+    /// [`MaskError::Cropped`] where the silhouette reaches a side beyond which the frame goes on.
+    pub fn in_crop(self, crop: &Crop) -> Result<Self, MaskError> {
+        let size = (self.mask.width(), self.mask.height());
+        if size != (crop.width(), crop.height()) || self.unknown.is_some() {
+            return Err(MaskError::Sizes);
+        }
+        if crop.is_near_side(self.mask, 1) {
+            return Err(MaskError::Cropped);
+        }
+        Ok(Self {
+            crop: Some(*crop),
+            ..self
+        })
+    }
+
+    /// The part of the frame that the mask is of; `None` where it is the frame's.
+    #[must_use]
+    pub fn crop(&self) -> Option<&Crop> {
+        self.crop.as_ref()
+    }
+
+    /// Whether a place beyond the mask, in pixels from the middle of the first pixel to the right and down, is known to hold
+    /// nothing of the implant.
+    pub(crate) fn is_clear_beyond(&self, column: f64, row: f64) -> bool {
+        let Some(crop) = &self.crop else {
+            return false;
+        };
+        let [left, top, right, bottom] = crop.beyond().map(|pixels| pixels as f64);
+        let last = |side: usize| side as f64 - 1.0;
+        (-left..last(crop.width()) + right).contains(&column)
+            && (-top..last(crop.height()) + bottom).contains(&row)
     }
 
     /// How far it lies off everywhere alike.

@@ -64,20 +64,38 @@ impl<'a> Library<'a> {
         if checksum([rest]) != body.crc {
             return Err(LibraryError::Checksum("body"));
         }
-        let library = match body.version {
-            PLAIN_VERSION => Self::plain(info, rest),
-            _ => Self {
-                info,
-                views: Compact::split(rest, &info, body.blocks)
-                    .map(Views::Compact)
-                    .ok_or(LibraryError::Value("length of the body"))?,
-            },
-        };
+        let library = Self::split(rest, info, &body)?;
         library.check_records()?;
         if let Views::Compact(compact) = &library.views {
             compact.check(&info)?;
         }
         Ok(library)
+    }
+
+    /// Reads bytes in place of which it is known that they are whole and right, as [`Self::open`] would have found.
+    ///
+    /// # Errors
+    /// [`LibraryError`] for bytes that no library begins with, or of another length.
+    pub(crate) fn trusted(bytes: &'a [u8]) -> Result<Self, LibraryError> {
+        let (header, rest) = split_header(bytes)?;
+        let (info, body) = read_header(header)?;
+        let given = bytes.len() as u64;
+        let needed = body.bytes.saturating_add(HEADER_BYTES as u64);
+        if needed != given {
+            return Err(LibraryError::Length { needed, given });
+        }
+        Self::split(rest, info, &body)
+    }
+
+    /// A library whose bytes are not looked at yet.
+    fn split(rest: &'a [u8], info: LibraryInfo, body: &Body) -> Result<Self, LibraryError> {
+        let views = match body.version {
+            PLAIN_VERSION => Self::plain(info, rest).views,
+            _ => Compact::split(rest, &info, body.blocks)
+                .map(Views::Compact)
+                .ok_or(LibraryError::Value("length of the body"))?,
+        };
+        Ok(Self { info, views })
     }
 
     /// A plain body that is right by construction: of the length that `info` gives.

@@ -24,10 +24,17 @@ pub const RECORD_BYTES: usize = 64;
 /// Bytes of a view's record in the compact layout: without the rotations, which are the grid's.
 pub(super) const SHORT_RECORD_BYTES: usize = 40;
 
+/// Where the model's digest stands.
+const DIGEST_AT: usize = 136;
 /// Where the header's own checksum stands.
 pub(super) const HEADER_CRC_AT: usize = HEADER_BYTES - 4;
 
 const CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// The model's digest in the bytes of a library, where they are as long as a header.
+pub(crate) fn digest_in(bytes: &[u8]) -> Option<&[u8; 32]> {
+    bytes.get(DIGEST_AT..HEADER_BYTES)?.first_chunk()
+}
 
 /// CRC-32 of parts that follow one another.
 pub(super) fn checksum<const N: usize>(parts: [&[u8]; N]) -> u32 {

@@ -115,13 +115,13 @@ pub(crate) fn determinant(m: &Matrix3) -> f64 {
 
 /// Scalar product.
 #[must_use]
-pub(crate) fn dot(a: &Vector3, b: &Vector3) -> f64 {
+pub fn dot(a: &Vector3, b: &Vector3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// Vector product.
 #[must_use]
-pub(crate) fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
+pub fn cross(a: &Vector3, b: &Vector3) -> Vector3 {
     [
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -137,7 +137,7 @@ pub fn add(a: &Vector3, b: &Vector3) -> Vector3 {
 
 /// Difference of two vectors.
 #[must_use]
-pub(crate) fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
+pub fn subtract(a: &Vector3, b: &Vector3) -> Vector3 {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 

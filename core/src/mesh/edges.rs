@@ -6,10 +6,17 @@ mod edge;
 pub(crate) mod fake;
 mod link;
 mod list;
+mod measured;
 mod orient;
+mod pack;
+mod packed;
 
 pub(crate) use boxes::IN_BOX;
 pub use boxes::{EdgeBox, EdgeGroup};
 pub use edge::{MeshEdge, RimEdge};
 pub use link::{LinkMemory, LinkNeeds, SurfaceFaults, link, link_needed};
 pub use list::Edges;
+pub(crate) use measured::Facing;
+pub use pack::{PackMemory, PackedNeeds, pack_edges, packed_needed};
+pub(crate) use packed::unpacked;
+pub use packed::{PackedBox, PackedEdge, PackedEdges, PackedRim};

@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use crate::math::Vector3;
-use crate::mesh::edges::Edges;
-use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest};
+use crate::mesh::edges::{Edges, PackedEdges};
+use crate::mesh::surface::{Bounds, Mesh, MeshError, ModelDigest, SurfaceMark};
 
 /// Edges were given with a mesh that they are not of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -56,6 +56,11 @@ impl<'a> Model<'a> {
             mesh,
             edges: Some(edges),
         }
+    }
+
+    /// A model that is drawn from packed edges, which were kept with its mesh.
+    pub(crate) fn packed(mesh: Mesh<'a>, edges: PackedEdges<'a>) -> Self {
+        Self::linked(mesh, Edges::of_packed(edges, SurfaceMark::NONE))
     }
 
     /// The surface.

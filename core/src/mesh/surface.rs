@@ -28,6 +28,8 @@ pub struct Mesh<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
     bounds: Bounds,
+    /// Where it is known.
+    digest: Option<&'a ModelDigest>,
 }
 
 /// SHA-256 of a mesh's vertices and triangles as they are stored.
@@ -68,6 +70,11 @@ impl Bounds {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceMark(u64);
 
+impl SurfaceMark {
+    /// Of edges that are kept with their mesh in one file: nobody asks.
+    pub(crate) const NONE: Self = Self(0);
+}
+
 impl<'a> Mesh<'a> {
     /// A mesh over vertices (mm, model coordinates) and triples of vertex indices.
     ///
@@ -94,6 +101,7 @@ impl<'a> Mesh<'a> {
             vertices,
             triangles,
             bounds,
+            digest: None,
         })
     }
 
@@ -108,6 +116,22 @@ impl<'a> Mesh<'a> {
             vertices,
             triangles,
             bounds,
+            digest: None,
+        }
+    }
+
+    /// The same of a file, which has its digest too.
+    pub(crate) fn known(
+        vertices: &'a [[f32; 3]],
+        triangles: &'a [[u32; 3]],
+        bounds: Bounds,
+        digest: &'a ModelDigest,
+    ) -> Self {
+        Self {
+            vertices,
+            triangles,
+            bounds,
+            digest: Some(digest),
         }
     }
 
@@ -144,6 +168,9 @@ impl<'a> Mesh<'a> {
     /// Digest of the geometry, which a library records to know its model again.
     #[must_use]
     pub fn digest(&self) -> ModelDigest {
+        if let Some(&digest) = self.digest {
+            return digest;
+        }
         let mut hash = Sha256::new();
         hash.update((self.vertices.len() as u64).to_le_bytes());
         for x in self.vertices.iter().flatten() {

@@ -45,6 +45,18 @@ impl Residual {
 }
 
 impl BorderPixel {
+    /// What static memory is filled with.
+    pub const EMPTY: Self = Self {
+        column: 0,
+        row: 0,
+        normal: [0.0; 2],
+        weight: 0.0,
+        near: 0.0,
+        far: 0.0,
+        residual: Residual::None,
+        jacobian: [0.0; 6],
+    };
+
     /// The residual where there is one, pixels.
     pub(super) fn residual_px(&self) -> Option<f64> {
         match self.residual {

@@ -9,6 +9,11 @@ use crate::render::RenderError;
 /// Why a pose cannot be refined.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum RefineError {
+    /// At this pose the model reaches beyond the part of the frame that is looked at.
+    #[error(
+        "the model reaches beyond the part of the frame that was cropped around the silhouette: it lies elsewhere, or the margin is too small"
+    )]
+    BeyondCrop,
     /// The model cannot be drawn at the pose to start from.
     #[error(transparent)]
     Render(#[from] RenderError),

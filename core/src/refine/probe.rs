@@ -57,7 +57,8 @@ fn coverage(silhouette: &Silhouette<'_>, column: f64, row: f64) -> Option<f64> {
     let mask = silhouette.mask();
     let last = |side: usize| side as f64 - 1.0;
     if !(0.0..last(mask.width())).contains(&column) || !(0.0..last(mask.height())).contains(&row) {
-        return None;
+        // Beside a part of a frame that is all of the silhouette there is nothing of it.
+        return silhouette.is_clear_beyond(column, row).then_some(0.0);
     }
     let (left, above) = (column as usize, row as usize);
     if let Some(unknown) = silhouette.unknown()

@@ -419,6 +419,9 @@ impl<'a> Problem<'a> {
             projected,
             film,
         } = draw(self.model, view.camera, &pose, sampling, memory)?;
+        if view.target.hides(&drawn) {
+            return Err(RefineError::BeyondCrop);
+        }
         let edges = DrawnEdges::of(self.model, &pose, view, stage, border, projected, film)?;
         let count = border.len();
         let eye = Eye {

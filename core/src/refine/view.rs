@@ -32,6 +32,9 @@ impl<'a> CameraView<'a> {
     }
 }
 
+/// Pixels around a border pixel that its normal and the place of the drawing's own outline are read from.
+const BESIDE: usize = 4;
+
 /// What a camera saw.
 #[derive(Clone, Copy, Debug)]
 pub enum Target<'a> {
@@ -55,6 +58,18 @@ impl Target<'_> {
         match self {
             Self::Silhouette(silhouette) => silhouette.common_offset().px,
             Self::Image(_) => 0.0,
+        }
+    }
+
+    /// Whether what is drawn comes so near to the side of a part of the frame that samples of its outline would not see what
+    /// they see in the frame.
+    pub(super) fn hides(&self, drawn: &Mask<'_>) -> bool {
+        match self {
+            Self::Silhouette(silhouette) => {
+                let crop = silhouette.crop();
+                crop.is_some_and(|crop| crop.is_near_side(drawn, BESIDE))
+            }
+            Self::Image(_) => false,
         }
     }
 

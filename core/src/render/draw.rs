@@ -11,7 +11,7 @@ use crate::render::project::{Images, Projected, RenderError, VERTICES, project};
 use crate::render::winding;
 
 /// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
-/// edges.
+/// edges. No more is used; [`scratch_for`] tells how much less serves small frames.
 #[must_use]
 pub fn scratch_needed(model: &Model<'_>) -> usize {
     let edges = model
@@ -20,12 +20,29 @@ pub fn scratch_needed(model: &Model<'_>) -> usize {
     model.vertices().len() + edges
 }
 
+/// The same for a model of so many vertices in frames of so many rows, where its outline has at most `edges` silhouette
+/// edges, which cross rows at most `crossings` times. Where a pose needs more, or there is only one for each vertex, its
+/// triangles are drawn: the same pixels, later.
+#[must_use]
+pub const fn scratch_for(vertices: usize, rows: usize, edges: usize, crossings: usize) -> usize {
+    vertices + winding::room_for(rows, edges, crossings)
+}
+
+/// The part of the working memory that a model is drawn in.
+fn used<'m>(
+    model: &Model<'_>,
+    scratch: &'m mut [Projected],
+) -> Result<&'m mut [Projected], RenderError> {
+    let most = scratch.len().min(scratch_needed(model));
+    Ok(first(VERTICES, most.max(model.vertices().len()), scratch)?)
+}
+
 /// Adds the silhouette of `model` at `pose` to `out`: every pixel whose centre lies in the
 /// projection of any triangle, whatever the winding. What is beyond the frame is cut off. A model
 /// with edges gives the same pixels sooner.
 ///
 /// # Errors
-/// [`RenderError`]; nothing has been drawn then.
+/// [`RenderError`]; nothing has been drawn then. Working memory is too short below one for each vertex.
 pub fn render(
     model: &Model<'_>,
     camera: &Camera,
@@ -36,7 +53,7 @@ pub fn render(
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
-    let scratch = first(VERTICES, scratch_needed(model), scratch)?;
+    let scratch = used(model, scratch)?;
     if let Some(edges) = model.edges() {
         let facing = FacingTest::new(model.mesh(), camera, pose);
         if !facing.sees_all() {
@@ -92,8 +109,8 @@ pub(crate) fn contour<'s>(
     scratch: &'s [Projected],
 ) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])> + use<'s>> {
     model.edges()?;
-    let scratch = scratch.get(..scratch_needed(model))?;
-    let (images, room) = scratch.split_at(model.vertices().len());
+    let scratch = scratch.get(..scratch.len().min(scratch_needed(model)))?;
+    let (images, room) = scratch.split_at_checked(model.vertices().len())?;
     let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
     Some(winding::contour(room)?.map(move |ends| (ends, ends.map(image))))
 }

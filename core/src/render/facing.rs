@@ -10,7 +10,7 @@
 use crate::camera::Camera;
 use crate::image::scan::{FixedPoint, MAX_COORDINATE, ROUNDING};
 use crate::math::{norm, sqrt};
-use crate::mesh::edges::{EdgeBox, EdgeGroup, IN_BOX, MeshEdge};
+use crate::mesh::edges::{EdgeBox, EdgeGroup, Facing, IN_BOX, MeshEdge, PackedEdge, unpacked};
 use crate::mesh::{Bounds, Mesh};
 use crate::pose::Pose;
 use crate::render::project::Images;
@@ -117,6 +117,38 @@ impl FacingTest {
         }
     }
 
+    /// The same of packed edges, whose triangles are measured from their vertices.
+    pub(crate) fn packed_contour(
+        &self,
+        bounds: &EdgeBox,
+        (group, measure): (&[PackedEdge], Facing),
+        images: &mut Images<'_>,
+        mut visit: impl FnMut([u32; 2]),
+    ) {
+        let [per_mm, least, rounding] = self.margins;
+        if self.is_clear(
+            bounds,
+            bounds.thin * per_mm + bounds.small * least + rounding,
+        ) {
+            return;
+        }
+        for edge in group {
+            let edge = unpacked(edge);
+            let places = [edge.from, edge.to, edge.forth, edge.back].map(|v| images.vertex(v));
+            let [Some(from), Some(to), Some(forth), Some(back)] = places else {
+                continue;
+            };
+            let faces = |corners| measure(&self.place, self.margins, corners);
+            let sides = faces([from, to, forth]).zip(faces([to, from, back]));
+            let sides = sides.map_or_else(|| Self::faces(&edge, images), |(a, b)| [a, b]);
+            match sides {
+                [true, false] => visit([edge.from, edge.to]),
+                [false, true] => visit([edge.to, edge.from]),
+                _ => {}
+            }
+        }
+    }
+
     /// Whether all triangles of a box turn the same way, by more than a margin in mm.
     fn is_clear(&self, bounds: &EdgeBox, margin: f32) -> bool {
         let (mut from_middle, mut reach) = (-bounds.middle[3], bounds.reach[3] + margin);
@@ -190,6 +222,16 @@ mod tests {
         for (bounds, group) in linked.edges().groups() {
             facing.contour(bounds, group, &mut images, |ends| found.push(ends));
         }
+        let packed = linked.packed();
+        let mut again = Vec::new();
+        let edges = packed.edges();
+        let (groups, faces) = edges.packed().expect("they are packed");
+        for (bounds, group) in groups.groups() {
+            facing.packed_contour(&bounds, (group, faces), &mut images, |ends| {
+                again.push(ends)
+            });
+        }
+        assert_eq!(again, found);
         let images = project(mesh, &camera, pose, &mut slots).expect("in front");
         let faces = |corners: [u32; 3]| {
             FixedPoint::doubled_area(corners.map(|vertex| images[vertex as usize])) > 0

@@ -57,6 +57,11 @@ impl<'i> Images<'i> {
         }
     }
 
+    /// A vertex in model coordinates, mm; `None` where there is no such vertex.
+    pub(crate) fn vertex(&self, vertex: u32) -> Option<&'i [f32; 3]> {
+        self.vertices.get(vertex as usize)
+    }
+
     pub(crate) fn of(&mut self, vertex: u32) -> Projected {
         // Indices were checked when the mesh was made.
         let vertex = vertex as usize;

@@ -25,7 +25,12 @@ const NONE: u64 = u64::MAX;
 
 /// Working memory of [`fill`].
 pub(crate) fn room_needed(edges: &Edges<'_>) -> usize {
-    PLACES + 4 * edges.rims().len()
+    PLACES + 4 * edges.rims().count()
+}
+
+/// The same for frames of so many rows, and contours of so many edges that cross rows so many times.
+pub(crate) const fn room_for(rows: usize, edges: usize, crossings: usize) -> usize {
+    1 + rows + edges + crossings
 }
 
 /// Adds the silhouette of a surface to `out`. Gives `false`, and has drawn a part of it at most, where
@@ -107,17 +112,24 @@ fn find_contour(
     for (bounds, group) in edges.groups() {
         facing.contour(bounds, group, images, |ends| keep(ends, &mut both));
     }
+    if let Some((packed, faces)) = edges.packed() {
+        for (bounds, group) in packed.groups() {
+            facing.packed_contour(&bounds, (group, faces), images, |ends| {
+                keep(ends, &mut both)
+            });
+        }
+    }
     let faces = |rim: &RimEdge, images: &mut Images<'_>| {
         let corners = [rim.from, rim.to, rim.third].map(|vertex| images.of(vertex));
         FixedPoint::doubled_area(corners) > 0
     };
     for rim in edges.rims() {
-        if faces(rim, images) {
+        if faces(&rim, images) {
             keep([rim.from, rim.to], &mut towards);
         }
     }
     for rim in edges.rims() {
-        if !faces(rim, images) {
+        if !faces(&rim, images) {
             keep([rim.to, rim.from], &mut away);
         }
     }
@@ -363,7 +375,10 @@ mod tests {
             let mut words = vec![0; words_needed(SIDE, SIDE)];
             let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
             prop_assert!(fill(&facing, &edges, &mut images, &mut room, &mut out));
-            prop_assert_eq!(words, draw(&Model::new(mesh), &pose));
+            prop_assert_eq!(&words, &draw(&Model::new(mesh), &pose));
+            let packed = linked.packed();
+            let packed = Model::with_edges(mesh, packed.edges()).expect("its own");
+            prop_assert_eq!(words, draw(&packed, &pose));
         }
     }
 

@@ -4,10 +4,16 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "finder")]
+mod finding;
 mod inputs;
 mod memory;
+mod program;
 mod proof;
 
+#[cfg(feature = "finder")]
+pub use finding::{FindingFailure, FindingMemory, find_pose};
 pub use inputs::{LIBRARY, OUTLINE};
-pub use memory::{FRAME_SIDE, MAX_POINTS, MAX_VIEWS, Memory};
+pub use memory::{FRAME_SIDE, MAX_POINTS, MAX_VIEWS};
+pub use program::{DATA, Memory, run};
 pub use proof::{Failure, prove};

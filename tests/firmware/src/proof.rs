@@ -104,7 +104,7 @@ pub fn prove(
     report(out, &found)
 }
 
-fn read_outline(bytes: &[u8], points: &mut Contour<MAX_POINTS>) -> Result<(), Failure> {
+pub(crate) fn read_outline(bytes: &[u8], points: &mut Contour<MAX_POINTS>) -> Result<(), Failure> {
     points.clear();
     let (vertices, rest) = bytes.as_chunks::<16>();
     if !rest.is_empty() {

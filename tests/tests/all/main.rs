@@ -4,6 +4,7 @@ mod accuracy;
 mod anatomy;
 mod biplane;
 mod golden;
+mod implant;
 mod joint;
 mod library;
 mod mirrored;

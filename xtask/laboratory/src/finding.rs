@@ -15,7 +15,7 @@ mod tools;
 mod views;
 
 pub use axes::axes_of;
-pub use build::{Built, build_library};
+pub use build::{Built, build_library, build_views};
 pub use clicker::{Clicked, Clicker};
 pub use film::{FrameFound, find_poses, first_poses};
 pub use film_model::{Filmed, KnownFilm, bring_onto_frames, stated_model};

@@ -1,12 +1,14 @@
 //! The Cortex-M4F application under QEMU, compared with this machine line by line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::pose::{Pose, geodesic_deg};
 
+use super::board_rows::{self, Row, write_json};
+use super::calls;
 use super::report::{Report, Said};
 use crate::firmware::{Proof, TRUTH, write_inputs};
 use crate::output::say;
@@ -25,12 +27,69 @@ pub(crate) fn run(report: &mut Report) {
         return;
     }
     report.step("firmware: formatting", check_formatting);
-    report.step("firmware: linted; board and host agree", || compare(&[]));
+    let mut rows = Vec::new();
+    report.step("firmware: linted; board and host agree", || {
+        compare(&LIBRARY, &mut rows)
+    });
     report.step(
         "firmware: linted; board and host agree with micromath",
-        || compare(&["--features", "micromath"]),
+        || compare(&MICROMATH, &mut Vec::new()),
     );
+    report.step("firmware: linted; the finder on board and host", || {
+        compare(&FINDER, &mut rows)
+    });
+    report.step("firmware: figures", || {
+        write_json(&rows, &figures()).map(Said::from)
+    });
 }
+
+/// Where the figures of the last run are, as JSON.
+pub(crate) fn figures() -> PathBuf {
+    folder().join("figures.json")
+}
+
+/// One program for the board, and how near to the true pose it comes.
+struct Program {
+    name: &'static str,
+    features: &'static [&'static str],
+    within: Within,
+}
+
+struct Within {
+    turn_deg: f64,
+    aside_mm: f64,
+    depth_mm: f64,
+}
+
+/// Views a degree apart, interpolated.
+const OF_A_VIEW: Within = Within {
+    turn_deg: 0.5,
+    aside_mm: 0.3,
+    depth_mm: 6.0,
+};
+
+const LIBRARY: Program = Program {
+    name: "library",
+    features: &[],
+    within: OF_A_VIEW,
+};
+
+const MICROMATH: Program = Program {
+    name: "micromath",
+    features: &["--features", "micromath"],
+    within: OF_A_VIEW,
+};
+
+/// Its surface is coarser than the one that was seen.
+const FINDER: Program = Program {
+    name: "finder",
+    features: &["--features", "finder"],
+    within: Within {
+        turn_deg: 0.5,
+        aside_mm: 0.15,
+        depth_mm: 1.0,
+    },
+};
 
 /// Where all that belongs to the firmware goes.
 fn folder() -> PathBuf {
@@ -55,17 +114,44 @@ fn check_formatting() -> Result<Said> {
     Ok(().into())
 }
 
-/// Runs the same proof here and on the board; both must write the same lines, and a pose near the true one.
-fn compare(features: &[&str]) -> Result<Said> {
+/// Runs the same program here and on the board; both must write the same lines, and a pose near the true one. Adds its
+/// figures.
+fn compare(program: &Program, rows: &mut Vec<Row>) -> Result<Said> {
+    let features = program.features;
     let toolchain = rust_target::ensure(rust_target::CORTEX_M4F)?;
     let qemu = programs::qemu_arm()?;
     let host = on_host(features)?;
-    let board = on_board(&toolchain, qemu, features)?;
-    for line in board.lines().filter(|line| is_information(line)) {
+    let image = build(&toolchain, features)?;
+    let board = on_board(&qemu, M4F, &image)?;
+    if program.name == FINDER.name {
+        // The same image; another core, another board.
+        let other = on_board(&qemu, M7, &image)?;
+        ensure_alike(&host, &other).context("on a Cortex-M7")?;
+    }
+    let calls = calls::count(&std::fs::read(&image)?)?;
+    let own = [
+        format!(
+            "info: calls of the core that end in a panic: {} calls",
+            calls.panics
+        ),
+        format!(
+            "info: calls of 64-bit floating point: {} calls",
+            calls.doubles
+        ),
+    ];
+    let information = board.lines().filter(|line| is_information(line));
+    let mut found = Vec::new();
+    for line in information.chain(own.iter().map(String::as_str)) {
         say(line);
+        found.extend(board_rows::read(program.name, line));
     }
     let count = ensure_alike(&host, &board)?;
-    check_pose(&host)?;
+    check_pose(&host, &program.within)?;
+    // Another compiler makes another image.
+    if let (Toolchain::Own { .. }, "library" | "finder") = (&toolchain, program.name) {
+        board_rows::compare(program.name, &found)?;
+    }
+    rows.extend(found);
     Ok(format!("{count} lines alike").into())
 }
 
@@ -108,7 +194,7 @@ fn on_host(features: &[&str]) -> Result<String> {
     command::output(&mut cargo)
 }
 
-fn on_board(toolchain: &Toolchain, qemu: PathBuf, features: &[&str]) -> Result<String> {
+fn build(toolchain: &Toolchain, features: &[&str]) -> Result<PathBuf> {
     let mut cargo = toolchain.cargo("build", &folder());
     at_firmware(cargo.arg("--release")).args(features);
     // Debian's compiler brings no lints.
@@ -116,11 +202,18 @@ fn on_board(toolchain: &Toolchain, qemu: PathBuf, features: &[&str]) -> Result<S
         components::lint(&mut cargo)?;
     }
     command::run(&mut cargo)?;
-    let image = toolchain
+    Ok(toolchain
         .output_dir("release", &folder())
-        .join("fluoropose-firmware");
+        .join("fluoropose-firmware"))
+}
+
+/// Boards as QEMU calls them: a Cortex-M4F, a Cortex-M7.
+const M4F: &str = "mps2-an386";
+const M7: &str = "mps2-an500";
+
+fn on_board(qemu: &Path, machine: &str, image: &Path) -> Result<String> {
     let mut board = Command::new(qemu);
-    board.args(["-M", "mps2-an386", "-nographic", "-icount", "shift=6"]);
+    board.args(["-M", machine, "-nographic", "-icount", "shift=6"]);
     board
         .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
         .arg(image);
@@ -132,7 +225,7 @@ fn is_information(line: &str) -> bool {
 }
 
 /// That both agree says nothing if both are wrong: the first pose must be near the true one.
-fn check_pose(lines: &str) -> Result<()> {
+fn check_pose(lines: &str, within: &Within) -> Result<()> {
     let proof = Proof::read(lines)?;
     let truth = Pose::from(TRUTH);
     let turned = geodesic_deg(&proof.pose.rotation, &truth.rotation);
@@ -141,7 +234,10 @@ fn check_pose(lines: &str) -> Result<()> {
         "off the true pose by {turned:.2} deg, {x:.3}, {y:.3} and {z:.2} mm"
     ));
     ensure!(
-        turned < 0.5 && x.abs() < 0.3 && y.abs() < 0.3 && z.abs() < 6.0,
+        turned < within.turn_deg
+            && x.abs() < within.aside_mm
+            && y.abs() < within.aside_mm
+            && z.abs() < within.depth_mm,
         "the pose is {turned:.2} deg and {x:.2}, {y:.2}, {z:.2} mm off the true one"
     );
     Ok(())
@@ -177,7 +273,8 @@ mod tests {
             .map(|(name, value)| format!("{name}: {value} ({:016x})\n", value.to_bits()))
             .concat()
         };
-        check_pose(&lines(TRUTH.x_mm + 0.1)).unwrap();
-        assert!(check_pose(&lines(TRUTH.x_mm + 0.4)).is_err());
+        check_pose(&lines(TRUTH.x_mm + 0.1), &OF_A_VIEW).unwrap();
+        assert!(check_pose(&lines(TRUTH.x_mm + 0.4), &OF_A_VIEW).is_err());
+        assert!(check_pose(&lines(TRUTH.x_mm + 0.2), &FINDER.within).is_err());
     }
 }

@@ -1,9 +1,11 @@
 //! The suites of the verb `test`.
 
+mod board_rows;
 mod browser;
+mod calls;
 pub(crate) mod changed;
 mod counts;
-mod firmware;
+pub(crate) mod firmware;
 mod native;
 pub(crate) mod report;
 pub(crate) mod side_by_side;

@@ -155,10 +155,15 @@ impl<'a> MaskMut<'a> {
     /// along the row then gives even-odd parity without any list of crossings (Ackland and
     /// Weste, *The edge flag algorithm*, IEEE Trans. Computers C-30, 1981).
     pub fn fill_outline(&mut self, outline: &Outline<'_>) {
+        self.fill_outline_from(outline, [0; 2]);
+    }
+
+    /// The same of a mask whose first pixel is that of a column and row of the outline's frame.
+    pub(crate) fn fill_outline_from(&mut self, outline: &Outline<'_>, first: [usize; 2]) {
         self.clear();
+        let place = |point| FixedPoint::from_point(point).map(|point| point.counted_from(first));
         for (a, b) in outline.sides() {
-            let ends = (FixedPoint::from_point(a), FixedPoint::from_point(b));
-            if let (Some(a), Some(b)) = ends {
+            if let (Some(a), Some(b)) = (place(a), place(b)) {
                 self.toggle_edge([a, b]);
             }
         }

@@ -13,8 +13,9 @@ use crate::memory::{TooLittleMemory, check_length};
 use crate::mesh::Model;
 use crate::render::{Projected, scratch_needed};
 
-/// Working memory of [`super::locate_partial`]: each slice at least as long as [`partial_needed`] says.
-#[derive(Debug)]
+/// Working memory of [`super::locate_partial`]: each slice at least as long as [`partial_needed`] says; by default none, for
+/// whoever looks for no pieces of outlines.
+#[derive(Debug, Default)]
 pub struct PartialMemory<'a> {
     /// Masks of the frame's size and of the canonical frame's.
     pub words: &'a mut [Word],

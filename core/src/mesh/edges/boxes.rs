@@ -43,7 +43,6 @@ impl EdgeGroup {
     }
 
     /// The edges of the group, without its padding.
-    #[cfg(test)]
     pub(crate) fn edges(&self) -> impl Iterator<Item = MeshEdge> + use<> {
         let there = |edge: &MeshEdge| edge.from != edge.to;
         self.edges.into_iter().filter(there)
@@ -157,6 +156,27 @@ fn spread(bits: u32) -> u32 {
 }
 
 impl EdgeBox {
+    /// All of it, to be packed.
+    pub(super) fn numbers(&self) -> [f32; 10] {
+        let Self {
+            middle: [a, b, c, d],
+            reach: [e, f, g, h],
+            thin,
+            small,
+        } = *self;
+        [a, b, c, d, e, f, g, h, thin, small]
+    }
+
+    /// What [`Self::numbers`] gave.
+    pub(super) fn of_numbers(&[a, b, c, d, e, f, g, h, thin, small]: &[f32; 10]) -> Self {
+        Self {
+            middle: [a, b, c, d],
+            reach: [e, f, g, h],
+            thin,
+            small,
+        }
+    }
+
     /// The smallest box that holds some triangles.
     fn round(duals: impl Iterator<Item = Dual>) -> Self {
         let (mut low, mut high) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);

@@ -1,6 +1,9 @@
 //! Closed surfaces for tests.
 
-use super::{EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, RimEdge, link, link_needed};
+use super::{
+    EdgeBox, EdgeGroup, Edges, LinkMemory, MeshEdge, PackMemory, PackedBox, PackedEdge,
+    PackedEdges, PackedRim, RimEdge, link, link_needed, pack_edges, packed_needed,
+};
 use crate::mesh::{Mesh, Model, SurfaceMark};
 use std::vec;
 use std::vec::Vec;
@@ -40,9 +43,42 @@ impl Linked {
         Edges::new(&self.boxes, &self.groups, &self.rims, self.mark).expect("as many")
     }
 
+    pub(crate) fn packed(&self) -> Packed {
+        let needs = packed_needed(&self.edges());
+        let mut packed = Packed {
+            boxes: vec![[0.0; 10]; needs.boxes],
+            edges: vec![[0; 4]; needs.edges],
+            rims: vec![[0; 3]; needs.rims],
+            mark: self.mark,
+        };
+        let memory = PackMemory {
+            boxes: &mut packed.boxes,
+            edges: &mut packed.edges,
+            rims: &mut packed.rims,
+        };
+        let small = pack_edges(&self.edges(), memory).expect("enough memory");
+        assert!(small.is_some(), "few vertices");
+        packed
+    }
+
     /// The mesh that they are of, with them.
     pub(crate) fn model<'m>(&'m self, mesh: Mesh<'m>) -> Model<'m> {
         Model::with_edges(mesh, self.edges()).expect("its own")
+    }
+}
+
+/// Packed edges of a mesh, owned.
+pub(crate) struct Packed {
+    boxes: Vec<PackedBox>,
+    edges: Vec<PackedEdge>,
+    rims: Vec<PackedRim>,
+    mark: SurfaceMark,
+}
+
+impl Packed {
+    pub(crate) fn edges(&self) -> Edges<'_> {
+        let packed = PackedEdges::new(&self.boxes, &self.edges, &self.rims);
+        Edges::of_packed(packed.expect("as many"), self.mark)
     }
 }
 

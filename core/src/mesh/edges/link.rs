@@ -222,7 +222,7 @@ mod tests {
         };
         let (edges, faults) = link(&mesh, memory).expect("enough memory");
         let pairs = edges.groups().flat_map(|(_, group)| group.edges());
-        (pairs.collect(), edges.rims().to_vec(), faults)
+        (pairs.collect(), edges.rims().collect(), faults)
     }
 
     /// Oracle: both triangles beside an edge are there and run along it as is said.

@@ -2,6 +2,8 @@
 
 use super::boxes::{EdgeBox, EdgeGroup};
 use super::edge::RimEdge;
+use super::measured::{Facing, faces_surely};
+use super::packed::PackedEdges;
 use crate::mesh::surface::SurfaceMark;
 
 /// The edges of a surface: those between two triangles, together where their triangles turn from the camera together, and
@@ -11,6 +13,10 @@ pub struct Edges<'e> {
     boxes: &'e [EdgeBox],
     groups: &'e [EdgeGroup],
     rims: &'e [RimEdge],
+    /// Instead of all of these, where edges were packed.
+    packed: PackedEdges<'e>,
+    /// Tells of packed edges; a program that opens no packed ones has no code for them.
+    faces: Option<Facing>,
     mark: SurfaceMark,
 }
 
@@ -28,8 +34,23 @@ impl<'e> Edges<'e> {
             boxes,
             groups,
             rims,
+            packed: PackedEdges::default(),
+            faces: None,
             mark,
         })
+    }
+
+    /// Packed edges, with the mark of their surface.
+    #[must_use]
+    pub fn of_packed(packed: PackedEdges<'e>, mark: SurfaceMark) -> Self {
+        Self {
+            boxes: &[],
+            groups: &[],
+            rims: &[],
+            packed,
+            faces: Some(faces_surely),
+            mark,
+        }
     }
 
     /// The mark of the surface that they are of.
@@ -38,7 +59,7 @@ impl<'e> Edges<'e> {
         self.mark
     }
 
-    /// The boxes and groups, to be kept in other memory.
+    /// The boxes, groups and rims, to be kept in other memory; none of packed edges.
     #[must_use]
     pub fn parts(&self) -> (&'e [EdgeBox], &'e [EdgeGroup], &'e [RimEdge]) {
         (self.boxes, self.groups, self.rims)
@@ -49,8 +70,13 @@ impl<'e> Edges<'e> {
         self.boxes.iter().zip(self.groups)
     }
 
+    /// Packed edges, and how to tell which way a triangle faces; none of those that were just linked.
+    pub(crate) fn packed(&self) -> Option<(&PackedEdges<'e>, Facing)> {
+        self.faces.map(|faces| (&self.packed, faces))
+    }
+
     /// Edges of one triangle alone; none of a closed surface.
-    pub(crate) fn rims(&self) -> &'e [RimEdge] {
-        self.rims
+    pub(crate) fn rims(&self) -> impl Iterator<Item = RimEdge> + use<'e> {
+        self.rims.iter().copied().chain(self.packed.rims())
     }
 }

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
-use fluoropose::library::{BuildError, Builder, ViewScratch};
+use fluoropose::canonical::CanonicalSpec;
+use fluoropose::library::{BuildError, Builder, ViewGrid, ViewScratch};
 use fluoropose::mesh::{Model, coarser};
 use fluoropose::render::Projected;
 use rayon::prelude::*;
@@ -30,9 +31,22 @@ pub fn build_library(
     options: &ViewOptions,
     distance: f64,
 ) -> Result<Built> {
+    build_views(mesh, camera, options.canonical()?, options.grid(), distance)
+}
+
+/// The same of any grid of views in any canonical frame.
+///
+/// # Errors
+/// Those of the core's builder.
+pub fn build_views(
+    mesh: Model<'_>,
+    camera: Camera,
+    canonical: CanonicalSpec,
+    grid: ViewGrid,
+    distance: f64,
+) -> Result<Built> {
     let start = Instant::now();
-    let canonical = options.canonical()?;
-    let builder = Builder::new(mesh, camera, canonical, options.grid(), distance)?;
+    let builder = Builder::new(mesh, camera, canonical, grid, distance)?;
     let coarse = coarser(&mesh, builder.detail_mm());
     let builder = match &coarse {
         Some(coarse) => Builder::standing_for(*builder.info(), coarse.as_model())?,

@@ -13,12 +13,25 @@ use crate::finding::{ViewOptions, build_library};
 
 use crate::options::Pair;
 
+mod deviation;
+mod firmware;
+
+use firmware::{Bytes, Order};
+
+/// What a library is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Purpose {
+    /// One file for a microcontroller: the smallest library after which refinement ends at the right poses, the surface and its
+    /// edges, planes of symmetry, and what memory all of it takes
+    Firmware,
+}
+
 /// Options of `library`.
 #[derive(clap::Args)]
 #[command(
     after_help = "A library holds the silhouettes of one component in canonical form: from all sides, 2.5 degrees apart, or over \
 the out-of-plane rotations that --nominal, --x and --y name (1 degree apart: 31 x 41 = 1271 views). The page opens it; \
-so does firmware, in place.\n\n\
+so does firmware, in place. With --for firmware canonical frame and steps are chosen by what refinement needs.\n\n\
 Example:\n  cargo xtask library --model femur.stl --calibration calibration.txt --out femur.library --sheet views.png"
 )]
 pub struct Args {
@@ -33,6 +46,12 @@ pub struct Args {
     frame: Pair,
     #[command(flatten)]
     views: ViewOptions,
+    /// What it is for, where not for the page
+    #[arg(long = "for", value_name = "PURPOSE", requires = "flash")]
+    purpose: Option<Purpose>,
+    /// With --for firmware: most bytes of the file, as 256K
+    #[arg(long, value_name = "BYTES", requires = "purpose")]
+    flash: Option<Bytes>,
     /// Library file to write
     #[arg(long)]
     out: PathBuf,
@@ -55,6 +74,16 @@ pub fn run(args: Args) -> Result<()> {
     };
     let camera = calibration.camera(width, height)?;
     let distance = args.views.distance_for(&calibration);
+    if let (Some(Purpose::Firmware), Some(Bytes(flash))) = (args.purpose, args.flash) {
+        let order = Order {
+            model: model.as_model(),
+            camera,
+            grid: args.views.grid(),
+            distance,
+            flash,
+        };
+        return firmware::run(&order, &args.out);
+    }
     let built = build_library(model.as_model(), camera, &args.views, distance)?;
     std::fs::write(&args.out, &built.bytes)
         .with_context(|| format!("cannot write {}", args.out.display()))?;

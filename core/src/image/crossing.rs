@@ -1,0 +1,235 @@
+//! Whether sides of a closed line meet where they should not.
+//!
+//! Stretches of sides whose boxes are apart have no two that meet, so most pairs are never looked at: time grows little faster
+//! than the number of points.
+
+use core::ops::Range;
+
+use super::point::Point;
+
+/// The first two sides of a closed line through `count` points, all finite, that meet where they should not.
+#[must_use]
+pub fn first_crossing(count: usize, at: impl Fn(usize) -> Point) -> Option<(usize, usize)> {
+    // One copy of the code for all callers.
+    let line = Line { count, at: &at };
+    // Which are the first is asked only where there are some.
+    line.meets(0..count).then(|| line.first_pair()).flatten()
+}
+
+/// Sides whose pairs are looked at one by one.
+const FEW: usize = 8;
+
+struct Line<'l> {
+    count: usize,
+    at: &'l dyn Fn(usize) -> Point,
+}
+
+impl Line<'_> {
+    fn side(&self, number: usize) -> (Point, Point) {
+        let next = if number + 1 == self.count {
+            0
+        } else {
+            number + 1
+        };
+        ((self.at)(number), (self.at)(next))
+    }
+
+    /// Whether two sides, the first given first, meet where they should not.
+    fn touch(&self, first: usize, second: usize) -> bool {
+        let (a, b) = (self.side(first), self.side(second));
+        if second == first + 1 || (first == 0 && second == self.count - 1) {
+            return folds_back(a, b);
+        }
+        // Most pairs are far apart: boxes are compared before anything is multiplied.
+        Extent::of(a).meets(&Extent::of(b)) && segments_meet(a, b)
+    }
+
+    fn first_pair(&self) -> Option<(usize, usize)> {
+        let pairs = |first| (first + 1..self.count).map(move |second| (first, second));
+        let mut pairs = (0..self.count).flat_map(pairs);
+        pairs.find(|&(first, second)| self.touch(first, second))
+    }
+
+    /// Whether any two of some sides do.
+    fn meets(&self, sides: Range<usize>) -> bool {
+        if sides.len() <= FEW {
+            let mut firsts = sides.clone();
+            return firsts
+                .any(|first| (first + 1..sides.end).any(|second| self.touch(first, second)));
+        }
+        let [before, after] = halves(sides);
+        self.meets(before.clone()) || self.meets(after.clone()) || self.meet(before, after)
+    }
+
+    /// Whether any of some sides and any of those after them do.
+    fn meet(&self, before: Range<usize>, after: Range<usize>) -> bool {
+        if !self
+            .around(before.clone())
+            .meets(&self.around(after.clone()))
+        {
+            return false;
+        }
+        if before.len().max(after.len()) <= FEW {
+            let mut firsts = before;
+            return firsts.any(|first| after.clone().any(|second| self.touch(first, second)));
+        }
+        if before.len() >= after.len() {
+            let [a, b] = halves(before);
+            self.meet(a, after.clone()) || self.meet(b, after)
+        } else {
+            let [a, b] = halves(after);
+            self.meet(before.clone(), a) || self.meet(before, b)
+        }
+    }
+
+    /// The box around some sides.
+    fn around(&self, sides: Range<usize>) -> Extent {
+        let end = if sides.end == self.count {
+            0
+        } else {
+            sides.end
+        };
+        let mut all = Extent::round((self.at)(end));
+        sides.for_each(|number| all.grow((self.at)(number)));
+        all
+    }
+}
+
+fn halves(range: Range<usize>) -> [Range<usize>; 2] {
+    let middle = range.start + range.len() / 2;
+    [range.start..middle, middle..range.end]
+}
+
+/// Least and greatest column and row, as whole numbers of the same order: to compare those takes a tenth of the time on a
+/// processor without numbers of 64 bits.
+struct Extent {
+    low: [i64; 2],
+    high: [i64; 2],
+}
+
+impl Extent {
+    fn round(point: Point) -> Self {
+        let own = keys(point);
+        Self {
+            low: own,
+            high: own,
+        }
+    }
+
+    fn of((a, b): (Point, Point)) -> Self {
+        let mut both = Self::round(a);
+        both.grow(b);
+        both
+    }
+
+    fn grow(&mut self, point: Point) {
+        for (axis, key) in keys(point).into_iter().enumerate() {
+            self.low[axis] = self.low[axis].min(key);
+            self.high[axis] = self.high[axis].max(key);
+        }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        (0..2).all(|axis| self.high[axis] >= other.low[axis] && other.high[axis] >= self.low[axis])
+    }
+}
+
+/// Numbers that compare as the coordinates do.
+fn keys(point: Point) -> [i64; 2] {
+    [point.column, point.row].map(|value| match value.to_bits() as i64 {
+        // Both zeros are one.
+        i64::MIN => 0,
+        bits if bits < 0 => bits ^ i64::MAX,
+        bits => bits,
+    })
+}
+
+/// Twice the signed area of the triangle `a b c`.
+pub(super) fn orientation(a: Point, b: Point, c: Point) -> f64 {
+    (b.column - a.column) * (c.row - a.row) - (b.row - a.row) * (c.column - a.column)
+}
+
+fn within_box(a: Point, b: Point, p: Point) -> bool {
+    let between = |x: f64, y: f64, v: f64| v >= x.min(y) && v <= x.max(y);
+    between(a.column, b.column, p.column) && between(a.row, b.row, p.row)
+}
+
+/// Whether two segments have a point in common (Cormen et al., *Introduction to Algorithms*, 33.1).
+fn segments_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let (o1, o2) = (orientation(a, b, c), orientation(a, b, d));
+    let (o3, o4) = (orientation(c, d, a), orientation(c, d, b));
+    let straddles = |x: f64, y: f64| (x > 0.0 && y < 0.0) || (x < 0.0 && y > 0.0);
+    (straddles(o1, o2) && straddles(o3, o4))
+        || (o1 == 0.0 && within_box(a, b, c))
+        || (o2 == 0.0 && within_box(a, b, d))
+        || (o3 == 0.0 && within_box(c, d, a))
+        || (o4 == 0.0 && within_box(c, d, b))
+}
+
+/// Whether two sides with a common vertex lie on each other, or one of them has no length.
+fn folds_back(a: (Point, Point), b: (Point, Point)) -> bool {
+    let (before, shared, after) = if a.1 == b.0 {
+        (a.0, a.1, b.1)
+    } else {
+        (b.0, b.1, a.1)
+    };
+    let ahead = (shared.column - before.column) * (after.column - shared.column)
+        + (shared.row - before.row) * (after.row - shared.row);
+    orientation(before, shared, after) == 0.0 && ahead <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// Oracle: every pair of sides, in order, their boxes in the numbers as they are.
+    fn naive(points: &[Point]) -> Option<(usize, usize)> {
+        let count = points.len();
+        let side = |number: usize| (points[number], points[(number + 1) % count]);
+        for first in 0..count {
+            for second in first + 1..count {
+                let (a, b) = (side(first), side(second));
+                let neighbours = second == first + 1 || (first == 0 && second == count - 1);
+                let touch = match neighbours {
+                    true => folds_back(a, b),
+                    false => segments_meet(a, b),
+                };
+                if touch {
+                    return Some((first, second));
+                }
+            }
+        }
+        None
+    }
+
+    proptest! {
+        #[test]
+        fn it_is_the_first_pair_of_all(
+            radii in proptest::collection::vec(0.5..1.0f64, 3..120),
+            moved in proptest::option::of((0..120usize, -2.0..2.0f64, -2.0..2.0f64)),
+            whole in any::<bool>(), scale in 1.0..60.0f64,
+        ) {
+            let count = radii.len();
+            let mut points: Vec<Point> = radii
+                .iter()
+                .enumerate()
+                .map(|(k, radius)| {
+                    let (sin, cos) = libm::sincos(k as f64 / count as f64 * core::f64::consts::TAU);
+                    Point::new(scale * radius * cos, scale * radius * sin)
+                })
+                .collect();
+            if let Some((at, column, row)) = moved {
+                points[at % count] = Point::new(scale * column, scale * row);
+            }
+            if whole {
+                // Points that coincide, sides on each other, zeros of both signs.
+                for point in &mut points {
+                    *point = Point::new(libm::round(point.column), libm::round(point.row));
+                }
+            }
+            prop_assert_eq!(first_crossing(count, |number| points[number]), naive(&points));
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! Checking an implant file in slices of time.
+
+use crc::Digest;
+
+use super::error::ImplantError;
+use super::header::Header;
+use super::open::{ImplantFile, Parts};
+use super::wire::{CRC, HEADER_BYTES};
+use crate::library::Library;
+use crate::mesh::Mesh;
+
+/// A check that can be interrupted: [`Self::go_on`] sums some bytes of the body at a time; [`Self::finish`] does the rest.
+pub struct ImplantCheck<'a> {
+    bytes: &'a [u8],
+    header: Header,
+    digest: Digest<'static, u32>,
+    /// Bytes that are in the sum.
+    at: usize,
+}
+
+impl<'a> ImplantFile<'a> {
+    /// Checks `bytes` and reads them in place: lengths, checksums, that vertices are possible, triangles and edges have
+    /// theirs, that surface and library are of one model, and all that [`Library::open`] checks. Takes time proportional
+    /// to the length, once; [`ImplantCheck`] takes it in slices.
+    ///
+    /// # Errors
+    /// [`ImplantError`] says what is wrong. A file in which any one bit was flipped is refused.
+    pub fn open(bytes: &'a [u8]) -> Result<Self, ImplantError> {
+        ImplantCheck::new(bytes)?.finish()
+    }
+}
+
+static TABLE: crc::Crc<u32> = CRC;
+
+impl core::fmt::Debug for ImplantCheck<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("ImplantCheck")
+            .field("left", &self.left())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> ImplantCheck<'a> {
+    /// Reads the header.
+    ///
+    /// # Errors
+    /// [`ImplantError`] for bytes that no file begins with, of another length, or at an odd place.
+    pub fn new(bytes: &'a [u8]) -> Result<Self, ImplantError> {
+        let header = Header::read(bytes)?;
+        Parts::of(&header, bytes)?;
+        Ok(Self {
+            bytes,
+            header,
+            digest: TABLE.digest(),
+            at: HEADER_BYTES,
+        })
+    }
+
+    /// Bytes of the body that are not yet in its sum.
+    #[must_use]
+    pub fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    /// Takes at most so many more bytes into the sum. Gives whether some are left.
+    pub fn go_on(&mut self, bytes: usize) -> bool {
+        let end = self.at.saturating_add(bytes).min(self.bytes.len());
+        self.digest
+            .update(self.bytes.get(self.at..end).unwrap_or_default());
+        self.at = end;
+        self.left() > 0
+    }
+
+    /// What is left of the sum, and then what it cannot tell: that numbers are possible and belong together.
+    ///
+    /// # Errors
+    /// [`ImplantError`] says what is wrong.
+    pub fn finish(mut self) -> Result<ImplantFile<'a>, ImplantError> {
+        self.go_on(usize::MAX);
+        if self.digest.finalize() != self.header.body_crc {
+            return Err(ImplantError::Checksum("body"));
+        }
+        let parts = Parts::of(&self.header, self.bytes)?;
+        let mesh = Mesh::new(parts.vertices, parts.triangles)?;
+        let library = Library::open(parts.library)?;
+        if mesh.bounds() != self.header.bounds() {
+            return Err(ImplantError::Value("bounds"));
+        }
+        if !parts.edges.fit(parts.vertices.len()) {
+            return Err(ImplantError::Value("edges"));
+        }
+        if mesh.digest() != library.info().model {
+            return Err(ImplantError::OtherModel);
+        }
+        ImplantFile::trusted(self.bytes)
+    }
+}

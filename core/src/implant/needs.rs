@@ -1,0 +1,84 @@
+//! What drawing an implant takes, from any side: memory that is known when a program is built.
+
+use crate::image::mask::words_needed;
+use crate::math::{cross, dot, subtract};
+use crate::mesh::Model;
+use crate::mesh::edges::MeshEdge;
+use crate::render::scratch_for;
+
+/// Silhouette edges of an implant and how often they cross rows of a frame, from the side where they are most.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ContourNeeds {
+    /// Silhouette edges.
+    pub edges: usize,
+    /// Crossings of a row, in the mean over the implant's rows, rounded up.
+    pub crossings_a_row: usize,
+}
+
+impl ContourNeeds {
+    /// Vertices of working memory that drawing takes: [`crate::refine::RefineMemory::projected`]. `rows` are those of the
+    /// frame, or of the part of it that is cropped.
+    #[must_use]
+    pub const fn scratch(&self, vertices: usize, rows: usize) -> usize {
+        scratch_for(vertices, rows, self.edges, rows * self.crossings_a_row)
+    }
+
+    /// Words of [`crate::refine::RefineMemory::drawn`], and pairs of [`crate::refine::RefineMemory::places`].
+    #[must_use]
+    pub const fn words(&self, columns: usize, rows: usize) -> usize {
+        words_needed(columns, rows)
+    }
+}
+
+/// Directions that are looked from: evenly over the sphere.
+const DIRECTIONS: usize = 600;
+
+/// Counts the silhouette edges of a model with edges from all sides; nothing of one without.
+#[must_use]
+pub fn contour_needed(model: &Model<'_>) -> ContourNeeds {
+    let mut most = ContourNeeds::default();
+    let Some(edges) = model.edges() else {
+        return most;
+    };
+    let linked = || {
+        let groups = edges.groups().flat_map(|(_, group)| group.edges());
+        let packed = edges.packed().into_iter();
+        groups.chain(packed.flat_map(|(packed, _)| packed.edges()))
+    };
+    for number in 0..DIRECTIONS {
+        // A spiral (Swinbank and Purser, Q. J. R. Meteorol. Soc. 132, 2006).
+        let height = 1.0 - (2 * number + 1) as f64 / DIRECTIONS as f64;
+        let ring = crate::math::sqrt(1.0 - height * height);
+        let (sin, cos) = crate::math::sin_cos(2.399_963_229_728_653 * number as f64);
+        let view = [ring * cos, height, ring * sin];
+        let seen = linked().filter(|edge| is_silhouette(model, edge, &view));
+        let (count, length) = seen.fold((0, 0.0), |(count, length), edge| {
+            (count + 1, length + length_seen(model, &edge, &view))
+        });
+        // As if every edge ran across the rows; a part of a frame has as many as the part may be long.
+        let rows = 2.0 * model.bounds().radius;
+        most.edges = most.edges.max(count + edges.rims().count());
+        most.crossings_a_row = most.crossings_a_row.max((length / rows) as usize + 1);
+    }
+    most
+}
+
+fn place(model: &Model<'_>, vertex: u32) -> [f64; 3] {
+    let vertex = model.vertices().get(vertex as usize);
+    vertex.copied().unwrap_or_default().map(f64::from)
+}
+
+/// How long an edge is as it is seen along a unit vector, mm.
+fn length_seen(model: &Model<'_>, edge: &MeshEdge, view: &[f64; 3]) -> f64 {
+    let side = subtract(&place(model, edge.to), &place(model, edge.from));
+    crate::math::norm(&cross(&side, view))
+}
+
+fn is_silhouette(model: &Model<'_>, edge: &MeshEdge, view: &[f64; 3]) -> bool {
+    let [from, to, forth, back] =
+        [edge.from, edge.to, edge.forth, edge.back].map(|vertex| place(model, vertex));
+    let along = subtract(&to, &from);
+    let a = dot(&cross(&along, &subtract(&forth, &from)), view);
+    let b = dot(&cross(&subtract(&back, &from), &along), view);
+    (a > 0.0) != (b > 0.0)
+}

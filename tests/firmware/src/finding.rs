@@ -1,0 +1,181 @@
+//! From an outline anywhere in the frame to a chosen, judged pose, in memory of a part of the frame.
+
+use core::fmt::{self, Write};
+
+use fluoropose::finder::choice::ChoiceContext;
+use fluoropose::finder::{Decision, FindError, Found, Goal, find_into};
+use fluoropose::image::contour::Outline;
+use fluoropose::image::crop::Crop;
+use fluoropose::image::mask::MaskError;
+use fluoropose::implant::{Aligned, ImplantError, ImplantFile};
+use fluoropose::pose::EulerPose;
+use fluoropose::{RefineOptions, Silhouette};
+
+use crate::memory::{FRAME_SIDE, MAX_POINTS};
+use crate::proof::read_outline;
+
+/// The implant: surface, edges, planes of symmetry and library.
+pub(crate) static IMPLANT: Aligned<
+    [u8; include_bytes!(concat!(
+        env!("FLUOROPOSE_FIRMWARE_INPUTS"),
+        "/femur.implant"
+    ))
+    .len()],
+> = Aligned(*include_bytes!(concat!(
+    env!("FLUOROPOSE_FIRMWARE_INPUTS"),
+    "/femur.implant"
+)));
+
+/// Columns and rows of the largest silhouette with its margin, pixels.
+const COLUMNS: usize = 224;
+const ROWS: usize = 288;
+/// Pixels of the longest outline.
+const BORDER: usize = 900;
+
+fluoropose::finder_arena!(pub Arena, &IMPLANT.0, columns: COLUMNS, rows: ROWS, border: BORDER);
+
+/// Vertices of the outline, and all that is worked in.
+pub struct FindingMemory {
+    points: fluoropose::Contour<MAX_POINTS>,
+    arena: Arena,
+    found: Found,
+}
+
+impl FindingMemory {
+    /// Empty working memory.
+    pub const fn new() -> Self {
+        Self {
+            points: fluoropose::Contour::new(),
+            arena: Arena::new(),
+            found: Found::NOTHING,
+        }
+    }
+}
+
+impl Default for FindingMemory {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// Why there is no pose.
+#[derive(Debug)]
+pub enum FindingFailure {
+    /// The bytes in flash are no implant.
+    Implant(ImplantError),
+    /// The outline is none, or lies in no part of the frame that there is memory for.
+    Outline,
+    /// The mask of it is none.
+    Mask(MaskError),
+    /// No pose explains it.
+    Find(FindError),
+    /// A line could not be written.
+    Write,
+}
+
+impl fmt::Display for FindingFailure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Implant(error) => write!(f, "{error}"),
+            Self::Outline => write!(f, "the bytes in flash are no outline"),
+            Self::Mask(error) => write!(f, "{error}"),
+            Self::Find(error) => write!(f, "{error}"),
+            Self::Write => write!(f, "a line could not be written"),
+        }
+    }
+}
+
+impl From<fmt::Error> for FindingFailure {
+    fn from(_: fmt::Error) -> Self {
+        Self::Write
+    }
+}
+
+impl From<MaskError> for FindingFailure {
+    fn from(error: MaskError) -> Self {
+        Self::Mask(error)
+    }
+}
+
+/// Finds the pose of `outline` (as in [`crate::OUTLINE`]) and writes candidates, choice and verdict to `out`, with every bit,
+/// which must agree between targets.
+///
+/// `stage` is called with a stage's name after it.
+///
+/// # Errors
+/// A [`FindingFailure`], in words through `Display`.
+pub fn find_pose(
+    outline: &[u8],
+    memory: &mut FindingMemory,
+    out: &mut dyn Write,
+    stage: &mut dyn FnMut(&str),
+) -> Result<(), FindingFailure> {
+    ImplantFile::open(&IMPLANT.0).map_err(FindingFailure::Implant)?;
+    stage("implant opened, checked");
+    let implant = ImplantFile::trusted(&IMPLANT.0).map_err(FindingFailure::Implant)?;
+    stage("implant opened, trusted");
+    read_outline(outline, &mut memory.points).map_err(|_| FindingFailure::Outline)?;
+    let outline = Outline::new(&memory.points, FRAME_SIDE, FRAME_SIDE)
+        .map_err(|_| FindingFailure::Outline)?;
+    stage("outline checked");
+    let crop = Crop::around_outline(&outline, Crop::MARGIN, [FRAME_SIDE; 2])?;
+    let (words, mut finder) = memory.arena.borrow();
+    let mask = crop.fill_outline(&outline, words)?;
+    let silhouette = Silhouette::from(&mask).in_crop(&crop)?;
+    stage("silhouette filled");
+    let camera = implant.library().info().camera;
+    let camera = camera.cropped(&crop).map_err(|_| FindingFailure::Outline)?;
+    let component = implant.component();
+    let options = RefineOptions::default();
+    let found = &mut memory.found;
+    find_into(
+        &component,
+        &camera,
+        &silhouette,
+        Goal::Outline,
+        options,
+        &mut finder,
+        found,
+    )
+    .map_err(FindingFailure::Find)?;
+    let decision = found
+        .decide(&ChoiceContext::default())
+        .ok_or(FindingFailure::Outline)?;
+    stage("candidates, mirror images, verdict");
+    report(out, &crop, found, &decision)
+}
+
+fn report(
+    out: &mut dyn Write,
+    crop: &Crop,
+    found: &Found,
+    decision: &Decision,
+) -> Result<(), FindingFailure> {
+    writeln!(
+        out,
+        "{} x {} pixels, {} candidates, {} chosen",
+        crop.width(),
+        crop.height(),
+        found.candidates.len(),
+        decision.choice.index
+    )?;
+    writeln!(out, "{}: {}", decision.verdict.word(), decision.verdict)?;
+    let Some(best) = found.candidates.get(decision.choice.index) else {
+        return Err(FindingFailure::Outline);
+    };
+    let euler = EulerPose::from(best.pose);
+    let numbers = [
+        ("x mm", euler.x_mm),
+        ("y mm", euler.y_mm),
+        ("z mm", euler.z_mm),
+        ("z_rot deg", euler.z_rot_deg),
+        ("x_rot deg", euler.x_rot_deg),
+        ("y_rot deg", euler.y_rot_deg),
+    ];
+    for (name, value) in numbers {
+        writeln!(out, "  {name}: {value:.6} ({:016x})", value.to_bits())?;
+    }
+    let drawings = best.refined.map_or(0, |refined| refined.renders);
+    writeln!(out, "{drawings} drawings led to it")?;
+    Ok(())
+}

@@ -1,0 +1,275 @@
+//! An implant in one file: what is found with it in a part of the frame, and what becomes of damaged bytes.
+
+use fluoropose::canonical::CanonicalSpec;
+use fluoropose::finder::choice::ChoiceContext;
+use fluoropose::finder::{FinderBuffers, Found, Goal, find};
+use fluoropose::image::crop::Crop;
+use fluoropose::image::mask::words_needed;
+use fluoropose::image::runs::{PixelRun, RunBuilder};
+use fluoropose::implant::{
+    ArenaNeeds, HEADER_BYTES, ImplantCheck, ImplantError, ImplantFile, write_implant,
+};
+use fluoropose::library::ViewAxis;
+use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::search::kernels::Kernels;
+use fluoropose::{Camera, Mask, MaskMut, RefineOptions, Silhouette};
+use fluoropose_laboratory::finding::{ViewOptions, build_library};
+use fluoropose_laboratory::options::Range;
+use fluoropose_phantom::implant::{Parameters, Triangles, femur, tibia};
+use fluoropose_tests::surface;
+
+const DISTANCE: f64 = 900.0;
+
+/// A small frame: 512 x 512 pixels of 0.6 mm.
+fn camera() -> Camera {
+    Camera::from_principal_distance(512, 512, 1000.0, 0.6, [3.0, -2.0]).expect("valid")
+}
+
+/// A coarse implant and its file: 64 x 64 pixels, every 5 degrees.
+fn made(make: impl Fn(&Parameters) -> Triangles) -> (OwnedModel, Words) {
+    let parameters = Parameters {
+        resolution: 0.5,
+        ..Parameters::default()
+    };
+    let owned = surface(make(&parameters));
+    let model = owned.as_model();
+    let axis = |reach: f64| {
+        Some(Range(ViewAxis {
+            first: -reach,
+            step: 5.0,
+            count: (reach / 2.5) as usize + 1,
+        }))
+    };
+    let views = ViewOptions {
+        x: axis(15.0),
+        y: axis(20.0),
+        area: Some(CanonicalSpec::COARSE.area()),
+        size: Some(CanonicalSpec::COARSE.size()),
+        ..ViewOptions::default()
+    };
+    let library = build_library(model, camera(), &views, DISTANCE).expect("built");
+    let planes = symmetry_planes(model.mesh());
+    let bytes = write_implant(&model, &library.bytes, &planes, 0.25).expect("they belong together");
+    (owned, Words::of(&bytes))
+}
+
+fn made_femur() -> (OwnedModel, Words) {
+    made(|parameters| femur(parameters).expect("possible"))
+}
+
+/// Bytes at an address that is a multiple of four.
+struct Words {
+    room: Vec<u8>,
+    first: usize,
+    length: usize,
+}
+
+impl Words {
+    fn of(bytes: &[u8]) -> Self {
+        let mut room = vec![0; bytes.len() + 3];
+        let first = room.as_ptr().align_offset(4);
+        room[first..first + bytes.len()].copy_from_slice(bytes);
+        let length = bytes.len();
+        Self {
+            room,
+            first,
+            length,
+        }
+    }
+
+    fn bytes(&self) -> &[u8] {
+        &self.room[self.first..self.first + self.length]
+    }
+
+    fn flip(&mut self, bit: usize) {
+        self.room[self.first + bit / 8] ^= 1 << (bit % 8);
+    }
+}
+
+/// A silhouette at a pose, in all of the frame.
+fn drawn(model: &OwnedModel, euler: EulerPose) -> Vec<u32> {
+    let (model, camera) = (model.as_model(), camera());
+    let mut words = vec![0; words_needed(512, 512)];
+    let mut mask = MaskMut::new(&mut words, 512, 512).expect("fits");
+    let mut scratch = vec![Projected::default(); scratch_needed(&model)];
+    render(&model, &camera, &Pose::from(euler), &mut scratch, &mut mask).expect("in front");
+    words
+}
+
+/// What is found of a silhouette in all of the frame, with a model that was linked here.
+fn in_frame(file: &ImplantFile<'_>, own: &OwnedModel, mask: &Mask<'_>) -> Found {
+    let (camera, model) = (camera(), own.as_model());
+    let component = fluoropose::Component {
+        model: &model,
+        ..file.component()
+    };
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    let silhouette = Silhouette::from(mask);
+    let options = RefineOptions::default();
+    find(
+        &component,
+        &camera,
+        &silhouette,
+        Goal::Outline,
+        options,
+        &mut memory,
+    )
+    .expect("found")
+}
+
+/// The same from its rows, in the part of the frame that holds it, with the model of the file.
+fn in_crop(file: &ImplantFile<'_>, mask: &Mask<'_>) -> Found {
+    let mut memory = vec![PixelRun::EMPTY; 4096];
+    let mut builder = RunBuilder::new(&mut memory, 512, 512).expect("a frame");
+    for row in 0..512 {
+        let pixels = (0..512).map(|column| mask.get(column, row));
+        builder.add_row(row, pixels).expect("room");
+    }
+    let runs = builder.finish();
+    assert_eq!(runs.moments(), mask.moments());
+    let crop = runs.crop(Crop::MARGIN).expect("a silhouette");
+    let mut words = vec![0; crop.words_needed()];
+    let mask = runs.draw(&crop, &mut words).expect("fits");
+    let silhouette = Silhouette::from(&mask).in_crop(&crop).expect("all of it");
+    let (camera, component) = (camera().cropped(&crop).expect("a part"), file.component());
+    let mut buffers = FinderBuffers::default();
+    let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+    // What static memory would have, and nothing for pieces of an outline.
+    let needs = ArenaNeeds::of(file.bytes(), crop.width(), crop.height());
+    let mut projected = vec![Projected::default(); needs.projected];
+    memory.refine.projected = &mut projected;
+    memory.partial = Default::default();
+    let options = RefineOptions::default();
+    find(
+        &component,
+        &camera,
+        &silhouette,
+        Goal::Outline,
+        options,
+        &mut memory,
+    )
+    .expect("found")
+}
+
+/// Somewhere in the frame, at its border too.
+fn poses() -> impl Iterator<Item = EulerPose> {
+    (0..16).map(|k| {
+        let draw = |irrational: f64, reach: f64| {
+            reach * (2.0 * (irrational * f64::from(k + 1)).fract() - 1.0)
+        };
+        EulerPose {
+            x_mm: draw(2f64.sqrt(), 95.0),
+            y_mm: draw(3f64.sqrt(), 95.0),
+            z_mm: draw(5f64.sqrt(), 40.0) - DISTANCE,
+            z_rot_deg: draw(7f64.sqrt(), 180.0),
+            x_rot_deg: draw(11f64.sqrt(), 14.0),
+            y_rot_deg: draw(13f64.sqrt(), 19.0),
+        }
+    })
+}
+
+#[test]
+fn a_part_of_the_frame_leads_to_the_pose_that_the_frame_leads_to() {
+    let mut at_border = 0;
+    for (own, words) in [
+        made_femur(),
+        made(|parameters| tibia(parameters).expect("possible")),
+    ] {
+        let file = ImplantFile::open(words.bytes()).expect("whole");
+        for euler in poses() {
+            let frame = drawn(&own, euler);
+            let mask = Mask::new(&frame, 512, 512).expect("valid");
+            let (columns, rows) = mask.bounds();
+            if columns.start == 0 || rows.start == 0 || columns.end == 512 || rows.end == 512 {
+                // Cut off: pieces of its outline are looked for in the frame.
+                continue;
+            }
+            let after = (512 - columns.end).min(512 - rows.end);
+            let nearest = columns.start.min(rows.start).min(after);
+            at_border += usize::from(nearest < Crop::MARGIN);
+            let (there, here) = (in_frame(&file, &own, &mask), in_crop(&file, &mask));
+            assert_eq!(there.candidates.len(), here.candidates.len(), "{euler:?}");
+            for (there, here) in there.candidates.iter().zip(&here.candidates) {
+                let turn = geodesic_deg(&there.pose.rotation, &here.pose.rotation);
+                assert!(turn < 1e-6, "{turn} deg at {euler:?}");
+                for (a, b) in there.pose.translation.iter().zip(&here.pose.translation) {
+                    assert!((a - b).abs() < 1e-5, "{a}, {b} at {euler:?}");
+                }
+            }
+            let context = ChoiceContext::default();
+            let [there, here] = [there, here].map(|found| found.decide(&context).expect("some"));
+            assert_eq!(there.choice.index, here.choice.index);
+            assert_eq!(there.verdict.word(), here.verdict.word());
+        }
+    }
+    assert!(at_border > 0, "none lay at the border");
+}
+
+#[test]
+fn what_is_known_of_an_implant_is_read_back() {
+    let (own, words) = made_femur();
+    let (bytes, model) = (words.bytes(), own.as_model());
+    let file = ImplantFile::open(bytes).expect("whole");
+    let trusted = ImplantFile::trusted(bytes).expect("long enough");
+    let mut check = ImplantCheck::new(bytes).expect("a header");
+    while check.go_on(1000) {}
+    for file in [file, trusted, check.finish().expect("whole")] {
+        assert_eq!(file.model().vertices(), model.vertices());
+        assert_eq!(file.model().triangles(), model.triangles());
+        assert_eq!(file.model().bounds(), model.bounds());
+        assert_eq!(file.model().digest(), model.digest());
+        assert_eq!(file.planes(), symmetry_planes(model.mesh()).as_slice());
+        assert_eq!(file.library().views(), 7 * 9);
+        assert_eq!(file.deviation_mm(), 0.25);
+        let needs = ArenaNeeds::of(bytes, 200, 160);
+        let vertices = model.vertices().len();
+        assert_eq!(needs.projected, file.contour_needs().scratch(vertices, 160));
+        assert_eq!(
+            needs.canonical,
+            file.library().info().canonical.words_needed()
+        );
+        assert_eq!(needs.words, words_needed(200, 160));
+    }
+}
+
+#[test]
+fn damaged_bytes_are_refused() {
+    let (_, mut words) = made_femur();
+    let bits = 8 * words.length;
+    // All of the header, and then some of every part; a checksum tells any one bit.
+    for bit in (0..8 * HEADER_BYTES).chain((8 * HEADER_BYTES..bits).step_by(3001)) {
+        words.flip(bit);
+        assert!(ImplantFile::open(words.bytes()).is_err(), "bit {bit}");
+        // It does not panic.
+        let _ = ImplantFile::trusted(words.bytes()).is_err();
+        words.flip(bit);
+    }
+    let bytes = words.bytes();
+    for length in [0, 7, 8, 11, HEADER_BYTES - 1, HEADER_BYTES, bytes.len() - 1] {
+        assert!(ImplantFile::open(&bytes[..length]).is_err());
+        assert!(ImplantFile::trusted(&bytes[..length]).is_err());
+    }
+    let mut odd = vec![0; 1];
+    odd.extend(bytes);
+    let odd = Words::of(&odd);
+    assert_eq!(
+        ImplantFile::open(&odd.bytes()[1..]).err(),
+        Some(ImplantError::Place)
+    );
+    let (tray, _) = made(|parameters| tibia(parameters).expect("possible"));
+    let library = build_library(
+        tray.as_model(),
+        camera(),
+        &ViewOptions::window([0.0; 2]),
+        DISTANCE,
+    );
+    let (own, _) = made_femur();
+    assert_eq!(
+        write_implant(&own.as_model(), &library.expect("built").bytes, &[], 0.0).err(),
+        Some(ImplantError::OtherModel)
+    );
+}

@@ -1,0 +1,376 @@
+//! An implant in one file for a microcontroller: with the smallest library after which refinement ends where it should, and
+//! the finest surface that fits.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use anyhow::{Context, Result, bail, ensure};
+use fluoropose::camera::Camera;
+use fluoropose::canonical::CanonicalSpec;
+use fluoropose::finder::{Component, FinderBuffers, Goal, find};
+use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::implant::{ArenaNeeds, write_implant};
+use fluoropose::library::{Library, ViewAxis, ViewGrid};
+use fluoropose::math::apply;
+use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::mesh::{Model, OwnedModel, coarser};
+use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
+use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::{Mask, RefineOptions, Silhouette};
+use fluoropose_kernels::fastest;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::deviation::deviation_mm;
+use crate::finding::build_views;
+
+/// Bytes, as `256K`, `1M` or a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bytes(pub(super) usize);
+
+impl FromStr for Bytes {
+    type Err = anyhow::Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let (number, unit) = match text.strip_suffix(['K', 'k']) {
+            Some(number) => (number, 1024),
+            None => match text.strip_suffix(['M', 'm']) {
+                Some(number) => (number, 1024 * 1024),
+                None => (text, 1),
+            },
+        };
+        let number: usize = number
+            .trim()
+            .parse()
+            .ok()
+            .context("this is no number of bytes, such as 256K")?;
+        let bytes = number
+            .checked_mul(unit)
+            .context("there is no memory of so many bytes")?;
+        Ok(Self(bytes))
+    }
+}
+
+/// Canonical frames, pixels, and steps between views, degrees, the smallest library first. After the last refinement ends as
+/// after any finer one.
+const LIBRARIES: [(usize, f64); 6] = [
+    (64, 5.0),
+    (64, 2.5),
+    (128, 5.0),
+    (128, 2.5),
+    (128, 1.0),
+    (256, 1.0),
+];
+/// Side and area of the usual canonical frame: the others hold the same part.
+const USUAL: CanonicalSpec = CanonicalSpec::USUAL;
+/// Poses that are drawn and found again.
+const POSES: u64 = 60;
+/// Farther than this from the true pose, degrees, it was not found.
+const MISSED_DEG: f64 = 0.5;
+/// Directions stay this far from the end of a window of views, degrees.
+const MARGIN_DEG: f64 = 3.5;
+/// How far poses lie off the axis and off the library's distance, mm.
+const ASIDE_MM: f64 = 30.0;
+const ALONG_MM: f64 = 40.0;
+/// Surfaces that are tried, by the cubes within which vertices become one, as part of the radius; first the whole one.
+const CELLS: [f64; 6] = [0.0, 0.01, 0.02, 0.03, 0.045, 0.065];
+/// Pixels of the part of the frame that the table's memory is for, each side; and of the longest outline.
+const PART: usize = 224;
+const OUTLINE: usize = 900;
+
+/// What is to be made.
+pub(super) struct Order<'o> {
+    pub(super) model: Model<'o>,
+    pub(super) camera: Camera,
+    pub(super) grid: ViewGrid,
+    pub(super) distance: f64,
+    pub(super) flash: usize,
+}
+
+/// One row of the table.
+struct Trial {
+    size: usize,
+    step: f64,
+    file: Vec<u8>,
+    views: usize,
+    library_bytes: usize,
+    missed: usize,
+    before_deg: f64,
+    after_deg: f64,
+}
+
+/// Chooses, prints the table, and writes the file.
+pub(super) fn run(order: &Order<'_>, out: &Path) -> Result<()> {
+    let silhouettes = silhouettes(order)?;
+    for cell in CELLS {
+        let owned = surface(&order.model, cell);
+        let Some(owned) = owned else { continue };
+        let deviation = match cell > 0.0 {
+            true => deviation_mm(&order.model, &owned.as_model()),
+            false => 0.0,
+        };
+        let planes = symmetry_planes(owned.as_model().mesh());
+        let mut trials = Vec::new();
+        for (size, step) in LIBRARIES {
+            let trial = trial(
+                order,
+                &owned,
+                &planes,
+                (size, step),
+                deviation,
+                &silhouettes,
+            )?;
+            trials.push(trial);
+        }
+        let least = trials
+            .iter()
+            .map(|trial| trial.missed)
+            .min()
+            .unwrap_or_default();
+        let chosen = trials
+            .iter()
+            .position(|trial| trial.missed <= least && trial.file.len() <= order.flash);
+        println!(
+            "surface: {} triangles, {} vertices, the model's vertices at most {deviation:.2} mm off it",
+            owned.as_model().triangles().len(),
+            owned.as_model().vertices().len()
+        );
+        print(&trials, chosen, order.flash);
+        if let Some(chosen) = chosen {
+            let file = &trials[chosen].file;
+            std::fs::write(out, file).with_context(|| format!("cannot write {}", out.display()))?;
+            println!("{}: {} bytes", out.display(), file.len());
+            return Ok(());
+        }
+    }
+    bail!(
+        "no library that leads to the right poses fits into {} bytes of flash with any surface of the model",
+        order.flash
+    )
+}
+
+/// The model's surface, or a coarser one; `None` where that saves too little.
+fn surface(model: &Model<'_>, cell: f64) -> Option<OwnedModel> {
+    if cell > 0.0 {
+        return coarser(model, cell * model.bounds().radius);
+    }
+    let vertices = model.vertices().iter().flatten().copied().collect();
+    OwnedModel::new(
+        vertices,
+        model.triangles().iter().flatten().copied().collect(),
+    )
+    .ok()
+}
+
+/// Poses and the silhouettes of the model itself at them, in all of the camera's frame.
+fn silhouettes(order: &Order<'_>) -> Result<Vec<(Pose, Vec<u32>)>> {
+    let (width, height) = (order.camera.width(), order.camera.height());
+    let mut random = ChaCha8Rng::seed_from_u64(18);
+    let mut scratch = vec![Projected::default(); scratch_needed(&order.model)];
+    let mut drawn = Vec::new();
+    for _ in 0..20 * POSES {
+        let pose = draw_pose(order, &mut random);
+        let mut words = vec![0; words_needed(width, height)];
+        let mut mask = MaskMut::new(&mut words, width, height)?;
+        if render(&order.model, &order.camera, &pose, &mut scratch, &mut mask).is_err() {
+            continue;
+        }
+        let (columns, rows) = mask.as_mask().bounds();
+        let whole = columns.start > 0 && rows.start > 0 && columns.end < width && rows.end < height;
+        if whole && !columns.is_empty() {
+            drawn.push((pose, words));
+        }
+        if drawn.len() as u64 == POSES {
+            break;
+        }
+    }
+    ensure!(
+        !drawn.is_empty(),
+        "the frame holds the implant at no pose: check --frame and the calibration"
+    );
+    Ok(drawn)
+}
+
+fn draw_pose(order: &Order<'_>, random: &mut ChaCha8Rng) -> Pose {
+    let mut draw = |reach: f64| reach * random.random_range(-1.0..=1.0f64);
+    let mut angle = |axis: &ViewAxis| {
+        let reach = axis.step * (axis.count - 1) as f64 / 2.0;
+        axis.first + reach + draw((reach - MARGIN_DEG).max(0.0))
+    };
+    let (x_rot_deg, y_rot_deg) = (angle(&order.grid.x), angle(&order.grid.y));
+    let mut pose = Pose::from(EulerPose {
+        x_mm: draw(ASIDE_MM),
+        y_mm: draw(ASIDE_MM),
+        z_mm: draw(ALONG_MM) - order.distance,
+        z_rot_deg: draw(180.0),
+        x_rot_deg,
+        y_rot_deg,
+    });
+    let middle = apply(&pose.rotation, &order.model.centre());
+    for (place, middle) in pose.translation.iter_mut().zip(middle) {
+        *place -= middle;
+    }
+    pose
+}
+
+/// The same directions in other steps.
+fn stepped(grid: &ViewGrid, step: f64) -> ViewGrid {
+    if grid.is_around() {
+        return ViewGrid::sphere(step);
+    }
+    let axis = |axis: &ViewAxis| {
+        let reach = axis.step * (axis.count - 1) as f64;
+        let count = (reach / step).ceil() as usize + 1;
+        let beyond = (step * (count - 1) as f64 - reach) / 2.0;
+        ViewAxis {
+            first: axis.first - beyond,
+            step,
+            count,
+        }
+    };
+    ViewGrid {
+        x: axis(&grid.x),
+        y: axis(&grid.y),
+    }
+}
+
+fn trial(
+    order: &Order<'_>,
+    owned: &OwnedModel,
+    planes: &[fluoropose::mesh::symmetry::SymmetryPlane],
+    (size, step): (usize, f64),
+    deviation: f64,
+    silhouettes: &[(Pose, Vec<u32>)],
+) -> Result<Trial> {
+    let part = (size * size) as f64 / (USUAL.size() * USUAL.size()) as f64;
+    let canonical = CanonicalSpec::new(size, (f64::from(USUAL.area()) * part).round() as u32)?;
+    let grid = stepped(&order.grid, step);
+    let built = build_views(
+        owned.as_model(),
+        order.camera,
+        canonical,
+        grid,
+        order.distance,
+    )?;
+    let library = Library::open(&built.bytes)?;
+    let component = Component {
+        library: &library,
+        model: &owned.as_model(),
+        planes,
+    };
+    let off = |goal| errors(order, &component, goal, silhouettes);
+    let (before, after) = (off(Goal::Library), off(Goal::Outline));
+    let found: Vec<f64> = after
+        .iter()
+        .copied()
+        .filter(|&off| off <= MISSED_DEG)
+        .collect();
+    Ok(Trial {
+        size,
+        step,
+        views: library.views(),
+        library_bytes: built.bytes.len(),
+        missed: after.len() - found.len(),
+        before_deg: median(before),
+        after_deg: median(found),
+        file: write_implant(&owned.as_model(), &built.bytes, planes, deviation)?,
+    })
+}
+
+/// How far the best pose is from the true one, degrees; infinitely where none is found.
+fn errors(
+    order: &Order<'_>,
+    component: &Component<'_>,
+    goal: Goal<'_>,
+    silhouettes: &[(Pose, Vec<u32>)],
+) -> Vec<f64> {
+    let (width, height) = (order.camera.width(), order.camera.height());
+    let mut buffers = FinderBuffers::default();
+    let mut off = |(truth, words): &(Pose, Vec<u32>)| {
+        let mask = Mask::new(words, width, height).ok()?;
+        let mut memory = buffers.borrow(component, &order.camera, fastest());
+        let silhouette = Silhouette::from(&mask);
+        let options = RefineOptions::default();
+        let found = find(
+            component,
+            &order.camera,
+            &silhouette,
+            goal,
+            options,
+            &mut memory,
+        )
+        .ok()?;
+        let best = found.candidates.first()?;
+        Some(geodesic_deg(&best.pose.rotation, &truth.rotation))
+    };
+    silhouettes
+        .iter()
+        .map(|one| off(one).unwrap_or(f64::INFINITY))
+        .collect()
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn print(trials: &[Trial], chosen: Option<usize>, flash: usize) {
+    println!(
+        "frame  step deg   views  library B   file B  off before, after deg  missed of {POSES}  RAM B (outlines of {OUTLINE} px in {PART} x {PART})"
+    );
+    for (number, trial) in trials.iter().enumerate() {
+        let Trial {
+            size,
+            step,
+            views,
+            library_bytes,
+            missed,
+            before_deg,
+            after_deg,
+            file,
+        } = trial;
+        let mark = match (chosen == Some(number), file.len() <= flash) {
+            (true, _) => "  chosen",
+            (false, false) => "  too large",
+            (false, true) => "",
+        };
+        println!(
+            "{size:5}  {step:8.1}  {views:6}  {library_bytes:9}  {:7}  {before_deg:10.2}  {after_deg:9.3}  {missed:12}  {:6}{mark}",
+            file.len(),
+            memory(file),
+        );
+    }
+}
+
+/// What `finder_arena` takes for a part of the frame.
+fn memory(file: &[u8]) -> usize {
+    let needs = ArenaNeeds::of(file, PART, PART);
+    needs.bytes_for(OUTLINE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_read_as_engineers_write_them() {
+        let bytes = |text: &str| text.parse::<Bytes>().ok();
+        assert_eq!(bytes("256K"), Some(Bytes(262_144)));
+        assert_eq!(bytes("1M"), Some(Bytes(1_048_576)));
+        assert_eq!(bytes("9000"), Some(Bytes(9000)));
+        assert_eq!(bytes("a lot"), None);
+    }
+
+    #[test]
+    fn other_steps_leave_no_direction_out() {
+        let grid = ViewGrid::default();
+        for (_, step) in LIBRARIES {
+            let coarse = stepped(&grid, step);
+            for (own, coarse) in [(grid.x, coarse.x), (grid.y, coarse.y)] {
+                let last = |axis: &ViewAxis| axis.at((axis.count - 1) as f64);
+                assert!(coarse.first <= own.first + 1e-9 && last(&coarse) >= last(&own) - 1e-9);
+                assert_eq!(coarse.step, step);
+            }
+        }
+    }
+}
