@@ -9,6 +9,7 @@
 //! - [`profile`], [`mod@estimate`]: profiles read from frames, and the constants that explain them.
 //! - [`given`]: what a person states instead. [`pool`]: the profiles of a study, for callers that have an allocator.
 
+pub(crate) mod edge;
 pub mod estimate;
 mod fit;
 pub mod given;

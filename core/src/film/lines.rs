@@ -22,9 +22,13 @@ pub const STEP: f64 = 0.25;
 pub const INNER: f64 = 12.0;
 /// Places on a line; the last is 8 pixels outside.
 pub const POINTS: usize = 81;
+/// The place that is the line's origin.
+const ORIGIN: usize = (INNER / STEP) as usize;
 /// Tiles have sides of eight pixels at least: a line has places in no more than [`SPANNED`] of them.
 const LEAST_PLACES: u32 = 3;
 const SPANNED: usize = 8;
+/// Places that are passed over where both ends lie in one tile.
+const STRIDE: usize = 5;
 /// Head of an empty list.
 const NONE: u16 = u16::MAX;
 /// Most lines: 16 bits number the places of eight tiles for each.
@@ -42,9 +46,11 @@ pub struct PathLine {
     next: [u16; SPANNED],
     /// The triangle that was added last, from 1.
     last: u32,
+    /// Least and greatest depth of the surface behind the origin, mm; the second is 0 where there is none.
+    depths: [f32; 2],
     /// mm.
     paths: [f32; POINTS],
-    /// Surfaces left minus surfaces entered; zero where the surface is closed.
+    /// By how much the number of surfaces left minus those entered grows at each place: zeros where the surface is closed.
     open: [i8; POINTS],
 }
 
@@ -78,6 +84,7 @@ impl PathLine {
             direction,
             next: [NONE; SPANNED],
             last: 0,
+            depths: [f32::INFINITY, 0.0],
             paths: [0.0; POINTS],
             open: [0; POINTS],
         }
@@ -90,6 +97,13 @@ impl PathLine {
             .iter()
             .all(|&open| open == 0)
             .then_some(&self.paths)
+    }
+
+    /// Least and greatest distance from the camera plane of the surface behind the line's origin, mm; `None` where there is none.
+    #[must_use]
+    pub fn depths(&self) -> Option<[f64; 2]> {
+        let depths = self.depths.map(f64::from);
+        (depths[1] > 0.0).then_some(depths)
     }
 
     fn pixel(&self, point: usize) -> [i32; 2] {
@@ -140,14 +154,47 @@ impl PathLine {
         side: &Side,
     ) {
         let per_px = (far - near) / (to - from);
-        for point in places {
-            let along = STEP * point as f64 - INNER;
-            let depth = 1.0 / (near + (along - from) * per_px);
-            self.paths[point] += (f64::from(side.sign) * (depth - side.middle)) as f32;
-            self.open[point] = self.open[point].wrapping_add(side.sign);
+        let nearness_at = |point: usize| near + (STEP * point as f64 - INNER - from) * per_px;
+        if places.contains(&ORIGIN) {
+            let depth = (1.0 / nearness_at(ORIGIN)) as f32;
+            self.depths = [self.depths[0].min(depth), self.depths[1].max(depth)];
+        }
+        let first = places.start;
+        // It begins here and ends there.
+        for (point, step) in [(places.start, side.sign), (places.end, -side.sign)] {
+            if let Some(open) = self.open.get_mut(point) {
+                *open = open.wrapping_add(step);
+            }
+        }
+        let Some(paths) = self.paths.get_mut(places.clone()) else {
+            return;
+        };
+        // One division for all of them: about the middle place the reciprocal is a parabola, as nearly as numbers of 32 bits tell.
+        let middle = (places.len() - 1) as f64 / 2.0;
+        let (near, step) = (nearness_at(first) + middle * STEP * per_px, STEP * per_px);
+        let depth = 1.0 / near;
+        let slope = step * depth;
+        if (slope * middle).abs() < NEARLY_LINEAR {
+            let sign = f64::from(side.sign);
+            let [a, b, c] = [depth - side.middle, -depth * slope, depth * slope * slope]
+                .map(|x| (sign * x) as f32);
+            let middle = middle as f32;
+            for (k, path) in paths.iter_mut().enumerate() {
+                let off = k as f32 - middle;
+                *path += a + off * (b + off * c);
+            }
+        } else {
+            for (point, path) in places.clone().zip(paths) {
+                let depth = 1.0 / nearness_at(point);
+                *path += (f64::from(side.sign) * (depth - side.middle)) as f32;
+            }
         }
     }
 }
+
+/// Relative change of depth within half of a piece of a line up to which it is taken as a parabola: what that leaves out is
+/// the third power.
+const NEARLY_LINEAR: f64 = 4e-3;
 
 /// Number of the first place that is not before this one along a line, pixels; [`POINTS`] beyond the last.
 fn first_place(along: f64) -> usize {
@@ -263,8 +310,13 @@ fn enter(lines: &mut [PathLine], heads: &mut [u16]) -> Tiles {
     for (number, line) in lines.iter_mut().enumerate() {
         *line = PathLine::at(line.origin, line.direction);
         let (mut entered, mut before) = (0, None);
-        for point in 0..POINTS {
+        let mut points = 0..POINTS;
+        while let Some(point) = points.next() {
             let tile = tiles.mark(line.pixel(point));
+            // A tile that has both ends of a piece has all of it.
+            if tiles.tile(line.pixel((point + STRIDE).min(POINTS - 1))) == tile {
+                points.start += STRIDE - 1;
+            }
             if before == Some(tile) || entered == SPANNED {
                 continue;
             }

@@ -2,7 +2,7 @@
 
 use super::lines::{INNER, POINTS, STEP};
 use crate::image::display::DisplayCurve;
-use crate::image::profile::{FILTER_REACH, NormalReading, steepest_rise};
+use crate::image::profile::FILTER_REACH;
 use crate::math::exp;
 
 /// What is the same for all frames of a study and all components in them.
@@ -54,20 +54,6 @@ impl FilmModel {
         }
         self
     }
-
-    /// Where the edge of a line seems to be on the film, pixels from the line's origin outwards; `expected` is where the
-    /// outline itself is, at most [`DRAWN_RANGE`] farther. [`NormalReading::Unknown`] where the surface is not closed.
-    #[must_use]
-    pub fn edge(&self, paths: Option<&[f32; POINTS]>, expected: f64) -> NormalReading {
-        let Some(paths) = paths else {
-            return NormalReading::Unknown;
-        };
-        let drawn = blurred(
-            &transmission(paths, self.attenuation),
-            self.constants.blur_px,
-        );
-        steepest_rise(expected, DRAWN_RANGE, |t| Some(f64::from(at(&drawn, t))))
-    }
 }
 
 /// How far from an outline its edge may seem to be, pixels.
@@ -95,18 +81,45 @@ pub(crate) fn transmission(paths: &[f32; POINTS], attenuation: f64) -> Drawn {
 pub(crate) const LEAST_BLUR: f64 = 0.3;
 pub(crate) const MOST_BLUR: f64 = 3.0;
 
+/// Places to each side that blur reaches at most.
+pub(crate) const MOST_BLUR_REACH: usize = 40;
+
+/// Weights of a Gaussian.
+pub(crate) struct Blur {
+    /// At the places of a line from the middle to one side.
+    pub(crate) weights: [f32; MOST_BLUR_REACH + 1],
+    /// Places to each side that have any.
+    pub(crate) reach: usize,
+    /// Of those of both sides.
+    pub(crate) sum: f32,
+}
+
+impl Blur {
+    /// Of this width, pixels.
+    pub(crate) fn of(blur_px: f64) -> Self {
+        let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
+        let mut blur = Self {
+            weights: [0.0; MOST_BLUR_REACH + 1],
+            reach: ((3.2 * width) as usize + 1).min(MOST_BLUR_REACH),
+            sum: 0.0,
+        };
+        for (k, weight) in blur.weights.iter_mut().take(blur.reach + 1).enumerate() {
+            let part = k as f32 / width;
+            *weight = exp(f64::from(-0.5 * part * part)) as f32;
+            blur.sum += if k == 0 { *weight } else { 2.0 * *weight };
+        }
+        blur
+    }
+}
+
 /// Convolved with a Gaussian of this width, pixels; both ends are continued.
 pub(crate) fn blurred(drawn: &Drawn, blur_px: f64) -> Drawn {
-    const MOST: usize = 40;
-    let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
-    let reach = ((3.2 * width) as usize + 1).min(MOST);
-    let mut weights = [0.0; MOST + 1];
-    let mut sum = 0.0;
-    for (k, weight) in weights.iter_mut().take(reach + 1).enumerate() {
-        let part = k as f32 / width;
-        *weight = exp(f64::from(-0.5 * part * part)) as f32;
-        sum += if k == 0 { *weight } else { 2.0 * *weight };
-    }
+    const MOST: usize = MOST_BLUR_REACH;
+    let Blur {
+        weights,
+        reach,
+        sum,
+    } = Blur::of(blur_px);
     // Continued on both sides, so that all places are summed alike, several at once.
     let mut long = [0.0; POINTS + 2 * MOST];
     for (k, value) in long.iter_mut().enumerate() {
@@ -153,6 +166,8 @@ pub(crate) fn at(drawn: &Drawn, along: f64) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::edge::EdgeFilter;
+    use crate::image::profile::NormalReading;
     use proptest::prelude::*;
 
     /// A half space of this depth, from the origin inwards.
@@ -181,7 +196,7 @@ mod tests {
             blur_px,
         };
         let model = FilmModel::certain(constants, attenuation);
-        match model.edge(Some(paths), 0.0) {
+        match EdgeFilter::from(&model).edge(Some(paths), 0.0) {
             NormalReading::At(edge) => edge,
             other => panic!("{other:?}"),
         }
@@ -278,15 +293,5 @@ mod tests {
         }
         assert!((sum - 1.0).abs() < 1e-4, "{sum}");
         assert!((spread / sum - 1.69).abs() < 0.05, "{spread}");
-    }
-
-    #[test]
-    fn an_open_surface_has_no_edge() {
-        let constants = FilmConstants {
-            curvature: 0.0,
-            blur_px: 1.0,
-        };
-        let model = FilmModel::certain(constants, 0.3);
-        assert_eq!(model.edge(None, 0.0), NormalReading::Unknown);
     }
 }

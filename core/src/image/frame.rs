@@ -21,6 +21,15 @@ pub trait Pixel: Copy + Ord + Default + Into<u32> {
         row: f64,
         curve: &QuickCurve,
     ) -> Option<f64>;
+
+    /// [`Grey::add_along`] of a frame of such pixels.
+    fn add_intensities(
+        frame: &Frame<'_, Self>,
+        line: &StraightLine,
+        curve: &QuickCurve,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()>;
 }
 
 macro_rules! pixel {
@@ -41,6 +50,16 @@ macro_rules! pixel {
                 curve: &QuickCurve,
             ) -> Option<f64> {
                 frame.between(column, row, |grey| curve.linear(grey))
+            }
+
+            fn add_intensities(
+                frame: &Frame<'_, Self>,
+                line: &StraightLine,
+                curve: &QuickCurve,
+                weight: f64,
+                sums: &mut [f64],
+            ) -> Option<()> {
+                frame.add_along_line(line, |grey| curve.linear(grey), weight, sums)
             }
         }
     };
@@ -94,6 +113,33 @@ pub enum FrameError {
         /// Rows of the frame.
         frame_height: usize,
     },
+}
+
+/// Places on a straight line, as far apart as `step`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StraightLine {
+    /// A place on it, continuous image coordinates, pixels.
+    pub origin: [f64; 2],
+    /// Unit vector along it, to the right and downwards.
+    pub direction: [f64; 2],
+    /// What is added to each of its places, pixels: a line beside another has the same places there.
+    pub aside: [f64; 2],
+    /// How far from the origin the place with the number `middle` is, pixels.
+    pub expected: f64,
+    /// Its number.
+    pub middle: usize,
+    /// Distance between places, pixels.
+    pub step: f64,
+}
+
+impl StraightLine {
+    /// A place by its number.
+    #[must_use]
+    #[inline]
+    pub fn place(&self, number: usize) -> [f64; 2] {
+        let t = self.expected + self.step * (number as f64 - self.middle as f64);
+        [0, 1].map(|k| self.origin[k] + t * self.direction[k] + self.aside[k])
+    }
 }
 
 /// A rectangle of whole pixels.
@@ -220,6 +266,16 @@ pub trait Grey {
 
     /// The same of what a curve makes of each pixel: the mean of intensities is not the intensity of the mean grey value.
     fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64>;
+
+    /// Adds `weight` times [`Self::at_through`] at the places of a line to `sums`, one for each place from 0; `None` where one of
+    /// the places is beyond the outermost centres, and the sums are good for nothing then.
+    fn add_along(
+        &self,
+        line: &StraightLine,
+        curve: &QuickCurve,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()>;
 }
 
 impl<P: Pixel> Grey for Frame<'_, P> {
@@ -236,6 +292,16 @@ impl<P: Pixel> Grey for Frame<'_, P> {
             return Some(curve.curve().upright(self.at(column, row)?));
         }
         P::intensity_at(self, column, row, curve)
+    }
+
+    fn add_along(
+        &self,
+        line: &StraightLine,
+        curve: &QuickCurve,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()> {
+        P::add_intensities(self, line, curve, weight, sums)
     }
 }
 
@@ -270,11 +336,50 @@ impl<P: Pixel> Frame<'_, P> {
         let lower = value(first)? * (1.0 - right) + value(first + next)? * right;
         Some(upper * (1.0 - down) + lower * down)
     }
+
+    /// What is made of each pixel, at the places of a line.
+    #[inline]
+    fn add_along_line(
+        &self,
+        line: &StraightLine,
+        of: impl Fn(u32) -> f64,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()> {
+        let ends = [0, sums.len().saturating_sub(1)].map(|end| line.place(end));
+        let within = |x: f64, side: usize| x >= 0.5 && x < side as f64 - 0.5;
+        let has_pixel_beyond =
+            |[column, row]: [f64; 2]| within(column, self.width) && within(row, self.height);
+        if !ends.into_iter().all(has_pixel_beyond) {
+            for (number, sum) in sums.iter_mut().enumerate() {
+                let [column, row] = line.place(number);
+                *sum += weight * self.between(column, row, &of)?;
+            }
+            return Some(());
+        }
+        // All places lie between the ends, and four pixels round each.
+        for (number, sum) in sums.iter_mut().enumerate() {
+            let [column, row] = line.place(number).map(|x| x - 0.5);
+            let (left, above) = (column as i32, row as i32);
+            let (right, down) = (column - f64::from(left), row - f64::from(above));
+            let first = above as usize * self.stride + left as usize;
+            let two = |first: usize| {
+                let [a, b] = *self.pixels.get(first..)?.first_chunk()?;
+                Some(of(a.into()) * (1.0 - right) + of(b.into()) * right)
+            };
+            let (upper, lower) = (two(first)?, two(first + self.stride)?);
+            *sum += weight * (upper * (1.0 - down) + lower * down);
+        }
+        Some(())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::image::display::DisplayCurve;
+    use proptest::prelude::*;
+    use std::vec::Vec;
 
     #[test]
     fn a_region_shows_the_same_pixels() {
@@ -299,6 +404,43 @@ mod tests {
                 })
                 .is_err()
         );
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_added_along_a_line_is_what_each_place_gives(
+            grey in proptest::collection::vec(0..4000u16, 9 * 12),
+            origin in proptest::array::uniform2(0.0..9.0f64),
+            turn in -3.2..3.2f64, expected in -2.0..2.0f64, aside in -1.0..1.0f64,
+            count in 0..12usize, curvature in prop_oneof![Just(0.0), Just(0.002)], inverted: bool,
+        ) {
+            let bytes: Vec<u8> = grey.iter().map(|grey| (grey / 16) as u8).collect();
+            let curve = QuickCurve::from(DisplayCurve::new(curvature, inverted));
+            let (down, right) = libm::sincos(turn);
+            let line = StraightLine {
+                origin,
+                direction: [right, down],
+                aside: [-aside * down, aside * right],
+                expected,
+                middle: count / 2,
+                step: 0.5,
+            };
+            let frames: [&dyn Grey; 2] = [
+                &Frame::new(&grey, 11, 9, 12).expect("fits"),
+                &Frame::new(&bytes, 11, 9, 12).expect("fits"),
+            ];
+            for frame in frames {
+                let mut sums = std::vec![0.25; count];
+                let added = frame.add_along(&line, &curve, 0.375, &mut sums);
+                let each: Option<Vec<f64>> = (0..count)
+                    .map(|number| {
+                        let [column, row] = line.place(number);
+                        Some(0.25 + 0.375 * frame.at_through(column, row, &curve)?)
+                    })
+                    .collect();
+                prop_assert_eq!(added.map(|()| sums), each);
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,5 @@
 //! Grey values along a line across an edge, and the filter that finds the edge in them.
 
-use crate::image::display::QuickCurve;
 use crate::image::frame::Grey;
 use crate::math::exp;
 
@@ -19,22 +18,6 @@ pub fn grey_across(
     let mut sum = 0.0;
     for (weight, [column, row]) in across(place, normal, weights, t) {
         sum += weight * frame.at(column, row)?;
-    }
-    Some(sum)
-}
-
-/// [`grey_across`] of what a display curve makes of each pixel.
-pub fn intensity_across(
-    frame: &(impl Grey + ?Sized),
-    curve: &QuickCurve,
-    place: [f64; 2],
-    normal: [f64; 2],
-    weights: &[f64],
-    t: f64,
-) -> Option<f64> {
-    let mut sum = 0.0;
-    for (weight, [column, row]) in across(place, normal, weights, t) {
-        sum += weight * frame.at_through(column, row, curve)?;
     }
     Some(sum)
 }
@@ -66,14 +49,14 @@ pub enum NormalReading {
 }
 
 /// Distance between readings along a normal, pixels.
-const STEP: f64 = 0.5;
+pub const READING_STEP: f64 = 0.5;
 /// Readings to each side at most: the longest range and the filter's reach.
 const REACH: usize = 32;
 /// Half width of the derivative's filter, readings.
-const HALF_FILTER: usize = 6;
+pub(crate) const HALF_FILTER: usize = 6;
 
 /// What [`gaussian_derivative`] gives of a Gaussian of one pixel.
-const DERIVATIVE: ([f64; HALF_FILTER + 1], f64) = (
+pub(crate) const DERIVATIVE: ([f64; HALF_FILTER + 1], f64) = (
     [
         0.0,
         0.4412484512922977,
@@ -87,60 +70,62 @@ const DERIVATIVE: ([f64; HALF_FILTER + 1], f64) = (
 );
 
 /// How far beyond its range the filter of [`steepest_rise`] reads, pixels.
-pub const FILTER_REACH: f64 = STEP * HALF_FILTER as f64;
+pub const FILTER_REACH: f64 = READING_STEP * HALF_FILTER as f64;
 
 /// Where a profile rises most steeply, to a part of a reading, at most `range` pixels from `expected`: it is differentiated by
 /// the derivative of a Gaussian (Canny, IEEE PAMI 8, 1986), and of its maxima of rising slope the one is taken that is greatest
-/// after a Gaussian prior on the distance. `reading` gives the profile, `None` where it is not known.
+/// after a Gaussian prior on the distance. `read` is given the number of the reading at `expected`, others being
+/// [`READING_STEP`] apart, and writes the profile; `None` where a part of it is not known.
 ///
 /// A frame and what is drawn of a model are read by this one procedure, so that what it does to a profile cancels.
 pub fn steepest_rise(
     expected: f64,
     range: f64,
-    mut reading: impl FnMut(f64) -> Option<f64>,
+    read: impl FnOnce(usize, &mut [f64]) -> Option<()>,
 ) -> NormalReading {
-    let half = ((range / STEP) as usize).min(REACH - HALF_FILTER - 1);
+    let half = ((range / READING_STEP) as usize).min(REACH - HALF_FILTER - 1);
     let reach = half + HALF_FILTER;
     let mut profile = [0.0; 2 * REACH + 1];
-    for (index, value) in profile.iter_mut().take(2 * reach + 1).enumerate() {
-        let t = expected + STEP * (index as f64 - reach as f64);
-        match reading(t) {
-            Some(read) => *value = read,
-            None => return NormalReading::Unknown,
-        }
+    let profile = &mut profile[..2 * reach + 1];
+    if read(reach, profile).is_none() {
+        return NormalReading::Unknown;
     }
     let mut slopes = [0.0; 2 * REACH + 1];
-    differentiate(&profile, &mut slopes[..=2 * half]);
-    strongest(&slopes[..=2 * half], half, expected)
+    let slopes = &mut slopes[..=2 * half];
+    differentiate(profile, slopes);
+    strongest(slopes, expected)
 }
 
-/// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides.
+/// Slopes (per pixel, outwards) of a profile that is longer by the filter's reach on both sides. Loops run along the profile,
+/// so that it is done several at a time without changing the order of any sum.
 fn differentiate(profile: &[f64], slopes: &mut [f64]) {
     let (weights, norm) = DERIVATIVE;
-    for (index, slope) in slopes.iter_mut().enumerate() {
-        let middle = index + HALF_FILTER;
-        let pairs =
-            (1..=HALF_FILTER).map(|k| weights[k] * (profile[middle + k] - profile[middle - k]));
-        *slope = pairs.sum::<f64>() / norm;
+    for (k, weight) in weights.iter().enumerate().skip(1) {
+        let (before, after) = (&profile[HALF_FILTER - k..], &profile[HALF_FILTER + k..]);
+        for ((slope, before), after) in slopes.iter_mut().zip(before).zip(after) {
+            *slope += weight * (after - before);
+        }
     }
+    slopes.iter_mut().for_each(|slope| *slope /= norm);
 }
 
-/// The maximum of rising slopes that is greatest after the prior, to a part of a reading by a
-/// parabola.
-fn strongest(slopes: &[f64], half: usize, expected: f64) -> NormalReading {
-    let sigma = STEP * half as f64 / 2.0;
+/// The maximum of rising slopes about `expected` that is greatest after the prior, to a part of a reading by a
+/// parabola. There are as many readings on both sides.
+pub(crate) fn strongest(slopes: &[f64], expected: f64) -> NormalReading {
+    let half = slopes.len() / 2;
+    let sigma = READING_STEP * half as f64 / 2.0;
     let mut best = (0.0, NormalReading::Nothing);
     for k in 1..slopes.len().saturating_sub(1) {
         let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
         if slope <= 0.0 || slope < before || slope <= after {
             continue;
         }
-        let t = STEP * (k as f64 - half as f64);
+        let t = READING_STEP * (k as f64 - half as f64);
         let score = slope * exp(-t * t / (2.0 * sigma * sigma));
         if score > best.0 {
             // Not flat: the slope is above the one after it.
             let part = 0.5 * (before - after) / (before - 2.0 * slope + after);
-            best = (score, NormalReading::At(expected + t + STEP * part));
+            best = (score, NormalReading::At(expected + t + READING_STEP * part));
         }
     }
     best.1
@@ -171,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_filter_that_is_kept_is_the_derivative_of_a_gaussian() {
-        assert_eq!(DERIVATIVE, gaussian_derivative(1.0, STEP));
+        assert_eq!(DERIVATIVE, gaussian_derivative(1.0, READING_STEP));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! plate seen edge-on now the front rim and now the back one is nearest, and refinement stops where
 //! they change places (starts 2 degrees off stayed 1.5 degrees off). Otherwise front and back of
 //! the surface meet at the contour, and the depth is the middle of all that covers the border pixel,
-//! so holes and mixed winding do not matter.
+//! so holes and mixed winding do not matter. Where lines across the outline are measured anyway, they tell the same.
 
 use super::border::BorderPixel;
 use super::outline::{Depth, DrawnModel};
@@ -29,7 +29,9 @@ impl DrawnModel<'_> {
             }
             return;
         }
-        self.cover_with_triangles(scratch, places, border);
+        if self.sampling.depth != Depth::Lines {
+            self.cover_with_triangles(scratch, places, border);
+        }
     }
 
     /// Gives an edge's depth to the border pixels that it passes.

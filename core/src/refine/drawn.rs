@@ -2,11 +2,11 @@
 
 use super::border::{BorderPixel, NormalReading};
 use super::error::RefineError;
-use super::memory::FILM_EVERY;
 use super::stages::Stage;
 use super::view::CameraView;
+use crate::film::edge::EdgeFilter;
 use crate::film::lines::measure;
-use crate::film::{FilmModel, LineMemory, PathLine};
+use crate::film::{LineMemory, PathLine};
 use crate::memory::first;
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -15,7 +15,7 @@ use crate::render::Projected;
 /// Lines across the outline, one for each sample; none where edges are taken to lie on the outline.
 #[derive(Clone, Copy)]
 pub(super) struct DrawnEdges<'l> {
-    film: Option<FilmModel>,
+    filter: Option<EdgeFilter>,
     lines: &'l [PathLine],
 }
 
@@ -33,27 +33,35 @@ impl<'l> DrawnEdges<'l> {
         scratch: &mut [Projected],
         memory: &'l mut LineMemory<'_>,
     ) -> Result<Self, RefineError> {
-        let film = view.target.film().filter(|_| stage.drawn).copied();
-        if film.is_none() {
-            return Ok(Self { film, lines: &[] });
+        let film = view.target.film().filter(|_| stage.drawn);
+        let filter = film.map(EdgeFilter::from);
+        if filter.is_none() {
+            return Ok(Self { filter, lines: &[] });
         }
         let lines = first("lines across the outline", border.len(), memory.lines)?;
         for (line, sample) in lines.iter_mut().zip(&mut *border) {
             // It stands for those that are left out.
-            sample.weight *= if stage.whole { 1.0 } else { FILM_EVERY as f32 };
+            sample.weight *= stage.every.unwrap_or(1) as f32;
             *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
         }
         measure(model, view.camera, pose, scratch, lines, memory.heads)?;
-        Ok(Self { film, lines })
+        for (line, sample) in lines.iter().zip(border) {
+            if let Some(depths) = line.depths() {
+                depths
+                    .into_iter()
+                    .for_each(|depth| sample.cover(depth as f32));
+            }
+        }
+        Ok(Self { filter, lines })
     }
 
     /// Where the edge of a sample is to be expected, `own` being where the outline itself is.
     pub(super) fn at(&self, number: usize, own: f64) -> NormalReading {
-        match self.film {
+        match &self.filter {
             None => NormalReading::At(own),
-            Some(film) => {
+            Some(filter) => {
                 let line = self.lines.get(number);
-                film.edge(line.and_then(PathLine::paths), own)
+                filter.edge(line.and_then(PathLine::paths), own)
             }
         }
     }

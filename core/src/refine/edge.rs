@@ -4,8 +4,9 @@
 use super::border::{BorderPixel, NormalReading};
 use super::view::ImageTarget;
 use crate::image::display::QuickCurve;
+use crate::image::frame::StraightLine;
 use crate::image::mask::Mask;
-use crate::image::profile::{intensity_across, steepest_rise};
+use crate::image::profile::{READING_STEP, steepest_rise};
 
 /// Weights of the readings along the tangent, one pixel apart: sixteenths.
 pub(super) const TANGENT: [f64; 5] = [1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0];
@@ -19,32 +20,55 @@ pub(super) fn edge(
     expected: f64,
     range: f64,
 ) -> NormalReading {
-    let normal = sample.normal.map(f64::from);
-    steepest_rise(expected, range, |t| {
-        reading(image, curve, sample.place(), normal, t)
+    steepest_rise(expected, range, |middle, profile| {
+        read(image, curve, sample, (expected, middle), profile)
     })
 }
 
-/// Intensity at a distance from a place along a normal, averaged along the tangent. `None` where
-/// one of the pixels is unknown or beyond the frame.
-fn reading(
+/// Intensities along the normal of a sample, averaged along its tangent, of which the one with the number `middle` is `expected`
+/// pixels from the middle of its pixel. `None` where one of the pixels is unknown or beyond the frame.
+fn read(
     image: &ImageTarget<'_>,
     curve: &QuickCurve,
-    place: [f64; 2],
-    normal: [f64; 2],
-    t: f64,
-) -> Option<f64> {
-    if !is_known(image, place, normal, t) {
-        return None;
+    sample: &BorderPixel,
+    (expected, middle): (f64, usize),
+    profile: &mut [f64],
+) -> Option<()> {
+    let (origin, direction) = (sample.place(), sample.normal.map(f64::from));
+    let normal = StraightLine {
+        origin,
+        direction,
+        aside: [0.0; 2],
+        expected,
+        middle,
+        step: READING_STEP,
+    };
+    if let Some(unknown) = image.unknown {
+        let mut places = (0..profile.len()).map(|number| normal.place(number));
+        if places.any(|place| is_hidden(unknown, place)) {
+            return None;
+        }
     }
-    intensity_across(image.frame, curve, place, normal, &TANGENT, t)
+    profile.fill(0.0);
+    let [right, down] = direction;
+    for (along, weight) in (-2..=2).map(f64::from).zip(TANGENT) {
+        let beside = StraightLine {
+            aside: [-along * down, along * right],
+            ..normal
+        };
+        image.frame.add_along(&beside, curve, weight, profile)?;
+    }
+    Some(())
 }
 
 /// Whether the pixel at a distance from a place along a normal says anything of the implant.
 pub(super) fn is_known(image: &ImageTarget<'_>, place: [f64; 2], normal: [f64; 2], t: f64) -> bool {
-    let [column, row] = [0, 1].map(|axis| place[axis] + t * normal[axis]);
-    let hidden = |unknown: &Mask<'_>| {
-        column >= 0.0 && row >= 0.0 && unknown.get(column as usize, row as usize)
-    };
-    !image.unknown.is_some_and(hidden)
+    let place = [0, 1].map(|axis| place[axis] + t * normal[axis]);
+    !image
+        .unknown
+        .is_some_and(|unknown| is_hidden(unknown, place))
+}
+
+fn is_hidden(unknown: &Mask<'_>, [column, row]: [f64; 2]) -> bool {
+    column >= 0.0 && row >= 0.0 && unknown.get(column as usize, row as usize)
 }

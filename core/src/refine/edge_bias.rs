@@ -8,6 +8,7 @@ use super::border::{BorderPixel, NormalReading};
 use super::edge;
 use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
+use crate::film::edge::EdgeFilter;
 use crate::film::model::CONSTANTS;
 use crate::film::{FilmModel, PathLine};
 use crate::image::display::QuickCurve;
@@ -177,9 +178,9 @@ struct Changes<'c> {
     changed: [Option<Seen>; CONSTANTS],
 }
 
-/// A film and the curve by which its frames are read.
+/// A film's edges, and the curve by which its frames are read.
 struct Seen {
-    film: FilmModel,
+    filter: EdgeFilter,
     curve: QuickCurve,
 }
 
@@ -197,7 +198,7 @@ impl<'c> Changes<'c> {
                 ..*image
             };
             Seen {
-                film,
+                filter: EdgeFilter::from(&film),
                 curve: curve.curve().into(),
             }
         };
@@ -229,7 +230,7 @@ impl<'c> Changes<'c> {
     }
 
     fn residual(&self, seen: &Seen, sample: &BorderPixel, line: &PathLine) -> Option<f64> {
-        let NormalReading::At(drawn) = seen.film.edge(line.paths(), 0.0) else {
+        let NormalReading::At(drawn) = seen.filter.edge(line.paths(), 0.0) else {
             return None;
         };
         match edge::edge(self.image, &seen.curve, sample, drawn, self.range) {

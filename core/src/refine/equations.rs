@@ -133,6 +133,9 @@ impl Equations {
     pub(super) fn follow(&mut self, step: &Step, more: f64) {
         let [a, b, c, x, y, z] = step.values();
         let change = [a, b, c, x, y, z, more];
+        let (down, up) = (dot(&self.right, &change), self.along(&change));
+        self.loss += up / 2.0 - down;
+        self.squares += up - 2.0 * down;
         for row in 0..UNKNOWNS {
             for column in 0..=row {
                 let entry = self.normal[row][column];
@@ -144,16 +147,20 @@ impl Equations {
         }
     }
 
+    /// The square of a change by the normal matrix.
+    fn along(&self, change: &[f64; UNKNOWNS]) -> f64 {
+        let row = |row: usize| {
+            let own = &self.normal[row];
+            // Twice what is below the diagonal, which stands for both sides of it.
+            change[row] * (2.0 * dot(own, change) - own[row] * change[row])
+        };
+        (0..UNKNOWNS).map(row).sum()
+    }
+
     /// Size of a step in standard deviations of the pose, as far as these residuals tell them.
     pub(super) fn deviations(&self, step: &Step) -> f64 {
         let [a, b, c, x, y, z] = step.values();
-        let step = [a, b, c, x, y, z, 0.0];
-        let along: [f64; UNKNOWNS] = core::array::from_fn(|row| {
-            // Twice what is below the diagonal, which stands for both sides of it.
-            let below = 2.0 * dot(&self.normal[row], &step) - self.normal[row][row] * step[row];
-            step[row] * below
-        });
-        let square: f64 = along.iter().sum();
+        let square = self.along(&[a, b, c, x, y, z, 0.0]);
         sqrt(square.max(0.0) / Self::CORRELATED) / self.residual_px().max(f64::MIN_POSITIVE)
     }
 

@@ -21,7 +21,8 @@ pub struct RefineMemory<'a> {
     /// 1024 x 1024 pixels. An outline that is longer at any pose on the way is refused: a part of it would not say where
     /// the model is. No more than 65 535 are used.
     pub border: &'a mut [BorderPixel],
-    /// For targets with a film model: one line for each [`FILM_EVERY`] border pixels, and
+    /// For targets with a film model: one line for each [`FILM_EVERY`] border pixels, or for every third, by which poses are
+    /// corrected where there is room for as many, and
     /// [`crate::film::lines::heads_needed`] heads of lists.
     pub film: LineMemory<'a>,
 }

@@ -7,7 +7,7 @@ use super::equations::Equations;
 use super::error::RefineError;
 use super::eye::Eye;
 use super::locks::{Hold, Locks};
-use super::memory::{FILM_EVERY, RefineMemory, check_memory};
+use super::memory::{RefineMemory, check_memory};
 use super::options::RefineOptions;
 use super::outline::{Depth, Sampling};
 use super::result::{Iterate, Refined};
@@ -354,18 +354,15 @@ impl<'a> Problem<'a> {
         Ok(samples)
     }
 
-    /// What was seen, weighed as another stage does, without drawing again: of one camera and a
-    /// silhouette, whose outline is where it is whatever the range.
+    /// What was seen, weighed as another stage does, without drawing again: of one camera, and of a
+    /// silhouette, whose outline is where it is whatever the range, or of a frame whose film corrects what comes of it.
     fn weigh_again(&self, before: &Seen, pass: &Pass, memory: &RefineMemory<'_>) -> Option<Seen> {
-        let [
-            CameraView {
-                target: target @ Target::Silhouette(_),
-                ..
-            },
-        ] = self.views
-        else {
+        let [CameraView { target, .. }] = self.views else {
             return None;
         };
+        if !self.is_outline() && !self.is_corrected(pass) {
+            return None;
+        }
         let stage = pass.stage(target);
         let mut equations = Equations::new();
         for sample in memory.border.get(..before.samples?)? {
@@ -401,16 +398,9 @@ impl<'a> Problem<'a> {
         equations: &mut Equations,
     ) -> Result<usize, RefineError> {
         let pose = view.placement.compose(pose);
-        let every = if stage.whole {
-            1
-        } else if stage.drawn {
-            FILM_EVERY
-        } else {
-            self.effort.every()
-        };
         let sampling = Sampling {
-            depth: Depth::of(&view.target),
-            every,
+            depth: Depth::of(&view.target, stage),
+            every: stage.every.unwrap_or(self.effort.every()),
             turn: stage.turn,
         };
         let Drawing {

@@ -1,6 +1,7 @@
 //! From coarse to fine: how far the target's outline is searched for and at which scale the loss flattens.
 
 use super::loss::Loss;
+use super::memory::FILM_EVERY;
 use super::view::Target;
 
 /// Number of stages of any target.
@@ -16,12 +17,16 @@ pub(super) struct Stage {
     pub(super) drawn: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
-    /// Whether all are, against a film too.
-    pub(super) whole: bool,
+    /// One of how many is, where the target says it.
+    pub(super) every: Option<usize>,
 }
 
 /// Undamped steps after the last stage at most.
 pub(super) const POLISHING: usize = 32;
+
+/// One of this many border pixels is looked at against a film before it corrects the pose, and when it does.
+const FILM_ROUGHLY: usize = 2 * FILM_EVERY;
+pub(super) const FILM_PARTS: usize = 3;
 
 /// Cauchy's loss is 95 % as efficient as least squares on normal noise when its scale is this
 /// many standard deviations (Holland and Welsch, Commun. Stat. A 6, 1977).
@@ -38,7 +43,7 @@ impl Stage {
             loss,
             drawn: false,
             turn: 0,
-            whole: false,
+            every: None,
         };
         match (target, index) {
             (Target::Silhouette(_), 0) => stage(48.0, Loss::Cauchy(8.0)),
@@ -68,17 +73,23 @@ pub(super) struct Pass {
     pub(super) drawn: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
-    /// Whether all are, against a film too.
-    pub(super) whole: bool,
+    /// Whether a part of them corrects the pose by a film, and other parts do after it.
+    pub(super) corrects: bool,
 }
 
 impl Pass {
     /// How a target is looked at.
     pub(super) fn stage(&self, target: &Target<'_>) -> Stage {
+        let drawn = self.drawn && target.film().is_some();
+        let every = match self.index + 1 < STAGES {
+            true => FILM_ROUGHLY,
+            false if self.corrects => FILM_PARTS,
+            false => FILM_EVERY,
+        };
         Stage {
-            drawn: self.drawn && target.film().is_some(),
+            drawn,
             turn: self.turn,
-            whole: self.whole,
+            every: drawn.then_some(every),
             ..Stage::of(target, self.index, self.sigma_px)
         }
     }

@@ -122,6 +122,33 @@ fn paths_through_a_sphere_are_its_chords() {
 }
 
 #[test]
+fn depths_behind_an_origin_are_those_of_front_and_back() {
+    let (radius, centre) = (30.0, [8.0, -5.0, -700.0]);
+    let (vertices, triangles) = sphere(radius, 240, 120);
+    let model = Model::from_triangles(&vertices, &triangles).expect("valid");
+    let pose = Pose {
+        translation: centre,
+        ..Pose::IDENTITY
+    };
+    let middle = camera().project(&centre).expect("in front");
+    let mut lines = lines_about([middle.column, middle.row], 45.0, 60);
+    lines.push(PathLine::at([20.0, 20.0], [1.0, 0.0]));
+    measured(&model, &pose, &mut lines);
+    assert_eq!(lines.pop().expect("the last").depths(), None);
+    for line in &lines {
+        // Where the ray of depth 1, a times as long, meets the sphere.
+        let ray = rays(line).nth(ORIGIN).expect("a place");
+        let (a, b) = (dot(&ray, &ray), dot(&ray, &centre));
+        let root = libm::sqrt(b * b - a * (dot(&centre, &centre) - radius * radius));
+        let wanted = [(b - root) / a, (b + root) / a];
+        let depths = line.depths().expect("metal");
+        for (depth, wanted) in depths.iter().zip(wanted) {
+            assert!((depth - wanted).abs() < 0.1, "{depths:?} {wanted}");
+        }
+    }
+}
+
+#[test]
 fn the_path_through_a_slab_seen_from_the_front_is_its_thickness_and_inside_out_too() {
     let (vertices, mut triangles) = slab([20.0, 15.0, 4.0]);
     let pose = Pose {
