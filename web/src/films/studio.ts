@@ -16,7 +16,7 @@ import init, {
 import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
 import { numbersOf } from '../geometry/axes';
-import { type ShapeKind, shapeKindOf } from '../geometry/shape_kind';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
@@ -63,6 +63,7 @@ interface HeldModel {
   readonly model: Model;
   /** Once somebody asked. */
   remarks?: readonly string[];
+  shape?: ComponentName | null;
 }
 
 /** Part of a canvas, its pixels. */
@@ -235,10 +236,13 @@ export class Studio {
     return this.#models.get(sha256)?.mesh ?? null;
   }
 
-  /** Null where its shape does not tell, or it is not here. */
-  shapeKindOf(sha256: string): ShapeKind | null {
-    const mesh = this.meshOf(sha256);
-    return mesh && shapeKindOf(mesh);
+  /** The component that a model has the shape of; null where that does not tell, or it is not here. */
+  shapeOf(sha256: string): ComponentName | null {
+    const held = this.#models.get(sha256);
+    if (!held) return null;
+    // Worked out once: whoever shows it asks again and again.
+    if (held.shape === undefined) held.shape = COMPONENT_NAMES.find((component) => component === held.model.shape) ?? null;
+    return held.shape;
   }
 
   /**
