@@ -76,11 +76,12 @@ function undistorted({ key, numbers }: DistortionInput, outline: Float64Array): 
 }
 
 async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
-  const { component, outline, unknownSides, camera } = input;
+  const { component, outline, unknownSides, laidBy, camera } = input;
   const matcher = await matcherOf(component);
   const points = camera.distortion ? undistorted(camera.distortion, outline) : outline;
   const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
   try {
+    if (laidBy) traced.laidBy(laidBy);
     return work(matcher, traced);
   } finally {
     traced.free();
