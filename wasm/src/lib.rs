@@ -22,7 +22,7 @@ mod library;
 mod matcher;
 mod working_model;
 
-pub use anatomy::{ShapeAxes, shape_axes};
+pub use anatomy::{ShapeAxes, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};

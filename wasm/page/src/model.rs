@@ -6,7 +6,6 @@ use fluoropose::image::contour::{Contour, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
 use fluoropose::image::region::largest_region;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::mesh::anatomy::{KneeComponent, component_by_shape};
 use fluoropose::pose::Pose;
 use fluoropose::render::{Projected, render, scratch_needed};
 use wasm_bindgen::prelude::*;
@@ -59,16 +58,6 @@ impl Model {
     #[wasm_bindgen(getter)]
     pub fn remarks(&self) -> Vec<String> {
         self.owned.remarks()
-    }
-
-    /// Which component of a knee it has the shape of: `femur` or `tibia`; nothing where its shape does not tell.
-    #[wasm_bindgen(getter)]
-    pub fn shape(&self) -> Option<String> {
-        let word = match component_by_shape(self.owned.as_model().mesh())? {
-            KneeComponent::Femur => "femur",
-            KneeComponent::Tibia => "tibia",
-        };
-        Some(word.to_owned())
     }
 
     /// Number of triangles.

@@ -71,7 +71,7 @@ impl Traced {
     pub fn laid_by(&mut self, word: &str) -> Result<(), JsError> {
         self.origin = OutlineOrigin::of_word(word).ok_or_else(|| {
             JsError::new(&format!(
-                "An outline is laid by a hand, by a tool, or mixed, not by {word:?}"
+                "An outline is laid by a hand, by a tool, or mixed, not by '{word}'"
             ))
         })?;
         Ok(())

@@ -16,7 +16,7 @@ import init, {
 import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
 import { numbersOf } from '../geometry/axes';
-import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+import type { ComponentName } from '../terms/component';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
@@ -63,7 +63,7 @@ interface HeldModel {
   readonly model: Model;
   /** Once somebody asked. */
   remarks?: readonly string[];
-  shape?: ComponentName | null;
+  readonly shape: ComponentName | null;
 }
 
 /** Part of a canvas, its pixels. */
@@ -228,8 +228,8 @@ export class Studio {
 
   // --- Models -------------------------------------------------------------------------------------------------
 
-  addModel(sha256: string, mesh: ModelMesh): void {
-    if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, model: new Model(mesh.vertices, mesh.triangles) });
+  addModel(sha256: string, mesh: ModelMesh, shape: ComponentName | null): void {
+    if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, shape, model: new Model(mesh.vertices, mesh.triangles) });
   }
 
   meshOf(sha256: string): ModelMesh | null {
@@ -238,11 +238,7 @@ export class Studio {
 
   /** The component that a model has the shape of; null where that does not tell, or it is not here. */
   shapeOf(sha256: string): ComponentName | null {
-    const held = this.#models.get(sha256);
-    if (!held) return null;
-    // Worked out once: whoever shows it asks again and again.
-    if (held.shape === undefined) held.shape = COMPONENT_NAMES.find((component) => component === held.model.shape) ?? null;
-    return held.shape;
+    return this.#models.get(sha256)?.shape ?? null;
   }
 
   /**

@@ -55,6 +55,7 @@ export class FilmReader {
     this.#poses = poses;
     this.#films = films;
     services.store.subscribe(() => this.#consider());
+    this.#consider();
   }
 
   /** When all that is there to be known is known: for who asks once and for good. */

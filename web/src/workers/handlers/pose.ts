@@ -1,7 +1,7 @@
-import { choosePose, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
-import type { ComponentName } from '../../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
@@ -31,6 +31,11 @@ serve<PoseProtocol>({
     return { views: matcher.views, bytes: bytes.length };
   },
   library: async ({ component }) => (await matcherOf(component)).bytes as Uint8Array<ArrayBuffer>,
+  shape: async ({ mesh }) => {
+    await ready;
+    const told = componentByShape(mesh.vertices, mesh.triangles);
+    return COMPONENT_NAMES.find((component) => component === told) ?? null;
+  },
   axes: async ({ component, mesh }) => {
     await ready;
     const found = shapeAxes(mesh.vertices, mesh.triangles, component === 'femur');
