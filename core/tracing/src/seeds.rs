@@ -36,8 +36,8 @@ const DIRECTIONS: [[f64; 2]; 8] = [
 ];
 /// So many directions may be as dark: there the other component may be, or bone.
 const AS_DARK: usize = 2;
-/// Grey values that are as good as none.
-const DARK: f64 = 16.0;
+/// Light that is as good as none, as a part of the frame's range.
+const DARK: f64 = 1.0 / 16.0;
 /// Places nearer to each other than this part of the component's size are one.
 const SAME: f64 = 0.4;
 
@@ -108,8 +108,8 @@ struct Table<'m> {
     sums: &'m [f64],
     columns: usize,
     rows: usize,
-    /// The greatest grey value of a cell: on a negative that is no light at all.
-    white: f64,
+    /// The least and the greatest grey value of a cell: on a negative the greatest is no light at all.
+    range: [f64; 2],
 }
 
 impl<'m> Table<'m> {
@@ -121,13 +121,13 @@ impl<'m> Table<'m> {
     ) -> Self {
         let width = columns + 1;
         sums[..width].fill(0.0);
-        let mut white = 0.0;
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for row in 0..rows {
             let mut line = 0.0;
             sums[(row + 1) * width] = 0.0;
             for column in 0..columns {
                 let value = grey(frame, column as f64 * cell, row as f64 * cell, cell);
-                white = value.max(white);
+                range = [value.min(range[0]), value.max(range[1])];
                 line += value;
                 sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
             }
@@ -136,16 +136,18 @@ impl<'m> Table<'m> {
             sums,
             columns,
             rows,
-            white,
+            range,
         }
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both.
     fn darker(&self, column: usize, row: usize, half: usize, size: f64, polarity: Polarity) -> f64 {
+        let [black, white] = self.range;
         let lit = |grey: f64| match polarity {
-            Polarity::DarkImplant => grey,
-            Polarity::BrightImplant => self.white - grey,
+            Polarity::DarkImplant => grey - black,
+            Polarity::BrightImplant => white - grey,
         };
+        let dark = (DARK * (white - black)).max(f64::MIN_POSITIVE);
         let inside = lit(self.mean(column, row, half));
         let mut least: Vec<f64, 8> = Vec::new();
         for [right, down] in DIRECTIONS {
@@ -158,7 +160,7 @@ impl<'m> Table<'m> {
                 let seen = within(x, self.columns) && within(y, self.rows);
                 seen.then(|| {
                     let outside = lit(self.mean(x as usize, y as usize, half));
-                    (outside - inside) / (outside + inside + DARK)
+                    (outside - inside) / (outside + inside + dark)
                 })
             };
             let most = AROUND.into_iter().filter_map(at).reduce(f64::max);
@@ -246,6 +248,15 @@ mod tests {
         }
         let few = seeds(&image, &camera, 50.0, &mut sums[1..]);
         assert!(few.is_err());
+        let other_units: std::vec::Vec<u16> = pixels
+            .iter()
+            .map(|&grey| 300 + 20 * u16::from(grey))
+            .collect();
+        let other_units = Frame::new(&other_units, SIDE, SIDE, SIDE).expect("fits");
+        image.frame = &other_units;
+        let same = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        assert_eq!(same, found, "units and offset of grey values do not matter");
+        image.frame = &frame;
         let least = pixels.iter().min().expect("pixels");
         let negative: std::vec::Vec<u8> = pixels.iter().map(|grey| 255 - (grey - least)).collect();
         let negative = Frame::new(&negative, SIDE, SIDE, SIDE).expect("fits");

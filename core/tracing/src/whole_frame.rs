@@ -21,7 +21,8 @@ const ANSWERS: usize = 4;
 struct Demands {
     /// A place is left where its best answer has a smaller score than this before poses around it are tried.
     worth_much: f64,
-    /// The least score of an answer, and the least part of its outline that is met.
+    /// The least score of the pose ([`FramePose::score`]), and the least part of its outline that is met. An answer's own score
+    /// is a part of the sharpest border near the place, which may be that of the field.
     score: f64,
     met: f64,
 }
@@ -29,12 +30,12 @@ struct Demands {
 /// Where it may be anything, and where it lies beside the other component of its joint, which hides and outshines it.
 const ALONE: Demands = Demands {
     worth_much: 0.45,
-    score: 0.5,
+    score: 0.45,
     met: 0.9,
 };
 const BESIDE: Demands = Demands {
     worth_much: 0.3,
-    score: 0.3,
+    score: 0.38,
     met: 0.7,
 };
 /// The middles of two components of a joint are at most so far apart, mm: across the view, and along it.
@@ -49,7 +50,7 @@ const WORTH: f64 = 0.2;
 const AGAIN: f64 = 0.575;
 const AROUND: f64 = 0.655;
 /// Better ones are not looked for beyond this score.
-const ENOUGH: f64 = 0.75;
+const ENOUGH: f64 = 0.55;
 
 /// Where a component was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,11 +182,9 @@ impl WholeFrame {
     ) {
         let (answers, demands) = (self.click.as_ref(), demands(self.beside));
         let answers = answers.map_or(&[][..], OneClick::answers);
-        let good = answers.iter().filter(|answer: &&Answer| {
-            answer.score >= demands.score && is_beside(answer, self.beside, subject)
-        });
+        let possible = |answer: &&Answer| is_beside(answer, self.beside, subject);
         let mut best: Option<FramePose> = None;
-        for answer in good.take(ANSWERS) {
+        for answer in answers.iter().filter(possible).take(ANSWERS) {
             let start = (&answer.refined.pose, From::Far);
             let Ok(one) = refined_on_frame(subject, image, start, memory) else {
                 continue;
@@ -250,5 +249,8 @@ fn distance_mm(place: &Point, middle: &Vector3, camera: &Camera) -> f64 {
 }
 
 fn is_good(found: &FramePose, demands: &Demands) -> bool {
-    found.fit.met >= demands.met && found.misfit_px <= MOST_PX && found.fit.known >= LEAST_KNOWN
+    found.score() >= demands.score
+        && found.fit.met >= demands.met
+        && found.misfit_px <= MOST_PX
+        && found.fit.known >= LEAST_KNOWN
 }

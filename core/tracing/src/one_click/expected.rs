@@ -9,12 +9,16 @@ use fluoropose::math::sqrt;
 const DISTANCES: [f64; 2] = [0.75, 1.35];
 /// Least and greatest area of a region, as multiples of a silhouette's area: what touches the implant may be part of it.
 const REGION: [f64; 2] = [0.4, 4.0];
+/// The same of a region whose border may be the implant's: what is larger is a limb or the field, whose borders are sharper.
+const IMPLANT: f64 = 1.5;
 
 /// Sizes in pixels and distances in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected {
     /// Least and greatest area of a region that is tried, square pixels.
     pub(super) areas: [f64; 2],
+    /// Greatest area of a region that is little more than the implant, square pixels.
+    pub(super) implant: f64,
     /// Square root of the area of a usual silhouette, pixels.
     pub(super) size: f64,
     /// No two points of a silhouette are farther apart, pixels.
@@ -40,6 +44,7 @@ impl Expected {
                 REGION[0] * least / (far * far),
                 REGION[1] * most / (near * near),
             ],
+            implant: IMPLANT * most / (near * near),
             size: sqrt((least + most) / 2.0),
             extent: 2.0 * component.model.bounds().radius * fx.max(fy) / depths[0],
             depths,
@@ -51,6 +56,7 @@ impl Expected {
         let pixels = (camera.width() * camera.height()) as f64;
         Self {
             areas: [pixels / 4096.0, pixels / 2.0],
+            implant: pixels / 2.0,
             size: sqrt(pixels) / 10.0,
             extent: sqrt(pixels),
             depths: DISTANCES,

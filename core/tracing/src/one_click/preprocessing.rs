@@ -54,7 +54,7 @@ impl OneClick {
         let base = base.unwrap_or(BLOCKED);
         let window = &self.window;
         let statistics = ThresholdStatistics::new(grey, reached, window, base, memory.statistics);
-        if let Some(peak) = statistics.peak(self.expected.areas) {
+        if let Some(peak) = statistics.peak([self.expected.areas[0], self.expected.implant]) {
             self.slope = self.slope.max(step * statistics.sharpness(peak));
         }
         let levels = statistics.levels(self.expected.areas);
@@ -116,7 +116,12 @@ impl OneClick {
         // If there are more regions than are remembered, some may be matched twice.
         let _ = self.matched.push(moments);
         let sharp = sharpness(&self.window, memory.grey, memory.marks);
-        if self.sharpest.is_none_or(|(other, _)| sharp > other) {
+        // Levels against the background are others: they are no measure of a border beside the plain ones.
+        let (_, against) = READINGS[region.pass % READINGS.len()];
+        if self
+            .sharpest
+            .is_none_or(|(other, _)| sharp > other && !against)
+        {
             self.sharpest = Some((sharp, region));
         }
         let Some(component) = component else {

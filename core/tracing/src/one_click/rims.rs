@@ -10,6 +10,7 @@ use super::candidates::{Answer, SAME_ANSWER, keep};
 use super::error::OneClickError;
 use super::memory::OneClickMemory;
 use super::observation::Observation;
+use super::scoring::nearness;
 use super::state::OneClick;
 use super::support::second_slope;
 use fluoropose::finder::Component;
@@ -30,8 +31,10 @@ const FAINT: f64 = 0.12;
 const VALLEY: f64 = 0.6;
 /// The least part of an outline that has a second edge for an outer rim to be looked for.
 const WORTH: f64 = 0.08;
-/// The outer pose must keep this part of the edges that the inner one lies on.
+/// The outer pose must keep this part of the edges that the inner one lies on, and lie as near to its own: the edge beyond may be
+/// that of skin or bone.
 const KEPT: f64 = 0.9;
+const AS_NEAR: f64 = 0.8;
 /// From this part of the outer rim on edges it takes the inner one's place; from the other on, both are open.
 const TAKEN: f64 = 0.75;
 const OPEN: f64 = 0.4;
@@ -102,7 +105,9 @@ impl OneClick {
         let outer = scorer.onto_frame(&onto.pose, memory)?;
         let other = |outer: &Answer| {
             let same = SAME_ANSWER.holds(&outer.refined.pose, &inner.refined.pose, model);
-            !same && outer.support.fraction >= KEPT * inner.support.fraction
+            !same
+                && outer.support.fraction >= KEPT * inner.support.fraction
+                && nearness(&outer.refined) >= AS_NEAR * nearness(&inner.refined)
         };
         let (held, outer) = match outer.filter(other) {
             Some(outer) => (true, Some(outer)),

@@ -182,13 +182,12 @@ impl PoseScorer<'_> {
             return Ok(None);
         };
         let drawn = self.drawn(memory.refine.drawn)?;
-        let off = (refined.loss / WORST).clamp(0.0, 1.0);
         Ok(Some(Answer {
             refined,
             start: *from,
             support,
             mirrored: false,
-            score: self.prompt.agreement(&drawn) * support.strength * (1.0 - off),
+            score: self.prompt.agreement(&drawn) * support.strength * nearness(&refined),
         }))
     }
 
@@ -204,6 +203,11 @@ impl PoseScorer<'_> {
         );
         found.map_or(0.0, |support| support.strength)
     }
+}
+
+/// How near edges lie to a refined outline: 1 where they lie on it, 0 where there are none.
+pub(super) fn nearness(refined: &Refined) -> f64 {
+    1.0 - (refined.loss / WORST).clamp(0.0, 1.0)
 }
 
 fn located_at(pose: &Pose, start: &Start) -> LocatedPose {

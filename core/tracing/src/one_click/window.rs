@@ -3,6 +3,7 @@
 use super::background::subtract_background;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
+use fluoropose::math::ln;
 use fluoropose::refine::Polarity;
 
 /// Number of grey levels.
@@ -14,6 +15,9 @@ pub(super) const BLOCKED: u16 = u16::MAX;
 const CLIPPED: f64 = 0.0005;
 /// A grey value is shifted right by this number of bits to find its bin in a histogram of [`LEVELS`] bins.
 const BIN_SHIFT: u32 = 6;
+
+/// Light that is as good as none, as a part of the window's range.
+const NO_LIGHT: f64 = 1.0 / 16.0;
 
 /// A rectangle of a frame's pixels, never empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,7 +130,9 @@ pub(super) fn levels(
     for _ in 0..how.smoothing {
         smooth(grey, window);
     }
+    let mut unit = unit;
     if let Some(side) = how.against {
+        unit *= to_logarithms(grey);
         subtract_background(grey, window.width, side, memory);
     }
     let (dark, bright) = ends(grey, memory.get_mut(..LEVELS).unwrap_or_default());
@@ -137,6 +143,17 @@ pub(super) fn levels(
     }
     block(grey, window, excluded);
     1.0 / (unit * scale)
+}
+
+/// Replaces 16-bit grey values by their logarithms on the same scale: metal takes the same part of the light whatever lies in front
+/// of it. Returns the number of new values for an old one where it is darkest, which is the most.
+fn to_logarithms(grey: &mut [u16]) -> f64 {
+    let most = f64::from(u16::MAX);
+    let scale = most / ln(1.0 + 1.0 / NO_LIGHT);
+    for value in &mut *grey {
+        *value = (scale * ln(1.0 + f64::from(*value) / (NO_LIGHT * most))) as u16;
+    }
+    scale / (NO_LIGHT * most)
 }
 
 /// One pass of the binomial filter in both directions; at the border the last pixel counts twice.
@@ -205,6 +222,7 @@ fn block(grey: &mut [u16], window: &Window, excluded: Option<&Mask<'_>>) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::background::BACKGROUND;
     use super::*;
     use fluoropose::image::frame::Frame;
 
@@ -263,6 +281,34 @@ mod tests {
         assert_eq!(dark[30 * 64 + 30], 0);
         // A level stands for the range of greys divided by the number of levels.
         assert!((step - (3252.0 - 900.0) / 1023.0).abs() < 0.1, "{step}");
+    }
+
+    #[test]
+    fn against_the_background_metal_is_alike_however_thick_the_limb_before_it() {
+        const SIDE: usize = 96;
+        // The limb grows thicker to the left, to a tenth of the light; metal takes three tenths of what is left.
+        let inside = |k: usize| (20..76).contains(&(k % SIDE)) && (40..56).contains(&(k / SIDE));
+        let pixels: std::vec::Vec<u16> = (0..SIDE * SIDE)
+            .map(|k| {
+                let limb = 40_000.0 * libm::pow(0.1, 1.0 - (k % SIDE) as f64 / SIDE as f64);
+                (if inside(k) { 0.7 * limb } else { limb }) as u16
+            })
+            .collect();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+        let window = Window::cut([0.0, 0.0, 95.0, 95.0], (SIDE, SIDE));
+        let (mut grey, mut memory) = (std::vec![0; window.pixels()], [0; BACKGROUND]);
+        let how = Reading {
+            polarity: Polarity::DarkImplant,
+            smoothing: 0,
+            against: Some(40.0),
+        };
+        levels(&frame, &window, how, None, &mut grey, &mut memory);
+        let step = |column: usize| {
+            let at = |row: usize| f64::from(grey[row * SIDE + column]);
+            at(20) - at(48)
+        };
+        let (thick, thin) = (step(28), step(68));
+        assert!(thick > 0.5 * thin, "{thick} {thin}");
     }
 
     #[test]
