@@ -46,9 +46,9 @@ async function byKeyboard(page, t) {
   await page.keyboard.press('Shift+ArrowDown');
   await page.keyboard.press('ArrowUp');
   await page.keyboard.press('i');
-  const pose = await panel.waitForPose(page);
+  const pose = await tracing.corrected(page);
   t.diagnostic(`by keyboard: ${panel.differences(pose, await truePose('femur', 1))}`);
-  panel.assertNear(pose, await truePose('femur', 1), tracing.BY_EDGES);
+  panel.assertNear(pose, await truePose('femur', 1), tracing.BY_ONE_CLICK);
   await page.keyboard.press('ArrowUp');
   await page.keyboard.press('Enter');
   await tracing.toolInHand(page, 'Edit points');

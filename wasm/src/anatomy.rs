@@ -1,7 +1,7 @@
 //! Which way a component lies in the axes of its file, as far as its shape tells.
 
 use fluoropose::mesh::Mesh;
-use fluoropose::mesh::anatomy::{KneeComponent, anatomical_axes, field_axes};
+use fluoropose::mesh::anatomy::{KneeComponent, anatomical_axes, component_by_shape, field_axes};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::Pose;
 use wasm_bindgen::prelude::*;
@@ -32,6 +32,20 @@ impl ShapeAxes {
     pub fn told(&self) -> String {
         self.told.to_owned()
     }
+}
+
+/// Which component of a knee a model has the shape of: `femur` or `tibia`; nothing where its shape does not tell.
+///
+/// # Errors
+/// The core's sentence about the vertex or triangle at fault.
+#[wasm_bindgen(js_name = componentByShape)]
+pub fn shape_component(vertices: &[f32], triangles: &[u32]) -> Result<Option<String>, JsError> {
+    let mesh = Mesh::new(vertices.as_chunks().0, triangles.as_chunks().0).map_err(sentence)?;
+    let word = |component| match component {
+        KneeComponent::Femur => "femur",
+        KneeComponent::Tibia => "tibia",
+    };
+    Ok(component_by_shape(&mesh).map(|component| word(component).to_owned()))
 }
 
 /// What the shape of a femoral component, or of a tray, tells of its axes.

@@ -60,14 +60,19 @@ impl FilmStudy {
 }
 
 fn kind(word: &str) -> Result<DisplayKind, JsError> {
-    match word {
-        "linear" => Ok(DisplayKind::Linear),
-        "between" => Ok(DisplayKind::Between),
-        "logarithmic" => Ok(DisplayKind::Logarithmic),
-        _ => Err(JsError::new(&format!(
+    DisplayKind::of_word(word).ok_or_else(|| {
+        JsError::new(&format!(
             "A display is linear, between or logarithmic, not {word:?}"
-        ))),
-    }
+        ))
+    })
+}
+
+/// What somebody who states all of a film's constants says, as a person would say it, without a full stop. `curvature` is one
+/// divided by grey values, `blur_px` the standard deviation of everything that blurs, pixels.
+#[wasm_bindgen(js_name = statedFilmWords)]
+#[must_use]
+pub fn stated_film_words(curvature: f64, blur_px: f64) -> String {
+    FilmConstants { curvature, blur_px }.to_string()
 }
 
 /// The constants of a film.

@@ -22,11 +22,11 @@ mod library;
 mod matcher;
 mod working_model;
 
-pub use anatomy::{ShapeAxes, shape_axes};
+pub use anatomy::{ShapeAxes, shape_axes, shape_component};
 pub use bead_grid::{BeadGrid, DistortionFit, fit_distortion};
 pub use choice::{Chosen, Surroundings, choose_pose};
 pub use exchange::{MaskOutline, labels_of_mask, mask_of_outline, outline_of_mask};
-pub use film::{FilmFacts, FilmStudy};
+pub use film::{FilmFacts, FilmStudy, stated_film_words};
 pub use follower::{FilmFollower, FollowedFilm};
 pub use found::Match;
 pub use frame_search::{FrameSearch, frames_to_search};

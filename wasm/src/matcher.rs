@@ -179,18 +179,21 @@ impl Matcher {
     ) -> Result<Match, JsError> {
         let film = film_model(film)?;
         frame.look(|frame| {
-            let polarity = match bright_implant {
-                Some(true) => Polarity::BrightImplant,
-                Some(false) => Polarity::DarkImplant,
-                None => traced.look(|silhouette| Ok(told_inside(frame, silhouette.mask())))?,
-            };
-            let image = ImageTarget {
-                frame,
-                unknown: None,
-                polarity,
-                film,
-            };
-            self.refine(traced, Goal::Image(image), around)
+            traced.look(|silhouette| {
+                let polarity = match bright_implant {
+                    Some(true) => Polarity::BrightImplant,
+                    Some(false) => Polarity::DarkImplant,
+                    None => told_inside(frame, silhouette.mask()),
+                };
+                let image = ImageTarget {
+                    frame,
+                    // What hides a side has edges of its own.
+                    unknown: silhouette.unknown(),
+                    polarity,
+                    film,
+                };
+                self.refine(traced, Goal::Image(image), around)
+            })
         })
     }
 

@@ -17,6 +17,17 @@ const KINDS: [f64; 2] = [0.5, 1.0];
 pub(super) const CURVATURES: [f64; 2] = [-1.0, 8.0];
 
 impl DisplayKind {
+    /// That of the word `linear`, `between` or `logarithmic`.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        match word {
+            "linear" => Some(Self::Linear),
+            "between" => Some(Self::Between),
+            "logarithmic" => Some(Self::Logarithmic),
+            _ => None,
+        }
+    }
+
     /// That of a curvature for each contrast.
     pub(super) fn of(curved: f64) -> Self {
         match curved {

@@ -1,5 +1,7 @@
 //! Constants of a film, and the edge that they make of paths through metal.
 
+use core::fmt;
+
 use super::lines::{INNER, POINTS, STEP};
 use crate::image::display::DisplayCurve;
 use crate::image::profile::FILTER_REACH;
@@ -12,6 +14,22 @@ pub struct FilmConstants {
     pub curvature: f64,
     /// Standard deviation of everything that blurs: focal spot, detector, pixels, motion. Pixels.
     pub blur_px: f64,
+}
+
+/// As a person who stated them would say it.
+impl fmt::Display for FilmConstants {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { curvature, blur_px } = self;
+        match *curvature > 0.0 {
+            true => write!(
+                f,
+                "film as stated, {:.0} grey values for a factor of e",
+                1.0 / curvature
+            )?,
+            false => f.write_str("linear film, as stated")?,
+        }
+        write!(f, ", blur {blur_px:.1} px")
+    }
 }
 
 /// Numbers of a [`FilmModel`] that have an uncertainty: curvature, blur, attenuation.

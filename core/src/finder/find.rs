@@ -12,7 +12,7 @@ use super::memory::FinderMemory;
 use super::rivals::{RefinedRival, STARTS, add_rivals, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
-use crate::image::silhouette::{CommonOffset, Silhouette};
+use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
 use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
@@ -27,9 +27,6 @@ pub enum Goal<'g> {
     Outline,
     /// Then onto the edges of the grey frame.
     Image(ImageTarget<'g>),
-    /// Onto an outline that a tool laid on the edges of a frame whose film is not known: it lies off the implant's by a distance
-    /// that nobody knows ([`CommonOffset::ON_EDGES`]). Where the film is known, its image tells more.
-    Edges,
 }
 
 /// The poses that explain what a camera saw.
@@ -97,10 +94,6 @@ pub fn find_into(
     if component.library.info().model != component.model.digest() {
         return Err(FindError::OtherModel);
     }
-    let silhouette = &match goal {
-        Goal::Edges => silhouette.lying_off(CommonOffset::ON_EDGES),
-        _ => *silhouette,
-    };
     let first = first_poses(component, camera, silhouette, memory)?;
     let mut way = Way {
         component,
@@ -114,7 +107,7 @@ pub fn find_into(
     (found.clipped, found.partial) = (first.clipped, first.partial);
     match goal {
         Goal::Library => way.as_the_library_has_them(&first, candidates),
-        Goal::Outline | Goal::Edges => way.on_outline(&first, candidates),
+        Goal::Outline => way.on_outline(&first, candidates),
         Goal::Image(image) => way.on_image(&first, image, candidates),
     }
 }

@@ -49,6 +49,41 @@ impl CommonOffset {
     }
 }
 
+/// Who laid an outline on a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OutlineOrigin {
+    /// A person's hand, or nobody knows.
+    #[default]
+    Hand,
+    /// A tool that follows the frame's edges: threshold, live-wire, snapping, one click.
+    Tool,
+    /// Such a tool in part, a hand in part.
+    Mixed,
+}
+
+impl OutlineOrigin {
+    /// That of the word `hand`, `tool` or `mixed`.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        match word {
+            "hand" => Some(Self::Hand),
+            "tool" => Some(Self::Tool),
+            "mixed" => Some(Self::Mixed),
+            _ => None,
+        }
+    }
+
+    /// How far such an outline lies off the implant's everywhere alike, while the film is not known. Nobody knows how much of a
+    /// mixed one lies on edges: as much as of a tool's.
+    #[must_use]
+    pub fn common_offset(self) -> CommonOffset {
+        match self {
+            Self::Hand => CommonOffset::default(),
+            Self::Tool | Self::Mixed => CommonOffset::ON_EDGES,
+        }
+    }
+}
+
 /// The lower median; not of many, so that it is found by counting.
 fn median(values: &[f64], of: impl Fn(f64) -> f64) -> Option<f64> {
     let rank = values.len().checked_sub(1)? / 2;
@@ -133,6 +168,13 @@ impl<'a> Silhouette<'a> {
             && (-top..last(crop.height()) + bottom).contains(&row)
     }
 
+    /// The same, laid on a frame by whom it was: what a tool laid on edges lies off the implant's outline by a distance that nobody
+    /// knows. Where the film is known, the frame itself tells more than such an outline.
+    #[must_use]
+    pub fn laid_by(self, origin: OutlineOrigin) -> Self {
+        self.lying_off(origin.common_offset())
+    }
+
     /// How far it lies off everywhere alike.
     #[must_use]
     pub fn common_offset(&self) -> CommonOffset {
@@ -211,6 +253,20 @@ mod tests {
         let off = CommonOffset::of(&[0.5, 0.4, 0.6, 7.0]).expect("some");
         assert_eq!(off.px, 0.5);
         assert!((off.deviation_px - 0.178).abs() < 1e-3, "{off:?}");
+    }
+
+    #[test]
+    fn what_a_tool_laid_lies_off_by_what_nobody_knows() {
+        let words = [0; 4];
+        let mask = Mask::new(&words, 32, 4).expect("valid");
+        let laid = |word| {
+            let origin = OutlineOrigin::of_word(word).expect("a word of them");
+            Silhouette::from(&mask).laid_by(origin).common_offset()
+        };
+        assert_eq!(laid("hand"), CommonOffset::default());
+        assert_eq!(laid("tool"), CommonOffset::ON_EDGES);
+        assert_eq!(laid("mixed"), laid("tool"));
+        assert_eq!(OutlineOrigin::of_word("Tool"), None);
     }
 
     #[test]

@@ -4,9 +4,11 @@
 //! mediolateral, and most of a tray's surface is its plate, whose normal is superoinferior. [`field_axes`] tells that much
 //! and no signs, for what does not depend on them; [`anatomical_axes`] tells which way is up and forwards too.
 
+mod kind;
 mod signs;
 mod words;
 
+pub use kind::component_by_shape;
 pub use signs::{AnatomicalAxes, anatomical_axes};
 pub use words::AxesError;
 

@@ -61,7 +61,7 @@ async function prepared(page) {
  * @param {() => Promise<void>} work
  * @returns {Promise<Frame[]>}
  */
-async function recorded(page, work) {
+export async function recorded(page, work) {
   await page.evaluate(() => {
     /** @type {Frame[]} */
     const frames = (globalThis.framesSoFar = []);
@@ -84,7 +84,7 @@ async function recorded(page, work) {
 }
 
 /** @param {string} what @param {Frame[]} frames @returns {import('./main.mjs').Row[]} */
-function figures(what, frames) {
+export function figures(what, frames) {
   const intervals = frames.slice(1).map(({ begin }, index) => begin - (frames[index]?.begin ?? begin));
   return [
     { work: `frame time, ${what}, p95`, value: quantile(frames.map((frame) => frame.work), 0.95), unit: 'ms' },

@@ -2,6 +2,7 @@
 import { writeFile } from 'node:fs/promises';
 import { argv } from 'node:process';
 import { browser, openWindow, visit } from '../support/browser.mjs';
+import { following } from './following.mjs';
 import { dragging, wiring } from './interaction.mjs';
 import { libraries } from './libraries.mjs';
 import { firstLoad, warmStart } from './loading.mjs';
@@ -15,7 +16,7 @@ if (!file) throw new Error('the file to write is not named: run `cargo xtask ben
 
 /** @type {Row[]} */
 const rows = [];
-for (const measurement of [firstLoad, warmStart, libraries, newUser, dragging, wiring]) rows.push(...(await measured(measurement)));
+for (const measurement of [firstLoad, warmStart, libraries, newUser, dragging, wiring, following]) rows.push(...(await measured(measurement)));
 rows.push(...(await speed()));
 await writeFile(file, JSON.stringify({ rows: rows.map(rounded) }));
 await (await browser()).close();
@@ -33,6 +34,6 @@ async function measured(measurement) {
 
 /** To what means something. @param {Row} row */
 function rounded({ work, value, unit }) {
-  const whole = unit !== 'ms' && unit !== 's';
+  const whole = unit !== 'ms' && unit !== 's' && unit !== 'a second';
   return { work, value: whole ? Math.round(value) : Number(value.toPrecision(3)), unit };
 }

@@ -1,7 +1,10 @@
 //! Anatomical axes of whole implants, however their files turn them.
 
 use fluoropose::joint::kinematics::{Side, joint_angles, relative_pose};
-use fluoropose::mesh::anatomy::{AnatomicalAxes, KneeComponent, anatomical_axes};
+use fluoropose::mesh::anatomy::{
+    AnatomicalAxes, KneeComponent, anatomical_axes, component_by_shape,
+};
+use fluoropose::mesh::coarser;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::mesh::{Mesh, OwnedModel};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -152,4 +155,52 @@ fn in_another_laboratorys_axes_the_femur_stands_on_the_tray_and_both_look_forwar
         .fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
     println!("flexed by {least} to {most}");
     assert!(most - least > 30.0, "the knee bends: {least} to {most}");
+}
+
+/// Whole, turned, in inches, mirrored, and with a tenth of its triangles.
+fn is_told_from_the_other(model: &OwnedModel, component: KneeComponent, name: &str) {
+    let told = |model: &OwnedModel| component_by_shape(model.as_model().mesh());
+    assert_eq!(told(model), Some(component), "{name}");
+    let by = Pose::from(EulerPose {
+        x_mm: 200.0,
+        z_rot_deg: 71.0,
+        x_rot_deg: -33.0,
+        y_rot_deg: 142.0,
+        ..EulerPose::default()
+    });
+    assert_eq!(told(&turned(model, &by)), Some(component), "{name} turned");
+    let flat = model.as_model();
+    for scales in [[1.0 / 25.4; 3], [-1.0, 1.0, 1.0]] {
+        let vertices = flat.vertices().iter();
+        let vertices = vertices.flat_map(|v| std::array::from_fn::<_, 3, _>(|k| v[k] * scales[k]));
+        let triangles = flat.triangles().as_flattened().to_vec();
+        let scaled = OwnedModel::new(vertices.collect(), triangles).expect("as valid as before");
+        assert_eq!(told(&scaled), Some(component), "{name} by {scales:?}");
+    }
+    for cell_mm in [1.5, 3.0] {
+        if let Some(coarse) = coarser(&flat, cell_mm) {
+            assert_eq!(told(&coarse), Some(component), "{name} to {cell_mm} mm");
+        }
+    }
+}
+
+#[test]
+fn shapes_tell_built_in_components_apart() {
+    is_told_from_the_other(&surface(femur()), KneeComponent::Femur, "femur");
+    is_told_from_the_other(&surface(tibia()), KneeComponent::Tibia, "tibia");
+}
+
+#[test]
+fn shapes_tell_real_components_apart() {
+    for (name, femur, tibia) in [
+        ("left8", "KR_left_8_fem.stl", "KR_left_8_tib.stl"),
+        ("film70", "femur.stl", "tibia.stl"),
+    ] {
+        let Some(study) = study(name) else { continue };
+        let folder = study.parent().expect("a folder");
+        for (file, component) in [(femur, KneeComponent::Femur), (tibia, KneeComponent::Tibia)] {
+            let model = read_model(&folder.join(file)).expect("a model");
+            is_told_from_the_other(&model, component, file);
+        }
+    }
 }

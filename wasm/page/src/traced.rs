@@ -3,7 +3,7 @@
 use fluoropose::camera::Camera;
 use fluoropose::image::contour::{Outline, Point};
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
-use fluoropose::image::silhouette::Silhouette;
+use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
 use wasm_bindgen::prelude::*;
 
 use crate::calibration::camera;
@@ -27,6 +27,7 @@ pub struct Traced {
     mask: Vec<Word>,
     /// Nothing where every side is known.
     unknown: Option<Vec<Word>>,
+    origin: OutlineOrigin,
 }
 
 #[wasm_bindgen]
@@ -57,7 +58,23 @@ impl Traced {
             camera,
             mask: words,
             unknown,
+            origin: OutlineOrigin::Hand,
         })
+    }
+
+    /// Says who laid the outline on the frame: a `hand`, a `tool` that follows edges, or both (`mixed`). What a tool laid lies off
+    /// the implant's outline by a distance that nobody knows, and poses from it say so.
+    ///
+    /// # Errors
+    /// A sentence about another word.
+    #[wasm_bindgen(js_name = laidBy)]
+    pub fn laid_by(&mut self, word: &str) -> Result<(), JsError> {
+        self.origin = OutlineOrigin::of_word(word).ok_or_else(|| {
+            JsError::new(&format!(
+                "An outline is laid by a hand, by a tool, or mixed, not by '{word}'"
+            ))
+        })?;
+        Ok(())
     }
 }
 
@@ -92,6 +109,11 @@ impl Traced {
         self.unknown.is_some()
     }
 
+    /// Words of the mask of unknown pixels, where sides were marked unknown.
+    pub fn unknown(&self) -> Option<&[Word]> {
+        self.unknown.as_deref()
+    }
+
     /// Calls `with` with the silhouette.
     ///
     /// # Errors
@@ -103,10 +125,11 @@ impl Traced {
         let (width, height) = (self.camera.width(), self.camera.height());
         let mask = Mask::new(&self.mask, width, height).map_err(sentence)?;
         let Some(words) = &self.unknown else {
-            return with(&Silhouette::from(&mask));
+            return with(&Silhouette::from(&mask).laid_by(self.origin));
         };
         let unknown = Mask::new(words, width, height).map_err(sentence)?;
-        with(&Silhouette::new(&mask, &unknown).map_err(sentence)?)
+        let silhouette = Silhouette::new(&mask, &unknown).map_err(sentence)?;
+        with(&silhouette.laid_by(self.origin))
     }
 }
 

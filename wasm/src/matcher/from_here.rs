@@ -136,6 +136,21 @@ impl HiddenPixels {
         widen(&drawn, MARGIN, &mut hidden);
         Ok(())
     }
+
+    /// Hides what lies along those sides of an outline that are marked unknown: what hides the implant there has edges of its own.
+    ///
+    /// # Errors
+    /// A sentence about an outline on a frame of another size.
+    #[wasm_bindgen(js_name = addUnknown)]
+    pub fn add_unknown(&mut self, traced: &Traced) -> Result<(), JsError> {
+        let unknown = traced.unknown().unwrap_or_default();
+        if !unknown.is_empty() && unknown.len() != self.words.len() {
+            return Err(JsError::new("The outline lies on a frame of another size"));
+        }
+        let words = self.words.iter_mut().zip(unknown);
+        words.for_each(|(hidden, unknown)| *hidden |= unknown);
+        Ok(())
+    }
 }
 
 #[wasm_bindgen]

@@ -80,11 +80,12 @@ export class Implant {
     this.#matcher.free();
   }
 
-  #look(outline: readonly Point[], { unknownSides = [] }: Hints, find: (traced: Traced) => Match): FoundPose {
+  #look(outline: readonly Point[], { unknownSides = [], laidBy = 'hand' }: Hints, find: (traced: Traced) => Match): FoundPose {
     const { width, height } = this.#frame;
     const sides = Uint32Array.from(unknownSides);
     const traced = new Traced(Float64Array.from(outline.flat()), sides, this.#calibration, width, height);
     try {
+      traced.laidBy(laidBy);
       return copied(find(traced));
     } finally {
       traced.free();

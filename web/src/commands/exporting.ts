@@ -31,7 +31,7 @@ export function fileName({ name, frames }: Doc, { kind, forms, component, column
   const stem = fileStem(name);
   switch (kind) {
     case 'session':
-      return `${stem}.fluoropose.json`;
+      return forms.session === 'study' ? 'study.toml' : `${stem}.fluoropose.json`;
     case 'poses':
       if (forms.poses === 'tra') return `${stem}.tra`;
       if (forms.poses === 'jtap') return `${stem}_${component}_frame_${String(Math.min(frameIndex, frames.length - 1) + 1).padStart(4, '0')}.jtap`;
@@ -55,6 +55,8 @@ export async function textOf(app: App, { kind, forms, component, column }: Expor
   const { doc, ui } = store;
   const publish = async (what: JointText) => app.joint.publish(await publishedFilm(doc, app.joint.numbers), what);
   switch (kind) {
+    case 'session':
+      return forms.session === 'study' ? (await import('../exchange/study_text')).writeStudy(doc) : null;
     case 'joint':
       return publish(forms.joint === 'cycle' ? { form: 'cycle', column } : { form: forms.joint === 'csv' ? 'table' : 'mot' });
     case 'figure':
@@ -83,7 +85,7 @@ export function posesOf(doc: Doc, component: ComponentName): readonly (PoseNumbe
 export async function write(app: App, exporting: Exporting, film: FilmType | null): Promise<void> {
   const { store } = app.services;
   const { doc, ui } = store;
-  if (exporting.kind === 'session') return app.actions.saveSession(exporting.forms.session === 'whole');
+  if (exporting.kind === 'session' && exporting.forms.session !== 'study') return app.actions.saveSession(exporting.forms.session === 'whole');
   const name = fileName(doc, exporting, ui.frameIndex, film);
   try {
     const made = await makeFile(app, exporting, film);

@@ -117,7 +117,7 @@ export class TracingActions {
     }
     // Where an edge bends more sharply than the outline, points pass each other.
     const { points, unknownSides } = withoutLoops(snapped);
-    store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides }));
+    store.perform(setOutline(place, texts.steps.snapOutline, { points, closed: true, unknownSides, laidBy: 'tool' }));
     store.show({ selectedPoint: null });
     const isCut = points !== snapped.points;
     return this.#say(texts.tracing.said.snapped(greatest.toFixed(1), rms.toFixed(2), isCut));

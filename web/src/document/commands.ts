@@ -1,4 +1,5 @@
 import type { Command, Place } from './command';
+import { byHand } from './laid_by';
 import { withReference } from './reference';
 import { withItsOutline } from './own_outlines';
 import { sidesAfterDeletion, sidesAfterInsertion } from './sides';
@@ -30,6 +31,7 @@ export function addPoint(place: Place, point: FramePoint): Command {
     points: [...(outline?.points ?? []), point],
     closed: false,
     unknownSides: outline?.unknownSides ?? [],
+    ...byHand(outline),
   }));
 }
 
@@ -38,7 +40,7 @@ export function closeOutline(place: Place): Command {
 }
 
 export function movePoint(place: Place, index: number, to: FramePoint): Command {
-  return onOutline(texts.steps.movePoint, place, (outline) => outline && { ...outline, points: outline.points.with(index, to) });
+  return onOutline(texts.steps.movePoint, place, (outline) => outline && { ...outline, ...byHand(outline), points: outline.points.with(index, to) });
 }
 
 /** Inserts before `index`; an index past the end appends. */
@@ -49,6 +51,7 @@ export function insertPoint(place: Place, index: number, point: FramePoint): Com
     (outline) =>
       outline && {
         ...outline,
+        ...byHand(outline),
         points: outline.points.toSpliced(index, 0, point),
         unknownSides: sidesAfterInsertion(outline, index),
       },
@@ -59,7 +62,7 @@ export function insertPoint(place: Place, index: number, point: FramePoint): Com
 export function deletePoint(place: Place, index: number): Command {
   return onOutline(texts.steps.deletePoint, place, (outline) => {
     if (!outline || outline.points.length <= 1) return null;
-    return { ...outline, points: outline.points.toSpliced(index, 1), unknownSides: sidesAfterDeletion(outline, index) };
+    return { ...outline, ...byHand(outline), points: outline.points.toSpliced(index, 1), unknownSides: sidesAfterDeletion(outline, index) };
   });
 }
 

@@ -1,8 +1,8 @@
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
 import type { Command } from './command';
-import { count, list, missingAs, nullable, number, object, oneOf, text, type Reader } from './reader';
-import { DISPLAYS, type Doc, type Film, type FilmModel, type KnownFilm, type StatedFilm, UNKNOWN_FILM } from './types';
+import { count, list, missingAs, nullable, number, object, oneOf, optional, text, type Reader } from './reader';
+import { DISPLAYS, type Doc, type Film, type FilmConstants, type FilmModel, type KnownFilm, type StatedFilm, UNKNOWN_FILM } from './types';
 
 /** Curvature, blur and attenuation: with what a pose was found. */
 export const CONSTANTS = 3;
@@ -28,7 +28,18 @@ export function withKnownFilm(doc: Doc, known: KnownFilm | null): Doc {
   return doc.film.known === known ? doc : { ...doc, film: { ...doc.film, known } };
 }
 
-const readStated = object<StatedFilm>({ display: nullable(oneOf(...DISPLAYS)), blur: nullable(number) });
+const readConstants = object<FilmConstants>({
+  curvature: number,
+  blur: number,
+  attenuation: object({ femur: nullable(number), tibia: nullable(number) }),
+});
+
+const readStated = object<StatedFilm>({
+  display: nullable(oneOf(...DISPLAYS)),
+  blur: nullable(number),
+  // Sessions from before all of a film could be stated do not.
+  constants: optional(readConstants),
+});
 
 const readModel = nullable(object<FilmModel>({ of: text, numbers: list(number) }));
 

@@ -2,6 +2,7 @@ import { transformed, type Similarity } from '../geometry/similarity';
 import type { FramePoint } from '../geometry/points';
 import { onOutline } from './commands';
 import type { Command, Place } from './command';
+import { byHand } from './laid_by';
 import { carriedSides } from './sides';
 import { markedStretch, type Stretch } from './stretch';
 import { cellOf, type Doc, type Outline } from './types';
@@ -11,7 +12,7 @@ import { texts } from '../texts/texts';
 /** Commands that change an outline as a whole. */
 
 export function transformOutline(place: Place, label: string, similarity: Similarity): Command {
-  return onOutline(label, place, (outline) => outline && { ...outline, points: transformed(similarity, outline.points) });
+  return onOutline(label, place, (outline) => outline && { ...outline, ...byHand(outline), points: transformed(similarity, outline.points) });
 }
 
 /** The same by keys: one press after the other is one unit of undo. */
@@ -31,6 +32,7 @@ export function reshapeOutline(place: Place, label: string, points: readonly Fra
     points,
     closed: true,
     unknownSides: outline ? carriedSides(outline, points) : [],
+    ...byHand(outline),
   }));
 }
 
@@ -46,11 +48,12 @@ export function markAllKnown(place: Place): Command {
 }
 
 /** A stretch of a draft, as one unit of undo. */
-export function addPoints(place: Place, label: string, points: readonly FramePoint[], closed: boolean): Command {
+export function addPoints(place: Place, label: string, points: readonly FramePoint[], closed: boolean, laid: (before: Outline | null) => Pick<Outline, 'laidBy'>): Command {
   return onOutline(label, place, (outline) => ({
     points: [...(outline?.points ?? []), ...points],
     closed,
     unknownSides: outline?.unknownSides ?? [],
+    ...laid(outline),
   }));
 }
 
@@ -63,5 +66,5 @@ export function tracedNeighbour(doc: Doc, frameIndex: number, component: Compone
 }
 
 export function copyOutline(place: Place, outline: Outline, from: string): Command {
-  return setOutline(place, `copy the outline of ${from}`, { ...outline });
+  return setOutline(place, `copy the outline of ${from}`, { ...outline, ...byHand(outline) });
 }

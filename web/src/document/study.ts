@@ -2,7 +2,7 @@ import { texts } from '../texts/texts';
 import type { ComponentName } from '../terms/component';
 import { withStatedAxes } from './axes';
 import type { Command } from './command';
-import { type Axes, DEFAULT_WINDOW, type Doc, type LibrarySpec } from './types';
+import { type Axes, DEFAULT_WINDOW, type Doc, type LibrarySpec, type StatedFilm } from './types';
 
 /** What a `study.toml` tells a page: which file is what, and what is known of the models. Methods and masks are the laboratory's. */
 export interface Study {
@@ -10,6 +10,8 @@ export interface Study {
   readonly side: 'left' | 'right' | null;
   /** Frames a second. */
   readonly rate: number | null;
+  /** Null where it says nothing of the film. */
+  readonly film: StatedFilm | null;
   readonly parts: readonly StudyPart[];
 }
 
@@ -32,7 +34,11 @@ export function componentIn({ parts }: Study, kind: 'model' | 'reference', name:
 export function takeStudy(study: Study, fileName: string): Command {
   return {
     label: texts.steps.readStudy(fileName),
-    apply: (doc) => study.parts.reduce(withPart, { ...doc, name: study.name || doc.name, side: study.side ?? doc.side, rate: study.rate ?? doc.rate }),
+    apply: (doc) => {
+      const { name, side, rate, film, parts } = study;
+      const known = { ...doc, name: name || doc.name, side: side ?? doc.side, rate: rate ?? doc.rate };
+      return parts.reduce(withPart, film ? { ...known, film: { ...doc.film, stated: film } } : known);
+    },
   };
 }
 

@@ -138,7 +138,20 @@ export interface StatedFilm {
   readonly display: (typeof DISPLAYS)[number] | null;
   /** Px. */
   readonly blur: number | null;
+  /** All of it, as a study file has it: then no frame is asked, and the two above say nothing. */
+  readonly constants: FilmConstants | null;
 }
+
+export interface FilmConstants {
+  /** One divided by grey values: 0 is linear, 1 / g shows g grey values for a factor of e. */
+  readonly curvature: number;
+  /** Px. */
+  readonly blur: number;
+  /** Of each component's metal, per mm; null where nobody knows. */
+  readonly attenuation: Readonly<Record<ComponentName, number | null>>;
+}
+
+export const NOTHING_STATED: StatedFilm = { display: null, blur: null, constants: null };
 
 export interface KnownFilm {
   /** As a person would say it, from the core, without a full stop. */
@@ -147,7 +160,7 @@ export interface KnownFilm {
   readonly stated: StatedFilm;
   /** Px. */
   readonly blur: number;
-  /** Curvature of the display times the contrast of metal. */
+  /** Curvature of the display times the contrast of metal; 0 where the constants were stated. */
   readonly curved: number;
   /** Profiles across outlines that were believed. */
   readonly profiles: number;
@@ -162,7 +175,7 @@ export interface FilmModel {
   readonly numbers: readonly number[];
 }
 
-export const UNKNOWN_FILM: Film = { stated: { display: null, blur: null }, known: null };
+export const UNKNOWN_FILM: Film = { stated: NOTHING_STATED, known: null };
 
 /** What is known of one component in one frame. */
 export interface Cell {
@@ -178,7 +191,17 @@ export interface Outline {
   readonly closed: boolean;
   /** Numbers of the sides that are not to be trusted, rising; side `i` runs from point `i` to the next. */
   readonly unknownSides: readonly number[];
+  /** Missing: a hand. */
+  readonly laidBy?: LaidBy;
 }
+
+export const LAID_BY = ['tool', 'mixed', 'click'] as const;
+
+/**
+ * Who laid an outline on the frame where no hand did: a tool that follows edges, such a tool in part, or one click, whose outline
+ * is the model's silhouette. Edges lie off the implant's outline by what its film says.
+ */
+export type LaidBy = (typeof LAID_BY)[number];
 
 export type Result = Posed | Failed;
 

@@ -30,7 +30,7 @@ export async function holdModel(services: Services, asset: Asset): Promise<void>
   if (services.studio.meshOf(asset.sha256)) return;
   if (!(await services.assets.check(asset))) throw new Error(texts.keep.damaged(asset.name));
   const mesh = await services.decoder.call('model', { bytes: await bytesOf(asset.blob), name: asset.name });
-  services.studio.addModel(asset.sha256, mesh);
+  services.studio.addModel(asset.sha256, mesh, await services.shapeOf(mesh));
 }
 
 /** Decodes every frame of a file into the studio. Frames that were there already are not held twice. */

@@ -7,7 +7,6 @@ import { distinct } from '../document/same_frames';
 import { componentIn, takeStudy, type Study } from '../document/study';
 import type { FrameEntry } from '../document/types';
 import { Aborted } from '../workers/bridge';
-import { componentShaped } from '../results/misplaced';
 import { COMPONENT_NAMES, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import { componentFor } from './guess';
@@ -273,7 +272,7 @@ async function openModel(services: Services, file: Incoming): Promise<string> {
   const { store, assets } = services;
   const asset = await assets.add(file.name, file.blob);
   await holdModel(services, asset);
-  const shaped = componentShaped(services.studio.shapeKindOf(asset.sha256));
+  const shaped = services.studio.shapeOf(asset.sha256);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].model !== null, shaped);
   const remarks = services.studio.remarksOn(asset.sha256);
   const known = store.doc.components[component].model?.sha256 === asset.sha256;

@@ -1,7 +1,7 @@
 import { framePoint, type FramePoint } from '../geometry/points';
 import type { ProposedItem } from '../document/proposal';
-import { count, flag, list, missingAs, number, object, oneOf, ReadError, text, type Reader } from '../document/reader';
-import { cellOf, type Doc, type Outline } from '../document/types';
+import { count, flag, list, missingAs, number, object, oneOf, optional, ReadError, text, type Reader } from '../document/reader';
+import { cellOf, type Doc, LAID_BY, type LaidBy, type Outline } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 
 /**
@@ -14,7 +14,9 @@ import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
  *
  * A point is column and row in pixels; the first pixel of the frame covers [0, 1) x [0, 1), rows grow downwards. Side
  * `i` runs from point `i` to the next, the last back to the first. `id` is the first 16 digits of the SHA-256 of the
- * file that holds the frame, a colon, and the frame's number in it from 0. An outline that is not closed is a draft.
+ * file that holds the frame, a colon, and the frame's number in it from 0. An outline that is not closed is a draft. `laidBy` is
+ * `tool` where a tool laid the outline on the frame's edges, `mixed` where it did so in part, `click` for the model's silhouette where
+ * one click found it, and missing where a hand laid it.
  */
 export const OUTLINES_KIND = 'fluoropose-outlines';
 export const OUTLINES_VERSION = 1;
@@ -31,6 +33,7 @@ interface FileOutline {
   readonly component: ComponentName;
   readonly closed: boolean;
   readonly unknownSides: readonly number[];
+  readonly laidBy?: LaidBy;
   readonly points: readonly (readonly [number, number])[];
 }
 
@@ -46,8 +49,8 @@ export function writeOutlines(doc: Doc, program: string): string {
   return `${JSON.stringify({ kind: OUTLINES_KIND, version: OUTLINES_VERSION, program, frames: withOutlines })}\n`;
 }
 
-function plain(component: ComponentName, { closed, unknownSides, points }: Outline): FileOutline {
-  return { component, closed, unknownSides, points: points.map(({ column, row }) => [column, row] as const) };
+function plain(component: ComponentName, { closed, unknownSides, laidBy, points }: Outline): FileOutline {
+  return { component, closed, unknownSides, ...(laidBy && { laidBy }), points: points.map(({ column, row }) => [column, row] as const) };
 }
 
 /** Items for a proposal; throws a sentence that names the place at fault. */
@@ -64,7 +67,7 @@ export function readOutlines(json: string): readonly ProposedItem[] {
 
 function itemOf(frame: FileFrame, order: number, outline: FileOutline): ProposedItem {
   const { id, name, width, height } = frame;
-  const { component, closed, unknownSides, points } = outline;
+  const { component, closed, unknownSides, laidBy, points } = outline;
   const placed: FramePoint[] = points.map(([column, row]) => framePoint(column, row));
   return {
     label: `${name}, ${component}`,
@@ -73,7 +76,7 @@ function itemOf(frame: FileFrame, order: number, outline: FileOutline): Proposed
     frameId: id,
     subject: component,
     size: { width, height },
-    outline: { closed, unknownSides, points: placed },
+    outline: { closed, unknownSides, ...(laidBy && { laidBy }), points: placed },
     exactOutline: null,
     notes: closed ? [] : ['a draft'],
   };
@@ -86,7 +89,8 @@ const readPair: Reader<readonly [number, number]> = (value, path) => {
 };
 
 const readOutline: Reader<FileOutline> = (value, path) => {
-  const outline = object<FileOutline>({
+  const { laidBy } = object({ laidBy: optional(oneOf(...LAID_BY)) })(value, path);
+  const outline = object<Omit<FileOutline, 'laidBy'>>({
     component: oneOf('femur', 'tibia'),
     closed: flag,
     unknownSides: missingAs<readonly number[]>([], list(count)),
@@ -94,7 +98,7 @@ const readOutline: Reader<FileOutline> = (value, path) => {
   })(value, path);
   const beyond = outline.unknownSides.find((side) => side >= outline.points.length);
   if (beyond !== undefined) throw new ReadError(`${path}.unknownSides names side ${beyond} of ${outline.points.length}`);
-  return outline;
+  return { ...outline, ...(laidBy !== null && { laidBy }) };
 };
 
 const readFrame: Reader<FileFrame> = object<FileFrame>({ id: text, name: text, width: count, height: count, outlines: list(readOutline) });

@@ -2,7 +2,7 @@ import { parse } from 'smol-toml';
 import { list, number, object, oneOf, optional, ReadError, text } from '../document/reader';
 import { componentNamed } from '../document/proposal';
 import type { Study, StudyPart } from '../document/study';
-import type { Axes } from '../document/types';
+import { type Axes, DISPLAYS, NOTHING_STATED, type StatedFilm } from '../document/types';
 import { directionsFromWords } from '../geometry/axes';
 import type { ComponentName } from '../terms/component';
 import { texts } from '../texts/texts';
@@ -11,6 +11,7 @@ const readStudyText = object({
   name: optional(text),
   side: optional(oneOf('left', 'right')),
   frames_per_s: optional(number),
+  film: optional(object({ curvature: optional(number), blur_px: optional(number), display: optional(oneOf(...DISPLAYS)) })),
   component: list(
     object({
       name: text,
@@ -20,18 +21,35 @@ const readStudyText = object({
       axes: optional(text),
       nominal: optional(list(number)),
       distance_mm: optional(number),
+      attenuation: optional(number),
     }),
   ),
 });
 
 /** Throws a sentence that names the place. Parts that are neither femur nor tibia are left to the laboratory. */
 export function readStudy(content: string): Study {
-  const { name, side, frames_per_s: rate, component: parts } = readStudyText(parsed(content), texts.study.place);
-  return { name: name ?? '', side, rate, parts: parts.flatMap(readPart) };
+  const { name, side, frames_per_s: rate, film, component: parts } = readStudyText(parsed(content), texts.study.place);
+  return { name: name ?? '', side, rate, film: film && statedBy(film, parts), parts: parts.flatMap(readPart) };
 }
 
-function readPart({ name, role, model, reference, axes, nominal, distance_mm: distance }: ReturnType<typeof readStudyText>['component'][number]): StudyPart[] {
-  const component = role ?? componentNamed(name);
+type StudyText = ReturnType<typeof readStudyText>;
+
+/** As the command line takes it: with curvature and blur nothing is estimated, otherwise what is left out is. */
+function statedBy({ curvature, blur_px: blur, display }: NonNullable<StudyText['film']>, parts: StudyText['component']): StatedFilm {
+  if ((curvature !== null && (blur === null || display !== null || curvature < 0)) || (blur !== null && blur <= 0)) {
+    throw new ReadError(texts.study.wrongFilm);
+  }
+  if (curvature === null || blur === null) return { ...NOTHING_STATED, display, blur };
+  const of = (component: ComponentName) => parts.find((part) => roleOf(part) === component)?.attenuation ?? null;
+  return { ...NOTHING_STATED, constants: { curvature, blur, attenuation: { femur: of('femur'), tibia: of('tibia') } } };
+}
+
+function roleOf({ role, name }: Pick<StudyText['component'][number], 'role' | 'name'>): ComponentName | null {
+  return role ?? componentNamed(name);
+}
+
+function readPart({ model, reference, axes, nominal, distance_mm: distance, ...named }: StudyText['component'][number]): StudyPart[] {
+  const component = roleOf(named);
   if (!component) return [];
   const [x, y] = nominal ?? [];
   return [

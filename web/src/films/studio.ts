@@ -16,7 +16,7 @@ import init, {
 import wasmAddress from '../pkg/page/fluoropose_page_bg.wasm?url';
 import type { GreyWindow } from '../document/types';
 import { numbersOf } from '../geometry/axes';
-import { type ShapeKind, shapeKindOf } from '../geometry/shape_kind';
+import type { ComponentName } from '../terms/component';
 import type { PoseNumbers } from '../geometry/pose_numbers';
 import type { Distortion } from '../document/distortion';
 import type { FramePoint } from '../geometry/points';
@@ -63,6 +63,7 @@ interface HeldModel {
   readonly model: Model;
   /** Once somebody asked. */
   remarks?: readonly string[];
+  readonly shape: ComponentName | null;
 }
 
 /** Part of a canvas, its pixels. */
@@ -227,18 +228,17 @@ export class Studio {
 
   // --- Models -------------------------------------------------------------------------------------------------
 
-  addModel(sha256: string, mesh: ModelMesh): void {
-    if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, model: new Model(mesh.vertices, mesh.triangles) });
+  addModel(sha256: string, mesh: ModelMesh, shape: ComponentName | null): void {
+    if (!this.#models.has(sha256)) this.#models.set(sha256, { mesh, shape, model: new Model(mesh.vertices, mesh.triangles) });
   }
 
   meshOf(sha256: string): ModelMesh | null {
     return this.#models.get(sha256)?.mesh ?? null;
   }
 
-  /** Null where its shape does not tell, or it is not here. */
-  shapeKindOf(sha256: string): ShapeKind | null {
-    const mesh = this.meshOf(sha256);
-    return mesh && shapeKindOf(mesh);
+  /** The component that a model has the shape of; null where that does not tell, or it is not here. */
+  shapeOf(sha256: string): ComponentName | null {
+    return this.#models.get(sha256)?.shape ?? null;
   }
 
   /**

@@ -1,12 +1,13 @@
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
 import { CONSTANTS, withKnownFilm } from '../document/film';
+import { isSilhouette } from '../document/laid_by';
 import { itsOutline, setItsOutline } from '../document/own_outlines';
 import { type Candidate, cellOf, type FilmModel, type FrameEntry, type KnownFilm, type Posed } from '../document/types';
 import { pointsFrom } from '../geometry/points';
 import { indexOfFrame } from '../document/frame_index';
 import { corrected, foundOnFrames, isNear, isNews, meetsFrames, misfitsBeside, needsCorrection, settled, type Witness, witnesses } from '../results/film';
-import type { ComponentName } from '../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { ToolName } from '../terms/tool';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -42,6 +43,8 @@ export class FilmReader {
   /** How often these very poses were asked. */
   #turns = 0;
   #asked: string | null = null;
+  /** Constants that somebody stated, while they are not taken. */
+  #tried: string | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #pauseIsOver: () => void = () => undefined;
   #busy = false;
@@ -52,6 +55,7 @@ export class FilmReader {
     this.#poses = poses;
     this.#films = films;
     services.store.subscribe(() => this.#consider());
+    this.#consider();
   }
 
   /** When all that is there to be known is known: for who asks once and for good. */
@@ -82,7 +86,7 @@ export class FilmReader {
       for (const witness of here) this.#entries.set(witness.key, { witness, isRead: false });
       return false;
     }
-    const isBehind = known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(here);
+    const isBehind = stated.constants === null && known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(here);
     if (isBehind) store.amend((doc) => withKnownFilm(doc, this.#last));
     return isBehind;
   }
@@ -91,22 +95,56 @@ export class FilmReader {
     const { doc } = this.#services.store;
     if (!this.#isWanted()) return null;
     const here = this.#witnesses();
+    if (doc.film.stated.constants) return this.#isTaken() ? this.#correction() : this.#taking();
     const isStated = JSON.stringify(doc.film.stated) !== this.#asked && (here.length > 0 || doc.film.known !== null);
     if (this.#isOpen(here) || isStated) return () => this.#estimate(here);
-    for (const { frameId, component } of foundOnFrames(doc)) {
+    return this.#correction();
+  }
+
+  /** Are the constants that somebody stated known, of the models as they are? */
+  #isTaken(): boolean {
+    const { film, components } = this.#services.store.doc;
+    const { known, stated } = film;
+    const isOfModel = (component: ComponentName) => {
+      const attenuation = stated.constants?.attenuation[component] ?? null;
+      const sha256 = components[component].model?.sha256;
+      return attenuation === null || sha256 === undefined || known?.models[component]?.of === sha256;
+    };
+    return known !== null && JSON.stringify(known.stated) === JSON.stringify(stated) && COMPONENT_NAMES.every(isOfModel);
+  }
+
+  /** What fails is not tried again. */
+  #taking(): (() => Promise<void>) | null {
+    const { film, components } = this.#services.store.doc;
+    const tried = JSON.stringify([film.stated, COMPONENT_NAMES.map((component) => components[component].model?.sha256)]);
+    if (tried === this.#tried) return null;
+    return async () => {
+      this.#tried = tried;
+      await this.#estimate([]);
+      this.#tried = null;
+    };
+  }
+
+  /**
+   * The next pose that is to be corrected. One that never was comes first: what it leaves is held against what others left before
+   * it had its say on the film, or a tray on its inner rim would bend the film until that is usual.
+   */
+  #correction(): (() => Promise<void>) | null {
+    const { doc } = this.#services.store;
+    const open = foundOnFrames(doc).flatMap(({ frameId, component }) => {
       const frame = doc.frames[indexOfFrame(doc, frameId)]!;
       const cell = needsCorrection(doc, component, frame);
-      if (cell && !this.#refused.has(cell.result) && this.#isReady(component, frame)) {
-        return () => this.#correctOnce({ component, frameId }, cell.result);
-      }
-    }
-    return null;
+      const isPossible = cell && !this.#refused.has(cell.result) && this.#isReady(component, frame);
+      return isPossible ? [{ place: { component, frameId }, result: cell.result }] : [];
+    });
+    const next = open.find(({ result }) => result.onFrame?.film === null) ?? open[0];
+    return next ? () => this.#correctOnce(next.place, next.result) : null;
   }
 
   /** Traced outlines do without it: it is asked once a pose meets a frame, or is about to. */
   #isWanted(): boolean {
     const { doc, ui } = this.#services.store;
-    return MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || meetsFrames(doc);
+    return MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || doc.film.stated.constants !== null || meetsFrames(doc);
   }
 
   #witnesses(): readonly Witness[] {
@@ -155,7 +193,7 @@ export class FilmReader {
     const { stated } = store.doc.film;
     this.#asked = JSON.stringify(stated);
     const read: ReadProfiles[] = [];
-    const gone = this.#gone(here);
+    const gone = stated.constants ? [] : this.#gone(here);
     this.#turns = gone.length > 0 || here.some(({ key }) => !this.#entries.has(key)) ? 1 : this.#turns + 1;
     for (const witness of gone) {
       this.#entries.delete(witness.key);
@@ -231,7 +269,8 @@ export class FilmReader {
       const known = result.candidates.map((candidate, at) => correctedBy(candidate, answers.find(({ from }) => from === at)));
       const more = answers.filter(({ from }) => from === null).map(another);
       const after = { ...result, ...settled(result, known, more), onFrame: { film } };
-      const outline = itsOutline(after.candidates[after.chosen]) ?? cell.outline;
+      // What somebody traced stays; the silhouette that a click found goes along.
+      const outline = isSilhouette(cell.outline) ? (itsOutline(after.candidates[after.chosen]) ?? cell.outline) : cell.outline;
       return withCell(doc, place, { outline, result: after, resultOf: outline });
     });
   }
@@ -261,6 +300,6 @@ function another(answer: Corrected): Candidate {
 }
 
 function outlined(candidate: Candidate, { outline }: Corrected): Candidate {
-  setItsOutline(candidate, { points: pointsFrom(outline), closed: true, unknownSides: [] });
+  setItsOutline(candidate, { points: pointsFrom(outline), closed: true, unknownSides: [], laidBy: 'click' });
   return candidate;
 }

@@ -121,7 +121,9 @@ export async function onFrameInput({ store, studio }: Services, { component, fra
     const there = other !== component && ui.libraries[other].state === 'ready' && chosenCandidate(cellOf(doc, frameId, other));
     return there ? [{ component: other, pose: there.pose }] : [];
   });
-  return { component, camera, frame: { pixels, width, height }, others, film: filmNumbers(doc, component) };
+  const { outline } = cellOf(doc, frameId, component);
+  const unknown = outline?.closed && outline.unknownSides.length > 0 ? flatten(outline) : null;
+  return { component, camera, frame: { pixels, width, height }, others, unknown, film: filmNumbers(doc, component) };
 }
 
 function candidateOf({ pose, residual, drawn, deviations }: FitFacts): Candidate {

@@ -2,8 +2,9 @@ import { type CellEntry, CellIndex } from '../document/cells';
 import { withCell } from '../document/commands';
 import type { Place } from '../document/command';
 import { inFilmOrder, indexOfFrame } from '../document/frame_index';
+import { isOnEdges } from '../document/laid_by';
 import { currentCell, currentFrame, currentPlace, type Store } from '../document/store';
-import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Result } from '../document/types';
+import { type Candidate, type Cell, cellOf, type FrameEntry, isByHand, isRefined, type Outline, type Posed, type Result } from '../document/types';
 import type { ComponentName } from '../terms/component';
 import { work } from '../workers/activity';
 import { Aborted, type Bridge, WorkerStopped } from '../workers/bridge';
@@ -238,7 +239,7 @@ export class Poser {
 
   #take(task: Task, match: Match): void {
     const { outline, key } = task;
-    const result = match.refusal === null ? posed(match, key) : failed(match.refusal, key);
+    const result = match.refusal === null ? this.#posed(task, match) : failed(match.refusal, key);
     const refused = task.method === 'refine' && result.kind === 'posed' && !isRefined(result);
     const { candidates, canonicalArea, clipped, partial, milliseconds } = match;
     const details = candidates.map(({ pose, picture, atBorder, start }) => ({ pose, picture, atBorder, start }));
@@ -249,7 +250,13 @@ export class Poser {
     this.#apply(task, result, followed);
   }
 
-  /** Nothing was found, or refined. */
+  /** What a tool laid on edges of a frame gives poses that are on it: they are corrected once its film is known. */
+  #posed({ method, frame, outline, key }: Task, match: Match): Posed {
+    const result = posed(match, key);
+    const isOnFrame = method === 'refine' && isRefined(result) && isOnEdges(outline) && !cameraOf(this.#store.doc, frame)?.distortion;
+    return isOnFrame ? { ...result, onFrame: { film: null } } : result;
+  }
+
   /** Once: what stops the worker twice is refused. */
   #isTriedAgain(error: unknown, outline: Outline): boolean {
     if (!(error instanceof WorkerStopped) || this.#stoppedAt.has(outline)) return false;
@@ -257,6 +264,7 @@ export class Poser {
     return true;
   }
 
+  /** Nothing was found, or refined. */
   #refuse(task: Task, sentence: string): void {
     const { method, outline, key } = task;
     if (method === 'match') {
@@ -322,7 +330,7 @@ function rotationBetween(a: Pick<Candidate, 'pose'>, b: Pick<Candidate, 'pose'>)
   return Math.hypot(a.pose.xRot - b.pose.xRot, a.pose.yRot - b.pose.yRot);
 }
 
-function posed(match: Match, origin: string): Result {
+function posed(match: Match, origin: string): Posed {
   const { reason, decided, verdict } = match;
   const candidates = match.candidates.map(({ pose, unmatched, drawn, residual, deviations, judged }) => ({
     pose,
@@ -343,6 +351,7 @@ function failed(refusal: string, origin: string): Result {
 function samePoints(a: Outline, b: Outline): boolean {
   return (
     a.closed === b.closed &&
+    a.laidBy === b.laidBy &&
     a.points.length === b.points.length &&
     a.unknownSides.join() === b.unknownSides.join() &&
     a.points.every(({ column, row }, index) => column === b.points[index]?.column && row === b.points[index]?.row)
@@ -350,9 +359,11 @@ function samePoints(a: Outline, b: Outline): boolean {
 }
 
 /** An outline as it goes to the worker. */
-export function flatten({ points, unknownSides }: Outline): Pick<MatchInput, 'outline' | 'unknownSides'> {
+export function flatten({ points, unknownSides, laidBy }: Outline): Pick<MatchInput, 'outline' | 'unknownSides' | 'laidBy'> {
   return {
     outline: Float64Array.from(points.flatMap(({ column, row }) => [column, row])),
     unknownSides: Uint32Array.from(unknownSides),
+    // Where its click found it, a silhouette lies on edges.
+    laidBy: laidBy === 'click' ? 'tool' : (laidBy ?? null),
   };
 }

@@ -2,7 +2,8 @@ import { Assets } from '../document/assets';
 import type { Job, Store } from '../document/store';
 import { work } from '../workers/activity';
 import type { Bridge } from '../workers/bridge';
-import type { DecodeProtocol } from '../workers/protocol/decode';
+import type { ComponentName } from '../terms/component';
+import type { DecodeProtocol, ModelMesh } from '../workers/protocol/decode';
 import type { Studio } from '../films/studio';
 
 /** What the jobs of the page share. */
@@ -11,6 +12,8 @@ export interface Services {
   readonly studio: Studio;
   readonly assets: Assets;
   readonly decoder: Bridge<DecodeProtocol>;
+  /** The component that a model has the shape of; null where that does not tell. */
+  readonly shapeOf: (mesh: ModelMesh) => Promise<ComponentName | null>;
 }
 
 let lastJob = 0;

@@ -24,7 +24,7 @@ export function ComponentNotes({ state }: { state: State }) {
 function MisplacedCard({ state }: { state: State }) {
   const { studio, store } = useApp().services;
   const doc = state.history.present;
-  const { components, canSwap } = misplacedModels(doc, (sha256) => studio.shapeKindOf(sha256));
+  const { components, canSwap } = misplacedModels(doc, (sha256) => studio.shapeOf(sha256));
   const key = `shape ${components.map((component) => doc.components[component].model?.sha256).join(' ')}`;
   if (components.length === 0 || state.ui.dismissed.includes(key)) return null;
   const words = texts.models;

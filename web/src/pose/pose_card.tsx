@@ -150,8 +150,16 @@ function sourceOf(cell: Cell, findings: Findings | null): string {
   const { residual = null, deviations = null } = chosenCandidate(cell) ?? {};
   const words = texts.panel.pose;
   if (residual !== null && isFollowing(cell.result, findings)) return words.follows(residual.toFixed(2));
-  if (residual !== null) return words.refined(residual.toFixed(2), deviations !== null);
+  if (residual !== null) return ofOutline(cell, residual.toFixed(2)) ?? words.refined(residual.toFixed(2), deviations !== null);
   return findings?.refusal ? words.notRefined(findings.refusal) : words.library;
+}
+
+/** What a person should know of a pose from an outline that no hand laid; null of others. */
+function ofOutline({ outline, result }: Cell, residual: string): string | null {
+  const { laidBy, onEdges, byFilm } = texts.panel.pose;
+  if (result?.kind !== 'posed' || !result.onFrame || !outline?.laidBy || outline.laidBy === 'click') return null;
+  const say = result.onFrame.film ? byFilm : onEdges;
+  return say(residual, laidBy[outline.laidBy]);
 }
 
 function needs(cell: Cell, missing: readonly string[]): string {

@@ -134,9 +134,9 @@ export function misfitsBeside(doc: Doc, { frameId, component }: Place): FilmMisf
   };
 }
 
-/** A candidate after its correction: on a known film poses are compared by what they leave there. */
+/** A candidate after its correction: on a known film poses are compared by what they leave there, not by the outline. */
 export function corrected(before: Candidate, { pose, residual, deviations, judged }: Pick<Candidate, 'pose' | 'residual' | 'deviations' | 'judged'>): Candidate {
-  return { ...before, pose, residual, deviations, judged };
+  return { ...before, drawn: null, pose, residual, deviations, judged };
 }
 
 /** So many times what another pose leaves rules a pose out, as the core has it. */

@@ -11,7 +11,7 @@ import { useLatest } from './latest';
 /** How the file will look. */
 export function ExportPreview({ state, film }: { state: State; film: FilmType | null | undefined }) {
   const { kind, forms } = state.ui.exporting;
-  if (kind === 'session') return null;
+  if (kind === 'session' && forms.session !== 'study') return null;
   if (kind === 'film') return <FilmPreview state={state} isFilm={forms.film === 'video' && film !== null} />;
   return <TextPreview state={state} />;
 }

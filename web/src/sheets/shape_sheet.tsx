@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useState } from 'preact/hooks';
+import { asBefore } from '../document/laid_by';
 import { setOutline } from '../document/outlines';
 import { currentCell, currentPlace, type State } from '../document/store';
 import type { Outline } from '../document/types';
@@ -26,7 +27,7 @@ export function ShapeSheet({ state }: { state: State }) {
     const place = currentPlace(store.state);
     if (!place) return;
     const { points, unknownSides } = shape;
-    store.perform(setOutline(place, shaping.smooth > 0 ? smoothed : simplified, { points, closed: true, unknownSides }));
+    store.perform(setOutline(place, shaping.smooth > 0 ? smoothed : simplified, { points, closed: true, unknownSides, ...asBefore(closed) }));
     store.show({ popover: null, selectedPoint: null });
   };
   return (

@@ -41,24 +41,29 @@ interface OutlineStyle {
   /** Numbers of the sides that are drawn dashed. */
   readonly unknownSides: readonly number[];
   readonly active: boolean;
+  /** Something else is what counts: it is only where it was. */
+  readonly faint: boolean;
   readonly handles: boolean;
   readonly hit: Hit;
   readonly selected: number | null;
   readonly pointer: CanvasPoint | null;
 }
 
+const FAINT = 0.45;
+
 export function drawOutline(context: Context, component: ComponentName, points: readonly CanvasPoint[], style: OutlineStyle): void {
   const colour = COMPONENT_COLOURS[component].css;
   const { known, unknown } = paths(points, style);
   context.save();
   context.lineJoin = 'round';
-  context.globalAlpha = style.active ? 1 : 0.6;
-  stroke(context, known, HALO, 3.5);
-  stroke(context, known, colour, 1.5);
+  context.globalAlpha = style.faint ? FAINT : style.active ? 1 : 0.6;
+  if (!style.faint) stroke(context, known, HALO, 3.5);
+  stroke(context, known, colour, style.faint ? 1 : 1.5);
   context.setLineDash([7, 7]);
   stroke(context, unknown, HALO, 4.5);
   stroke(context, unknown, colour, 2.5);
   context.setLineDash([]);
+  context.globalAlpha = style.active ? 1 : 0.6;
   if (style.handles) {
     const shown = handlesAmong(points, style);
     points.forEach((point, index) => shown(point, index) && drawHandle(context, colour, point, handleStyle(index, style)));

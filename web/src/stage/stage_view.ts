@@ -1,4 +1,5 @@
 import { currentCell, currentFrame, type State, type Store } from '../document/store';
+import { isSurpassed } from '../document/laid_by';
 import { cellOf, chosenCandidate, type Doc, type FrameEntry, type GreyWindow, type Outline } from '../document/types';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { TracingTools } from '../tracing/tracing_tools';
@@ -231,12 +232,15 @@ export class StageView {
     if (shaded && overlayOpacity > 0) drawShaded(context, shaded, this.#size, overlayOpacity);
     for (const overlay of order) {
       if (overlay.border && !shaded) this.#drawModel(context, state, view, overlay, overlayOpacity);
+      if (overlay.border && isSurpassed(cellOf(doc, frame.id, overlay.component))) {
+        strokeBorder(context, view, overlay.border, COMPONENT_COLOURS[overlay.component].css);
+      }
     }
     this.#reference.draw(context, state, this.#studio, frame, view);
     drawGhosts(context, state, view);
     for (const { component } of order) {
-      const { outline } = cellOf(doc, frame.id, component);
-      if (outline) this.#drawOutline(context, state, view, component, outline, hit);
+      const cell = cellOf(doc, frame.id, component);
+      if (cell.outline) this.#drawOutline(context, state, view, component, cell.outline, isSurpassed(cell), hit);
     }
   }
 
@@ -263,6 +267,7 @@ export class StageView {
     view: Viewport,
     component: ComponentName,
     outline: Outline,
+    faint: boolean,
     hit: Hit,
   ): void {
     const active = component === state.ui.component;
@@ -271,7 +276,7 @@ export class StageView {
     const handles = active && handlesShown(state);
     const selected = handles ? selectedPoint : null;
     const { closed, unknownSides } = outline;
-    drawOutline(context, component, points, { closed, unknownSides, active, handles, hit: handles ? hit : NOTHING, selected, pointer: this.#pointer });
+    drawOutline(context, component, points, { closed, unknownSides, active, faint, handles, hit: handles ? hit : NOTHING, selected, pointer: this.#pointer });
     const last = points.at(-1);
     if (active && tool === 'trace' && !outline.closed && last && this.#pointer) {
       drawRubberBand(context, component, last, (hit.kind === 'vertex' && points[hit.index]) || this.#pointer);

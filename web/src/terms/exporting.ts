@@ -6,7 +6,7 @@ export type ExportKind = (typeof EXPORTS)[number];
 
 /** Forms of each, the usual one first. */
 export const FORMS = {
-  session: ['whole', 'without files'],
+  session: ['whole', 'without files', 'study'],
   poses: ['jts', 'csv', 'jtak', 'jtap', 'tra'],
   joint: ['csv', 'mot', 'cycle'],
   figure: ['svg', 'png'],

@@ -16,7 +16,7 @@ export const exporting = {
   } satisfies Record<ExportKind, string>,
   form: 'Form',
   forms: {
-    session: { whole: 'With images and models', 'without files': 'Without (named by SHA-256)' },
+    session: { whole: 'With images and models', 'without files': 'Without (named by SHA-256)', study: 'Study file' },
     poses: { jts: 'JTS', csv: 'CSV', jtak: 'JTAK', jtap: 'JTAP', tra: 'TRA' },
     joint: { csv: 'CSV', mot: 'MOT', cycle: '101 points' },
     figure: { svg: 'SVG', png: 'PNG' },
@@ -26,6 +26,7 @@ export const exporting = {
   } satisfies { [K in ExportKind]: Record<FormOf<K>, string> },
   /** What a form is for. */
   hints: {
+    'session study': 'For the command line: which file is what, side, axes, and what you stated of the film; put it beside the files, and add the folders of frames and masks',
     'poses jts': 'A row a frame; rows of NaN where there is no pose',
     'poses csv': 'With standard deviations, verdicts and the reason of the choice, a row a frame',
     'poses jtak': 'A row a frame; NOT_OPTIMIZED where there is no pose',

@@ -31,5 +31,16 @@ export const film = {
   },
   blur: 'Blur',
   blurMeaning: 'Blur left empty is estimated. It holds everything that blurs: focal spot, detector, motion.',
+  fix: 'State all of it',
+  fixTitle: 'Takes what is known as it is, number by number: no frame is asked any more',
+  unfix: 'From the frames again',
+  unfixTitle: 'Estimates the film from the frames that have a pose',
+  curvature: 'Curvature of the display',
+  curvatureUnit: '1/grey',
+  metal: (component: string) => `Attenuation of the ${component}`,
+  metalUnit: '1/mm',
+  constantsMeaning:
+    'A curvature of 0 is linear; 1/38 shows 38 grey values for a factor of e. Attenuation is that of thin metal. A component without it is not corrected. These are taken as certain, and a study file keeps them.',
+  wrongConstants: 'The curvature is 0 or more, the blur between 0.3 and 3 pixels, an attenuation above 0.',
   wrongBlur: 'A blur is between 0.3 and 3 pixels.',
 };

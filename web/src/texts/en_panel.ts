@@ -22,6 +22,11 @@ export const panel = {
     fromFile: (name: string) => `From ${name}.`,
     refined: (residual: string, sure: boolean) =>
       `refined, ${residual} px; ${sure ? '± is one standard deviation' : 'the outline does not determine how sure'}`,
+    laidBy: { tool: 'a tool', mixed: 'a tool and a hand' },
+    onEdges: (residual: string, who: string) =>
+      `refined, ${residual} px, on an outline that ${who} laid on the frame's edges: ± is wide until the film is known`,
+    byFilm: (residual: string, who: string) =>
+      `refined on the frame by its film, ${residual} px, from an outline that ${who} laid; ± is one standard deviation`,
     follows: (residual: string) => `following the outline, ${residual} px; refined when it is at rest`,
     library: 'library',
     notRefined: (why: string) => `library. Not refined: ${why}`,

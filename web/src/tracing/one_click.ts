@@ -117,7 +117,8 @@ export class OneClick {
 
   #take(answer: OneClickFacts, place: Place, key: string | null, film: OneClickInput['film']): void {
     const { store } = this.#services;
-    const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [] }));
+    const laidBy = answer.match ? 'click' : 'tool';
+    const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [], laidBy }) as const);
     const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null };
     store.perform(oneClickOutline(place, outlines, { ...answer, onFrame }, key));
     store.show({ selectedPoint: null });

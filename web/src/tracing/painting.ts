@@ -1,4 +1,5 @@
 import type { Command, Place } from '../document/command';
+import { byHand } from '../document/laid_by';
 import { setOutline } from '../document/outlines';
 import type { Outline } from '../document/types';
 import type { FramePoint } from '../geometry/points';
@@ -14,6 +15,6 @@ export function brushRefusal(before: Outline | null, erase: boolean): string | n
 /** The stroke on the outline from before it. */
 export function paint(place: Place, before: Outline | null, stroke: readonly FramePoint[], radius: number, erase: boolean): Command {
   const { points, unknownSides } = brushed(before, stroke, radius, erase);
-  const outline = points.length > 0 ? { points, closed: true, unknownSides } : null;
+  const outline = points.length > 0 ? { points, closed: true, unknownSides, ...byHand(before) } : null;
   return setOutline(place, erase ? texts.steps.erase : texts.steps.paint, outline);
 }

@@ -120,7 +120,7 @@ export class Threshold {
       if (this.#taken) this.#taken = { ...wanted, outline: this.#taken.outline };
       return this.#host.say(texts.tracing.said.empty(Math.round(wanted.level)));
     }
-    const outline: Outline = { points, closed: true, unknownSides: [] };
+    const outline: Outline = { points, closed: true, unknownSides: [], laidBy: 'tool' };
     this.#taken = { ...wanted, outline };
     this.#preview = NO_PREVIEW;
     this.#host.perform({ ...setOutline(wanted.place, texts.steps.takeRegion, outline), mergeKey: wanted.mergeKey });

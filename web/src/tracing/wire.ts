@@ -1,4 +1,5 @@
 import type { Command, Place } from '../document/command';
+import { byHand, byTool } from '../document/laid_by';
 import { addPoints, setOutline } from '../document/outlines';
 import type { Outline } from '../document/types';
 import { type FramePoint, pointsFrom } from '../geometry/points';
@@ -111,7 +112,7 @@ export class Wire {
     const draft = this.#draft;
     if (!place || this.#host.outline?.closed) return;
     this.#aim = { at, straight };
-    if (!draft) return this.#perform(addPoints(place, texts.steps.beginOutline, [this.#begin(this.#aim)], false), { counts: [0], side: 0 });
+    if (!draft) return this.#perform(addPoints(place, texts.steps.beginOutline, [this.#begin(this.#aim)], false, byTool), { counts: [0], side: 0 });
     const last = draft.points.at(-1)!;
     if (away(last, at) <= SAME_SPOT) return;
     if (straight) return this.#append(draft, [at], [], texts.steps.straightStretch);
@@ -131,7 +132,7 @@ export class Wire {
     this.#prepareAll();
     this.#settle(draft);
     const points = straight ? [] : this.#refined(draft, this.#pathTo(first)).slice(1, -1);
-    this.#perform(addPoints(place, texts.steps.closeOutline, points, true), NO_SEEDS);
+    this.#perform(addPoints(place, texts.steps.closeOutline, points, true, straight ? byHand : byTool), NO_SEEDS);
     this.leave();
     return true;
   }
@@ -144,7 +145,7 @@ export class Wire {
     const seeds = this.#seeds.get(draft) ?? NO_SEEDS;
     const count = seeds.counts.at(-1) ?? draft.points.length - 1;
     const unknownSides = draft.unknownSides.filter((side) => side < count - 1);
-    const shorter: Outline | null = count > 0 ? { points: draft.points.slice(0, count), closed: false, unknownSides } : null;
+    const shorter: Outline | null = count > 0 ? { ...draft, points: draft.points.slice(0, count), unknownSides } : null;
     this.#perform(setOutline(place, texts.steps.takeStretchBack, shorter), { counts: seeds.counts.slice(0, -1), side: count > 1 ? seeds.side : 0 });
     return true;
   }
@@ -218,7 +219,7 @@ export class Wire {
     if (!place) return;
     const seeds = this.#seeds.get(draft) ?? NO_SEEDS;
     const counts = [...seeds.counts, draft.points.length];
-    this.#perform(addPoints(place, label, points, false), { counts, side: this.#sideOf(draft, path) });
+    this.#perform(addPoints(place, label, points, false, path.length > 0 ? byTool : byHand), { counts, side: this.#sideOf(draft, path) });
   }
 
   #sideOf(draft: Outline, path: readonly FramePoint[]): number {

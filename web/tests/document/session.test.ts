@@ -4,7 +4,7 @@ import { decodeBase64, encodeBase64, readSession, writeSession, type Session } f
 import { cellKey, EMPTY_DOC, type Cell, type Doc, type Outline } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 
-const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true, unknownSides: [0, 2] };
+const outline: Outline = { points: [framePoint(1.25, 2), framePoint(1 / 3, 1e-7), framePoint(1023.999, 5)], closed: true, unknownSides: [0, 2], laidBy: 'mixed' };
 const pose = { x: 4.605862, y: -17.13854, z: -1083.741, zRot: 7.91024, xRot: 5.66783, yRot: -1.187261 };
 
 const deviations = { x: 0.021, y: 0.02, z: 0.31, zRot: 0.03, xRot: 0.05, yRot: 0.06, covariance: [1e-7, 1 / 3, -2.5] };
@@ -53,7 +53,7 @@ const doc: Doc = {
   cells: Cells.from<Cell>([[cellKey('ab:0', 'femur'), posed], [cellKey('ab:0', 'tibia'), stale], ['x/femur', loaded]]),
   window: { centre: 2000, width: 4095 },
   rate: 7.5,
-  film: { stated: { display: 'linear', blur: 1.2 }, known: null },
+  film: { stated: { display: 'linear', blur: 1.2, constants: { curvature: 0.02, blur: 1, attenuation: { femur: 0.7, tibia: null } } }, known: null },
   marks: { [cellKey('ab:0', 'tibia')]: { checked: '1-2', flagged: true, note: 'Zement "am" Rand' } },
 };
 
@@ -94,10 +94,14 @@ describe('session', () => {
   });
 
   it('reads outlines and choices that were saved before sides could be marked and choices had reasons', () => {
-    const old = written().replace(/,"(unknownSides|reason|decided)":(\[[^\]]*\]|"[^"]*"|\w+)/g, '');
-    expect(old).not.toMatch(/unknownSides|reason|decided/);
-    const cell = readSession(old).doc.cells.at('ab:0', 'femur');
-    expect(cell?.outline).toEqual({ ...outline, unknownSides: [] });
+    const old = written().replace(/,"(unknownSides|laidBy|reason|decided)":(\[[^\]]*\]|"[^"]*"|\w+)/g, '');
+    expect(old).not.toMatch(/unknownSides|laidBy|reason|decided/);
+    const { cells } = readSession(old).doc;
+    const cell = cells.at('ab:0', 'femur');
+    // Poses on the frame came of one click alone then, with the outline that they have.
+    expect(cell?.outline).toEqual({ ...outline, unknownSides: [], laidBy: 'click' });
+    const { laidBy: _, ...byHand } = outline;
+    expect(cells.at('ab:0', 'tibia')?.outline).toEqual({ ...byHand, unknownSides: [] });
     expect(cell?.result).toMatchObject({ reason: null, decided: false, chosen: 0 });
   });
 

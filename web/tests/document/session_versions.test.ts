@@ -3,7 +3,7 @@ import { describe, expect, it } from 'vitest';
 import { auditOf, auditTroubles } from '../../src/document/session/audit';
 import { filmNumbers } from '../../src/document/film';
 import { readSession, SESSION_VERSION, writeSession } from '../../src/document/session/session';
-import { cellKey, cellOf, chosenCandidate, DEFAULT_WINDOW, verdictOf } from '../../src/document/types';
+import { cellKey, cellOf, chosenCandidate, DEFAULT_WINDOW, UNKNOWN_FILM, verdictOf } from '../../src/document/types';
 
 /** One file of each version there ever was: what somebody saved stays readable. */
 const file = (version: number) => readFileSync(new URL(`fixtures/session-v${version}.fluoropose.json`, import.meta.url), 'utf8');
@@ -67,7 +67,7 @@ describe('sessions of earlier versions', () => {
   });
 
   it.each([1, 2, 3, 4])('version %i knows no film', (version) => {
-    expect(readSession(file(version)).doc.film).toEqual({ stated: { display: null, blur: null }, known: null });
+    expect(readSession(file(version)).doc.film).toEqual(UNKNOWN_FILM);
   });
 
   it('version 4 does not say that a click found a pose: it is seen by what was never drawn', () => {
@@ -79,7 +79,7 @@ describe('sessions of earlier versions', () => {
 
   it('version 5 has the film, by which poses were found on the frame', async () => {
     const { doc, audit } = readSession(file(5));
-    expect(doc.film.stated).toEqual({ display: 'logarithmic', blur: null });
+    expect(doc.film.stated).toEqual({ display: 'logarithmic', blur: null, constants: null });
     expect(filmNumbers(doc, 'femur')?.slice(0, 3)).toEqual([0.0263, 0.82, 0.71]);
     expect(filmNumbers(doc, 'tibia')).toBeNull();
     const { result } = cellOf(doc, doc.frames[0]!.id, 'femur');

@@ -1,7 +1,10 @@
 import { describe, expect, it } from 'vitest';
 import { readStudy } from '../../src/exchange/study_file';
+import { writeStudy } from '../../src/exchange/study_text';
+import { setCalibration, setModel } from '../../src/document/commands';
 import { componentIn, takeStudy } from '../../src/document/study';
 import { Store } from '../../src/document/store';
+import { NOTHING_STATED } from '../../src/document/types';
 import { wordsOf } from '../../src/geometry/axes';
 
 const STUDY = `
@@ -47,7 +50,34 @@ describe('a study file', () => {
     expect(store.doc.side).toBe('unknown');
   });
 
+  const WHOLE = '[film]\ncurvature = 0.025\nblur_px = 0.8\n[[component]]';
+
+  it('states a film in whole, or in part', () => {
+    const film = (text: string) => readStudy(STUDY.replace('[[component]]', text).replace('masks.hand', 'attenuation = 0.7\nmasks.hand')).film;
+    expect(film('[[component]]')).toBeNull();
+    expect(film(WHOLE)).toEqual({ ...NOTHING_STATED, constants: { curvature: 0.025, blur: 0.8, attenuation: { femur: 0.7, tibia: null } } });
+    expect(film('[film]\ndisplay = "logarithmic"\n[[component]]')).toEqual({ ...NOTHING_STATED, display: 'logarithmic' });
+    expect(film('[film]\nblur_px = 1.3\n[[component]]')).toEqual({ ...NOTHING_STATED, blur: 1.3 });
+  });
+
+  it.each([[WHOLE], ['[film]\ndisplay = "between"\nblur_px = 1.3\n[[component]]'], ['[[component]]']])('is written as it is read: %s', (text) => {
+    const study = readStudy(STUDY.replace('[[component]]', text).replace('masks.hand', 'attenuation = 0.7\nmasks.hand'));
+    const store = new Store();
+    store.perform(setCalibration({ name: 'calibration.txt', text: '' }));
+    store.perform(setModel('femur', { name: 'femur.stl', sha256: 'f' }));
+    store.perform(setModel('tibia', { name: 'tray.stl', sha256: 't' }));
+    store.perform(takeStudy(study, 'study.toml'));
+    const written = writeStudy(store.doc);
+    expect(written).toMatch(/^name = "my study"\nside = "left"\ncalibration = "calibration.txt"\nframes_per_s = 15/);
+    const { parts, ...rest } = readStudy(written);
+    expect(rest).toEqual({ name: study.name, side: study.side, rate: study.rate, film: study.film });
+    expect(parts).toEqual(study.parts.map((part) => ({ ...part, reference: null })));
+  });
+
   it.each([
+    ['[[component]]', '[film]\ncurvature = 0.025\n[[component]]', /of \[film\] either curvature/],
+    ['[[component]]', '[film]\nblur_px = 0\n[[component]]', /of \[film\] either curvature/],
+    ['[[component]]', '[film]\ndisplay = "bent"\n[[component]]', /^study\.film\.display should be/],
     ['axes = "y z x"', 'axes = "y x z"', /the axes of the femur, "y x z", are not three/],
     ['side = "left"', 'side = "west"', /^study\.side should be "left" or "right"/],
     ['side = "left"', 'side = left', /^it is not read as a study: Invalid TOML/],

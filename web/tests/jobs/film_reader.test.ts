@@ -2,14 +2,16 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { addFrames, deleteOutline, setCalibration, setModel, withCell } from '../../src/document/commands';
 import type { Command } from '../../src/document/command';
 import { stateFilm } from '../../src/document/film';
+import { isSurpassed } from '../../src/document/laid_by';
 import { Store } from '../../src/document/store';
-import { cellOf, chosenCandidate, type Doc, type Outline, type Posed } from '../../src/document/types';
+import { cellOf, chosenCandidate, type Doc, NOTHING_STATED, type Outline, type Posed } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { FILM_REST, FilmReader } from '../../src/jobs/film_reader';
 import { poseKey } from '../../src/results/keys';
+import type { OnFrame } from '../../src/workers/protocol/by_hand';
 import type { FilmFacts, FilmProtocol } from '../../src/workers/protocol/film';
 
-const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [] };
+const OUTLINE: Outline = { points: [framePoint(1, 1), framePoint(5, 1), framePoint(3, 6)], closed: true, unknownSides: [], laidBy: 'click' };
 const GOOD = { word: 'good', because: 'it fits' } as const;
 
 type Estimate = FilmProtocol['estimate']['input'];
@@ -19,9 +21,15 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   const store = new Store();
   const asked: Estimate[] = [];
   const corrected: string[] = [];
-  const poses = async (method: string, input: { component: string; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
+  /** Unknown sides that each look at a frame kept away from. */
+  const hidden: (readonly number[] | null)[] = [];
+  /** Where each correction began, mm. */
+  const starts: number[] = [];
+  const poses = async (method: string, input: { component: string; unknown: OnFrame['unknown']; candidates: readonly { pose: Posed['candidates'][0]['pose'] }[] }) => {
+    hidden.push(input.unknown && Array.from(input.unknown.unknownSides));
     if (method === 'filmProfiles') return new Float32Array(128);
     corrected.push(input.component);
+    starts.push(input.candidates[0]!.pose.z);
     const z = depths.length > 1 ? depths.shift()! : depths[0]!;
     return input.candidates.map(({ pose }, from) => ({
       from,
@@ -48,17 +56,17 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
     store.perform(setModel(component, { name: component, sha256: component }));
     store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
   }
-  return { store, asked, corrected, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
+  return { store, asked, corrected, hidden, starts, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
 }
 
 /** A pose as a click finds it. */
-function clicked(doc: Doc, frameId = 'a', part: Partial<Posed> = {}): Command {
+function clicked(doc: Doc, frameId = 'a', part: Partial<Posed> = {}, outline = OUTLINE): Command {
   const place = { frameId, component: 'femur' } as const;
   const pose = { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 };
   const candidate = { pose, unmatched: null, drawn: null, residual: 0.2, deviations: null, judged: { misfit: 0.2, verdict: GOOD }, support: 0.9 };
   const origin = poseKey(doc, 'femur', doc.frames[0]!)!;
   const result: Posed = { kind: 'posed', from: 'outline', origin, candidates: [candidate], chosen: 0, reason: null, decided: true, verdict: GOOD, onFrame: { film: null }, ...part };
-  return { label: 'click', place, apply: (doc) => withCell(doc, place, { outline: OUTLINE, result, resultOf: OUTLINE }) };
+  return { label: 'click', place, apply: (doc) => withCell(doc, place, { outline, result, resultOf: outline }) };
 }
 
 const rest = () => vi.advanceTimersByTimeAsync(20 * FILM_REST);
@@ -85,6 +93,19 @@ describe('the reader of the film', () => {
     expect([asked.length, corrected.length]).toEqual([1, 1]);
   });
 
+  it('leaves a traced outline where it is, and keeps away from its unknown sides', async () => {
+    const { store, hidden, z } = bench();
+    const outline = { ...OUTLINE, unknownSides: [1], laidBy: 'tool' } as const;
+    store.perform(clicked(store.doc, 'a', {}, outline));
+    expect(isSurpassed(cellOf(store.doc, 'a', 'femur'))).toBe(false);
+    await rest();
+    const cell = cellOf(store.doc, 'a', 'femur');
+    expect([z(), cell.outline, cell.resultOf]).toEqual([-999, outline, outline]);
+    expect(isSurpassed(cell)).toBe(true);
+    expect(hidden.length).toBeGreaterThan(1);
+    for (const sides of hidden) expect(sides).toEqual([1]);
+  });
+
   it('never changes what a person set', async () => {
     const { store, corrected, z } = bench();
     store.perform(clicked(store.doc, 'a', { from: 'hand' }));
@@ -102,10 +123,42 @@ describe('the reader of the film', () => {
     // The second estimate is no news: the new pose alone is corrected.
     expect([asked.length, corrected.length]).toEqual([2, 2]);
     expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.026);
-    store.perform(stateFilm({ display: 'logarithmic', blur: null }));
+    store.perform(stateFilm({ ...NOTHING_STATED, display: 'logarithmic' }));
     await rest();
     expect(asked.at(-1)?.stated.display).toBe('logarithmic');
     expect([asked.length, corrected.length]).toEqual([3, 4]);
+  });
+
+  it('takes what is stated in whole, asks no frame, and goes back to them', async () => {
+    const { store, asked, corrected, hidden } = bench();
+    const constants = { curvature: 0.03, blur: 0.9, attenuation: { femur: 0.7, tibia: null } };
+    store.perform(stateFilm({ ...NOTHING_STATED, constants }));
+    await rest();
+    expect(asked.map(({ read, stated }) => [read, stated.constants])).toEqual([[[], constants]]);
+    store.perform(clicked(store.doc));
+    await rest();
+    // One look: the correction, no profiles.
+    expect([corrected, hidden.length, asked.length]).toEqual([['femur'], 1, 1]);
+    // Another model is another attenuation's.
+    store.perform(setModel('femur', { name: 'other', sha256: 'other' }));
+    await rest();
+    expect([asked.length, store.doc.film.known?.models.femur?.of]).toEqual([2, 'other']);
+    store.undo();
+    await rest();
+    store.perform(stateFilm(NOTHING_STATED));
+    await rest();
+    expect(asked.at(-1)?.read.map(({ component }) => component)).toEqual(['femur']);
+  });
+
+  it('corrects what never was before what was: it is held against the others as they were', async () => {
+    const { store, starts } = bench([0.026, 0.03]);
+    store.perform(clicked(store.doc));
+    await rest();
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    expect(store.doc.film.known?.models.femur?.numbers[0]).toBe(0.03);
+    // Both are to be corrected by then, and frame a comes first in the film.
+    expect(starts).toEqual([-1000, -1000, -999]);
   });
 
   it('asks corrected poses again until they settle', async () => {

@@ -1,6 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { addFrames, addPoint, closeOutline, movePoint, setCalibration, setModel } from '../../src/document/commands';
 import type { Place } from '../../src/document/command';
+import { setOutline } from '../../src/document/outlines';
 import { Store } from '../../src/document/store';
 import { cellOf, type Result } from '../../src/document/types';
 import { PACE, Poser, REST } from '../../src/jobs/poser';
@@ -66,6 +67,27 @@ beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
 describe('poser', () => {
+  it('tells the finder what a tool laid on edges, and that such a pose is on the frame', async () => {
+    const { store, last, methods } = bench();
+    const outline = { ...cellOf(store.doc, 'f', 'femur').outline!, laidBy: 'tool' } as const;
+    const result = () => cellOf(store.doc, 'f', 'femur').result;
+    await last().answer(matchOf(1, null));
+    await vi.advanceTimersByTimeAsync(REST);
+    expect(last().input.laidBy).toBeNull();
+    await last().answer(matchOf(2, 0.2));
+    expect(result()).not.toHaveProperty('onFrame');
+    store.perform(setOutline(PLACE, 'a region', outline));
+    await vi.advanceTimersByTimeAsync(PACE);
+    expect(last().input.laidBy).toBe('tool');
+    // Nothing is brought onto anything yet.
+    await last().answer(matchOf(3, null));
+    expect(result()).not.toHaveProperty('onFrame');
+    await vi.advanceTimersByTimeAsync(REST);
+    await last().answer(matchOf(4, 0.3));
+    expect(methods()).toEqual(['match', 'refine', 'match', 'refine']);
+    expect(result()).toHaveProperty('onFrame', { film: null });
+  });
+
   it('shows the pose of the library at once and refines it when the outline is at rest', async () => {
     const { shown, last, methods } = bench();
     expect(methods()).toEqual(['match']);

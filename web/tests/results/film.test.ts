@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { filmNumbers, stateFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
-import { cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
+import { NOTHING_STATED, cellKey, type Candidate, type Doc, EMPTY_DOC, type KnownFilm, type Outline, type Posed, type Verdict } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
 import { corrected, isNear, isNews, misfitsBeside, needsCorrection, settled, verdictAfter, witnesses } from '../../src/results/film';
 import { poseKey } from '../../src/results/keys';
@@ -17,7 +17,7 @@ function candidate(misfit: number, verdict = GOOD): Candidate {
 }
 
 function known(numbers: readonly number[], of = 'femur model'): KnownFilm {
-  return { words: 'w', stated: { display: null, blur: null }, blur: 0.8, curved: 2, profiles: 90, models: { femur: { of, numbers }, tibia: null } };
+  return { words: 'w', stated: NOTHING_STATED, blur: 0.8, curved: 2, profiles: 90, models: { femur: { of, numbers }, tibia: null } };
 }
 
 const BARE: Doc = {
@@ -80,7 +80,7 @@ describe('news of the film', () => {
     expect(isNews(before, known([0.026, 0.8, 0.72, ...COVARIANCE]))).toBe(true);
     expect(isNews(before, known([...K, 1e-7, ...COVARIANCE.slice(1)]))).toBe(true);
     expect(isNews(before, known([...K, ...COVARIANCE], 'another'))).toBe(true);
-    expect(isNews(before, { ...before, stated: { display: 'linear', blur: null } })).toBe(true);
+    expect(isNews(before, { ...before, stated: { ...NOTHING_STATED, display: 'linear' } })).toBe(true);
     expect(isNews(before, { ...before, models: { ...before.models, tibia: before.models.femur } })).toBe(true);
   });
 
@@ -184,7 +184,7 @@ describe('what a known film changes', () => {
 });
 
 it('what a person states is one step back, and leaves what is known until it is asked again', () => {
-  const stated = stateFilm({ display: 'linear', blur: null }).apply(told(BARE));
+  const stated = stateFilm({ ...NOTHING_STATED, display: 'linear' }).apply(told(BARE));
   expect(stated.film.stated.display).toBe('linear');
   expect(stated.film.known).not.toBeNull();
 });

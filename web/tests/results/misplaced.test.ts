@@ -4,11 +4,11 @@ import { setModel, swapModels, withCell } from '../../src/document/commands';
 import { takeFollowed } from '../../src/document/followed';
 import { Store } from '../../src/document/store';
 import { cellOf, type Result } from '../../src/document/types';
-import type { ShapeKind } from '../../src/geometry/shape_kind';
+import type { ComponentName } from '../../src/terms/component';
 import { misplacedModels } from '../../src/results/misplaced';
 
-const KINDS: Readonly<Record<string, ShapeKind | null>> = { bow: 'bow', tray: 'tray', lump: null };
-const kindOf = (sha256: string) => KINDS[sha256] ?? null;
+const SHAPES: Readonly<Record<string, ComponentName | null>> = { bow: 'femur', tray: 'tibia', lump: null };
+const shapeOf = (sha256: string) => SHAPES[sha256] ?? null;
 
 function models(femur: string | null, tibia: string | null): Store {
   const store = new Store();
@@ -28,7 +28,7 @@ describe('models in the wrong place', () => {
     ['lump', 'lump', [], false],
     [null, null, [], false],
   ] as const)('femur %s, tibia %s', (femur, tibia, components, canSwap) => {
-    expect(misplacedModels(models(femur, tibia).doc, kindOf)).toEqual({ components, canSwap });
+    expect(misplacedModels(models(femur, tibia).doc, shapeOf)).toEqual({ components, canSwap });
   });
 
   it('change places in one step back, with what a person said of them; what was followed is dropped', () => {
@@ -48,7 +48,7 @@ describe('models in the wrong place', () => {
     expect([femur.axes, tibia.axes]).toEqual([null, stated]);
     expect(cellOf(store.doc, 'f', 'femur').result).toBeNull();
     expect(cellOf(store.doc, 'f', 'tibia').result).toBe(refused);
-    expect(misplacedModels(store.doc, kindOf).components).toEqual([]);
+    expect(misplacedModels(store.doc, shapeOf).components).toEqual([]);
     store.undo();
     expect(store.doc.components).toBe(before.components);
     expect(cellOf(store.doc, 'f', 'femur').result?.kind).toBe('posed');

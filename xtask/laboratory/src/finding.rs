@@ -18,7 +18,7 @@ pub use axes::axes_of;
 pub use build::{Built, build_library, build_views};
 pub use clicker::{Clicked, Clicker};
 pub use film::{FrameFound, find_poses, first_poses};
-pub use film_model::{Filmed, KnownFilm, bring_onto_frames, stated_model};
+pub use film_model::{Filmed, KnownFilm, Stated, bring_onto_frames};
 pub use finder::{EdgeOptions, Finder, Method};
 pub use mask_offset::offset_words;
 pub use refiner::Refiner;

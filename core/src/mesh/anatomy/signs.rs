@@ -63,12 +63,14 @@ fn square_to(axis: &Vector3, other: &Vector3) -> Option<Vector3> {
     (length > 1e-9).then(|| scale(&square, 1.0 / length))
 }
 
-fn vertices<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = Vector3> + Clone + 'm {
+pub(super) fn vertices<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = Vector3> + Clone + 'm {
     mesh.vertices().iter().map(|vertex| vertex.map(f64::from))
 }
 
 /// Middle, doubled area and normal times doubled area of every triangle.
-fn faces<'m>(mesh: &Mesh<'m>) -> impl Iterator<Item = (Vector3, f64, Vector3)> + Clone + 'm {
+pub(super) fn faces<'m>(
+    mesh: &Mesh<'m>,
+) -> impl Iterator<Item = (Vector3, f64, Vector3)> + Clone + 'm {
     let corners = mesh.vertices();
     mesh.triangles().iter().map(move |triangle| {
         let [a, b, c] = triangle.map(|vertex| corners[vertex as usize].map(f64::from));

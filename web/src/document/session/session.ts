@@ -7,6 +7,7 @@ import { readFilm } from '../film';
 import { interned } from '../interned';
 import { count, dictionary, flag, list, missingAs, nullable, number, object, oneOf, optional, ReadError, text, type Reader } from '../reader';
 import {
+  LAID_BY,
   type AllDirections,
   type Calibration,
   type Candidate,
@@ -136,7 +137,10 @@ const readPoint: Reader<FramePoint> = (value, path) => {
 const readOutline: Reader<Outline> = (value, path) => {
   // Sessions from before sides could be marked have none.
   const sides = missingAs<readonly number[]>([], list(count));
-  const outline = object<Outline>({ points: list(readPoint), closed: flag, unknownSides: sides })(value, path);
+  const parts = object<Omit<Outline, 'laidBy'>>({ points: list(readPoint), closed: flag, unknownSides: sides })(value, path);
+  // Sessions from before that was kept do not say it.
+  const { laidBy } = object({ laidBy: optional(oneOf(...LAID_BY)) })(value, path);
+  const outline: Outline = { ...parts, ...(laidBy !== null && { laidBy }) };
   const beyond = outline.unknownSides.find((side) => side >= outline.points.length);
   if (beyond !== undefined) throw new ReadError(`${path}.unknownSides names side ${beyond} of ${outline.points.length}`);
   return outline;
@@ -208,9 +212,15 @@ const readPlainCell = object<{ outline: Outline | null; result: Result | null; r
 });
 
 const readCell: Reader<Cell> = (value, path) => {
-  const { outline, result, resultIsCurrent } = readPlainCell(value, path);
+  const { outline: read, result, resultIsCurrent } = readPlainCell(value, path);
+  const outline = read && resultIsCurrent && !read.laidBy && isOfClick(result) ? { ...read, laidBy: 'click' as const } : read;
   return { outline, result, resultOf: resultIsCurrent ? outline : null };
 };
+
+/** Before outlines kept who laid them, those of poses that were found on a frame came of one click. */
+function isOfClick(result: Result | null): boolean {
+  return result?.kind === 'posed' && result.from === 'outline' && result.onFrame !== undefined;
+}
 
 const readCells: Reader<Cells<Cell>> = (value, path) => Cells.from(Object.entries(dictionary(readCell)(value, path)));
 

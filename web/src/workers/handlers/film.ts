@@ -1,6 +1,7 @@
-import { FilmStudy } from '../../pkg/core/fluoropose_wasm.js';
-import { COMPONENT_NAMES } from '../../terms/component';
-import type { FilmProtocol } from '../protocol/film';
+import { FilmStudy, statedFilmWords } from '../../pkg/core/fluoropose_wasm.js';
+import type { FilmConstants } from '../../document/types';
+import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
+import type { FilmFacts, FilmProtocol } from '../protocol/film';
 import { loadCore } from './core_module';
 import { serve } from './serve';
 
@@ -11,6 +12,7 @@ let study: FilmStudy | null = null;
 serve<FilmProtocol>({
   estimate: async ({ read, stated }) => {
     await ready;
+    if (stated.constants) return asStated(stated.constants);
     study ??= new FilmStudy();
     for (const { component, frame, profiles } of read) study.take(COMPONENT_NAMES.indexOf(component), frame, profiles);
     const facts = study.estimate(stated.display ?? undefined, stated.blur ?? undefined);
@@ -21,6 +23,14 @@ serve<FilmProtocol>({
     return { words, blur, curved, profiles, models: { femur: known(femur), tibia: known(tibia) } };
   },
 });
+
+function asStated({ curvature, blur, attenuation }: FilmConstants): FilmFacts {
+  const of = (component: ComponentName) => {
+    const own = attenuation[component];
+    return own === null ? null : [curvature, blur, own];
+  };
+  return { words: statedFilmWords(curvature, blur), blur, curved: 0, profiles: 0, models: { femur: of('femur'), tibia: of('tibia') } };
+}
 
 function known(numbers: readonly number[] | undefined): readonly number[] | null {
   return numbers?.length ? numbers : null;

@@ -10,19 +10,23 @@ import { type Context, serve } from './serve';
 
 /** Follows one component, beside the worker that finds poses: the person goes on working. */
 const ready = loadCore();
+const NONE = new Float64Array();
 let follower: FilmFollower | null = null;
 let search: FrameSearch | null = null;
+/** What whole frames are searched with: opened with the first one, because most films need none, and it takes as long as some frames. */
+let openSearch: (() => FrameSearch) | null = null;
+let filmOfSearch = NONE;
 let frames = 0;
 
 const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
-const NONE = new Float64Array();
 
 serve<FollowProtocol>({
   openSearch: async ({ mesh, camera: { text, width, height }, library, bright, ...film }) => {
     await ready;
     search?.free();
     search = null;
-    search = new FrameSearch(library, mesh.vertices, mesh.triangles, text, width, height, bright);
+    filmOfSearch = NONE;
+    openSearch = () => new FrameSearch(library, mesh.vertices, mesh.triangles, text, width, height, bright);
     return [...framesToSearch(film.frames)];
   },
   find: ({ beside, ...pixels }, context) => withImage(pixels, (image) => searched(image, beside, context)),
@@ -34,8 +38,9 @@ serve<FollowProtocol>({
     const { text, width, height } = camera;
     const begun = new FilmFollower(mesh.vertices, mesh.triangles, text, width, height, frames, first, last, Float64Array.from(film ?? []));
     for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)), true);
-    if (searches && search) {
-      search.knowFilm(Float64Array.from(film ?? []));
+    if (searches && (search || openSearch)) {
+      filmOfSearch = Float64Array.from(film ?? []);
+      search?.knowFilm(filmOfSearch);
       begun.searchWhereLost();
     }
     follower = begun;
@@ -96,13 +101,21 @@ async function withImage<T>(pixels: FramePixels, work: (image: FrameImage) => Pr
 
 /** Searches the whole frame in steps of some tens of milliseconds, so that it can be called off between them. */
 async function searched(image: FrameImage, beside: Beside | null, { report, breathe }: Context<{ readonly fraction: number }>): Promise<Float64Array<ArrayBuffer> | null> {
-  if (!search) throw new Error('nothing is looked for');
+  search ??= opened();
   search.beside(Float64Array.from(beside?.middle ?? []), beside?.outline ?? NONE);
   for (let more = search.step(image, true); more; more = search.step(image, false)) {
     report({ fraction: search.progress });
     await breathe();
   }
   return (search.place as Float64Array<ArrayBuffer> | undefined) ?? null;
+}
+
+function opened(): FrameSearch {
+  if (!openSearch) throw new Error('nothing is looked for');
+  const made = openSearch();
+  openSearch = null;
+  made.knowFilm(filmOfSearch);
+  return made;
 }
 
 function rivalOf(film: FollowedFilm, frame: number): FollowedFrame['rival'] {

@@ -1,7 +1,7 @@
-import { choosePose, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
-import type { ComponentName } from '../../terms/component';
+import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
 import type { ConvergenceStep, PoseProtocol } from '../protocol/pose';
 import type { Match, MatchedCandidate, MatchInput, Picture, Refined, Surroundings } from '../protocol/match';
@@ -31,6 +31,11 @@ serve<PoseProtocol>({
     return { views: matcher.views, bytes: bytes.length };
   },
   library: async ({ component }) => (await matcherOf(component)).bytes as Uint8Array<ArrayBuffer>,
+  shape: async ({ mesh }) => {
+    await ready;
+    const told = componentByShape(mesh.vertices, mesh.triangles);
+    return COMPONENT_NAMES.find((component) => component === told) ?? null;
+  },
   axes: async ({ component, mesh }) => {
     await ready;
     const found = shapeAxes(mesh.vertices, mesh.triangles, component === 'femur');
@@ -76,11 +81,12 @@ function undistorted({ key, numbers }: DistortionInput, outline: Float64Array): 
 }
 
 async function withTraced<T>(input: MatchInput, work: (matcher: Matcher, traced: Traced) => T): Promise<T> {
-  const { component, outline, unknownSides, camera } = input;
+  const { component, outline, unknownSides, laidBy, camera } = input;
   const matcher = await matcherOf(component);
   const points = camera.distortion ? undistorted(camera.distortion, outline) : outline;
   const traced = new Traced(points, unknownSides, camera.text, camera.width, camera.height);
   try {
+    if (laidBy) traced.laidBy(laidBy);
     return work(matcher, traced);
   } finally {
     traced.free();

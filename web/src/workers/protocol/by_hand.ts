@@ -13,6 +13,8 @@ export interface OnFrame {
   readonly camera: CameraInput;
   readonly frame: FramePixels;
   readonly others: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
+  /** The outline of which sides are marked unknown, along which edges do not count either; null where none are. */
+  readonly unknown: Pick<MatchInput, 'outline' | 'unknownSides'> | null;
   /** What the film makes of the component; null where that is not known. */
   readonly film: readonly number[] | null;
 }

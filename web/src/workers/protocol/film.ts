@@ -61,7 +61,7 @@ export interface FilmFacts {
   readonly models: Readonly<Record<ComponentName, readonly number[] | null>>;
 }
 
-/** The film worker keeps the profiles of all frames; null where they do not tell. */
+/** The film worker keeps the profiles of all frames; null where they do not tell. What is stated in whole is taken as it is. */
 export interface FilmProtocol {
   estimate: {
     input: { readonly read: readonly ReadProfiles[]; readonly stated: StatedFilm };

@@ -46,6 +46,8 @@ export interface MatchInput {
   readonly outline: Float64Array<ArrayBuffer>;
   /** Numbers of the sides that are marked unknown. */
   readonly unknownSides: Uint32Array<ArrayBuffer>;
+  /** Null: by a hand. */
+  readonly laidBy: 'tool' | 'mixed' | null;
   readonly camera: CameraInput;
 }
 

@@ -30,6 +30,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
   };
   /** A copy of an open library's bytes. */
   library: { input: { component: ComponentName }; output: Uint8Array<ArrayBuffer>; progress: never };
+  /** The component that a model has the shape of; null where that does not tell. */
+  shape: { input: { mesh: ModelMesh }; output: ComponentName | null; progress: never };
   /** What a model's shape tells of its axes. */
   axes: { input: { component: ComponentName; mesh: ModelMesh }; output: Pick<Axes, 'directions' | 'told'>; progress: never };
   /** `before` are poses that were refined for what the outline was a moment ago: where they still fit, they are followed. */

@@ -4,9 +4,11 @@ use std::path::Path;
 
 use anyhow::Result;
 use fluoropose::mesh::OwnedModel;
+use fluoropose::mesh::anatomy::component_by_shape;
 use fluoropose_decode::decode_model;
 use fluoropose_phantom::implant::Triangles;
 
+use super::role::Role;
 use super::text::{name_of, read};
 
 /// A built-in implant as the core takes it.
@@ -36,4 +38,47 @@ pub fn read_model(path: &Path) -> Result<OwnedModel> {
         eprintln!("{}: {remark}", path.display());
     }
     Ok(owned)
+}
+
+/// The same of a component, where it is known which one; where its model has the shape of the other one, that is said too.
+///
+/// # Errors
+/// Those of [`read_model`].
+pub fn read_model_of(path: &Path, role: Option<Role>) -> Result<OwnedModel> {
+    let owned = read_model(path)?;
+    if let Some(doubt) = role.and_then(|role| shape_doubt(&owned, role)) {
+        eprintln!("{}: {doubt}", path.display());
+    }
+    Ok(owned)
+}
+
+/// What is doubtful of a model as that of a component: its shape is the other one's. A sentence without its full stop.
+pub fn shape_doubt(model: &OwnedModel, role: Role) -> Option<String> {
+    let shape = component_by_shape(model.as_model().mesh())?;
+    let words = |role: Role| match role {
+        Role::Femur => "femoral component",
+        Role::Tibia => "tibial tray",
+    };
+    (shape != role.component()).then(|| {
+        let (is, of) = (words(role.other()), words(role));
+        format!("this is given as the {of} but has the shape of a {is}: were the models swapped?")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose_phantom::implant::{Parameters, femur, tibia};
+
+    #[test]
+    fn swapped_models_are_told_and_right_ones_are_not() {
+        let parameters = Parameters::default();
+        let models = [femur(&parameters), tibia(&parameters)]
+            .map(|made| owned(made.expect("usual")).expect("valid"));
+        for (model, role) in models.iter().zip([Role::Femur, Role::Tibia]) {
+            assert_eq!(shape_doubt(model, role), None);
+            let doubt = shape_doubt(model, role.other()).expect("a doubt");
+            assert!(doubt.contains("swapped"), "{doubt}");
+        }
+    }
 }

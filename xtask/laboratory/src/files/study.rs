@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
+use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm};
 use fluoropose_phantom::implant::Side;
 
 use super::role::Role;
@@ -24,7 +25,7 @@ pub struct Study {
     pub frames: Option<PathBuf>,
     /// Frames a second, where they are known.
     pub frames_per_s: Option<f64>,
-    /// Constants of the film, where a person states them; the components state their attenuation.
+    /// What a person states of the film; with its constants the components state their attenuation.
     pub film: Option<StatedFilm>,
     /// The components.
     #[serde(rename = "component", default)]
@@ -33,15 +34,60 @@ pub struct Study {
     others: BTreeMap<String, toml::Value>,
 }
 
-/// Constants of a film that a person states: none of them is estimated.
+/// What a person states of a film. With curvature and blur all is stated, and nothing is estimated; otherwise what is left out is.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatedFilm {
     /// Curvature of the display, one divided by grey values: 0 is linear, 1 / g logarithmic with g grey values for each factor
     /// of e.
-    pub curvature: f64,
+    pub curvature: Option<f64>,
     /// Standard deviation of the blur, pixels.
-    pub blur_px: f64,
+    pub blur_px: Option<f64>,
+    /// How intensities are shown, where the curvature itself is estimated.
+    pub display: Option<StatedDisplay>,
+}
+
+/// How a display shows intensities, in a person's word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
+pub struct StatedDisplay(DisplayKind);
+
+impl TryFrom<String> for StatedDisplay {
+    type Error = String;
+
+    fn try_from(word: String) -> Result<Self, String> {
+        let kind = DisplayKind::of_word(&word);
+        let unknown = || format!("a display is linear, between or logarithmic, not '{word}'");
+        kind.map(Self).ok_or_else(unknown)
+    }
+}
+
+impl StatedFilm {
+    /// The constants, where all are stated.
+    pub fn constants(&self) -> Option<FilmConstants> {
+        let (curvature, blur_px) = self.curvature.zip(self.blur_px)?;
+        Some(FilmConstants { curvature, blur_px })
+    }
+
+    /// What is taken as stated while the rest is estimated.
+    pub fn given(&self) -> GivenFilm {
+        GivenFilm {
+            display: self.display.map(|StatedDisplay(kind)| kind),
+            blur_px: self.blur_px,
+        }
+    }
+
+    fn check(&self) -> Result<()> {
+        if self.curvature.is_some() && (self.display.is_some() || self.blur_px.is_none()) {
+            bail!("[film]: curvature is stated with blur_px, and without display, which it tells");
+        }
+        let possible =
+            |number: Option<f64>, least: f64| number.is_none_or(|x| x >= least && x.is_finite());
+        if !possible(self.curvature, 0.0) || !possible(self.blur_px, f64::MIN_POSITIVE) {
+            bail!("[film]: curvature is 0 or more and blur_px above 0");
+        }
+        Ok(())
+    }
 }
 
 /// One implanted component of a study.
@@ -93,6 +139,8 @@ impl Study {
     pub fn read(path: &Path) -> Result<Self> {
         let mut study: Self =
             toml::from_str(&read_text(path)?).with_context(|| format!("in {}", path.display()))?;
+        let film = study.film.map_or(Ok(()), |film| film.check());
+        film.with_context(|| format!("in {}", path.display()))?;
         let of_components = study.components.iter().flat_map(|c| c.others.keys());
         for key in study.others.keys().chain(of_components) {
             // A misspelt key must not pass unseen; a later format's key must not stop the rest.
@@ -155,6 +203,33 @@ mod tests {
         ));
         let message = stray.unwrap_err().to_string();
         assert!(message.contains("unknown.foot"), "{message}");
+    }
+
+    #[test]
+    fn a_film_is_stated_in_whole_or_in_part() {
+        let film = |keys: &str| {
+            let study = read(&format!(
+                "name = 'left'\ncalibration = 'c.txt'\n[film]\n{keys}\n"
+            ))?;
+            Ok::<_, anyhow::Error>(study.film.expect("it is there"))
+        };
+        let whole = film("curvature = 0.025\nblur_px = 0.8").unwrap();
+        let constants = whole.constants().expect("all of them");
+        assert_eq!((constants.curvature, constants.blur_px), (0.025, 0.8));
+        let part = film("display = 'logarithmic'").unwrap();
+        assert_eq!(part.constants(), None);
+        assert_eq!(part.given().display, Some(DisplayKind::Logarithmic));
+        assert_eq!(film("blur_px = 1.3").unwrap().given().blur_px, Some(1.3));
+        for wrong in [
+            "curvature = 0.025",
+            "curvature = 0.025\nblur_px = 0.8\ndisplay = 'linear'",
+            "blur_px = 0.0",
+            "curvature = -1.0\nblur_px = 0.8",
+            "display = 'bent'",
+            "colour = 1",
+        ] {
+            assert!(film(wrong).is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@ use fluoropose::finder::{Candidate, Component, FindError, FinderBuffers, Goal, f
 use fluoropose::follow::Subject;
 use fluoropose::image::frame::Grey;
 use fluoropose::image::mask::Mask;
+use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
 use fluoropose::library::Library;
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Model;
@@ -114,7 +115,7 @@ impl<'l> Clicker<'l> {
         })
     }
 
-    /// Poses that explain an outline which a tool laid on the edges of a frame; see [`Goal::Edges`].
+    /// Poses that explain an outline which a tool laid on the edges of a frame.
     ///
     /// # Errors
     /// Those of [`find`].
@@ -127,14 +128,9 @@ impl<'l> Clicker<'l> {
         let kernels = fluoropose_kernels::fastest();
         let mut memory = self.finder.borrow(&component, &self.camera, kernels);
         let (camera, options) = (&self.camera, RefineOptions::default());
-        let found = find(
-            &component,
-            camera,
-            &outline.into(),
-            Goal::Edges,
-            options,
-            &mut memory,
-        )?;
+        let outline = Silhouette::from(outline).laid_by(OutlineOrigin::Tool);
+        let goal = Goal::Outline;
+        let found = find(&component, camera, &outline, goal, options, &mut memory)?;
         Ok(found.candidates.to_vec())
     }
 

@@ -46,19 +46,44 @@ pub struct KnownFilm {
     pub words: String,
 }
 
+/// What a person states of the film of components.
+#[derive(Clone, Debug)]
+pub enum Stated {
+    /// In part: the rest is estimated.
+    Part(GivenFilm),
+    /// All of its constants, and what it makes of each component, where its attenuation is stated.
+    Whole(FilmConstants, Vec<Option<FilmModel>>),
+}
+
+impl Default for Stated {
+    /// Nothing is stated.
+    fn default() -> Self {
+        Self::Part(GivenFilm::default())
+    }
+}
+
+impl Stated {
+    /// Of components with these attenuations, per mm.
+    pub fn of(film: Option<StatedFilm>, attenuations: &[Option<f64>]) -> Self {
+        let Some(constants) = film.and_then(|film| film.constants()) else {
+            return Self::Part(film.map_or(GivenFilm::default(), |film| film.given()));
+        };
+        let model =
+            |attenuation: &Option<f64>| Some(FilmModel::certain(constants, (*attenuation)?));
+        Self::Whole(constants, attenuations.iter().map(model).collect())
+    }
+}
+
 /// Brings poses that outlines led to onto the grey frames. What the film makes of each component is estimated from the frames
 /// themselves, unless it is stated.
-pub fn bring_onto_frames(
-    parts: &mut [Filmed<'_>],
-    stated: Option<&[Option<FilmModel>]>,
-) -> KnownFilm {
+pub fn bring_onto_frames(parts: &mut [Filmed<'_>], stated: &Stated) -> KnownFilm {
     tell_polarity(parts);
     let mut known = film_of(parts, stated);
     for (part, film) in parts.iter_mut().zip(&known.models) {
         *part.found = part.brought(*film);
     }
     for _ in 1..ROUNDS {
-        if stated.is_some() {
+        if matches!(stated, Stated::Whole(..)) {
             break;
         }
         known = film_of(parts, stated);
@@ -103,14 +128,17 @@ fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
     }
 }
 
-fn film_of(parts: &[Filmed<'_>], stated: Option<&[Option<FilmModel>]>) -> KnownFilm {
-    if let Some(models) = stated {
-        return KnownFilm {
-            models: models.to_vec(),
-            words: "stated".to_owned(),
-        };
-    }
-    match estimate_film(parts) {
+fn film_of(parts: &[Filmed<'_>], stated: &Stated) -> KnownFilm {
+    let given = match stated {
+        Stated::Part(given) => *given,
+        Stated::Whole(constants, models) => {
+            return KnownFilm {
+                models: models.clone(),
+                words: constants.to_string(),
+            };
+        }
+    };
+    match estimate_film(parts, given) {
         Some(film) => KnownFilm {
             models: (0..parts.len()).map(|part| Some(film.model(part))).collect(),
             words: words(&film, parts),
@@ -141,17 +169,8 @@ fn words(film: &FilmEstimate, parts: &[Filmed<'_>]) -> String {
     )
 }
 
-/// What a film that a person stated makes of a component of this attenuation, per mm.
-pub fn stated_model(film: StatedFilm, attenuation: f64) -> FilmModel {
-    let constants = FilmConstants {
-        curvature: film.curvature,
-        blur_px: film.blur_px,
-    };
-    FilmModel::certain(constants, attenuation)
-}
-
 /// Estimates the constants of a film from the best poses of its components; `None` where they do not tell.
-fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
+fn estimate_film(parts: &[Filmed<'_>], given: GivenFilm) -> Option<FilmEstimate> {
     let parts = &parts[..parts.len().min(MOST_COMPONENTS)];
     let frames: usize = parts.iter().map(|part| part.found.len()).sum();
     let each = profiles_of_each(frames);
@@ -171,7 +190,7 @@ fn estimate_film(parts: &[Filmed<'_>]) -> Option<FilmEstimate> {
             pool.take(component as u8, frame as u16, profiles);
         }
     }
-    pool.estimate(GivenFilm::default())
+    pool.estimate(given)
 }
 
 impl Filmed<'_> {

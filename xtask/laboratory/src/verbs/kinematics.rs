@@ -12,7 +12,7 @@ use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::{EulerPose, Pose};
 
-use crate::files::{Role, read_model, read_poses};
+use crate::files::{Role, read_model_of, read_poses};
 use crate::finding::axes_of;
 use crate::options::sides;
 use fluoropose_phantom::implant::Side;
@@ -127,7 +127,8 @@ impl Part {
             Role::Femur => "femoral",
             Role::Tibia => "tibial",
         };
-        let model = file.map(read_model).transpose()?;
+        let read = |file| read_model_of(file, Some(role));
+        let model = file.map(read).transpose()?;
         let axes = known_axes(file.zip(model.as_ref()), words, role)?;
         if let Some(axes) = &axes {
             println!("{name} anterior, superior, right: {axes}");

@@ -13,15 +13,15 @@ use crate::choice::{Decision, Reasons, decide, report};
 
 use crate::choice::report::{Numbers, check_path, report, why, write_report};
 
-use crate::files::{Role, name_of, read, read_calibration, read_model, read_poses, write_poses};
+use crate::files::{Role, name_of, read, read_calibration, read_model_of, read_poses, write_poses};
 
 use crate::finding::{
-    EdgeOptions, Filmed, Finder, FrameFound, Method, axes_of, bring_onto_frames, find_poses,
+    EdgeOptions, Filmed, Finder, FrameFound, Method, Stated, axes_of, bring_onto_frames, find_poses,
 };
 
 use crate::noise::DisturbanceOptions;
 
-use crate::sequence::{Folders, Source};
+use crate::sequence::{Folders, Sequence, Source};
 
 /// Options of `pose`.
 #[derive(clap::Args)]
@@ -93,7 +93,7 @@ pub fn run(args: Args) -> Result<()> {
         bail!("--method image needs the grey frames: name their folder with --frames");
     }
     let bytes = read(&args.library)?;
-    let model = read_model(&args.model)?;
+    let model = read_model_of(&args.model, args.role)?;
     let mesh = model.as_model();
     let calibration = read_calibration(&args.calibration)?;
     let folders = Folders {
@@ -116,14 +116,7 @@ pub fn run(args: Args) -> Result<()> {
     let sequence = source.disturbed(&args.disturbance)?;
     let mut found = find_poses(&finder, &sequence);
     if onto_frames {
-        let filmed = Filmed {
-            name: "metal",
-            model: mesh,
-            sequence,
-            edges: args.edges,
-            found: &mut found,
-        };
-        println!("film: {}", bring_onto_frames(&mut [filmed], None).words);
+        onto_the_frames(mesh, sequence, args.edges, &mut found);
     }
     let decisions = decide(&found, &counterparts, &own_axes(&args, &mesh)?)?;
     let middle = mesh.bounds().centre;
@@ -149,6 +142,24 @@ pub fn run(args: Args) -> Result<()> {
     write_poses(&args.out, &rows.collect::<Vec<_>>())
 }
 
+/// Brings poses onto the frames of a sequence, and says what these tell of their film.
+fn onto_the_frames(
+    model: Model<'_>,
+    sequence: Sequence<'_>,
+    edges: EdgeOptions,
+    found: &mut Vec<FrameFound>,
+) {
+    let filmed = Filmed {
+        name: "metal",
+        model,
+        sequence,
+        edges,
+        found,
+    };
+    let known = bring_onto_frames(&mut [filmed], &Stated::default());
+    println!("film: {}", known.words);
+}
+
 /// The other component's poses, a frame each; none where no file of them was given.
 fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> {
     let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
@@ -163,7 +174,10 @@ fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> 
         );
     }
     let axes = match &args.counterpart_model {
-        Some(file) => shape_axes(&read_model(file)?.as_model(), role.other())?,
+        Some(file) => {
+            let other = role.other();
+            shape_axes(&read_model_of(file, Some(other))?.as_model(), other)?
+        }
         None => Pose::IDENTITY,
     };
     let against = |row: Option<Pose>| row.map(|pose| role.against(pose.compose(&axes)));

@@ -19,11 +19,11 @@ use rayon::prelude::*;
 use super::reference::Reference;
 use super::request::Request;
 use crate::choice::{Decision, decide};
-use crate::files::{Component, MaskBuffer, Role, Study, read_model};
+use crate::files::{Component, MaskBuffer, Role, Study, read_model_of};
 use crate::finding::misfits::Misfits;
 use crate::finding::{
-    Built, Filmed, Finder, FrameFound, Method, ViewOptions, axes_of, bring_onto_frames,
-    build_library, find_poses, first_poses, offset_words, stated_model,
+    Built, Filmed, Finder, FrameFound, Method, Stated, ViewOptions, axes_of, bring_onto_frames,
+    build_library, find_poses, first_poses, offset_words,
 };
 use crate::measure::accuracy::{in_front, median_absolute};
 use crate::sequence::{Folders, Seen, Sequence, Source};
@@ -184,7 +184,7 @@ impl<'s> Part<'s> {
     ) -> Result<Self> {
         let mut part = Self {
             component,
-            model: read_model(&component.model)?,
+            model: read_model_of(&component.model, component.role())?,
             reference: Reference::of(component)?,
             found: Vec::new(),
         };
@@ -375,18 +375,17 @@ fn by_film(parts: &mut [Part<'_>], study: &Study, request: &Request<'_>) -> Resu
                 edges: request.edges,
                 found: &mut found.frames,
             });
-            let stated = study.film.zip(component.attenuation);
-            let stated = stated.map(|(film, attenuation)| stated_model(film, attenuation));
             rest.push((
-                stated,
+                component.attenuation,
                 reference,
                 (&mut found.film, &mut found.film_is_known),
                 &mut found.from_reference,
             ));
         }
-        let stated: Vec<_> = rest.iter().map(|(stated, ..)| *stated).collect();
+        let attenuations: Vec<_> = rest.iter().map(|(attenuation, ..)| *attenuation).collect();
+        let stated = Stated::of(study.film, &attenuations);
         let outlines: Vec<_> = filmed.iter().map(|part| part.found.clone()).collect();
-        let known = bring_onto_frames(&mut filmed, study.film.map(|_| &stated[..]));
+        let known = bring_onto_frames(&mut filmed, &stated);
         let offsets: Vec<_> = filmed.iter().map(Filmed::mask_offset).collect();
         for ((part, offset), outlines) in filmed.iter_mut().zip(&offsets).zip(&outlines) {
             if let (true, Some(common)) = (request.is_centred(), offset) {

@@ -11,7 +11,7 @@ use fluoropose_phantom::implant;
 use fluoropose_report::{JointFilm, JointRow};
 
 use super::sources::{Body, Sources};
-use crate::files::{Role, Study};
+use crate::files::{Role, Study, shape_doubt};
 use crate::finding::axes_of;
 
 /// Points of the tray's border.
@@ -59,6 +59,12 @@ impl<'s> Knee<'s> {
         let femur = axes(&sources.femur, Role::Femur)?;
         let tibia = axes(&sources.tibia, Role::Tibia)?;
         let mut remarks = Vec::new();
+        let bodies = [(&sources.femur, Role::Femur), (&sources.tibia, Role::Tibia)];
+        for (body, role) in bodies {
+            if let Some(doubt) = shape_doubt(&body.model, role) {
+                remarks.push(format!("The model of the component {}: {doubt}", body.name));
+            }
+        }
         for (body, axes) in [(&sources.femur, &femur), (&sources.tibia, &tibia)] {
             if !axes.front_is_known {
                 remarks.push(format!("The shape of the component {} does not tell front from back; if flexion has the wrong sign, its axes have to be stated.", body.name));

@@ -10,7 +10,7 @@ use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_report::Input;
 use sha2::{Digest as _, Sha256};
 
-use crate::files::{Component, Role, Study, name_of, read, read_model, read_poses, read_text};
+use crate::files::{Component, Role, Study, name_of, read, read_model_of, read_poses, read_text};
 
 /// A component with its poses.
 pub(super) struct Body {
@@ -99,7 +99,7 @@ impl Body {
         Ok(Self {
             name: component.name.clone(),
             stated_axes: component.axes.clone(),
-            model: read_model(&component.model)?,
+            model: read_model_of(&component.model, component.role())?,
             poses: read_poses(&file)?,
             covariances,
         })

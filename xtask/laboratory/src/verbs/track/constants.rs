@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
-use fluoropose::film::{FilmPool, FilmProfile, GivenFilm};
+use fluoropose::film::{FilmPool, FilmProfile};
 use fluoropose::follow::Anchor;
 use fluoropose::refine::film_profiles;
 
@@ -10,6 +10,7 @@ use super::follow::beside;
 use super::part::Part;
 use super::record::Films;
 use super::run::Run;
+use crate::finding::Stated;
 
 /// Anchors of a component that are looked at, and frames to each side of them.
 const ANCHORS: usize = 3;
@@ -17,9 +18,26 @@ const BESIDE: usize = 6;
 /// Profiles of each frame and component.
 const PROFILES: usize = 96;
 
-/// Estimates the constants from the anchors and the frames beside them, and tells the parts. They are estimated once for a
+/// Takes the constants as they are stated, or estimates them from the anchors and the frames beside them, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
-pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Anchor>]) -> Result<()> {
+pub(super) fn learn_film(
+    run: &Run<'_>,
+    stated: &Stated,
+    parts: &[Part<'_>],
+    anchors: &[Vec<Anchor>],
+) -> Result<()> {
+    let given = match stated {
+        Stated::Part(given) => *given,
+        Stated::Whole(constants, models) => {
+            run.say(&format!("film: {constants}"));
+            for (part, film) in parts.iter().zip(models) {
+                if let Some(film) = film {
+                    part.set_film(*film);
+                }
+            }
+            return Ok(());
+        }
+    };
     let films = run.journal.step("film", || {
         let mut pool = FilmPool::default();
         for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
@@ -36,7 +54,7 @@ pub(super) fn learn_film(run: &Run<'_>, parts: &[Part<'_>], anchors: &[Vec<Ancho
                 }
             }
         }
-        let found = pool.estimate(GivenFilm::default());
+        let found = pool.estimate(given);
         if let Some(found) = &found {
             run.say(&format!("film: {found}"));
         }

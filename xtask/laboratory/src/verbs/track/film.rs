@@ -22,6 +22,7 @@ use super::run::Run;
 use super::sides::{Margins, settle};
 use super::table::{HEADING, Row, covariance_table};
 use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
+use crate::finding::Stated;
 
 /// A component of a film that was followed.
 pub struct Tracked {
@@ -77,6 +78,11 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         Some(Polarity::BrightImplant) => 1,
         None => 2,
     }]);
+    let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
+    let stated = Stated::of(study.film, &attenuations);
+    if study.film.is_some() {
+        inputs.update(format!("{stated:?}"));
+    }
     let digest: [u8; 32] = inputs.finalize().into();
     let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
     let journal = request.out.join("journal.txt");
@@ -94,7 +100,7 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         components().map(part).collect()
     };
     let (parts, anchors) = begun(&run, parts)?;
-    learn_film(&run, &parts, &anchors)?;
+    learn_film(&run, &stated, &parts, &anchors)?;
     let mut films: Vec<Vec<Cell>> = parts
         .par_iter()
         .zip(&anchors)

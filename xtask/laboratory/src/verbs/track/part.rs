@@ -17,7 +17,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::morphology::widen;
 
-use crate::files::{Component, Film, MaskBuffer, Role, grey, read_model};
+use crate::files::{Component, Film, MaskBuffer, Role, grey, read_model_of};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
@@ -53,7 +53,7 @@ pub(super) struct Part<'s> {
 pub(super) fn read_models(components: &[Component]) -> Result<Vec<OwnedModel>> {
     components
         .iter()
-        .map(|one| read_model(&one.model))
+        .map(|one| read_model_of(&one.model, one.role()))
         .collect()
 }
 

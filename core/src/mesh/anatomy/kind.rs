@@ -1,0 +1,319 @@
+//! Which component of a knee a model has the shape of: a tray is a plate on a keel, a femoral component a bow.
+//!
+//! Two relations tell them. The first is the part of the surface that faces one way or its opposite. Of a plate ten times as wide as
+//! thick ten twelfths do; keel, stem and rim may add as much surface again, and five twelfths are left. Any box, however it is
+//! proportioned, shows at least a third of itself so; a bow whose normals go half way round shows a sixth. The second is how far the
+//! middle of the surface lies from that of its outermost points: a convex body that is round on one side alone, half a ball, has them
+//! 0.08 of its radius apart, a bow, whose inner side counts among its surface and reaches nowhere, half as much again and more, unless
+//! it is thick.
+//!
+//! All of these are areas over areas and lengths over lengths, in the frame of the surface's own normals: units, axes, winding and
+//! the size of triangles do not matter. What is neither a plate nor a bow, or a little of both, tells nothing.
+
+use super::KneeComponent;
+use super::signs::{faces, vertices};
+use crate::math::eigen::eigen_symmetric;
+use crate::math::{Matrix3, Vector3, add, apply, dot, norm, scale, subtract, transpose};
+use crate::mesh::surface::Mesh;
+
+/// Part of a tray's surface that faces one way, at least.
+const PLATE: f64 = 5.0 / 12.0;
+/// That of a box, at least.
+const BOX: f64 = 1.0 / 3.0;
+/// The middles of a bow's surface and of its outermost points lie so far apart, of its radius, at least.
+const BOW: f64 = 0.11;
+/// Faces within 15 degrees of a direction, or of its opposite, face it: their cosine.
+const FACING: f64 = 0.965_925_826_289_068_3;
+
+/// The component that a model has the shape of; `None` where its shape tells neither, or it has no surface. It need not be closed.
+#[must_use]
+pub fn component_by_shape(mesh: &Mesh<'_>) -> Option<KneeComponent> {
+    let frame = Surface::of(mesh)?;
+    let plate = frame.plate_fraction(mesh);
+    if plate > PLATE {
+        return Some(KneeComponent::Tibia);
+    }
+    let is_bow = plate < BOX && frame.hollow(mesh)? > BOW;
+    is_bow.then_some(KneeComponent::Femur)
+}
+
+/// A surface and the frame of its own normals.
+struct Surface {
+    /// Doubled.
+    area: f64,
+    middle: Vector3,
+    /// Its rows are the directions that most of the surface faces, second most, and least.
+    own_from_model: Matrix3,
+}
+
+impl Surface {
+    fn of(mesh: &Mesh<'_>) -> Option<Self> {
+        let mut tensor: Matrix3 = [[0.0; 3]; 3];
+        let (mut area, mut sum) = (0.0, [0.0; 3]);
+        for (middle, doubled, normal) in faces(mesh).filter(|(_, doubled, _)| *doubled > 0.0) {
+            area += doubled;
+            sum = add(&sum, &scale(&middle, doubled));
+            for (row, &x) in tensor.iter_mut().zip(&normal) {
+                for (sum, &y) in row.iter_mut().zip(&normal) {
+                    *sum += x * y / doubled;
+                }
+            }
+        }
+        let (_, own_from_model) = eigen_symmetric(&tensor);
+        (area > 0.0).then(|| Self {
+            area,
+            middle: scale(&sum, 1.0 / area),
+            own_from_model,
+        })
+    }
+
+    /// The largest part of the surface that faces one direction or its opposite.
+    fn plate_fraction(&self, mesh: &Mesh<'_>) -> f64 {
+        let cells = self.cells(mesh);
+        let near = |along: &Vector3| {
+            let parts = cells.iter().filter(|sum| norm(sum) > 0.0);
+            parts.fold([0.0; 3], |all, sum| add(&all, &towards(sum, along)))
+        };
+        let sums = cells.iter().filter_map(|sum| Some(near(&unit(sum)?)));
+        let most = sums.max_by(|a, b| norm(a).total_cmp(&norm(b)));
+        let Some(along) = most.and_then(|sum| unit(&sum)) else {
+            return 0.0;
+        };
+        let along = apply(&transpose(&self.own_from_model), &along);
+        let facing = faces(mesh)
+            .filter(|(_, area, normal)| *area > 0.0 && dot(normal, &along).abs() >= FACING * area);
+        facing.map(|(_, area, _)| area).sum::<f64>() / self.area
+    }
+
+    /// Normals of the faces as long as their areas, opposite ones taken together, summed in cells of some eleven degrees.
+    fn cells(&self, mesh: &Mesh<'_>) -> [Vector3; CELLS] {
+        let mut cells = [[0.0; 3]; CELLS];
+        for (.., normal) in faces(mesh).filter(|(_, area, _)| *area > 0.0) {
+            let own = apply(&self.own_from_model, &normal);
+            if let Some((cell, sign)) = cell_of(&own) {
+                cells[cell] = add(&cells[cell], &scale(&own, sign));
+            }
+        }
+        cells
+    }
+
+    /// How far the middle of the surface lies from that of its outermost points, of its radius.
+    fn hollow(&self, mesh: &Mesh<'_>) -> Option<f64> {
+        let mut sum = [0.0; 3];
+        for number in 0..ROUND {
+            let sign = |bit: usize| if number >> bit & 1 == 0 { 1.0 } else { -1.0 };
+            let own = core::array::from_fn(|k| sign(k) * OBLIQUE[(k + number / 8) % 3]);
+            let along = apply(&transpose(&self.own_from_model), &own);
+            let far = |a: &Vector3, b: &Vector3| dot(a, &along).total_cmp(&dot(b, &along));
+            sum = add(&sum, &vertices(mesh).max_by(far)?);
+        }
+        let outermost = scale(&sum, 1.0 / ROUND as f64);
+        Some(norm(&subtract(&outermost, &self.middle)) / mesh.bounds().radius)
+    }
+}
+
+/// Directions all round, none of them across an edge or a face of a part that lies as its axes do: there points are equally far out.
+const ROUND: usize = 24;
+const OBLIQUE: Vector3 = [1.0, 2.2, 3.7];
+
+/// Cells of a side of the half cube, and of all three sides.
+const SIDE: usize = 8;
+const CELLS: usize = 3 * SIDE * SIDE;
+
+/// The cell of a normal, and the sign that turns it to its half.
+fn cell_of(own: &Vector3) -> Option<(usize, f64)> {
+    let axis = (0..3).max_by(|&a, &b| own[a].abs().total_cmp(&own[b].abs()))?;
+    let place = |other: usize| {
+        let along = own[(axis + other) % 3] / own[axis];
+        (((along + 1.0) / 2.0 * SIDE as f64) as usize).min(SIDE - 1)
+    };
+    let cell = (axis * SIDE + place(1)) * SIDE + place(2);
+    Some((cell, if own[axis] < 0.0 { -1.0 } else { 1.0 }))
+}
+
+/// A cell's sum where it faces a direction, or its opposite, turned towards it; nothing where it does not.
+fn towards(sum: &Vector3, along: &Vector3) -> Vector3 {
+    let facing = dot(sum, along);
+    if facing.abs() < FACING * norm(sum) {
+        return [0.0; 3];
+    }
+    scale(sum, if facing < 0.0 { -1.0 } else { 1.0 })
+}
+
+fn unit(vector: &Vector3) -> Option<Vector3> {
+    let length = norm(vector);
+    (length > 0.0).then(|| scale(vector, 1.0 / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::edges::fake::add_box;
+    use crate::pose::{EulerPose, Pose};
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    type Corners = Vec<[f32; 3]>;
+    type Triangles = Vec<[u32; 3]>;
+
+    /// A profile, closed from its last corner to its first, pulled out along z, without its two ends.
+    fn pulled(profile: &[[f32; 2]], length: f32, steps: u32) -> (Corners, Triangles) {
+        let count = profile.len() as u32;
+        let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+        for step in 0..=steps {
+            let z = length * step as f32 / steps as f32;
+            corners.extend(profile.iter().map(|&[x, y]| [x, y, z]));
+        }
+        for step in 0..steps {
+            for at in 0..count {
+                let [a, b] = [at, (at + 1) % count].map(|k| step * count + k);
+                triangles.push([a, b, a + count]);
+                triangles.push([b, b + count, a + count]);
+            }
+        }
+        (corners, triangles)
+    }
+
+    /// A ring's part of so many degrees, of radius 30, so thick and so wide.
+    fn bow(degrees: f64, thick: f64, wide: f32) -> (Corners, Triangles) {
+        const STEPS: usize = 40;
+        let arc = |radius: f64| {
+            (0..=STEPS).map(move |step| {
+                let angle = (degrees * step as f64 / STEPS as f64).to_radians();
+                let (sin, cos) = crate::math::sin_cos(angle);
+                [radius * cos, radius * sin].map(|x| x as f32)
+            })
+        };
+        let inner: Vec<[f32; 2]> = arc(30.0 - thick).collect();
+        let profile: Vec<[f32; 2]> = arc(30.0).chain(inner.into_iter().rev()).collect();
+        pulled(&profile, wide, 12)
+    }
+
+    /// A plate on a keel.
+    fn tray(thick: f32, keel: [f32; 3]) -> (Corners, Triangles) {
+        let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+        let [deep, wide, high] = keel;
+        add_box(
+            [-22.0, 0.0, -35.0],
+            [22.0, thick, 35.0],
+            &mut corners,
+            &mut triangles,
+        );
+        let (low, high) = ([-deep, -high, -wide], [deep, 0.0, wide]);
+        add_box(low, high, &mut corners, &mut triangles);
+        (corners, triangles)
+    }
+
+    fn ball(half: bool) -> (Corners, Triangles) {
+        const STEPS: usize = 24;
+        let height = if half { 90.0 } else { 180.0 };
+        let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+        for level in 0..=STEPS {
+            let (sin, cos) =
+                crate::math::sin_cos((height * level as f64 / STEPS as f64).to_radians());
+            for step in 0..STEPS {
+                let around = core::f64::consts::TAU * step as f64 / STEPS as f64;
+                let (s, c) = crate::math::sin_cos(around);
+                corners.push([30.0 * sin * c, 30.0 * sin * s, 30.0 * cos].map(|x| x as f32));
+            }
+        }
+        let number = |level: usize, step: usize| (level * STEPS + step % STEPS) as u32;
+        for (level, step) in (0..STEPS).flat_map(|level| (0..STEPS).map(move |step| (level, step)))
+        {
+            let [a, b] = [number(level, step), number(level, step + 1)];
+            let [c, d] = [number(level + 1, step), number(level + 1, step + 1)];
+            triangles.extend([[a, c, b], [b, c, d]]);
+        }
+        if half {
+            corners.push([0.0; 3]);
+            let middle = corners.len() as u32 - 1;
+            triangles.extend(
+                (0..STEPS).map(|step| [number(STEPS, step), middle, number(STEPS, step + 1)]),
+            );
+        }
+        (corners, triangles)
+    }
+
+    fn told((corners, triangles): &(Corners, Triangles)) -> Option<KneeComponent> {
+        component_by_shape(&Mesh::new(corners, triangles).expect("valid"))
+    }
+
+    proptest! {
+        /// Wherever it lies, however large it is, whichever way its triangles run.
+        #[test]
+        fn plates_are_trays_and_bows_are_femoral(
+            angles in proptest::array::uniform3(-180.0..180.0f64),
+            place in proptest::array::uniform3(-100.0..100.0f64),
+            size in 0.01..20.0f64,
+            round in 150.0..270.0f64,
+            thick in 3.0..6.5f64,
+            wide in 35.0..62.0f32,
+            plate in 2.5..5.0f32,
+            keel in 15.0..45.0f32,
+            flipped in any::<bool>(),
+        ) {
+            let [z_rot_deg, x_rot_deg, y_rot_deg] = angles;
+            let pose = Pose::from(EulerPose { z_rot_deg, x_rot_deg, y_rot_deg, ..EulerPose::default() });
+            let placed = |(corners, mut triangles): (Corners, Triangles)| {
+                let put = |corner: &[f32; 3]| {
+                    let turned = pose.transform(&corner.map(f64::from));
+                    core::array::from_fn(|k| (size * (turned[k] + place[k])) as f32)
+                };
+                if flipped {
+                    triangles.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+                }
+                (corners.iter().map(put).collect(), triangles)
+            };
+            prop_assert_eq!(told(&placed(bow(round, thick, wide))), Some(KneeComponent::Femur));
+            let tray = tray(plate, [6.0, 6.0, keel]);
+            prop_assert_eq!(told(&placed(tray)), Some(KneeComponent::Tibia));
+        }
+
+        /// Of a box that is no plate, and of any box as a bow.
+        #[test]
+        fn boxes_are_nothing_but_plates(sides in proptest::array::uniform3(5.0..60.0f32)) {
+            let (mut corners, mut triangles) = (Vec::new(), Vec::new());
+            add_box([0.0; 3], sides, &mut corners, &mut triangles);
+            let [a, b, c] = sides;
+            let faces = [a * b, b * c, c * a];
+            let part = faces.iter().fold(0.0f32, |most, &x| most.max(x)) / faces.iter().sum::<f32>();
+            let told = told(&(corners, triangles));
+            if (part - 5.0 / 12.0).abs() > 1e-4 {
+                prop_assert_eq!(told, (part > 5.0 / 12.0).then_some(KneeComponent::Tibia));
+            }
+        }
+    }
+
+    #[test]
+    fn round_bodies_and_nothing_are_neither() {
+        assert_eq!(told(&ball(false)), None);
+        assert_eq!(told(&ball(true)), None);
+        let line = std::vec![[0.0; 3], [1.0; 3], [2.0; 3]];
+        assert_eq!(told(&(line, std::vec![[0, 1, 2]])), None);
+    }
+
+    /// The cells and the window lose nothing that looking from everywhere finds.
+    #[test]
+    fn no_direction_sees_more() {
+        for (corners, triangles) in [
+            bow(200.0, 6.0, 60.0),
+            tray(4.0, [6.0, 6.0, 35.0]),
+            ball(true),
+        ] {
+            let mesh = Mesh::new(&corners, &triangles).expect("valid");
+            let surface = Surface::of(&mesh).expect("a surface");
+            let found = surface.plate_fraction(&mesh);
+            let seen = (0..4000).map(|number| {
+                let z = (f64::from(number) + 0.5) / 4000.0;
+                let (sin, cos) = crate::math::sin_cos(f64::from(number) * 2.399_963_229_728_653);
+                let r = crate::math::sqrt(1.0 - z * z);
+                let along = [r * cos, r * sin, z];
+                let facing = faces(&mesh)
+                    .filter(|(_, area, normal)| dot(normal, &along).abs() >= FACING * area);
+                facing.map(|(_, area, _)| area).sum::<f64>() / surface.area
+            });
+            let most = seen.fold(0.0, f64::max);
+            assert!((most - found).abs() < 0.04, "{most} {found}");
+        }
+    }
+}
