@@ -3,24 +3,14 @@
 use crate::implant::{Side, Triangles};
 use glam::DVec3;
 
-/// How thick the mantle is, mm.
-const THICKNESS: f64 = 1.8;
-/// Linear attenuation of cement with barium sulphate, less that of the bone that it stands in, per mm.
-const DENSITY: f64 = 0.035;
 /// A femoral component's bone lies around this point, for a left part 70 mm wide, anterior and proximal mm. A tray reaches
 /// no higher than some millimetres, and its bone lies below.
 const INSIDE: [f64; 2] = [10.0, 20.0];
 const TRAY_TOP: f64 = 8.0;
 
-/// An implant with its mantle: one closed mesh, whose inside is to count as cement beneath the metal.
-pub(super) struct Mantle {
-    pub(super) mesh: Triangles,
-    /// Attenuation per mm.
-    pub(super) density: f64,
-}
-
-/// The mantle of a femoral component or a tray, told apart by whether it reaches up.
-pub(super) fn mantle(mesh: &Triangles, side: Side) -> Mantle {
+/// A femoral component or a tray, told apart by whether it reaches up, with a mantle of this thickness, mm: one closed mesh,
+/// whose inside is to count as cement beneath the metal.
+pub(super) fn mantle(mesh: &Triangles, side: Side, thickness: f64) -> Triangles {
     let points: Vec<DVec3> = mesh
         .vertices
         .iter()
@@ -41,17 +31,14 @@ pub(super) fn mantle(mesh: &Triangles, side: Side) -> Mantle {
         .zip(normals(mesh, &points))
         .map(|(&point, normal)| {
             let grown = match faces_bone(point, normal) {
-                true => point + THICKNESS * normal,
+                true => point + thickness * normal,
                 false => point,
             };
             grown.as_vec3().to_array()
         });
-    Mantle {
-        mesh: Triangles {
-            vertices: vertices.collect(),
-            triangles: mesh.triangles.clone(),
-        },
-        density: DENSITY,
+    Triangles {
+        vertices: vertices.collect(),
+        triangles: mesh.triangles.clone(),
     }
 }
 
@@ -81,14 +68,14 @@ mod tests {
             (femur(&parameters).unwrap(), 0.1, 0.6),
             (tibia(&parameters).unwrap(), 0.2, 0.8),
         ] {
-            let grown = mantle(&mesh, Side::Left).mesh;
+            let grown = mantle(&mesh, Side::Left, 1.8);
             let [before, after] = [&mesh, &grown].map(|mesh| closed_volume(mesh).unwrap());
             let gained = after / before - 1.0;
             assert!((low..high).contains(&gained), "{gained}");
         }
         // The bearing surface, below and in front of the bone, and the tray's recess stay where they are.
         let femur = femur(&parameters).unwrap();
-        let grown = mantle(&femur, Side::Left).mesh;
+        let grown = mantle(&femur, Side::Left, 1.8);
         let lowest = |mesh: &Triangles| mesh.vertices.iter().map(|v| v[1]).fold(f32::MAX, f32::min);
         assert_eq!(lowest(&femur), lowest(&grown));
     }

@@ -64,10 +64,10 @@ fn shadows(scene: &Scene<'_>, physics: &Physics) -> Result<Vec<(Shadow, f64)>> {
     let mut all = Vec::new();
     for (placed, density) in [(&scene.femur, alloys.femur), (&scene.tibia, alloys.tibia)] {
         let mut density = density;
-        if physics.surroundings.cement {
-            let mantle = mantle(placed.mesh, scene.side);
+        if let Some(cement) = physics.surroundings.cement {
+            let mantle = mantle(placed.mesh, scene.side, cement.thickness_mm);
             let around = Placed {
-                mesh: &mantle.mesh,
+                mesh: &mantle,
                 ..*placed
             };
             let shadow = Shadow::cast(
@@ -78,9 +78,9 @@ fn shadows(scene: &Scene<'_>, physics: &Physics) -> Result<Vec<(Shadow, f64)>> {
                     ..sampling
                 },
             )?;
-            all.push((shadow, mantle.density));
+            all.push((shadow, cement.density));
             // The mantle's mesh holds the implant.
-            density -= mantle.density;
+            density -= cement.density;
         }
         all.push((Shadow::cast(camera, placed, sampling)?, density));
     }

@@ -30,5 +30,7 @@ mod tube;
 
 pub use display::{Display, Unsharp};
 pub use exposure::{Scene, expose};
-pub use physics::{Alloys, Blur, Exposure, Field, Physics, Sampling, Scatter, Surroundings};
+pub use physics::{
+    Alloys, Blur, Cement, Exposure, Field, Physics, Sampling, Scatter, Surroundings,
+};
 pub use placed::{Motion, Placed, silhouette};

@@ -53,11 +53,29 @@ pub struct Surroundings {
     /// The other leg beside this one, mm to the right of it in the camera's frame; far away it is out of sight.
     pub second_leg_mm: Option<f64>,
     /// A mantle of radio-opaque cement between bone and implants.
-    pub cement: bool,
+    pub cement: Option<Cement>,
     /// Two bone screws below the tray.
     pub screws: bool,
     /// A ruler on the detector.
     pub ruler: bool,
+}
+
+/// A mantle of cement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cement {
+    /// How thick it is, mm.
+    pub thickness_mm: f64,
+    /// Linear attenuation of cement with barium sulphate, less that of the bone that it stands in, per mm.
+    pub density: f64,
+}
+
+impl Default for Cement {
+    fn default() -> Self {
+        Self {
+            thickness_mm: 1.8,
+            density: 0.035,
+        }
+    }
 }
 
 /// Standard deviations of Gaussian blur, pixels.

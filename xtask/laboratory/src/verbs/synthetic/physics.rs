@@ -1,7 +1,7 @@
 //! How a synthetic film is made, as options.
 
 use anyhow::{Result, ensure};
-use fluoropose_phantom::film::{Display, Exposure, Field, Physics, Sampling, Unsharp};
+use fluoropose_phantom::film::{Cement, Display, Exposure, Field, Physics, Sampling, Unsharp};
 
 use crate::options::Pair;
 
@@ -79,7 +79,7 @@ impl PhysicsOptions {
         physics.unsharp = self
             .unsharp
             .map(|Pair([amount, sigma_px])| Unsharp { amount, sigma_px });
-        physics.surroundings.cement = self.cement;
+        physics.surroundings.cement = self.cement.then(Cement::default);
         physics.surroundings.screws = self.screws;
         physics.surroundings.ruler = self.ruler;
         physics.field = if self.flat_panel {
