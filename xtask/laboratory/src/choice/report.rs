@@ -36,6 +36,20 @@ pub struct Numbers {
     pub y_rot_deg: f64,
 }
 
+impl From<[f64; 6]> for Numbers {
+    /// In the order of a pose file.
+    fn from([x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]: [f64; 6]) -> Self {
+        Self {
+            x_mm,
+            y_mm,
+            z_mm,
+            z_rot_deg,
+            x_rot_deg,
+            y_rot_deg,
+        }
+    }
+}
+
 impl Numbers {
     /// The numbers in the order of a pose file.
     pub fn all(&self) -> [f64; 6] {

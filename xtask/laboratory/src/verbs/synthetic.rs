@@ -202,6 +202,9 @@ fn print(accuracy: &Accuracy) {
             accuracy.regions,
             100.0 * accuracy.covered as f64 / accuracy.regions as f64
         );
+        let [narrow, wide] = accuracy.inside.words();
+        println!("in their 68 %, by number: x, y, z, rot. z, x, y {narrow} %");
+        println!("in their 95 %, by number: x, y, z, rot. z, x, y {wide} %");
     }
     accuracy.limits.print(&accuracy.rms, &accuracy.median);
 }

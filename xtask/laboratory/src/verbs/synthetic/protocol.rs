@@ -8,7 +8,7 @@ use fluoropose::library::{ViewAxis, ViewGrid};
 use fluoropose::math::{Vector3, add, apply, multiply, norm, rotation_by, scale};
 use fluoropose::mesh::Model;
 use fluoropose::mesh::symmetry::symmetry_planes;
-use fluoropose::pose::covariance::PoseCovariance;
+use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::CameraView;
 use rand::{RngExt, SeedableRng};
@@ -21,6 +21,7 @@ use crate::finding::biplane::turned_about;
 use crate::finding::{Finder, Method, ViewOptions, build_library};
 use crate::measure::accuracy::{Errors, is_wrong_side, mean_absolute, median_absolute, rms};
 use crate::measure::bound::{Comparison, Outlines, PoseLimits};
+use crate::measure::coverage::Coverage;
 use crate::noise::{DisturbanceOptions, Disturbed, Noise, Scene};
 use crate::progress::progress;
 
@@ -114,6 +115,8 @@ pub struct Accuracy {
     pub regions: usize,
     /// See `regions`.
     pub covered: usize,
+    /// The parts of the same poses whose regions hold the truth, number by number.
+    pub inside: Coverage,
     /// Mean absolute error of z_rot, degrees.
     pub in_plane_deg: f64,
     /// Mean absolute error of x_rot and y_rot, degrees.
@@ -180,6 +183,7 @@ pub fn measure_as(
                 wrong_side: is_wrong_side(&found, &reference, &planes),
                 covered: covariance
                     .and_then(|c| c.holds(&found, &reference, &search.middle, WITHIN_95)),
+                told: covariance.map(|c| c.deviations(&found, &search.middle)),
             }),
             Err(error) => bar.suspend(|| {
                 eprintln!("no pose for {:?}: {error:#}", EulerPose::from(reference));
@@ -202,6 +206,7 @@ struct Try {
     wrong_side: bool,
     /// Whether the truth lies in the region of 95 %.
     covered: Option<bool>,
+    told: Option<Deviations>,
 }
 
 /// How a pose is looked for.
@@ -295,6 +300,7 @@ fn summary(tries: &[Try], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
     let right = |found: &&Try| found.errors.geodesic_deg <= FAILURE_DEG;
     let kept: Vec<Errors> = tries.iter().filter(right).map(|t| t.errors).collect();
     let covered = || tries.iter().filter(right).filter_map(|found| found.covered);
+    let with_region = || tries.iter().filter(right).filter(|found| found.covered.is_some());
     let mean = Errors::summarise(&kept, mean_absolute);
     let rms = Errors::summarise(&errors, rms);
     Accuracy {
@@ -305,6 +311,7 @@ fn summary(tries: &[Try], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
         within_1_deg: errors.iter().filter(|e| e.geodesic_deg <= 1.0).count(),
         regions: covered().count(),
         covered: covered().filter(|&covered| covered).count(),
+        inside: Coverage::of(with_region().map(|found| (&found.errors, found.told.as_ref()))),
         in_plane_deg: mean.z_rot_deg,
         out_of_plane_deg: (mean.x_rot_deg + mean.y_rot_deg) / 2.0,
         in_plane_mm: (mean.x_mm + mean.y_mm) / 2.0,

@@ -8,7 +8,8 @@ use fluoropose_phantom::film::{
 const BLURS: [(&str, f64); 2] = [("sharp", 0.7), ("soft", 1.4)];
 /// Little scatter, and much: its part of the primary beam, with half as much of glare.
 const SCATTERS: [(&str, f64); 2] = [("little", 0.05), ("much", 0.4)];
-const [SHARP, SOFT]: [f64; 2] = [BLURS[0].1, BLURS[1].1];
+const SHARP: f64 = BLURS[0].1;
+const SOFT: f64 = BLURS[1].1;
 /// How much a usual beam hardens.
 const HARDENING: f64 = 0.2;
 /// Edges enhanced in several ways, little and strongly, narrowly and widely, on films of this display and blur.

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::outcome::{Found, Outcome};
-use crate::choice::report::Numbers;
 use crate::measure::accuracy::{Errors, mean, median_absolute, rms};
+use crate::measure::coverage::Coverage;
 use crate::verbs::synthetic::ranges::FAILURE_DEG;
 
 /// A kind of films, a component and the way to its poses.
@@ -38,10 +38,8 @@ pub struct FilmRow {
     pub wrong_but_good: usize,
     /// Poses more than 2 degrees or 5 mm of depth off, and called good.
     pub far_but_good: usize,
-    /// Of the poses not more than 4 degrees off, the parts with the truth inside the regions of 68 and 95 % of each number.
-    pub inside: [Numbers; 2],
-    /// The same of the rotation as a whole.
-    pub rotation_inside: [f64; 2],
+    /// Of the poses not more than 4 degrees off, those whose regions hold the truth.
+    pub inside: Coverage,
     /// Median time of a pose, ms.
     pub median_ms: f64,
 }
@@ -63,9 +61,6 @@ impl FilmRow {
         let good = outcomes.iter().filter(|one| one.verdict == "good");
         let good: Vec<&Found> = good.filter_map(|one| one.found.as_ref()).collect();
         let good_errors: Vec<Errors> = good.iter().map(|found| found.errors).collect();
-        let part = |inside: &dyn Fn(&Found) -> bool| {
-            kept.iter().filter(|found| inside(found)).count() as f64 / kept.len() as f64
-        };
         let told: Vec<f64> = kept
             .iter()
             .filter_map(|found| Some(found.sd?.z_mm))
@@ -86,18 +81,7 @@ impl FilmRow {
             told_z_mm: median_absolute(&told),
             wrong_but_good: good.iter().filter(|found| found.wrong).count(),
             far_but_good: good.iter().filter(|found| found.far).count(),
-            inside: [0, 1].map(|region| {
-                let number = |number: usize| part(&|found| found.inside[number][region]);
-                Numbers {
-                    x_mm: number(0),
-                    y_mm: number(1),
-                    z_mm: number(2),
-                    z_rot_deg: number(3),
-                    x_rot_deg: number(4),
-                    y_rot_deg: number(5),
-                }
-            }),
-            rotation_inside: [0, 1].map(|k| part(&|found| found.rotation_inside[k])),
+            inside: Coverage::of(kept.iter().map(|found| (&found.errors, found.sd.as_ref()))),
             median_ms: median_absolute(&times),
         }
     }
@@ -129,10 +113,7 @@ pub(super) fn print_heading() {
 
 pub(super) fn print(row: &FilmRow) {
     let (bias, rms) = (&row.bias, &row.rms);
-    let percent = |numbers: &Numbers| {
-        let cells = numbers.all().map(|part| format!("{:>4.0}", 100.0 * part));
-        cells.concat()
-    };
+    let [narrow, wide] = row.inside.words();
     println!(
         "{:<36} {:<5} {:<9} {:>6} {:>4} {:>5} {:>4} {:>6} | {:6.2} {:6.2} {:6.2} {:7.3} {:6.3} | {:>6} {:>5} | {:<27} | {:<27} | {:5.0}",
         row.films,
@@ -150,8 +131,8 @@ pub(super) fn print(row: &FilmRow) {
         rms.x_mm.hypot(rms.y_mm),
         row.wrong_but_good,
         row.far_but_good,
-        percent(&row.inside[0]),
-        percent(&row.inside[1]),
+        narrow,
+        wide,
         row.median_ms
     );
 }
