@@ -31,5 +31,5 @@ pub use error::FindError;
 pub use find::{Found, Goal, find, find_into};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 pub use memory::FinderMemory;
-pub use usual::FilmMisfits;
+pub use usual::{FilmMisfits, look_beyond};
 pub use verdict::{Decision, Doubt, Limits, Refusal, Verdict, contenders, judge, judge_fit};

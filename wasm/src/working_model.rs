@@ -12,7 +12,7 @@ use fluoropose::image::silhouette::Silhouette;
 use fluoropose::library::Library;
 use fluoropose::locate::Located;
 use fluoropose::locate::rerank::{Reranked, unmatched_at_pose};
-use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::mesh::symmetry::{SymmetryPlane, is_nearly_symmetric, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -293,6 +293,12 @@ impl WorkingModel {
         let (seen, options) = ((view.camera, image), RefineOptions::default());
         let found = correct_candidates(&model, seen, planes, &known, options, &mut memory);
         Ok(found.map_err(sentence)?.into_iter().collect())
+    }
+
+    /// Whether its outlines hardly tell it from its mirror image.
+    pub(crate) fn is_nearly_symmetric(&mut self) -> bool {
+        let model = self.owned.as_model();
+        is_nearly_symmetric(&model, planes_of(&mut self.planes, &model))
     }
 
     /// Other poses around one that leaves more than is usual on its film, best first: where another leaves less it is among them.

@@ -21,6 +21,8 @@ const LEAST: usize = 3;
 /// A misfit is unusual from these multiples of the median on: of the component's own, and of those of others.
 const OF_OWN: f64 = 2.0;
 const OF_OTHERS: f64 = 3.0;
+/// Where nothing tells what is usual, a pose that leaves this part of another's misfit is the right one of both.
+const ENOUGH: f64 = 0.5;
 
 impl FilmMisfits<'_> {
     /// The largest usual misfit, pixels; `None` where nothing tells.
@@ -34,11 +36,30 @@ impl FilmMisfits<'_> {
         limits.into_iter().flatten().reduce(f64::min)
     }
 
+    /// See [`look_beyond`].
+    #[must_use]
+    pub fn look_beyond(&self, px: f64, is_nearly_symmetric: bool) -> Option<f64> {
+        look_beyond(self.limit_px(), px, is_nearly_symmetric)
+    }
+
     /// What is doubtful of a pose with this misfit.
     #[must_use]
     pub fn doubt(&self, px: f64) -> Option<Doubt> {
         let limit_px = self.limit_px()?;
         (px > limit_px).then_some(Doubt::Unusual { px, limit_px })
+    }
+}
+
+/// The misfit at which the search for other poses around one with misfit `px` may end, `limit_px` being the largest usual one;
+/// `None` where there is no need of any.
+///
+/// Where a part is nearly its own mirror image and nothing tells what is usual on its film, others are always looked for: an
+/// inner rim or the wrong side of the mirror shows by a pose that leaves less, and by nothing else.
+#[must_use]
+pub fn look_beyond(limit_px: Option<f64>, px: f64, is_nearly_symmetric: bool) -> Option<f64> {
+    match limit_px {
+        Some(limit_px) => (px > limit_px).then_some(limit_px),
+        None => is_nearly_symmetric.then_some(ENOUGH * px),
     }
 }
 
@@ -90,10 +111,15 @@ mod tests {
         };
         assert_eq!(misfits.limit_px(), None);
         assert_eq!(misfits.doubt(3.0), None);
+        // A tray alone on its film is looked around, a femur is not.
+        assert_eq!(misfits.look_beyond(0.4, true), Some(0.2));
+        assert_eq!(misfits.look_beyond(0.4, false), None);
         let misfits = FilmMisfits {
             own: &[0.1, 0.1, 0.7],
             others: &[],
         };
         assert_eq!(misfits.limit_px(), Some(0.2));
+        assert_eq!(misfits.look_beyond(0.3, false), Some(0.2));
+        assert_eq!(misfits.look_beyond(0.1, true), None);
     }
 }

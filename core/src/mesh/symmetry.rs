@@ -17,6 +17,7 @@ mod triangle;
 use heapless::Vec;
 
 use crate::math::{Vector3, add, dot, norm, scale, sin_cos, sqrt};
+use crate::mesh::Model;
 use crate::mesh::surface::Mesh;
 use fit::{Fitted, Plane, Target};
 use sample::Samples;
@@ -31,6 +32,17 @@ pub struct SymmetryPlane {
     pub normal: Vector3,
     /// Root mean square distance of the reflected surface from the surface, mm.
     pub deviation_mm: f64,
+}
+
+/// A part that deviates from its reflection by no more than this part of its radius is nearly its own mirror image: trays do by
+/// 0.003 at most, femoral components by 0.02 at least.
+const NEARLY: f64 = 0.01;
+
+/// Whether a part is so nearly its own mirror image in one of its planes of symmetry that its outlines hardly tell.
+#[must_use]
+pub fn is_nearly_symmetric(model: &Model<'_>, planes: &[SymmetryPlane]) -> bool {
+    let limit = NEARLY * model.bounds().radius;
+    planes.iter().any(|plane| plane.deviation_mm < limit)
 }
 
 /// Planes that are reported of a part at most.

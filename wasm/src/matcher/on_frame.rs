@@ -3,7 +3,7 @@
 use fluoropose::camera::Camera;
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{FilmModel, FilmProfile, pool::profiles_of_each};
-use fluoropose::finder::{Candidate as FinderCandidate, Doubt};
+use fluoropose::finder::{Candidate as FinderCandidate, Doubt, look_beyond};
 use fluoropose::image::border::follow_border;
 use fluoropose::image::contour::Contour;
 use fluoropose::image::mask::{Mask, MaskMut, Word, words_needed};
@@ -229,18 +229,19 @@ impl Matcher {
         Ok(answer)
     }
 
-    /// Poses around one that leaves more than is usual on its film; none of one that does not.
+    /// Poses around one that leaves more than is usual on its film, or of which nothing tells that ([`look_beyond`]).
     pub(super) fn around(
         &mut self,
         one: &OnFrame,
         seen: &Seen<'_>,
     ) -> Result<Vec<OnFrame>, JsError> {
-        let unusual = seen.usual.filter(|&usual| misfit(&one.refined) > usual);
-        let (Some(usual), Some(_)) = (unusual, seen.film) else {
+        let model = model_of(&mut self.model)?;
+        let px = misfit(&one.refined);
+        let beyond = look_beyond(seen.usual, px, model.is_nearly_symmetric());
+        let (Some(enough), Some(_)) = (beyond, seen.film) else {
             return Ok(Vec::new());
         };
-        let model = model_of(&mut self.model)?;
-        let found = seen.look(|view| model.look_around(&one.refined, view, usual))?;
+        let found = seen.look(|view| model.look_around(&one.refined, view, enough))?;
         Ok(found.iter().filter_map(|one| on_frame(one, None)).collect())
     }
 

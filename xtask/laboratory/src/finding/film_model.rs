@@ -7,7 +7,7 @@ use fluoropose::film::{FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmPro
 use fluoropose::finder::rivals::{RefinedRival, refine_rivals};
 use fluoropose::finder::{correct_candidates, look_around, onto_target};
 use fluoropose::mesh::Model;
-use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::pose::Pose;
 use fluoropose::refine::{
     CameraView, Polarity, RefineBuffers, RefineOptions, film_profiles, polarity_at,
@@ -119,11 +119,13 @@ fn look_around_unusual(parts: &mut [Filmed<'_>], known: &KnownFilm) {
             .collect(),
     );
     for (number, (part, film)) in parts.iter_mut().zip(&known.models).enumerate() {
-        let exceeded = |frame: usize| {
-            misfits.0[number][frame].and_then(|px| misfits.beside(number, frame).exceeded(px))
+        let symmetric = is_nearly_symmetric(&part.model, &symmetry_planes(part.model.mesh()));
+        let beyond = |frame: usize| {
+            let px = misfits.0[number][frame]?;
+            misfits.beside(number, frame).look_beyond(px, symmetric)
         };
         if let Some(film) = film {
-            part.look_around(*film, &exceeded);
+            part.look_around(*film, &beyond);
         }
     }
 }
@@ -318,13 +320,13 @@ impl Filmed<'_> {
         frames.for_each_init(RefineBuffers::default, correct);
     }
 
-    /// Looks around the poses of frames that leave more than is usual there, which `exceeded` gives then.
-    fn look_around(&mut self, film: FilmModel, exceeded: &(impl Fn(usize) -> Option<f64> + Sync)) {
+    /// Looks around the poses of frames for which `beyond` gives when the search may end.
+    fn look_around(&mut self, film: FilmModel, beyond: &(impl Fn(usize) -> Option<f64> + Sync)) {
         let (camera, options) = (self.sequence.camera(), self.options());
         let (sequence, model, edges) = (&self.sequence, &self.model, self.edges);
         let planes = symmetry_planes(model.mesh());
         let look = |buffers: &mut RefineBuffers, (frame, found): (usize, &mut FrameFound)| {
-            let Some(limit_px) = exceeded(frame) else {
+            let Some(limit_px) = beyond(frame) else {
                 return;
             };
             let around = sequence.look(frame, |seen| {

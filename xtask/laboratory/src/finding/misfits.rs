@@ -6,6 +6,7 @@ use fluoropose::finder::{Doubt, FilmMisfits};
 pub struct Misfits(pub Vec<Vec<Option<f64>>>);
 
 /// Those that a frame's pose of a component is compared with.
+#[derive(Default)]
 pub struct Beside {
     own: Vec<f64>,
     others: Vec<f64>,
@@ -41,8 +42,8 @@ impl Beside {
         self.misfits().doubt(px)
     }
 
-    /// What is usual at most, where this misfit exceeds it.
-    pub fn exceeded(&self, px: f64) -> Option<f64> {
-        self.misfits().limit_px().filter(|&limit| px > limit)
+    /// The misfit at which the search for poses around one with this may end, where there is need of any.
+    pub fn look_beyond(&self, px: f64, is_nearly_symmetric: bool) -> Option<f64> {
+        self.misfits().look_beyond(px, is_nearly_symmetric)
     }
 }

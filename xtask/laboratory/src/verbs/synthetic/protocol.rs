@@ -300,7 +300,12 @@ fn summary(tries: &[Try], noise: Noise, limits: &[PoseLimits]) -> Accuracy {
     let right = |found: &&Try| found.errors.geodesic_deg <= FAILURE_DEG;
     let kept: Vec<Errors> = tries.iter().filter(right).map(|t| t.errors).collect();
     let covered = || tries.iter().filter(right).filter_map(|found| found.covered);
-    let with_region = || tries.iter().filter(right).filter(|found| found.covered.is_some());
+    let with_region = || {
+        tries
+            .iter()
+            .filter(right)
+            .filter(|found| found.covered.is_some())
+    };
     let mean = Errors::summarise(&kept, mean_absolute);
     let rms = Errors::summarise(&errors, rms);
     Accuracy {

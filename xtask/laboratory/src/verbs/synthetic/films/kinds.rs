@@ -90,10 +90,7 @@ impl FilmKind {
             thickness_mm,
             density,
         };
-        let name = format!(
-            "{display}, {}, cement {thickness_mm} {density}",
-            word(blur)
-        );
+        let name = format!("{display}, {}, cement {thickness_mm} {density}", word(blur));
         Self {
             name,
             physics: with_cement(display, blur, cement, false),

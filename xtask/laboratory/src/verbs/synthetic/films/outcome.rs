@@ -2,8 +2,8 @@
 
 use fluoropose::finder::choice::{ChoiceContext, choose};
 use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
-use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::Pose;
+use fluoropose::pose::covariance::Deviations;
 
 use crate::finding::misfits::Beside;
 use crate::measure::accuracy::Errors;

@@ -9,7 +9,7 @@ use fluoropose::film::{FilmModel, FilmPool, FilmProfile, GivenFilm};
 use fluoropose::finder::choice::{ChoiceContext, Counterpart};
 use fluoropose::finder::{Candidate, correct_candidates, look_around};
 use fluoropose::mesh::Model;
-use fluoropose::mesh::symmetry::symmetry_planes;
+use fluoropose::mesh::symmetry::{is_nearly_symmetric, symmetry_planes};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineOptions, film_profiles};
 use rayon::prelude::*;
 
@@ -92,7 +92,9 @@ impl Study<'_> {
                 let begin = Instant::now();
                 let attempt = &mut attempts[part];
                 let misfit = misfits.0[part][frame];
-                let limit = misfit.and_then(|px| misfits.beside(part, frame).exceeded(px));
+                let symmetric = is_nearly_symmetric(model, planes);
+                let beside = misfits.beside(part, frame);
+                let limit = misfit.and_then(|px| beside.look_beyond(px, symmetric));
                 let (Some(limit), Some(film)) = (limit, known[frame][part]) else {
                     continue;
                 };
