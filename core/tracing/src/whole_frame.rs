@@ -25,6 +25,8 @@ struct Demands {
     /// is a part of the sharpest border near the place, which may be that of the field.
     score: f64,
     met: f64,
+    /// What may remain between the outline and its edges, pixels.
+    most_px: f64,
 }
 
 /// Where it may be anything, and where it lies beside the other component of its joint, which hides and outshines it.
@@ -32,17 +34,18 @@ const ALONE: Demands = Demands {
     worth_much: 0.45,
     score: 0.45,
     met: 0.9,
+    most_px: 0.7,
 };
 const BESIDE: Demands = Demands {
     worth_much: 0.3,
     score: 0.38,
     met: 0.7,
+    most_px: 1.5,
 };
 /// The middles of two components of a joint are at most so far apart, mm: across the view, and along it.
 const ACROSS_MM: f64 = 90.0;
 const ALONG_MM: f64 = 60.0;
-/// Its edges are nearer than this, and so much of it is seen.
-const MOST_PX: f64 = 1.5;
+/// So much of it is seen.
 const LEAST_KNOWN: f64 = 0.7;
 /// A place is left where its best answer has a smaller score than this before its surroundings are searched once more; how far
 /// the work is then, and before poses around the best answer are tried.
@@ -251,6 +254,6 @@ fn distance_mm(place: &Point, middle: &Vector3, camera: &Camera) -> f64 {
 fn is_good(found: &FramePose, demands: &Demands) -> bool {
     found.score() >= demands.score
         && found.fit.met >= demands.met
-        && found.misfit_px <= MOST_PX
+        && found.misfit_px <= demands.most_px
         && found.fit.known >= LEAST_KNOWN
 }

@@ -15,7 +15,8 @@ use crate::options::most;
 const VOTES: usize = 3;
 
 /// The components, and the frames that each is followed from. Where nobody says how the film shows metal, and nothing is pointed
-/// at that would tell it, metal is looked for as fluoroscopes show it, dark, and then the other way.
+/// at that would tell it, metal is looked for as fluoroscopes show it, dark, and where that does not show all components the other
+/// way too: what is found better counts, for a bright thing beside dark ones may be taken for a component.
 pub(super) fn begun<'s>(
     run: &Run<'_>,
     parts: impl Fn(Polarity) -> Result<Vec<Part<'s>>>,
@@ -39,12 +40,25 @@ pub(super) fn begun<'s>(
     };
     let dark = parts(told.unwrap_or_default())?;
     let anchors = begin_all(&dark)?;
-    if told.is_some() || anchors.iter().any(|anchors| !anchors.is_empty()) {
+    if told.is_some() || anchors.iter().all(|anchors| !anchors.is_empty()) {
         return Ok((dark, anchors));
     }
     let bright = parts(Polarity::BrightImplant)?;
-    let anchors = begin_all(&bright)?;
-    Ok((bright, anchors))
+    let others = begin_all(&bright)?;
+    Ok(if score(&others) > score(&anchors) {
+        (bright, others)
+    } else {
+        (dark, anchors)
+    })
+}
+
+/// How well components are found in all: the sum of what the best frame of each scores.
+fn score(anchors: &[Vec<Anchor>]) -> f64 {
+    let scores = |anchors: &Vec<Anchor>| {
+        let each = anchors.iter().map(|anchor| anchor.found.score());
+        each.fold(0.0, f64::max)
+    };
+    anchors.iter().map(scores).sum()
 }
 
 /// How the film shows metal, by clicks and fixed poses.
