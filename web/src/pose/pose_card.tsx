@@ -10,9 +10,11 @@ import { wrapped } from '../geometry/pose_motion';
 import { work } from '../workers/activity';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
-import { HandNumbers } from './hand_numbers';
+import { later } from '../commands/later';
 import { QUANTITIES, unitWord, type Quantity } from './quantities';
 import { otherThan } from '../terms/component';
+
+const HandNumbers = later(async () => (await import('./hand_numbers')).HandNumbers);
 
 interface PoseNumbersCardProps {
   readonly cell: Cell;
