@@ -4,9 +4,9 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::math::sqrt;
 
-/// Nearest and farthest distance of the object from the focus, as multiples of the library's: those of
-/// [`fluoropose::locate::partial`].
-const DISTANCES: [f64; 2] = [0.75, 1.35];
+/// Nearest and farthest distance of the object from the focus, as multiples of the library's. A camera matrix tells no distance: the
+/// library is then one for a metre, and knees are filmed from 0.7 to 1.45 m.
+const DISTANCES: [f64; 2] = [0.7, 1.45];
 /// Least and greatest area of a region, as multiples of a silhouette's area: what touches the implant may be part of it.
 const REGION: [f64; 2] = [0.4, 4.0];
 /// The same of a region whose border may be the implant's: what is larger is a limb or the field, whose borders are sharper.

@@ -398,6 +398,6 @@ fn the_window_holds_the_component_and_no_more() {
     let needs = OneClick::new(click, &camera, Some(&component))
         .expect("inside")
         .needs(&camera);
-    let extent = 2.0 * model.bounds().radius * 1800.0 / 750.0;
+    let extent = 2.0 * model.bounds().radius * 1800.0 / 700.0;
     assert_eq!(needs.pixels, (extent as usize + 1).pow(2).min(SIDE * SIDE));
 }
