@@ -41,6 +41,8 @@ pub(super) enum Task {
     },
     /// A frame is seen from the other side of the mirror too.
     BothSides(usize),
+    /// A frame is looked at from starts beside its pose.
+    Elsewhere(usize),
     /// A frame that stands out is looked at once more.
     Again(Box<SecondLook>),
 }
@@ -49,9 +51,10 @@ impl Task {
     /// The frame that is to be looked at; `None` where it is done.
     pub(super) fn wanted(&mut self) -> Option<usize> {
         match self {
-            Self::Given { frame, .. } | Self::Found { frame, .. } | Self::BothSides(frame) => {
-                Some(*frame)
-            }
+            Self::Given { frame, .. }
+            | Self::Found { frame, .. }
+            | Self::BothSides(frame)
+            | Self::Elsewhere(frame) => Some(*frame),
             Self::Again(look) => Some(look.frame),
             Self::Search { frames, .. } => frames.last().copied(),
             Self::Walk(walk) => walk.way.next(walk.to),
