@@ -5,7 +5,7 @@
 //! around it are searched. A [`Way`] leads from an [`Anchor`], a frame whose pose is known, over the frames beside it; where
 //! two ways meet, [`join_ways`] takes the better of both. [`mirrored_pose`] gives the rival on the other side of the mirror;
 //! [`choose_sides`] tells over the film which side is the right one, and [`runs_to_go_over`] where to go over to it; the same
-//! for poses that are no mirror image ([`elsewhere`]). Frames that then
+//! for poses that are no mirror image ([`elsewhere`]). Jumps are crossed from both sides (`Crossing`, feature `alloc`). Frames that then
 //! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
 //! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
@@ -18,6 +18,8 @@ mod cell;
 mod conclude;
 mod conclusion;
 mod contrast;
+#[cfg(feature = "alloc")]
+mod crossing;
 mod elsewhere;
 #[cfg(feature = "alloc")]
 mod false_minimum;
@@ -45,6 +47,8 @@ pub use cell::{Anchor, Cell};
 pub use conclude::{conclude, trusted_depths};
 pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
+#[cfg(feature = "alloc")]
+pub use crossing::{Crossing, frames_to_cross_from};
 pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
 pub use false_minimum::{ROUNDS, elsewhere_margins, leaves_less, runs_elsewhere};

@@ -14,6 +14,7 @@ use task::{Span, Task, Walk};
 use super::cell::{Anchor, Cell};
 use super::conclude::{conclude, trusted_depths};
 use super::conclusion::Conclusion;
+use super::crossing::{Crossing, frames_to_cross_from};
 use super::false_minimum::ROUNDS;
 use super::frame_pose::FramePose;
 use super::search_order::{frames_to_search, run_to_search};
@@ -57,6 +58,8 @@ enum Phase {
     Elsewhere,
     /// To what was seen there, where that is the right one.
     GoElsewhere,
+    /// Jumps are crossed.
+    Cross,
     /// Frames that stand out are looked at once more.
     Again,
     Over,
@@ -86,6 +89,8 @@ pub struct Following {
     elsewhere: Vec<SideSample>,
     /// The frames that went over to what was seen elsewhere, as they were before.
     before: Vec<(Range<usize>, Vec<Cell>)>,
+    /// From where jumps are still to be crossed, and whether forward.
+    to_cross: VecDeque<(usize, bool)>,
     /// So often frames may still go over to what was seen elsewhere.
     rounds: usize,
     /// Other sides of frames that somebody wants to compare.
@@ -110,6 +115,7 @@ impl Following {
             samples: Vec::new(),
             elsewhere: Vec::new(),
             before: Vec::new(),
+            to_cross: VecDeque::new(),
             rounds: ROUNDS,
             rivals: Vec::new(),
             steps: Vec::new(),
@@ -173,7 +179,7 @@ impl Following {
         memory: &mut RefineMemory<'_>,
     ) -> Result<Option<FramePose>, RefineError> {
         let task = match self.tasks.front_mut() {
-            Some(task @ (Task::Walk(_) | Task::Span(_))) => {
+            Some(task @ (Task::Walk(_) | Task::Span(_) | Task::Crossing(_))) => {
                 return Ok(task.go_on(subject, image, &self.middle, memory));
             }
             // The answer of a search comes by another way.
@@ -312,8 +318,9 @@ impl Following {
                     self.see_other_sides();
                     self.phase = Phase::Sides;
                 }
-                false => self.look_again_where_it_stands_out(),
+                false => self.begin_to_cross(),
             },
+            Phase::Cross => self.cross_next(),
             Phase::Again => self.phase = Phase::Over,
             Phase::Followed | Phase::Over | Phase::Compare => return None,
         }
@@ -323,11 +330,23 @@ impl Following {
     fn leave_false_minima(&mut self) {
         match self.begin_elsewhere() {
             true => self.phase = Phase::GoElsewhere,
-            false => self.look_again_where_it_stands_out(),
+            false => self.begin_to_cross(),
         }
     }
 
-    fn look_again_where_it_stands_out(&mut self) {
+    fn begin_to_cross(&mut self) {
+        self.to_cross = frames_to_cross_from(&self.cells, &self.middle).into();
+        self.phase = Phase::Cross;
+    }
+
+    /// Crosses the next jump, or looks again at what stands out, where none is left.
+    fn cross_next(&mut self) {
+        if let Some((from, forward)) = self.to_cross.pop_front() {
+            let crossing = Crossing::over(&self.cells, from, forward, &self.middle);
+            self.tasks
+                .extend(crossing.map(Box::new).map(Task::Crossing));
+            return;
+        }
         let looks = second_looks(&self.cells, &self.middle).into_iter();
         let looks = looks.filter(|look| self.range.contains(&look.frame));
         self.tasks.extend(looks.map(Box::new).map(Task::Again));

@@ -66,11 +66,11 @@ const ONE_DEG: f64 = 4.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
-const ELSEWHERE_RATIO: f64 = 1.1;
+pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 /// What residuals say that decide nothing by themselves.
 const HINT: f64 = 0.25;
 /// The most that one frame says.
-const MOST: f64 = 2.0;
+pub(super) const MOST: f64 = 2.0;
 
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.

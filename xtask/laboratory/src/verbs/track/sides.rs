@@ -3,9 +3,10 @@
 use anyhow::Result;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::follow::{
-    Anchor, Cell, FramePose, ROUNDS, Rival, SecondLook, SideEvidence, SideMargin, SideSample,
-    SideStep, choose_sides, elsewhere, elsewhere_margins, frames_for_sides, leaves_less,
-    mirrored_pose, nearer_rival, runs_elsewhere, runs_to_go_over, second_looks, side_margin,
+    Anchor, Cell, Crossing, FramePose, Looked, ROUNDS, Rival, SecondLook, SideEvidence, SideMargin,
+    SideSample, SideStep, choose_sides, elsewhere, elsewhere_margins, frames_for_sides,
+    frames_to_cross_from, leaves_less, look, mirrored_pose, nearer_rival, runs_elsewhere,
+    runs_to_go_over, second_looks, side_margin,
 };
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
@@ -34,6 +35,7 @@ pub(super) fn settle(
             rounds -= 1;
             continue;
         }
+        cross_jumps(run, part, cells)?;
         look_again(run, part, cells)?;
         let beside = elsewhere_margins(&beside, cells.len());
         let margin = |(frame, beside)| nearer_rival(side_margin(&samples, &steps, frame), beside);
@@ -92,6 +94,31 @@ fn tell(run: &Run<'_>, part: &Part<'_>, seen: &SideEvidence, step: Option<&SideS
             own.misfit_px, own.tilt_deg, seen.rival, other.misfit_px, other.tilt_deg
         )
     });
+}
+
+/// Follows the frames on either side of jumps from the other side.
+fn cross_jumps(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    let middle = part.middle();
+    for (from, forward) in frames_to_cross_from(cells, &middle) {
+        let Some(mut crossing) = Crossing::over(cells, from, forward, &middle) else {
+            continue;
+        };
+        let mut bits = 0;
+        while let Some(frame) = crossing.next() {
+            let trail = crossing.way().trail();
+            let expected = trail.expect(frame, &middle).pose.rotation;
+            bits = bits_of(expected.into_iter().flatten().chain([f64::from_bits(bits)]));
+            let key = format!("cross/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+            let looked: Looked = run.journal.step(&key, || {
+                part.see(run.film, frame, |subject, image, memory| {
+                    look(subject, image, frame, trail, memory)
+                })
+            })?;
+            crossing.saw(frame, looked, &middle);
+        }
+        crossing.write(cells);
+    }
+    Ok(())
 }
 
 /// Looks once more at frames that stand out.
