@@ -361,14 +361,14 @@ mod tests {
         let mut distance: std::vec::Vec<u16> = sources.iter().map(far).collect();
         loop {
             let before = distance.clone();
-            for index in 0..distance.len() {
+            for (index, here) in distance.iter_mut().enumerate() {
                 let (column, row) = (index % WIDTH, index / WIDTH);
                 for (c, r) in (0..9).map(|k| (column + k % 3, row + k / 3)) {
                     if (1..=WIDTH).contains(&c) && (1..=HEIGHT).contains(&r) {
                         let across = c != column + 1 && r != row + 1;
                         let step = if across { CORNER } else { SIDE };
                         let there = before[(r - 1) * WIDTH + c - 1].saturating_add(step);
-                        distance[index] = distance[index].min(there);
+                        *here = (*here).min(there);
                     }
                 }
             }
@@ -411,9 +411,9 @@ mod tests {
                     joined[start] = open(start);
                     while {
                         let before = joined.clone();
-                        for index in 0..marks.len() {
+                        for (index, is_in) in joined.iter_mut().enumerate() {
                             window.neighbours(index, |next| {
-                                joined[index] |= before[next] && open(index);
+                                *is_in |= before[next] && open(index);
                             });
                         }
                         joined != before
