@@ -18,6 +18,7 @@ mod static_server;
 mod suite;
 mod test;
 mod tidy;
+mod wheel;
 mod workspace;
 
 use clap::{Parser, Subcommand};
@@ -37,7 +38,7 @@ enum Verb {
     Serve(serve::Args),
     /// Set up what is missing and run the tests
     Test(test::Args),
-    /// Package the page for hosts and as one file, and the npm module
+    /// Package the page for hosts and as one file, and the npm module; or the Python package
     Package(package::Args),
     /// Measure this machine at the core's work, or the page in headless Chromium
     Bench(bench::Args),
