@@ -90,6 +90,19 @@ class OnFrames(OnTheDemo):
         self.assertTrue(all(one.film for one in ours))
 
 
+class FrameAlone(OnTheDemo):
+    def test_an_implant_is_found_in_a_frame_without_a_mask(self) -> None:
+        frame = fp.read_frames(DEMO / "frames")[0]
+        row, column = np.argwhere(fp.read_frames(DEMO / "masks/femur")[0]).mean(0)
+        truth = fp.read_poses(DEMO / "femur.jts")[0]
+        for click in (None, (column, row)):
+            found = fp.estimate(None, self.femur, self.camera, frame=frame, click=click)
+            self.assertEqual(found.status, "good", found.because)
+            off = np.array(found.pose.numbers) - truth
+            np.testing.assert_allclose(off[[0, 1, 3, 4, 5]], 0, atol=1.0)
+            self.assertLess(abs(off[2]), 3 * found.sd.z_mm)
+
+
 class RealStudies(unittest.TestCase):
     def study(self, name: str) -> tuple[Path, dict[str, Any]]:
         folder = STUDIES / name
