@@ -49,6 +49,8 @@ fn start(verb: &str, words: &[OsString]) -> Result<ExitStatus> {
         .args(["run", "--release", "--manifest-path"])
         .arg(crate::workspace::root().join("xtask/laboratory/Cargo.toml"))
         .args(["--", verb])
-        .args(words);
+        .args(words)
+        // As its examples name it.
+        .env("FLUOROPOSE_COMMAND", "cargo xtask");
     cargo.status().context("cannot start cargo")
 }

@@ -18,6 +18,7 @@ mod static_server;
 mod suite;
 mod test;
 mod tidy;
+mod wheel;
 mod workspace;
 
 use clap::{Parser, Subcommand};
@@ -37,7 +38,7 @@ enum Verb {
     Serve(serve::Args),
     /// Set up what is missing and run the tests
     Test(test::Args),
-    /// Package the page for hosts and as one file, and the npm module
+    /// Package the page for hosts and as one file, and the npm module; or the Python package
     Package(package::Args),
     /// Measure this machine at the core's work, or the page in headless Chromium
     Bench(bench::Args),
@@ -75,6 +76,10 @@ enum Verb {
     Kinematics(Words),
     /// Write a study's joint motion as table, files, figure and report
     Report(Words),
+    /// Track and report many studies, some of them on each of many machines
+    Batch(Words),
+    /// Put the joint motion of many studies together: knee first, then group
+    Collect(Words),
 }
 
 fn main() -> std::process::ExitCode {
@@ -112,6 +117,8 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Undistort(words) => laboratory::run("undistort", &words),
         Verb::Kinematics(words) => laboratory::run("kinematics", &words),
         Verb::Report(words) => laboratory::run("report", &words),
+        Verb::Batch(words) => laboratory::run("batch", &words),
+        Verb::Collect(words) => laboratory::run("collect", &words),
     }
 }
 
@@ -123,16 +130,14 @@ mod tests {
     /// The laboratory's program has the same verbs, told in the same words.
     #[test]
     fn the_laboratorys_verbs_are_told_as_it_tells_them() {
-        const ITS: &str = include_str!("../laboratory/src/main.rs");
+        const ITS: &str = include_str!("../laboratory/src/cli.rs");
         let ours = Cli::command();
-        let its = ITS
-            .lines()
-            .filter_map(|line| line.trim().strip_prefix("/// "));
+        // The variants of its verbs alone are indented.
+        let its = ITS.lines().filter_map(|line| line.strip_prefix("    /// "));
         let its: Vec<&str> = its
-            .skip(1)
             .filter(|about| !about.contains("this machine"))
             .collect();
-        assert_eq!(its.len(), 13);
+        assert_eq!(its.len(), 15);
         for about in its {
             let told =
                 |verb: &clap::Command| verb.get_about().is_some_and(|a| a.to_string() == about);

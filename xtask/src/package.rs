@@ -8,24 +8,33 @@ use anyhow::{Context, Result, ensure};
 use crate::output::announce;
 use crate::page::{self, Build};
 use crate::setup::{command, node};
-use crate::workspace;
+use crate::{wheel, workspace};
 
 /// Options of `package`.
 ///
 /// Builds the page as `serve` does and writes three things into the folder:
 /// `site`, to be copied to any static host, into any folder of it; `fluoropose.html`, the same page in one file,
-/// which a browser opens from the disk; `npm`, the module for other programs (see its README.md).
+/// which a browser opens from the disk; `npm`, the module for other programs (see its README.md). With `--python` it builds the wheel of the
+/// Python package instead (see core/python/README.md), and sets up what builds it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder to write to [default: package in cargo's target folder]
     #[arg(long)]
     out: Option<PathBuf>,
+    /// The Python package, as a wheel for this kind of machine and Python 3.10 or later
+    #[arg(long)]
+    python: bool,
 }
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
+    let out = args.out.unwrap_or_else(usual_folder);
+    if args.python {
+        println!("For pip:           {}", wheel::make(&out)?.display());
+        return Ok(());
+    }
     let dist = page::build(Build::Shipped)?;
-    let package = make(&dist, &args.out.unwrap_or_else(usual_folder))?;
+    let package = make(&dist, &out)?;
     let size = |bytes: u64| format!("{:.1} MB", bytes as f64 / 1e6);
     println!("For a static host: {}", package.site.display());
     let bytes = fs::metadata(&package.single)?.len();

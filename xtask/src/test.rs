@@ -7,8 +7,8 @@ use anyhow::{Context, Result, ensure};
 
 use crate::clock::since_the_command;
 use crate::suite::changed;
-use crate::suite::firmware;
 use crate::suite::side_by_side::{self, Chosen};
+use crate::suite::{cluster, firmware, python};
 
 /// Options of `test`.
 ///
@@ -26,11 +26,17 @@ pub(crate) struct Args {
     /// The Cortex-M4F application under QEMU, compared with this machine line by line
     #[arg(long)]
     firmware: bool,
+    /// The Python package as a wheel in a clean environment: types, all tests, the notebook (a quick part is in --native)
+    #[arg(long)]
+    python: bool,
+    /// Batches on a Slurm of one node, set up here as root
+    #[arg(long)]
+    cluster: bool,
     /// With --firmware: write what the board took to this file too, {"rows": [{"board", "work", "value", "unit"}]}
     #[arg(long, value_name = "FILE", requires = "firmware")]
     json: Option<PathBuf>,
     /// For work in progress: only what differs from the branch's origin can touch, and says what is left out
-    #[arg(long, conflicts_with_all = ["native", "browser", "firmware"])]
+    #[arg(long, conflicts_with_all = ["native", "browser", "firmware", "python", "cluster"])]
     changed: bool,
     /// With --changed: what differs from this revision instead
     #[arg(long, value_name = "REV", requires = "changed")]
@@ -44,6 +50,8 @@ impl Args {
             native: true,
             browser: true,
             firmware: true,
+            python: false,
+            cluster: false,
             json: None,
             changed: false,
             since: None,
@@ -56,7 +64,7 @@ impl Args {
             firmware: self.firmware,
             browser: self.browser,
         };
-        if self.native || self.firmware || self.browser {
+        if chosen.any() || self.python || self.cluster {
             chosen
         } else {
             Chosen::ALL
@@ -66,11 +74,17 @@ impl Args {
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let report = if args.changed {
+    let mut report = if args.changed {
         changed::run(args.since.as_deref())?
     } else {
         side_by_side::run(args.chosen())
     };
+    if args.python {
+        python::run(&mut report);
+    }
+    if args.cluster {
+        cluster::run(&mut report);
+    }
     print!("{report}");
     if let Some(file) = args.json {
         let figures = firmware::figures();

@@ -3,7 +3,7 @@
 use fluoropose::Side;
 use fluoropose::joint::JointFrame;
 use fluoropose::joint::course::{
-    FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, levels, phases,
+    FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, cycle, levels, phases,
 };
 use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::pivot::{CondyleLine, Pivot, pivot};
@@ -81,6 +81,18 @@ impl JointFilm {
             }
         }
         numbers
+    }
+
+    /// A number from its first to its last frame at 0 to 100 percent, 101 points, linear between frames; NaN beside missing ones.
+    #[must_use]
+    pub fn cycle(&self, number: usize) -> Vec<f64> {
+        let places: Vec<f64> = self.rows.iter().map(|row| row.number as f64).collect();
+        let values = self.values(number);
+        let known = |index: &usize| values[*index].is_finite();
+        let first = (0..values.len()).find(known).unwrap_or(0);
+        let last = (0..values.len()).rev().find(known).unwrap_or(0);
+        let end = |index: usize| places.get(index).copied().unwrap_or(f64::NAN);
+        cycle(&places, &values, end(first), end(last)).to_vec()
     }
 
     /// Whether any frame has standard deviations.

@@ -5,7 +5,9 @@
 mod facts;
 mod figure;
 mod film;
+pub mod group;
 mod html;
+pub mod levels;
 pub mod read;
 mod svg;
 pub mod write;

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
-use fluoropose::joint::course::cycle;
 use fluoropose::joint::numbers::NUMBERS;
 use fluoropose::pose::jts::{JTA_EULER_KINEMATICS, JTA_EULER_POSE};
 use fluoropose::pose::{EulerPose, Pose};
@@ -141,14 +140,7 @@ pub fn matrix(films: &[&JointFilm], number: usize) -> String {
         "# {name}: a row a film, 101 points from its first to its last frame with a number, doubtful ones included, linear between frames, NaN beside missing ones"
     );
     for film in films {
-        let places: Vec<f64> = film.rows.iter().map(|row| row.number as f64).collect();
-        let values = film.values(number);
-        let known = |index: &usize| values[*index].is_finite();
-        let first = (0..values.len()).find(known).unwrap_or(0);
-        let last = (0..values.len()).rev().find(known).unwrap_or(0);
-        let end = |index: usize| places.get(index).copied().unwrap_or(f64::NAN);
-        let points = cycle(&places, &values, end(first), end(last));
-        let points: Vec<String> = points.iter().map(f64::to_string).collect();
+        let points: Vec<String> = film.cycle(number).iter().map(f64::to_string).collect();
         let _ = writeln!(out, "{}", points.join(","));
     }
     out

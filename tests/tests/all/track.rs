@@ -15,6 +15,7 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_laboratory::files::write_poses;
+use fluoropose_laboratory::progress::Stop;
 use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
@@ -143,6 +144,7 @@ impl Short {
             interpolate: 0,
             anew: false,
             quiet: true,
+            stop: Stop::default(),
         })
     }
 

@@ -1,8 +1,10 @@
 //! From the poses of every frame to the one that is chosen, and what is told of it.
 
 mod decide;
+mod posed;
 mod reasons;
 pub mod report;
 
 pub use decide::{Decision, decide};
+pub use posed::{Beside, Posed, Posing};
 pub use reasons::Reasons;

@@ -17,3 +17,5 @@ pub mod choice;
 pub mod measure;
 
 pub mod verbs;
+
+pub mod cli;

@@ -4,4 +4,4 @@ mod seen;
 mod source;
 
 pub use seen::Seen;
-pub use source::{Folders, Sequence, Source};
+pub use source::{Folders, InMemory, Sequence, Source};

@@ -1,9 +1,11 @@
 //! One file a verb.
 
+pub mod batch;
 pub mod bench;
 pub mod biplane;
 pub mod bound;
 pub mod calibrate;
+pub mod collect;
 pub mod evaluate;
 pub mod identify;
 pub mod kinematics;

@@ -93,11 +93,23 @@ pub(crate) fn output(command: &mut Command) -> Result<String> {
 ///
 /// Returns whether it succeeded and what it wrote there.
 pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
-    let lane = output::lane();
-    command.stdin(Stdio::null()).stdout(Stdio::piped());
-    if lane.is_some() {
+    if output::lane().is_some() {
         command.stderr(Stdio::piped());
     }
+    let (success, kept, _) = teed(command)?;
+    Ok((success, kept))
+}
+
+/// The same with what goes to standard error kept as well, after the rest.
+pub(crate) fn tee_all(command: &mut Command) -> Result<(bool, String)> {
+    let (success, kept, errors) = teed(command.stderr(Stdio::piped()))?;
+    Ok((success, kept + &errors))
+}
+
+/// Whether a command succeeded, and what of its output and errors was to be had.
+fn teed(command: &mut Command) -> Result<(bool, String, String)> {
+    let lane = output::lane();
+    command.stdin(Stdio::null()).stdout(Stdio::piped());
     let mut child = command
         .spawn()
         .with_context(|| format!("cannot start {}", shown(command)))?;
@@ -111,8 +123,8 @@ pub(crate) fn tee(command: &mut Command) -> Result<(bool, String)> {
     });
     let kept = stdout.map(show).transpose()?.unwrap_or_default();
     let errors = errors.join();
-    errors.map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
-    Ok((child.wait()?.success(), kept))
+    let errors = errors.map_err(|_| anyhow!("reading of {} broke off", shown(command)))??;
+    Ok((child.wait()?.success(), kept, errors.unwrap_or_default()))
 }
 
 /// Shows lines as they come and keeps them.

@@ -9,6 +9,7 @@ mod debian;
 mod missing;
 pub(crate) mod node;
 pub(crate) mod programs;
+pub(crate) mod python;
 pub(crate) mod rust_target;
 mod turns;
 

@@ -1,4 +1,4 @@
-//! Programs that tests drive: Chromium, Firefox and QEMU.
+//! Programs that tests drive: Chromium, Firefox, QEMU and Slurm.
 
 use std::path::PathBuf;
 
@@ -42,6 +42,26 @@ const QEMU_ARM: Program = Program {
     packages: &["qemu-system-arm"],
     variable: "FLUOROPOSE_QEMU_ARM",
 };
+
+const SLURM: Program = Program {
+    what: "Slurm",
+    names: &["slurmctld"],
+    packages: &["slurm-wlm"],
+    variable: "FLUOROPOSE_SLURMCTLD",
+};
+
+const MUNGE: Program = Program {
+    what: "munge",
+    names: &["munged"],
+    packages: &["munge"],
+    variable: "FLUOROPOSE_MUNGED",
+};
+
+/// Slurm with what it knows its users by, installed if need be; the path of `munged`.
+pub(crate) fn slurm() -> Result<PathBuf, Missing> {
+    SLURM.ensure()?;
+    MUNGE.ensure()
+}
 
 /// A Chromium, installed if need be. `FLUOROPOSE_CHROMIUM` names another one.
 pub(crate) fn chromium() -> Result<PathBuf, Missing> {

@@ -7,8 +7,8 @@ use std::process::Command;
 use anyhow::{Context, Result};
 use serde::Deserialize;
 
-use super::native;
 use super::report::Report;
+use super::{native, python};
 use crate::output::announce;
 use crate::setup::rust_target::own_cargo;
 use crate::setup::{command, components, node};
@@ -43,7 +43,9 @@ pub(crate) fn run(since: Option<&str>) -> Result<Report> {
     let root = workspace::root();
     let changed = changed_paths(&root, since)?;
     let packages = packages()?;
-    let rust = touched(&packages, &root, &changed);
+    let mut rust = touched(&packages, &root, &changed);
+    // Cargo has no tests of it.
+    let python = rust.remove(python::PACKAGE);
     let web = page_sources(&changed);
     let mut report = Report::new();
     if !rust.is_empty() {
@@ -55,6 +57,9 @@ pub(crate) fn run(since: Option<&str>) -> Result<Report> {
             announce(&rust.iter().cloned().collect::<Vec<_>>().join(", "));
             native::tests(&mut cargo_test(&rust))
         });
+    }
+    if python {
+        python::quick(&mut report);
     }
     if !web.is_empty() {
         report.step("changed: unit tests of the page", || page_tests(&web));

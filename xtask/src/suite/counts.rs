@@ -78,6 +78,23 @@ pub(crate) fn of_node(output: &str) -> Result<Counts> {
     Counts::of(count("pass"), count("skipped"))
 }
 
+/// Reads the `Ran 12 tests` and `OK (skipped=1)` lines of Python's unittest.
+///
+/// Errors when no test passed.
+pub(crate) fn of_unittest(output: &str) -> Result<Counts> {
+    let ran = output.lines().find_map(|line| line.strip_prefix("Ran "));
+    let ran = ran
+        .and_then(|line| line.split_whitespace().next()?.parse().ok())
+        .unwrap_or(0);
+    let skipped = output
+        .lines()
+        .find_map(|line| line.strip_prefix("OK (skipped="));
+    let skipped = skipped
+        .and_then(|rest| rest.trim_end_matches(')').parse().ok())
+        .unwrap_or(0);
+    Counts::of(u32::saturating_sub(ran, skipped), skipped)
+}
+
 /// The number in front of a word, as in `12 passed`.
 fn number_before(line: &str, word: &str) -> Option<u32> {
     let words: Vec<&str> = line
@@ -126,6 +143,18 @@ mod tests {
             counts(3, 4)
         );
         assert!(of_vitest("No test files found").is_err());
+    }
+
+    #[test]
+    fn unittest_is_read() {
+        let ran = "test_a ... ok\n\nRan 12 tests in 3.2s\n\nOK (skipped=2)\n";
+        assert_eq!(of_unittest(ran).unwrap(), counts(10, 2));
+        assert_eq!(
+            of_unittest("Ran 3 tests in 1s\n\nOK\n").unwrap(),
+            counts(3, 0)
+        );
+        assert!(of_unittest("Ran 2 tests in 1s\n\nOK (skipped=2)\n").is_err());
+        assert!(of_unittest("").is_err());
     }
 
     #[test]

@@ -5,7 +5,9 @@ use std::process::Command;
 
 use anyhow::{Result, ensure};
 
+use super::checked_profile::CHECKED;
 use super::counts;
+use super::python;
 use super::report::{Report, Said};
 use crate::output::say;
 use crate::setup::command;
@@ -13,16 +15,6 @@ use crate::setup::components;
 use crate::setup::rust_target::own_cargo;
 use crate::tidy;
 use crate::workspace;
-
-/// Tests use the `release` profile, whose dependencies `cargo xtask` itself has just built, but the core's
-/// arithmetic and assertions are checked in them.
-pub(crate) const CHECKED: [&str; 5] = [
-    "--release",
-    "--config",
-    "profile.release.package.fluoropose.overflow-checks=true",
-    "--config",
-    "profile.release.package.fluoropose.debug-assertions=true",
-];
 
 /// Programs that check what they print.
 const EXAMPLES: [&str; 3] = [
@@ -45,6 +37,7 @@ pub(crate) fn run(report: &mut Report) {
     report.step("native: tests", || {
         tests(&mut checked(&["--no-fail-fast"])?)
     });
+    python::quick(report);
     report.step("native: examples of the core", || {
         EXAMPLES.into_iter().try_for_each(|name| {
             // The tests built them.
@@ -81,7 +74,8 @@ fn quiet(command: &mut Command) -> Result<Said> {
 fn checked(options: &[&str]) -> Result<Command> {
     let mut cargo = own_cargo();
     cargo
-        .args(["test", "--workspace"])
+        // It has no tests of its own: those of the Python package build it.
+        .args(["test", "--workspace", "--exclude", python::PACKAGE])
         .args(CHECKED)
         .args(options);
     components::lint(&mut cargo)?;

@@ -26,6 +26,11 @@ impl Chosen {
         firmware: true,
         browser: true,
     };
+
+    /// Whether there is one.
+    pub(crate) fn any(self) -> bool {
+        self.native || self.firmware || self.browser
+    }
 }
 
 /// A suite and the lane that it runs in.
@@ -44,9 +49,13 @@ pub(crate) fn run(chosen: Chosen) -> Report {
     let suites = suites.into_iter().filter(|(chosen, _)| *chosen);
     let suites: Vec<Suite> = suites.map(|(_, suite)| suite).collect();
     let mut report = Report::new();
-    if let [(_, run)] = suites.as_slice() {
-        run(&mut report);
-        return report;
+    match suites.as_slice() {
+        [] => return report,
+        [(_, run)] => {
+            run(&mut report);
+            return report;
+        }
+        _ => {}
     }
     thread::scope(|scope| {
         scope.spawn(|| lane("fetch", 10).work(|| fetch(chosen)));

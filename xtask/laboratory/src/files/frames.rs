@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
 use fluoropose::image::frame::{Frame, Grey};
@@ -12,10 +13,16 @@ use super::text::{files_in, name_of, read};
 /// The frames of a sequence in the order of their files' names. A file may hold several, as
 /// DICOM and TIFF do. They are decoded one by one when they are looked at: a film in full size
 /// may be larger than memory.
-pub struct Frames {
-    files: Vec<FrameFile<'static>>,
-    /// Of each frame, its file and its number in it.
-    places: Vec<(usize, usize)>,
+pub struct Frames(From);
+
+/// Where frames come from.
+enum From {
+    Files {
+        files: Vec<FrameFile<'static>>,
+        /// Of each frame, its file and its number in it.
+        places: Vec<(usize, usize)>,
+    },
+    Memory(Vec<Arc<GreyFrame>>),
 }
 
 impl Frames {
@@ -43,7 +50,7 @@ impl Frames {
                 places.len()
             );
         }
-        let frames = Self { files, places };
+        let frames = Self(From::Files { files, places });
         let mut notes = BTreeSet::new();
         for place in 0..count {
             let decoded = frames.decode(place)?;
@@ -58,7 +65,7 @@ impl Frames {
                     size.1
                 );
             }
-            notes.extend(decoded.notes);
+            notes.extend(decoded.notes.iter().cloned());
         }
         for note in notes {
             eprintln!("{}: {note}", folder.display());
@@ -66,18 +73,32 @@ impl Frames {
         Ok(frames)
     }
 
+    /// Frames that were decoded elsewhere.
+    pub fn of(frames: Vec<GreyFrame>) -> Self {
+        Self(From::Memory(frames.into_iter().map(Arc::new).collect()))
+    }
+
     /// Decodes a frame, from 0.
     ///
     /// # Errors
     /// Those of the decoder, with the file's name; and for a frame that is not there.
-    pub fn decode(&self, frame: usize) -> Result<GreyFrame> {
-        let &(file, index) = self.places.get(frame).context("there is no such frame")?;
-        Ok(self.files[file].frame(index)?)
+    pub fn decode(&self, frame: usize) -> Result<Arc<GreyFrame>> {
+        const MISSING: &str = "there is no such frame";
+        match &self.0 {
+            From::Files { files, places } => {
+                let &(file, index) = places.get(frame).context(MISSING)?;
+                Ok(Arc::new(files[file].frame(index)?))
+            }
+            From::Memory(frames) => frames.get(frame).cloned().context(MISSING),
+        }
     }
 
     fn name(&self, frame: usize) -> String {
-        let (file, index) = self.places[frame];
-        let opened = &self.files[file];
+        let From::Files { files, places } = &self.0 else {
+            return format!("frame {}", frame + 1);
+        };
+        let (file, index) = places[frame];
+        let opened = &files[file];
         match opened.count() {
             1 => opened.name().to_owned(),
             _ => format!("{}, frame {}", opened.name(), index + 1),

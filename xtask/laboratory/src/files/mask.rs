@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use fluoropose::image::mask::{Mask, MaskError, MaskMut, Word, words_needed};
+use fluoropose::image::mask::{Mask, MaskError, MaskMut, WORD_BITS, Word, words_needed};
 use fluoropose::image::region::largest_region;
 use fluoropose_decode::decode_mask;
 
@@ -33,6 +33,28 @@ impl MaskBuffer {
             width,
             height,
         })
+    }
+
+    /// The mask of an image, row by row: what is not 0 is set.
+    ///
+    /// # Errors
+    /// For a shape that no mask has.
+    pub fn of_pixels(pixels: &[u8], width: usize, height: usize) -> Result<Self> {
+        let mut buffer = Self::new(width, height)?;
+        let word = |pixels: &[u8]| {
+            let bits = pixels.iter().enumerate();
+            bits.fold(0, |word, (bit, &pixel)| {
+                word | (Word::from(pixel != 0) << bit)
+            })
+        };
+        let rows = pixels.chunks_exact(width);
+        let words = rows.flat_map(|row| row.chunks(WORD_BITS).map(word));
+        buffer
+            .words
+            .iter_mut()
+            .zip(words)
+            .for_each(|(own, word)| *own = word);
+        Ok(buffer)
     }
 
     /// A copy of a mask.
@@ -99,15 +121,7 @@ impl MaskBuffer {
 pub fn read_mask(path: &Path) -> Result<MaskBuffer> {
     let image = decode_mask(&read(path)?, &name_of(path))?;
     let (width, height) = (image.width as usize, image.height as usize);
-    let mut buffer = MaskBuffer::new(width, height)?;
-    buffer.draw(|mask| {
-        for (row, pixels) in image.pixels.chunks_exact(width).enumerate() {
-            for (column, &pixel) in pixels.iter().enumerate() {
-                mask.set(column, row, pixel != 0);
-            }
-        }
-    });
-    Ok(buffer)
+    MaskBuffer::of_pixels(&image.pixels, width, height)
 }
 
 #[cfg(test)]
@@ -124,6 +138,18 @@ mod tests {
             }
         });
         buffer
+    }
+
+    #[test]
+    fn pixels_become_bits_one_for_one() {
+        for width in [1, 31, 32, 33, 70] {
+            let pixels: Vec<u8> = (0..width * 5).map(|k| ((k * 7) % 3) as u8 * 100).collect();
+            let buffer = MaskBuffer::of_pixels(&pixels, width, 5).unwrap();
+            for (k, &pixel) in pixels.iter().enumerate() {
+                assert_eq!(buffer.mask().get(k % width, k / width), pixel != 0);
+            }
+        }
+        assert!(MaskBuffer::of_pixels(&[], 0, 5).is_err());
     }
 
     #[test]

@@ -28,16 +28,24 @@ pub fn owned(made: Triangles) -> Result<OwnedModel> {
 /// # Errors
 /// Names the file and what is wrong with it.
 pub fn read_model(path: &Path) -> Result<OwnedModel> {
-    let model = decode_model(&read(path)?, &name_of(path))?;
-    for note in &model.notes {
-        eprintln!("{}: {note}", path.display());
-    }
-    let (vertices, triangles) = (model.vertices, model.triangles);
-    let owned = OwnedModel::new(vertices.into_flattened(), triangles.into_flattened())?;
-    for remark in owned.remarks() {
+    let (owned, remarks) = read_model_and_remarks(path)?;
+    for remark in remarks {
         eprintln!("{}: {remark}", path.display());
     }
     Ok(owned)
+}
+
+/// The same with what there is to say of the file, a sentence each.
+///
+/// # Errors
+/// Those of [`read_model`].
+pub fn read_model_and_remarks(path: &Path) -> Result<(OwnedModel, Vec<String>)> {
+    let model = decode_model(&read(path)?, &name_of(path))?;
+    let (vertices, triangles) = (model.vertices, model.triangles);
+    let owned = OwnedModel::new(vertices.into_flattened(), triangles.into_flattened())?;
+    let mut remarks = model.notes;
+    remarks.extend(owned.remarks());
+    Ok((owned, remarks))
 }
 
 /// The same of a component, where it is known which one; where its model has the shape of the other one, that is said too.

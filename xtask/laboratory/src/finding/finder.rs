@@ -18,6 +18,7 @@ use fluoropose::refine::{CameraView, ImageTarget, RefineOptions, Refined, uncert
 use serde::Serialize;
 
 use crate::options::Shown;
+use crate::progress::Stop;
 use crate::sequence::Seen;
 
 /// How poses are found.
@@ -85,6 +86,7 @@ pub struct Finder<'l> {
     camera: Camera,
     method: Method,
     edges: EdgeOptions,
+    stop: Stop,
     buffers: FinderBuffers,
 }
 
@@ -105,13 +107,31 @@ impl<'l> Finder<'l> {
             camera,
             method,
             edges: EdgeOptions::default(),
+            stop: Stop::default(),
             buffers: FinderBuffers::default(),
         })
+    }
+
+    /// The model.
+    pub fn model(&self) -> Model<'l> {
+        self.model
+    }
+
+    /// The same, by another method.
+    pub fn with_method(mut self, method: Method) -> Self {
+        self.method = method;
+        self
     }
 
     /// The same, with edges looked for otherwise.
     pub fn with_edges(mut self, edges: EdgeOptions) -> Self {
         self.edges = edges;
+        self
+    }
+
+    /// The same, which ends with an error in each frame that comes after a wish to stop.
+    pub fn stopped_by(mut self, stop: Stop) -> Self {
+        self.stop = stop;
         self
     }
 
@@ -125,8 +145,9 @@ impl<'l> Finder<'l> {
     /// All poses that explain a frame, best first; see [`find`].
     ///
     /// # Errors
-    /// Those of [`find`], and where the method needs a frame and there is none.
+    /// Those of [`find`], where the method needs a frame and there is none, and where the work was to stop.
     pub fn all(&mut self, seen: &Seen<'_>) -> Result<Found> {
+        self.stop.check()?;
         let goal = match self.method {
             Method::Library => Goal::Library,
             Method::Refined => Goal::Outline,

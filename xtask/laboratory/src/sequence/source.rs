@@ -5,11 +5,22 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::camera::Camera;
 use fluoropose::camera::calibration::Calibration;
+use fluoropose_decode::GreyFrame;
 use rayon::prelude::*;
 
 use super::seen::Seen;
 use crate::files::{Frames, MaskBuffer, files_in, grey, read_mask};
 use crate::noise::{DisturbanceOptions, Disturbed};
+
+/// Masks, and what belongs to them, that are in memory; as many of each.
+pub struct InMemory {
+    /// Masks, all of one size.
+    pub masks: Vec<MaskBuffer>,
+    /// Pixels of each that are not known.
+    pub unknown: Option<Vec<MaskBuffer>>,
+    /// Grey frames, as large as the masks.
+    pub frames: Option<Vec<GreyFrame>>,
+}
 
 /// Reads a mask and drops its specks ([`MaskBuffer::drop_specks`]), which is said on standard
 /// error.
@@ -72,6 +83,33 @@ impl Source {
         })
     }
 
+    /// The same from memory. Specks are dropped from each mask; how many pixels of them comes back too.
+    ///
+    /// # Errors
+    /// Where the calibration is for frames of another size, and for no masks.
+    pub fn of(given: InMemory, calibration: &Calibration) -> Result<(Self, Vec<u64>)> {
+        let first = given.masks.first().context("there is no mask")?.mask();
+        let camera = calibration.camera(first.width(), first.height())?;
+        let whole = |mut mask: MaskBuffer| {
+            let dropped = mask.drop_specks()?;
+            Ok((mask, dropped))
+        };
+        let whole: Vec<_> = given
+            .masks
+            .into_par_iter()
+            .map(whole)
+            .collect::<Result<_>>()?;
+        let (masks, dropped): (Vec<_>, Vec<u64>) = whole.into_iter().unzip();
+        let named = |(number, mask)| (PathBuf::from(format!("mask {}", number + 1)), mask);
+        let source = Self {
+            masks: masks.into_iter().enumerate().map(named).collect(),
+            unknown: given.unknown,
+            frames: given.frames.map(Frames::of),
+            camera,
+        };
+        Ok((source, dropped))
+    }
+
     /// The sequence as a method gets to see it: each mask, with what is not known of it, after a
     /// disturbance.
     ///
@@ -119,7 +157,7 @@ impl Sequence<'_> {
         let mask = self.masks.get(frame).context("there is no such frame")?;
         let frames = self.source.frames.as_ref();
         let decoded = frames.map(|frames| frames.decode(frame)).transpose()?;
-        let grey = decoded.as_ref().map(grey).transpose()?;
+        let grey = decoded.as_deref().map(grey).transpose()?;
         mask.see(|silhouette| {
             look(&Seen {
                 silhouette,

@@ -4,24 +4,23 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use fluoropose::finder::Candidate;
-use fluoropose::finder::choice::{Counterpart, DECISIVE_RATIO};
+use fluoropose::finder::choice::DECISIVE_RATIO;
 use fluoropose::math::Vector3;
-use fluoropose::mesh::Model;
+use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 
-use crate::choice::{Decision, Reasons, decide, report};
-
-use crate::choice::report::{Numbers, check_path, report, why, write_report};
+use crate::choice::report::{self, Numbers, check_path, why, write_report};
+use crate::choice::{Beside, Decision, Posing, Reasons};
 
 use crate::files::{Role, name_of, read, read_calibration, read_model_of, read_poses, write_poses};
 
-use crate::finding::{
-    EdgeOptions, Filmed, Finder, FrameFound, Method, Stated, axes_of, bring_onto_frames, find_poses,
-};
+use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
 
 use crate::noise::DisturbanceOptions;
 
-use crate::sequence::{Folders, Sequence, Source};
+use crate::progress::Stop;
+
+use crate::sequence::{Folders, Source};
 
 /// Options of `pose`.
 #[derive(clap::Args)]
@@ -102,33 +101,29 @@ pub fn run(args: Args) -> Result<()> {
         frames: args.frames.as_deref(),
     };
     let source = Source::read(&folders, &calibration)?;
-    let counterparts = counterparts(&args, source.masks.len())?;
-    let onto_frames = args.method == Method::Image;
-    // Outlines first: they tell the film.
-    let method = if onto_frames {
-        Method::Refined
-    } else {
-        args.method
+    let other = Other::read(&args, source.masks.len())?;
+    let finder = Finder::open(&bytes, mesh, source.camera, args.method)
+        .with_context(|| args.library.display().to_string())?;
+    let posing = Posing {
+        finder: &finder,
+        method: args.method,
+        edges: args.edges,
+        beside: other.as_ref().map(Other::beside),
+        stop: Stop::default(),
     };
-    let finder = Finder::open(&bytes, mesh, source.camera, method)
-        .with_context(|| args.library.display().to_string())?
-        .with_edges(args.edges);
     let sequence = source.disturbed(&args.disturbance)?;
-    let mut found = find_poses(&finder, &sequence);
-    if onto_frames {
-        onto_the_frames(mesh, sequence, args.edges, &mut found);
+    let posed = posing.run(sequence)?;
+    if let Some(words) = &posed.film {
+        println!("film: {words}");
     }
-    let decisions = decide(&found, &counterparts, &own_axes(&args, &mesh)?)?;
     let middle = mesh.bounds().centre;
-    for (frame, decision) in found.iter().zip(&decisions) {
+    let decisions = &posed.decisions;
+    for (frame, decision) in posed.found.iter().zip(decisions) {
         describe(frame, decision.as_ref(), &middle);
     }
-    let poses: Vec<Option<Pose>> = decisions
-        .iter()
-        .map(|decision| decision.and_then(|decision| decision.pose()))
-        .collect();
+    let poses = posed.poses();
     let missing = poses.iter().filter(|pose| pose.is_none()).count();
-    println!("chosen by: {}", Reasons::of(&decisions));
+    println!("chosen by: {}", Reasons::of(decisions));
     if missing == decisions.len() {
         bail!("no mask has a pose; nothing was written");
     }
@@ -136,66 +131,49 @@ pub fn run(args: Args) -> Result<()> {
         eprintln!("{missing} of {} masks have no pose", decisions.len());
     }
     if let Some(path) = &args.report {
-        write_report(path, &report(&found, &decisions, &middle))?;
+        write_report(path, &posed.report())?;
     }
     let rows = poses.into_iter().map(|pose| pose.map(EulerPose::from));
     write_poses(&args.out, &rows.collect::<Vec<_>>())
 }
 
-/// Brings poses onto the frames of a sequence, and says what these tell of their film.
-fn onto_the_frames(
-    model: Model<'_>,
-    sequence: Sequence<'_>,
-    edges: EdgeOptions,
-    found: &mut Vec<FrameFound>,
-) {
-    let filmed = Filmed {
-        name: "metal",
-        model,
-        sequence,
-        edges,
-        found,
-    };
-    let known = bring_onto_frames(&mut [filmed], &Stated::default());
-    println!("film: {}", known.words);
+/// The other component, as files tell it.
+struct Other {
+    role: Role,
+    poses: Vec<Option<Pose>>,
+    model: Option<OwnedModel>,
 }
 
-/// The other component's poses, a frame each; none where no file of them was given.
-fn counterparts(args: &Args, frames: usize) -> Result<Vec<Option<Counterpart>>> {
-    let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
-        return Ok(Vec::new());
-    };
-    let rows = read_poses(path)?;
-    if rows.len() != frames {
-        bail!(
-            "{} has {} poses but there are {frames} masks; both must be of the same frames",
-            path.display(),
-            rows.len()
-        );
-    }
-    let axes = match &args.counterpart_model {
-        Some(file) => {
-            let other = role.other();
-            shape_axes(&read_model_of(file, Some(other))?.as_model(), other)?
+impl Other {
+    /// None where no poses of it were given; they are as many as there are frames.
+    fn read(args: &Args, frames: usize) -> Result<Option<Self>> {
+        let (Some(role), Some(path)) = (args.role, &args.counterpart) else {
+            return Ok(None);
+        };
+        let poses = read_poses(path)?;
+        if poses.len() != frames {
+            bail!(
+                "{} has {} poses but there are {frames} masks; both must be of the same frames",
+                path.display(),
+                poses.len()
+            );
         }
-        None => Pose::IDENTITY,
-    };
-    let against = |row: Option<Pose>| row.map(|pose| role.against(pose.compose(&axes)));
-    Ok(rows.into_iter().map(against).collect())
-}
-
-/// The rotation from the field's axes to the model's, where the other component's are known too.
-fn own_axes(args: &Args, model: &Model<'_>) -> Result<Pose> {
-    match (args.role, &args.counterpart_model) {
-        (Some(role), Some(_)) => shape_axes(model, role),
-        _ => Ok(Pose::IDENTITY),
+        let model = args.counterpart_model.as_ref();
+        let model = model.map(|file| read_model_of(file, Some(role.other())));
+        Ok(Some(Self {
+            role,
+            poses,
+            model: model.transpose()?,
+        }))
     }
-}
 
-fn shape_axes(model: &Model<'_>, role: Role) -> Result<Pose> {
-    let axes = axes_of(model, role, None)?;
-    let axes = axes.with_context(|| format!("the shape of the {role:?} does not tell its axes"))?;
-    Ok(axes.model_from_field)
+    fn beside(&self) -> Beside<'_> {
+        Beside {
+            role: self.role,
+            poses: self.poses.clone(),
+            model: self.model.as_ref().map(OwnedModel::as_model),
+        }
+    }
 }
 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.

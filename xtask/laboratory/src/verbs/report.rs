@@ -1,12 +1,14 @@
 //! Verb `report`: a study's joint motion as table, files, figure and report.
 
-mod knee;
-mod sources;
+pub mod knee;
+pub mod sources;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
+use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
 
 use crate::files::{Study, write_text};
@@ -27,19 +29,19 @@ cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cu
 pub struct Args {
     /// Study file with the models of a femoral and of a tibial component, and the side
     #[arg(long)]
-    study: PathBuf,
+    pub study: PathBuf,
     /// Folder of the poses; without it the study's references
     #[arg(long, value_name = "DIR")]
-    poses: Option<PathBuf>,
+    pub poses: Option<PathBuf>,
     /// Folder for what is written; made if absent
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    pub out: PathBuf,
     /// Frames a second; without it those that the study states
     #[arg(long, value_name = "HZ")]
-    fps: Option<f64>,
+    pub fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
     #[arg(long, value_name = "HZ")]
-    cutoff: Option<f64>,
+    pub cutoff: Option<f64>,
 }
 
 /// Runs the verb.
@@ -47,17 +49,35 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
+    let film = report(&args)?;
+    print(&args.out, &film);
+    Ok(())
+}
+
+/// Writes the files; what they are made from comes back.
+///
+/// # Errors
+/// As of [`run`].
+pub fn report(args: &Args) -> Result<JointFilm> {
     let study = Study::read(&args.study)?;
     let sources = Sources::read(&args.study, &study, args.poses.as_deref())?;
     let filtering = Filtering::new(args.fps.or(study.frames_per_s), args.cutoff)?;
-    let knee = Knee::new(&study, &sources)?;
+    let knee = Knee::new(&study.name, side(&study)?, &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
     write_all(&args.out, &film, &sources, &facts)?;
-    print(&args.out, &film);
-    Ok(())
+    Ok(film)
+}
+
+fn side(study: &Study) -> Result<Side> {
+    let side = study.side;
+    let side = side.context("the study does not say which knee it is: key side")?;
+    Ok(match side {
+        implant::Side::Left => Side::Left,
+        implant::Side::Right => Side::Right,
+    })
 }
 
 fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> Result<()> {

@@ -20,6 +20,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 
 use crate::options::Shown;
+use crate::progress::Stop;
 
 pub use film::{Tracked, track};
 pub use request::{Click, FixedPoses, Request};
@@ -76,6 +77,7 @@ pub fn run(args: Args) -> Result<()> {
         interpolate: args.interpolate,
         anew: args.anew,
         quiet: false,
+        stop: Stop::default(),
     };
     let tracked = track(&request)?;
     for part in &tracked {

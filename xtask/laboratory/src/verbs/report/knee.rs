@@ -7,24 +7,27 @@ use fluoropose::joint::relative::{NOTHING_COMMON, Relative};
 use fluoropose::joint::{Joint, JointFrame};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::{Pose, Side};
-use fluoropose_phantom::implant;
 use fluoropose_report::{JointFilm, JointRow};
 
 use super::sources::{Body, Sources};
-use crate::files::{Role, Study, shape_doubt};
+use crate::files::{Role, shape_doubt};
 use crate::finding::axes_of;
 
 /// Points of the tray's border.
 const BORDER: usize = 180;
 
 /// What is filtered, if anything.
-pub(super) struct Filtering {
+pub struct Filtering {
     frames_per_s: Option<f64>,
     low_pass: Option<LowPass>,
 }
 
 impl Filtering {
-    pub(super) fn new(frames_per_s: Option<f64>, cutoff_hz: Option<f64>) -> Result<Self> {
+    /// A filter of this cutoff, or none; it needs the frames a second.
+    ///
+    /// # Errors
+    /// For a cutoff without or too near to the frames a second.
+    pub fn new(frames_per_s: Option<f64>, cutoff_hz: Option<f64>) -> Result<Self> {
         let low_pass = match (cutoff_hz, frames_per_s) {
             (None, _) => None,
             (Some(cutoff), Some(rate)) => Some(LowPass::new(cutoff, rate)?),
@@ -38,24 +41,24 @@ impl Filtering {
 }
 
 /// The joint and the words of its axes.
-pub(super) struct Knee<'s> {
+pub struct Knee<'s> {
     name: String,
     side: Side,
     joint: Joint<'s>,
-    pub(super) femur_axes: AnatomicalAxes,
-    pub(super) tibia_axes: AnatomicalAxes,
-    pub(super) remarks: Vec<String>,
+    /// The femoral axes.
+    pub femur_axes: AnatomicalAxes,
+    /// The tibial axes.
+    pub tibia_axes: AnatomicalAxes,
+    /// What a reader has to know of these data.
+    pub remarks: Vec<String>,
 }
 
 impl<'s> Knee<'s> {
-    pub(super) fn new(study: &Study, sources: &'s Sources) -> Result<Self> {
-        let side = match study
-            .side
-            .context("the study does not say which knee it is: key side")?
-        {
-            implant::Side::Left => Side::Left,
-            implant::Side::Right => Side::Right,
-        };
+    /// The joint of two components whose axes are stated or told by their shapes.
+    ///
+    /// # Errors
+    /// For shapes that do not tell their axes, and a tibial model without a plate.
+    pub fn new(name: &str, side: Side, sources: &'s Sources) -> Result<Self> {
         let femur = axes(&sources.femur, Role::Femur)?;
         let tibia = axes(&sources.tibia, Role::Tibia)?;
         let mut remarks = Vec::new();
@@ -82,7 +85,7 @@ impl<'s> Knee<'s> {
             side,
         );
         Ok(Self {
-            name: study.name.clone(),
+            name: name.to_owned(),
             side,
             joint: joint
                 .context("no part of the tibial model faces upwards like a tray's plate")?,
@@ -92,7 +95,11 @@ impl<'s> Knee<'s> {
         })
     }
 
-    pub(super) fn film(&self, sources: &Sources, filtering: &Filtering) -> Result<JointFilm> {
+    /// The numbers of all frames.
+    ///
+    /// # Errors
+    /// For poses that cannot be filtered.
+    pub fn film(&self, sources: &Sources, filtering: &Filtering) -> Result<JointFilm> {
         let frames = sources.femur.poses.len();
         let relative: Vec<Option<Relative>> = (0..frames)
             .map(|frame| self.relative(sources, frame))

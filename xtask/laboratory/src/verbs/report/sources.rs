@@ -8,31 +8,45 @@ use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_report::Input;
-use sha2::{Digest as _, Sha256};
 
-use crate::files::{Component, Role, Study, name_of, read, read_model_of, read_poses, read_text};
+use crate::files::{
+    Component, Role, Study, csv_fields, name_of, read, read_model_of, read_poses, read_text, sha256,
+};
 
 /// A component with its poses.
-pub(super) struct Body {
-    pub(super) name: String,
-    pub(super) stated_axes: Option<String>,
-    pub(super) model: OwnedModel,
-    pub(super) poses: Vec<Option<Pose>>,
-    /// By frame, where they are known.
-    pub(super) covariances: BTreeMap<usize, PoseCovariance>,
+pub struct Body {
+    /// The component's name.
+    pub name: String,
+    /// Its axes, where a person states them.
+    pub stated_axes: Option<String>,
+    /// Its model.
+    pub model: OwnedModel,
+    /// Its poses, a row a frame.
+    pub poses: Vec<Option<Pose>>,
+    /// By frame, from 0, where they are known.
+    pub covariances: BTreeMap<usize, PoseCovariance>,
 }
 
-pub(super) struct Sources {
-    pub(super) femur: Body,
-    pub(super) tibia: Body,
+/// What a report is made from.
+pub struct Sources {
+    /// The femoral component.
+    pub femur: Body,
+    /// The tibial component.
+    pub tibia: Body,
     /// Why a frame is doubtful, by its number from 0.
-    pub(super) doubts: BTreeMap<usize, String>,
-    pub(super) whose: String,
-    pub(super) inputs: Vec<Input>,
+    pub doubts: BTreeMap<usize, String>,
+    /// Where the poses come from, in words.
+    pub whose: String,
+    /// Files and their digests.
+    pub inputs: Vec<Input>,
 }
 
 impl Sources {
-    pub(super) fn read(file: &Path, study: &Study, poses: Option<&Path>) -> Result<Self> {
+    /// Reads what a study names, and the poses of a folder where one is given.
+    ///
+    /// # Errors
+    /// For files that are missing, unreadable or do not belong together.
+    pub fn read(file: &Path, study: &Study, poses: Option<&Path>) -> Result<Self> {
         let mut inputs = vec![
             digest("study", file)?,
             digest("calibration", &study.calibration)?,
@@ -114,16 +128,18 @@ fn pose_file(component: &Component, poses: Option<&Path>) -> Option<PathBuf> {
 }
 
 fn digest(what: &str, file: &Path) -> Result<Input> {
-    let digest = Sha256::digest(read(file)?);
     Ok(Input {
         what: what.to_owned(),
         name: name_of(file),
-        sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+        sha256: sha256(&read(file)?),
     })
 }
 
-/// As `track` writes them: a frame, from 1, and 36 numbers.
-fn covariances(text: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
+/// Covariances by frame, from 0, as `track` writes them: a frame, from 1, and 36 numbers.
+///
+/// # Errors
+/// Names the line.
+pub fn covariances(text: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
     let mut all = BTreeMap::new();
     for (index, line) in text.lines().enumerate().skip(1) {
         let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
@@ -141,11 +157,11 @@ fn covariances(text: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
     Ok(all)
 }
 
-/// The reasons of `track.csv` (frame, component, state, verdict, reason) for what is not good.
-fn doubts(text: &str) -> BTreeMap<usize, String> {
+/// The reasons of `track.csv` (frame, component, state, verdict, reason) for what is not good, by frame, from 0.
+pub fn doubts(text: &str) -> BTreeMap<usize, String> {
     let mut all: BTreeMap<usize, String> = BTreeMap::new();
     for line in text.lines().skip(1) {
-        let fields = fields(line);
+        let fields = csv_fields(line);
         let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
             continue;
         };
@@ -160,18 +176,4 @@ fn doubts(text: &str) -> BTreeMap<usize, String> {
         all.push_str(&why);
     }
     all
-}
-
-/// Fields of a line, some in quotes.
-fn fields(line: &str) -> Vec<String> {
-    let (mut fields, mut field, mut quoted) = (Vec::new(), String::new(), false);
-    for letter in line.chars() {
-        match letter {
-            '"' => quoted = !quoted,
-            ',' if !quoted => fields.push(std::mem::take(&mut field)),
-            other => field.push(other),
-        }
-    }
-    fields.push(field);
-    fields
 }

@@ -89,7 +89,7 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let run = Run {
         request,
         film: &film,
-        journal: Journal::open(&journal, &digest, request.anew)?,
+        journal: Journal::open(&journal, &digest, request.anew, request.stop.clone())?,
         saying: std::sync::Mutex::default(),
     };
     let components = || study.components.iter().zip(&models).enumerate();

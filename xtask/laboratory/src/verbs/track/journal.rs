@@ -13,6 +13,7 @@ use std::sync::{Mutex, PoisonError};
 use anyhow::{Context, Result, bail};
 
 use super::record::Record;
+use crate::progress::Stop;
 
 /// First word of the file, with the version of what steps do: another version's steps are of no use.
 const HEADING: &str = "fluoropose-track-1";
@@ -21,6 +22,7 @@ const HEADING: &str = "fluoropose-track-1";
 pub(super) struct Journal {
     done: HashMap<String, Vec<f64>>,
     file: Mutex<File>,
+    stop: Stop,
 }
 
 impl Journal {
@@ -28,7 +30,7 @@ impl Journal {
     ///
     /// # Errors
     /// Where the file cannot be read or written, or is of other inputs.
-    pub(super) fn open(path: &Path, inputs: &str, anew: bool) -> Result<Self> {
+    pub(super) fn open(path: &Path, inputs: &str, anew: bool, stop: Stop) -> Result<Self> {
         let heading = format!("{HEADING} {inputs}\n");
         let named = || format!("cannot write {}", path.display());
         let text = match anew {
@@ -59,17 +61,19 @@ impl Journal {
         Ok(Self {
             done,
             file: Mutex::new(file),
+            stop,
         })
     }
 
     /// What came of a step: as it was written down, or by doing it now.
     ///
     /// # Errors
-    /// Those of the step, and where the file cannot be written.
+    /// Those of the step, where the file cannot be written, and where the run is to stop.
     pub(super) fn step<R: Record>(&self, key: &str, work: impl FnOnce() -> Result<R>) -> Result<R> {
         if let Some(found) = self.done.get(key).and_then(|done| R::from_numbers(done)) {
             return Ok(found);
         }
+        self.stop.check()?;
         let found = work()?;
         let mut line = String::from(key);
         for number in found.numbers() {

@@ -7,6 +7,7 @@ use anyhow::{Context, Result, ensure};
 use fluoropose::refine::Polarity;
 
 use crate::options::Pair;
+use crate::progress::Stop;
 
 /// What is asked of `track`.
 pub struct Request {
@@ -26,6 +27,8 @@ pub struct Request {
     pub anew: bool,
     /// Whether nothing is said of the progress.
     pub quiet: bool,
+    /// A wish to stop before the end: what was done is kept.
+    pub stop: Stop,
 }
 
 impl Request {

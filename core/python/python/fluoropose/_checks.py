@@ -1,0 +1,85 @@
+"""Arguments as they have to be; what is wrong is told with the argument's name."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+PathLike = str | os.PathLike[str]
+
+
+def is_path(value: object) -> bool:
+    """Whether a value names a file or a folder."""
+    return isinstance(value, (str, os.PathLike))
+
+
+def path(value: object, name: str) -> str:
+    """A path."""
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value) if isinstance(value, str) else str(os.fspath(value))
+    raise TypeError(f"{name} must be a path, not {type(value).__name__}")
+
+
+def instance(value: object, kind: type, name: str) -> None:
+    """A value of a class."""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} must be a {kind.__name__}, not {type(value).__name__}")
+
+
+def choice(value: object, words: Sequence[str], name: str) -> None:
+    """One of some words."""
+    if value not in words:
+        raise ValueError(f"{name} must be one of {', '.join(words)}, not {value!r}")
+
+
+def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
+    """Masks as bytes: rows, columns, and before them the frames where there are three dimensions."""
+    array = np.asarray(value)
+    if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
+        raise TypeError(f"{name} must be of booleans or whole numbers, not {array.dtype}")
+    if array.ndim != dimensions or 0 in array.shape:
+        shape = "(rows, columns)" if dimensions == 2 else "(frames, rows, columns)"
+        raise ValueError(f"{name} must have the shape {shape}, not {array.shape}")
+    if array.dtype in (np.bool_, np.uint8):
+        return np.ascontiguousarray(array).view(np.uint8)
+    return np.ascontiguousarray(array != 0).view(np.uint8)
+
+
+def frame(value: ArrayLike, name: str) -> NDArray[Any]:
+    """A grey frame of 8 or 16 bits."""
+    array = np.asarray(value)
+    if array.dtype not in (np.uint8, np.uint16):
+        raise TypeError(f"{name} must be of uint8 or uint16, not {array.dtype}")
+    if array.ndim != 2 or 0 in array.shape:
+        raise ValueError(f"{name} must have the shape (rows, columns), not {array.shape}")
+    return np.asarray(array, dtype=array.dtype.newbyteorder("="))
+
+
+def numbers(value: ArrayLike, shape: tuple[int | None, ...], name: str) -> NDArray[np.float64]:
+    """Numbers of a shape, in which None is any length."""
+    try:
+        array = np.ascontiguousarray(value, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name} must be of numbers") from error
+    fits = array.ndim == len(shape) and all(
+        want is None or want == is_ for want, is_ in zip(shape, array.shape, strict=False)
+    )
+    if not fits:
+        words = ", ".join("any" if length is None else str(length) for length in shape)
+        raise ValueError(f"{name} must have the shape ({words}), not {array.shape}")
+    return array
+
+
+def positive(value: float | None, name: str) -> float | None:
+    """A number above 0, or none."""
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
+        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
+    if not (np.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be above 0, not {value}")
+    return float(value)

@@ -1,0 +1,293 @@
+"""Both components of a knee through a film."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _checks, _native
+from ._camera import Camera
+from ._estimate import bright
+from ._kinematics import Kinematics, kinematics
+from ._model import Model
+from ._native import VERSION
+from ._poses import Pose, Poses, rows
+
+Frames = _checks.PathLike | NDArray[Any] | Iterable[Any]
+"""A folder, an array (frames, rows, columns), or an iterable of paths or of arrays (rows, columns)."""
+
+
+@dataclass(frozen=True)
+class Click:
+    """A place inside a component: its name, the frame from 0, column and row in pixels."""
+
+    component: str
+    frame: int
+    column: float
+    row: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """A component as it is looked for."""
+
+    name: str
+    model: Model
+    axes: str | None = None
+    nominal: tuple[float, float] | None = None
+    distance_mm: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """The components of a knee in every frame of a film."""
+
+    femur: Poses | None
+    tibia: Poses | None
+    side: str
+    fps: float | None
+    version: str
+    settings: Mapping[str, Any] = field(repr=False)
+    _models: Mapping[str, Part] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.femur or self.tibia or ())
+
+    def to_jts(self, folder: _checks.PathLike) -> None:
+        """Writes femur.jts and tibia.jts."""
+        to = Path(_checks.path(folder, "folder"))
+        to.mkdir(parents=True, exist_ok=True)
+        for poses in (self.femur, self.tibia):
+            if poses is not None:
+                poses.to_jts(to / f"{poses.name}.jts")
+
+    def kinematics(self, *, cutoff_hz: float | None = None, name: str = "film") -> Kinematics:
+        """How the joint moves; frames that are not good are told and left out of means."""
+        if self.femur is None or self.tibia is None:
+            raise ValueError("kinematics needs both components")
+        femur, tibia = self._models["femur"], self._models["tibia"]
+        return kinematics(
+            self.femur,
+            self.tibia,
+            femur_model=femur.model,
+            tibia_model=tibia.model,
+            side=self.side,
+            fps=self.fps,
+            cutoff_hz=cutoff_hz,
+            femur_axes=femur.axes,
+            tibia_axes=tibia.axes,
+            name=name,
+        )
+
+
+def track(
+    frames: Frames,
+    femur: Model | None,
+    tibia: Model | None,
+    camera: Camera,
+    side: str,
+    fps: float | None = None,
+    *,
+    fixed: Mapping[str, ArrayLike | Poses | _checks.PathLike] | None = None,
+    clicks: Sequence[Click] = (),
+    femur_axes: str | None = None,
+    tibia_axes: str | None = None,
+    metal: str | None = None,
+    interpolate: int = 0,
+    out: _checks.PathLike | None = None,
+    anew: bool = False,
+) -> Track:
+    """Follows both components of a knee through a film.
+
+    `frames` are a folder, an array (frames, rows, columns) of 8 or 16 bits, or an iterable of paths or of arrays, of which one at a
+    time is in memory. `fixed` poses (a row a frame, NaN where there is none, by femur and tibia) never change. `out` keeps the film as
+    a study that the command `fluoropose track` reads too, with what was done after every frame: a call that was broken off goes on there.
+    """
+    _checks.instance(camera, Camera, "camera")
+    _checks.choice(side, ("left", "right"), "side")
+    fps = _checks.positive(fps, "fps")
+    parts = []
+    for name, model, axes in (("femur", femur, femur_axes), ("tibia", tibia, tibia_axes)):
+        if model is not None:
+            _checks.instance(model, Model, name)
+            parts.append(Part(name, model, axes))
+    if not parts:
+        raise TypeError("femur or tibia must be given")
+    if isinstance(interpolate, bool) or not isinstance(interpolate, int) or interpolate < 0:
+        raise ValueError("interpolate must be a whole number of frames, 0 or more")
+    for click in clicks:
+        _checks.instance(click, Click, "clicks")
+    given = {name: rows(poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()}
+    for name in [*given, *(click.component for click in clicks)]:
+        if name not in [part.name for part in parts]:
+            raise ValueError(f"fixed or clicks: there is no component {name!r}")
+
+    def run(folder: str) -> list[Poses]:
+        return follow(
+            frames,
+            parts,
+            camera,
+            folder,
+            side=side,
+            fps=fps,
+            fixed=given,
+            clicks=clicks,
+            metal=metal,
+            interpolate=interpolate,
+            anew=anew,
+        )
+
+    if out is None:
+        with tempfile.TemporaryDirectory(prefix="fluoropose-", ignore_cleanup_errors=True) as folder:
+            found = run(folder)
+    else:
+        found = run(_checks.path(out, "out"))
+    by_name = {poses.name: poses for poses in found}
+    return Track(
+        femur=by_name.get("femur"),
+        tibia=by_name.get("tibia"),
+        side=side,
+        fps=fps,
+        version=VERSION,
+        settings={
+            "models": {part.name: part.model.digest for part in parts},
+            "camera": camera.text,
+            "fixed": sorted(given),
+            "clicks": tuple(clicks),
+            "metal": metal,
+            "interpolate": interpolate,
+        },
+        _models={part.name: part for part in parts},
+    )
+
+
+def follow(
+    frames: Frames,
+    parts: Sequence[Part],
+    camera: Camera,
+    folder: str,
+    *,
+    side: str = "left",
+    fps: float | None = None,
+    fixed: Mapping[str, NDArray[np.float64]] | None = None,
+    clicks: Sequence[Click] = (),
+    metal: str | None = None,
+    interpolate: int = 0,
+    anew: bool = False,
+) -> list[Poses]:
+    """Makes a study of what is given and follows its components, as the command does."""
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    (place / "calibration.txt").write_text(camera.text, encoding="utf-8")
+    pictures = _frames(frames, camera, place)
+    lines = ['name = "film"', f'side = "{side}"', 'calibration = "calibration.txt"', f"frames = {_text(pictures)}"]
+    if fps is not None:
+        lines.append(f"frames_per_s = {fps!r}")
+    for part in parts:
+        model = part.model.path
+        if model is None:
+            model = f"{part.name}.ply"
+            part.model._handle.write(str(place / model))
+        else:
+            model = os.path.abspath(model)
+        lines += ["[[component]]", f"name = {_text(part.name)}", f"model = {_text(model)}"]
+        if part.axes is not None:
+            lines.append(f"axes = {_text(part.axes)}")
+        if part.nominal is not None:
+            lines.append(f"nominal = [{part.nominal[0]!r}, {part.nominal[1]!r}]")
+        if part.distance_mm is not None:
+            lines.append(f"distance_mm = {part.distance_mm!r}")
+    study = place / "study.toml"
+    study.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    files = []
+    for name, poses in (fixed or {}).items():
+        file = place / f"{name}.fixed.jts"
+        _native.write_poses(str(file), poses)
+        files.append((name, str(file)))
+    found = _native.track(
+        str(study),
+        str(place),
+        clicks=[(click.component, click.frame, float(click.column), float(click.row)) for click in clicks],
+        fixed=files,
+        bright=bright(metal),
+        interpolate=interpolate,
+        anew=anew,
+    )
+    return [_poses(one) for one in found]
+
+
+def _text(value: str) -> str:
+    """A string of TOML, of which those of JSON are some."""
+    return json.dumps(value)
+
+
+def _frames(frames: Frames, camera: Camera, place: Path) -> str:
+    """The folder that holds the frames, made where they come from elsewhere."""
+    if isinstance(frames, (str, os.PathLike)):
+        folder = os.path.abspath(_checks.path(frames, "frames"))
+        if not os.path.isdir(folder):
+            raise FileNotFoundError(f"frames: {folder} is no folder")
+        return folder
+    if isinstance(frames, np.ndarray) and frames.ndim != 3:
+        raise ValueError(f"frames must have the shape (frames, rows, columns), not {frames.shape}")
+    if not isinstance(frames, Iterable):
+        raise TypeError(f"frames must be a folder, an array or an iterable, not {type(frames).__name__}")
+    to = place / "frames"
+    if to.exists():
+        shutil.rmtree(to)
+    to.mkdir()
+    size: tuple[int, int] | None = None
+    number = 0
+    for number, one in zip(count(1), frames):
+        if _checks.is_path(one):
+            _link(Path(_checks.path(one, "frames")), to, number)
+            continue
+        pixels = _checks.frame(one, "frames")
+        if size is None:
+            size = (pixels.shape[0], pixels.shape[1])
+            camera.check(size[1], size[0], "frames")
+        if pixels.shape != size:
+            raise ValueError(f"frames: frame {number - 1} has the shape {pixels.shape} and the first {size}")
+        _native.write_frame(str(to / f"{number:06}.png"), pixels)
+    if number == 0:
+        raise ValueError("frames: there is none")
+    return "frames"
+
+
+def _link(file: Path, to: Path, number: int) -> None:
+    """A file under a name that keeps the order."""
+    if not file.is_file():
+        raise FileNotFoundError(f"frames: {file} is no file")
+    name = to / f"{number:06}-{file.name}"
+    try:
+        name.symlink_to(file.resolve())
+    except OSError:
+        shutil.copyfile(file, name)
+
+
+def _poses(found: _native.Followed) -> Poses:
+    length = len(found["pose"])
+    return Poses(
+        name=found["name"],
+        pose=found["pose"],
+        sd=found["sd"],
+        covariance=np.reshape(found["covariance"], (length, 6, 6)),
+        state=tuple(found["state"]),
+        verdict=tuple(found["verdict"]),
+        because=tuple(found["because"]),
+        misfit_px=np.array([np.nan if px is None else px for px in found["misfit_px"]]),
+        badness=np.array(found["badness"]),
+    )
+
+
+__all__ = ["Click", "Part", "Pose", "Track", "follow", "track"]

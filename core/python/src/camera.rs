@@ -1,0 +1,42 @@
+//! Calibrations.
+
+use fluoropose::camera::calibration;
+use pyo3::prelude::*;
+
+use crate::failure::python_error;
+
+/// A calibration as a file says it.
+#[pyclass(frozen, module = "fluoropose._native")]
+pub(crate) struct Calibration {
+    pub(crate) read: calibration::Calibration,
+}
+
+#[pymethods]
+impl Calibration {
+    /// Reads the text of a calibration file.
+    #[new]
+    fn new(text: &str) -> PyResult<Self> {
+        let read = calibration::Calibration::parse(text).map_err(python_error)?;
+        Ok(Self { read })
+    }
+
+    /// The text of a file that reads back as the same calibration.
+    fn text(&self) -> String {
+        self.read.to_string()
+    }
+
+    /// Columns and rows of the frames that it is for, where it says so.
+    fn size(&self) -> Option<(usize, usize)> {
+        match self.read {
+            calibration::Calibration::CameraMatrix { size, .. } => Some(size),
+            _ => None,
+        }
+    }
+
+    /// Focal lengths and principal point for frames of a size, pixels; a pixel's centre is its index + 0.5.
+    fn camera(&self, width: usize, height: usize) -> PyResult<(f64, f64, f64, f64)> {
+        let camera = self.read.camera(width, height).map_err(python_error)?;
+        let ([fx, fy], [cx, cy]) = (camera.focal(), camera.principal_point());
+        Ok((fx, fy, cx, cy))
+    }
+}

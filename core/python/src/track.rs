@@ -1,0 +1,123 @@
+//! Both components of a film, followed.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use fluoropose::pose::covariance::PoseCovariance;
+use fluoropose::refine::Polarity;
+use fluoropose_laboratory::files::read_text;
+use fluoropose_laboratory::progress::Stop;
+use fluoropose_laboratory::verbs::report::sources::covariances;
+use fluoropose_laboratory::verbs::track::{Click, FixedPoses, Request, Row, Tracked};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::poses::{NOTHING, array_of, six, six_deviations};
+use crate::worker::beside;
+
+/// A click: component, frame from 0, column and row.
+type ClickGiven = (String, usize, f64, f64);
+
+/// Follows the components of a study; a dictionary for each, in the study's order.
+#[pyfunction]
+#[pyo3(signature = (study, out, *, clicks, fixed, bright, interpolate, anew))]
+#[allow(clippy::too_many_arguments, reason = "Python names each of them")]
+pub(crate) fn track<'py>(
+    py: Python<'py>,
+    study: PathBuf,
+    out: PathBuf,
+    clicks: Vec<ClickGiven>,
+    fixed: Vec<(String, PathBuf)>,
+    bright: Option<bool>,
+    interpolate: usize,
+    anew: bool,
+) -> PyResult<Bound<'py, PyList>> {
+    let stop = Stop::default();
+    let click = |(component, frame, column, row)| Click {
+        component,
+        frame,
+        place: [column, row],
+    };
+    let polarity = |bright| match bright {
+        true => Polarity::BrightImplant,
+        false => Polarity::DarkImplant,
+    };
+    let request = Request {
+        study,
+        out: out.clone(),
+        clicks: clicks.into_iter().map(click).collect(),
+        fixed: fixed
+            .into_iter()
+            .map(|(component, file)| FixedPoses { component, file })
+            .collect(),
+        polarity: bright.map(polarity),
+        interpolate,
+        anew,
+        quiet: true,
+        stop: stop.clone(),
+    };
+    let found = beside(py, &stop, move || {
+        let tracked = fluoropose_laboratory::verbs::track::track(&request)?;
+        let covariances = tracked.iter().map(|part| of(&out, &part.component));
+        let covariances = covariances.collect::<Result<Vec<_>>>()?;
+        Ok((tracked, covariances))
+    });
+    let (tracked, covariances) = found?;
+    let parts = PyList::empty(py);
+    for (part, covariances) in tracked.iter().zip(&covariances) {
+        parts.append(component(py, part, covariances)?)?;
+    }
+    Ok(parts)
+}
+
+/// The covariances that were written of a component.
+fn of(out: &Path, component: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
+    covariances(&read_text(
+        &out.join(format!("{component}.covariances.csv")),
+    )?)
+}
+
+fn component<'py>(
+    py: Python<'py>,
+    part: &Tracked,
+    covariances: &BTreeMap<usize, PoseCovariance>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let answer = PyDict::new(py);
+    let rows = &part.rows;
+    let poses = rows.iter().map(|row| row.pose.map_or(NOTHING, six));
+    let deviations = rows
+        .iter()
+        .map(|row| row.sd.map_or(NOTHING, six_deviations));
+    let covariance = |frame| {
+        let known = covariances.get(&frame);
+        known.map_or(vec![f64::NAN; 36], |known| {
+            known.matrix.as_flattened().to_vec()
+        })
+    };
+    let covariances: Vec<f64> = (0..rows.len()).flat_map(covariance).collect();
+    answer.set_item("name", &part.component)?;
+    answer.set_item("pose", array_of(py, poses.collect())?)?;
+    answer.set_item("sd", array_of(py, deviations.collect())?)?;
+    answer.set_item("covariance", covariances)?;
+    answer.set_item(
+        "state",
+        rows.iter().map(|row| row.state.word()).collect::<Vec<_>>(),
+    )?;
+    answer.set_item("verdict", rows.iter().map(Row::verdict).collect::<Vec<_>>())?;
+    answer.set_item(
+        "because",
+        rows.iter()
+            .map(|row| row.because.as_str())
+            .collect::<Vec<_>>(),
+    )?;
+    answer.set_item(
+        "misfit_px",
+        rows.iter().map(|row| row.misfit_px).collect::<Vec<_>>(),
+    )?;
+    answer.set_item(
+        "badness",
+        rows.iter().map(|row| row.badness).collect::<Vec<_>>(),
+    )?;
+    Ok(answer)
+}

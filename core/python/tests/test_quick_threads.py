@@ -1,0 +1,53 @@
+"""Ctrl-C ends a call within a second, and other threads go on while it works."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import fluoropose as fp
+from study import DEMO, OnTheDemo
+
+
+class Threads(OnTheDemo):
+    @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
+    def test_ctrl_c_ends_a_film_and_a_stack_of_masks(self) -> None:
+        # A program that was started in the background would not hear it.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.getsignal(signal.SIGINT))
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        masks = np.repeat(fp.read_frames(DEMO / "masks/femur")[:1], 300, axis=0)
+        calls = {
+            "track": lambda: fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left"),
+            "estimate": lambda: fp.estimate_all(masks, self.femur, self.camera),
+        }
+        for name, call in calls.items():
+            counted = 0
+            end = threading.Event()
+
+            def count() -> None:
+                nonlocal counted
+                while not end.wait(0.001):
+                    counted += 1
+
+            pressed: list[float] = []
+
+            def press() -> None:
+                pressed.append(time.monotonic())
+                os.kill(os.getpid(), signal.SIGINT)
+
+            counter = threading.Thread(target=count, daemon=True)
+            timer = threading.Timer(0.7, press)
+            counter.start()
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt, msg=f"{name} ended before"):
+                call()
+            took = time.monotonic() - pressed[0]
+            end.set()
+            counter.join()
+            self.assertLess(took, 1.0, name)
+            self.assertGreater(counted, 50, f"{name} held the other thread up")

@@ -1,0 +1,140 @@
+//! From the masks of a sequence to a pose in each frame: what a folder of masks and masks in memory have in common.
+
+use anyhow::{Context, Result};
+use fluoropose::finder::choice::Counterpart;
+use fluoropose::math::Vector3;
+use fluoropose::mesh::Model;
+use fluoropose::pose::Pose;
+
+use super::decide::{Decision, decide};
+use super::report::{FrameReport, report};
+use crate::files::Role;
+use crate::finding::{
+    EdgeOptions, Filmed, Finder, FrameFound, Method, Stated, axes_of, bring_onto_frames, find_poses,
+};
+use crate::progress::Stop;
+use crate::sequence::Sequence;
+
+/// How the poses of a sequence are found and chosen.
+pub struct Posing<'p> {
+    /// A library, its model and the camera of the frames; its own method does not count.
+    pub finder: &'p Finder<'p>,
+    /// How poses are found.
+    pub method: Method,
+    /// How edges are looked for.
+    pub edges: EdgeOptions,
+    /// The other component, where its poses are known.
+    pub beside: Option<Beside<'p>>,
+    /// A wish to stop before the end.
+    pub stop: Stop,
+}
+
+/// The other component of a knee in the same frames.
+pub struct Beside<'p> {
+    /// Which one the component itself is.
+    pub role: Role,
+    /// The other's poses, a row a frame.
+    pub poses: Vec<Option<Pose>>,
+    /// The other's model: tilts are then taken in the axes that both shapes tell, else in those of the files.
+    pub model: Option<Model<'p>>,
+}
+
+/// What was found in a sequence, and what was chosen.
+pub struct Posed {
+    /// All that was found, a row a frame.
+    pub found: Vec<FrameFound>,
+    /// What was chosen.
+    pub decisions: Vec<Option<Decision>>,
+    /// What the frames tell of their film, in words, for the method image.
+    pub film: Option<String>,
+    middle: Vector3,
+}
+
+impl Posing<'_> {
+    /// Finds the poses of a sequence and chooses among them.
+    ///
+    /// # Errors
+    /// For shapes that do not tell their axes where these are needed, and where the work was to stop.
+    pub fn run(&self, sequence: Sequence<'_>) -> Result<Posed> {
+        let onto_frames = self.method == Method::Image;
+        // Outlines first: they tell the film.
+        let method = if onto_frames {
+            Method::Refined
+        } else {
+            self.method
+        };
+        let finder = self
+            .finder
+            .clone()
+            .with_method(method)
+            .with_edges(self.edges)
+            .stopped_by(self.stop.clone());
+        let mut found = find_poses(&finder, &sequence);
+        self.stop.check()?;
+        let film = onto_frames.then(|| self.onto_the_frames(sequence, &mut found));
+        self.stop.check()?;
+        let (counterparts, axes) = match &self.beside {
+            Some(beside) => (
+                beside.counterparts()?,
+                beside.axes_of(&self.finder.model())?,
+            ),
+            None => (Vec::new(), Pose::IDENTITY),
+        };
+        Ok(Posed {
+            decisions: decide(&found, &counterparts, &axes)?,
+            found,
+            film,
+            middle: self.finder.model().bounds().centre,
+        })
+    }
+
+    /// Brings poses onto the frames of a sequence; what these tell of their film.
+    fn onto_the_frames(&self, sequence: Sequence<'_>, found: &mut Vec<FrameFound>) -> String {
+        let filmed = Filmed {
+            name: "metal",
+            model: self.finder.model(),
+            sequence,
+            edges: self.edges,
+            found,
+        };
+        bring_onto_frames(&mut [filmed], &Stated::default()).words
+    }
+}
+
+impl Beside<'_> {
+    fn counterparts(&self) -> Result<Vec<Option<Counterpart>>> {
+        let axes = match &self.model {
+            Some(model) => shape_axes(model, self.role.other())?,
+            None => Pose::IDENTITY,
+        };
+        let against = |row: &Option<Pose>| row.map(|pose| self.role.against(pose.compose(&axes)));
+        Ok(self.poses.iter().map(against).collect())
+    }
+
+    /// The rotation from the field's axes to the model's, where the other component's are known too.
+    fn axes_of(&self, model: &Model<'_>) -> Result<Pose> {
+        match self.model {
+            Some(_) => shape_axes(model, self.role),
+            None => Ok(Pose::IDENTITY),
+        }
+    }
+}
+
+impl Posed {
+    /// The poses, a row a frame.
+    pub fn poses(&self) -> Vec<Option<Pose>> {
+        let pose = |decision: &Option<Decision>| decision.and_then(|decision| decision.pose());
+        self.decisions.iter().map(pose).collect()
+    }
+
+    /// The table of the sequence.
+    pub fn report(&self) -> Vec<FrameReport> {
+        report(&self.found, &self.decisions, &self.middle)
+    }
+}
+
+fn shape_axes(model: &Model<'_>, role: Role) -> Result<Pose> {
+    let axes = axes_of(model, role, None)?;
+    let axes = axes.with_context(|| format!("the shape of the {role:?} does not tell its axes"))?;
+    Ok(axes.model_from_field)
+}

@@ -1,0 +1,169 @@
+//! One study, from its files to its results.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use anyhow::Result;
+use fluoropose::follow::State;
+use fluoropose_report::levels;
+
+use super::claim::Claim;
+use super::folders::{Failure, FailureKind, Folders};
+use super::list::Entry;
+use super::manifest::{Inputs, Look, Manifest, Settings};
+use crate::files::{Role, Study, write_text};
+use crate::progress::Stop;
+use crate::verbs::report::{self, report};
+use crate::verbs::track::{Request, Tracked, track};
+
+/// The study's numbers at steps of flexion.
+pub const LEVELS: &str = "by_flexion.csv";
+
+/// Works on a study that was claimed; its results are in their place then, or the failure is noted.
+///
+/// # Errors
+/// Where neither can be written.
+pub(super) fn work(
+    entry: &Entry,
+    settings: &Settings,
+    folders: &Folders,
+    claim: &Claim,
+) -> Result<Result<Manifest, Failure>> {
+    let whole = catch_unwind(AssertUnwindSafe(|| whole(entry, settings, folders, claim)));
+    let failure = match whole {
+        Ok(Ok(manifest)) => return Ok(Ok(manifest)),
+        Ok(Err(error)) => Failure {
+            kind: kind_of(&error),
+            because: format!("{error:#}"),
+        },
+        Err(panic) => Failure {
+            kind: FailureKind::Crash,
+            because: words_of(panic.as_ref()),
+        },
+    };
+    folders.note(&entry.name, Some(&failure))?;
+    Ok(Err(failure))
+}
+
+fn whole(entry: &Entry, settings: &Settings, folders: &Folders, claim: &Claim) -> Result<Manifest> {
+    let inputs = Inputs::read(entry, settings, Look::Whole)?;
+    let aside = folders.begin(&entry.name, &inputs)?;
+    let (frames, doubtful) = match settings.rehearsal {
+        true => rehearse(&aside, &inputs)?,
+        false => found(entry, settings, &aside)?,
+    };
+    let manifest = Manifest {
+        name: entry.name.clone(),
+        inputs,
+        frames,
+        doubtful,
+        outputs: Default::default(),
+    };
+    claim.check()?;
+    folders.publish(&entry.name, manifest)
+}
+
+/// Number of frames, and of doubtful ones.
+fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usize)> {
+    let tracked = track(&Request {
+        study: entry.study.clone(),
+        out: aside.to_owned(),
+        clicks: entry.clicks.clone(),
+        fixed: entry.fixed.clone(),
+        polarity: None,
+        interpolate: settings.interpolate,
+        anew: false,
+        quiet: true,
+        stop: Stop::default(),
+    })?;
+    let study = Study::read(&entry.study)?;
+    let has = |role| study.components.iter().any(|one| one.role() == Some(role));
+    if has(Role::Femur) && has(Role::Tibia) {
+        let film = report(&report::Args {
+            study: entry.study.clone(),
+            poses: Some(aside.to_owned()),
+            out: aside.to_owned(),
+            fps: settings.frames_per_s,
+            cutoff: settings.cutoff_hz,
+        })?;
+        write_text(
+            &aside.join(LEVELS),
+            &levels::table(&levels::by_flexion(&film)),
+        )?;
+    }
+    // It says how far an unfinished run has come, in the order in which threads came there.
+    std::fs::remove_file(aside.join("journal.txt"))?;
+    Ok((frames_of(&tracked), doubtful(&tracked)))
+}
+
+fn rehearse(aside: &Path, inputs: &Inputs) -> Result<(usize, usize)> {
+    write_text(&aside.join("rehearsal.txt"), "nothing was looked for\n")?;
+    Ok((inputs.frames.0, 0))
+}
+
+fn frames_of(tracked: &[Tracked]) -> usize {
+    tracked
+        .iter()
+        .map(|part| part.rows.len())
+        .max()
+        .unwrap_or(0)
+}
+
+/// Frames in which a component is not known well.
+fn doubtful(tracked: &[Tracked]) -> usize {
+    let known = |part: &Tracked, frame: usize| {
+        let state = part.rows.get(frame).map(|row| row.state);
+        matches!(state, Some(State::Fixed | State::Followed))
+    };
+    let frames = 0..frames_of(tracked);
+    frames
+        .filter(|&frame| !tracked.iter().all(|part| known(part, frame)))
+        .count()
+}
+
+/// A disk that is full is no fault of a study.
+fn kind_of(error: &anyhow::Error) -> FailureKind {
+    use std::io::ErrorKind::{
+        InvalidData, InvalidInput, IsADirectory, NotADirectory, NotFound, PermissionDenied,
+        UnexpectedEof,
+    };
+    let of_input = [
+        NotFound,
+        InvalidData,
+        InvalidInput,
+        IsADirectory,
+        NotADirectory,
+        PermissionDenied,
+        UnexpectedEof,
+    ];
+    let machine = |error: &std::io::Error| !of_input.contains(&error.kind());
+    let mut causes = error.chain().filter_map(|cause| cause.downcast_ref());
+    match causes.any(machine) {
+        true => FailureKind::Crash,
+        false => FailureKind::Input,
+    }
+}
+
+fn words_of(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    format!(
+        "the program broke off: {}",
+        text.unwrap_or("no reason was given")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_no_fault_of_the_study() {
+        let of = |kind| {
+            kind_of(&anyhow::Error::from(std::io::Error::from(kind)).context("cannot write a.csv"))
+        };
+        assert_eq!(of(std::io::ErrorKind::StorageFull), FailureKind::Crash);
+        assert_eq!(of(std::io::ErrorKind::NotFound), FailureKind::Input);
+        assert_eq!(kind_of(&anyhow::anyhow!("no femur")), FailureKind::Input);
+    }
+}

@@ -1,0 +1,154 @@
+//! Verb `collect`: the results of a batch put together, knee first and then group.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use fluoropose_report::group::{Group, Knee, figure, table};
+use fluoropose_report::levels::{self, Level};
+
+use crate::files::{csv_fields, read_text, write_text};
+use crate::verbs::batch::{Entry, LEVELS, Manifest, read_list};
+
+/// Options of `collect`.
+#[derive(clap::Args)]
+#[command(
+    after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and \
+each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, and doubtful.csv (every frame \
+that is not good, with its reason). Doubtful frames are in none of the means. Studies without results are told.\n\n\
+Example:\n  cargo xtask collect studies.csv --results results --out group"
+)]
+pub struct Args {
+    /// List of studies (CSV), as of `batch`: with the columns knee and group
+    list: PathBuf,
+    /// Folder of results, as `batch` wrote it
+    #[arg(long, value_name = "DIR")]
+    results: PathBuf,
+    /// Folder for what is written; made if absent
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Put results of different versions or settings together all the same
+    #[arg(long)]
+    mixed: bool,
+}
+
+/// A study's results.
+struct Done<'e> {
+    entry: &'e Entry,
+    manifest: Manifest,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// For files that cannot be read or written, results of different versions or settings, and no results.
+pub fn run(args: Args) -> Result<()> {
+    let entries = read_list(&args.list)?;
+    let (mut done, mut missing) = (Vec::new(), Vec::new());
+    for entry in &entries {
+        match Manifest::read(&args.results.join(&entry.name))? {
+            Some(manifest) => done.push(Done { entry, manifest }),
+            None => missing.push(entry.name.as_str()),
+        }
+    }
+    ensure!(
+        !done.is_empty(),
+        "{} holds no results of these studies",
+        args.results.display()
+    );
+    if !args.mixed {
+        alike(&done)?;
+    }
+    let groups = groups(&done, &args.results)?;
+    let doubtful = doubtful(&done, &args.results)?;
+    std::fs::create_dir_all(&args.out)
+        .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
+    write_text(&args.out.join("groups.csv"), &table(&groups))?;
+    write_text(&args.out.join("groups.svg"), &figure(&groups))?;
+    write_text(&args.out.join("doubtful.csv"), &doubtful)?;
+    for group in &groups {
+        println!("{}: {} knees", group.name, group.knees.len());
+    }
+    println!("{} frames are not good", doubtful.lines().count() - 1);
+    if !missing.is_empty() {
+        println!(
+            "{} studies have no results: {}",
+            missing.len(),
+            missing.join(", ")
+        );
+    }
+    Ok(())
+}
+
+/// Refuses what was not made by one program in one way.
+fn alike(done: &[Done<'_>]) -> Result<()> {
+    let ways: BTreeSet<String> = done
+        .iter()
+        .map(|one| {
+            format!(
+                "version {}, {:?}",
+                one.manifest.inputs.version, one.manifest.inputs.settings
+            )
+        })
+        .collect();
+    ensure!(
+        ways.len() == 1,
+        "the results were made in different ways: do them again with batch, or say --mixed:\n  {}",
+        ways.into_iter().collect::<Vec<_>>().join("\n  ")
+    );
+    ensure!(
+        done.iter()
+            .all(|one| !one.manifest.inputs.settings.rehearsal),
+        "these are results of a rehearsal: nothing was looked for"
+    );
+    Ok(())
+}
+
+/// In the order of names, so that the list's order does not matter.
+fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
+    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<Vec<Level>>>> = BTreeMap::new();
+    let mut whose: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut sorted: Vec<&Done<'_>> = done.iter().collect();
+    sorted.sort_by_key(|one| &one.entry.name);
+    for Done { entry, .. } in sorted {
+        let path = results.join(&entry.name).join(LEVELS);
+        if !path.is_file() {
+            eprintln!("{}: no joint, because it has no two components", entry.name);
+            continue;
+        }
+        let before = whose.insert(&entry.knee, &entry.group);
+        if before.is_some_and(|before| before != entry.group) {
+            bail!("the knee {} is in two groups", entry.knee);
+        }
+        let levels =
+            levels::read(&read_text(&path)?).with_context(|| format!("in {}", path.display()))?;
+        let knees = films.entry(&entry.group).or_default();
+        knees.entry(&entry.knee).or_default().push(levels);
+    }
+    let group = |(name, knees): (&str, BTreeMap<&str, Vec<Vec<Level>>>)| {
+        let knees = knees.iter().map(|(name, films)| Knee::new(name, films));
+        Group::new(name, knees.collect())
+    };
+    Ok(films.into_iter().map(group).collect())
+}
+
+/// The rows of all `track.csv` that are not good, with the study before them.
+fn doubtful(done: &[Done<'_>], results: &Path) -> Result<String> {
+    let mut out = String::from("study,frame,component,state,verdict,because\n");
+    for Done { entry, .. } in done {
+        let path = results.join(&entry.name).join("track.csv");
+        for line in read_text(&path)?.lines().skip(1) {
+            let fields = csv_fields(line);
+            let [frame, component, state, verdict, because, ..] = fields.as_slice() else {
+                bail!("{}: a row is cut off", path.display());
+            };
+            if verdict != "good" {
+                out.push_str(&format!(
+                    "{},{frame},\"{component}\",{state},{verdict},\"{because}\"\n",
+                    entry.name
+                ));
+            }
+        }
+    }
+    Ok(out)
+}

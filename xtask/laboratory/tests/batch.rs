@@ -1,0 +1,254 @@
+//! Batches of small synthetic studies, by the program itself: parts, a broken study, a task that is killed, and what is put together.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use fluoropose_phantom::sequence::{self, Options};
+
+/// A folder of its own with two studies of two frames each, and one whose calibration is missing.
+struct Studies(PathBuf);
+
+impl Drop for Studies {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+impl Studies {
+    fn make() -> Self {
+        let folder = std::env::temp_dir().join(format!("fluoropose-batch-{}", std::process::id()));
+        let mut list = String::from("study,knee,group,fixed\n");
+        for (name, seed) in [("a", 3), ("b", 4)] {
+            let options = Options {
+                frames: 2,
+                seed,
+                ..Options::default()
+            };
+            sequence::write(&options, &folder.join(name)).expect("a study");
+            // Known from the start, so that little is to be done; what remains is checked and judged as in any film.
+            list.push_str(&format!(
+                "{name},knee {name},all,femur={name}/femur.jts;tibia={name}/tibia.jts\n"
+            ));
+        }
+        fs::create_dir_all(folder.join("broken")).expect("a folder");
+        let study = fs::read_to_string(folder.join("a/study.toml")).expect("a study");
+        fs::write(folder.join("broken/study.toml"), study).expect("a broken study");
+        list.push_str("broken,knee c,all,\n");
+        fs::write(folder.join("studies.csv"), list).expect("a list");
+        Self(folder)
+    }
+
+    fn batch(&self, out: &str, options: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fluoropose"));
+        command
+            .arg("batch")
+            .arg(self.0.join("studies.csv"))
+            .arg("--out")
+            .arg(self.0.join(out))
+            .args(options);
+        for name in ["ID", "COUNT", "MIN", "STEP"] {
+            command.env_remove(format!("SLURM_ARRAY_TASK_{name}"));
+        }
+        command
+    }
+
+    fn collect(&self, out: &str, options: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fluoropose"));
+        command
+            .arg("collect")
+            .arg(self.0.join("studies.csv"))
+            .arg("--results")
+            .arg(self.0.join(out))
+            .arg("--out")
+            .arg(self.0.join("group"))
+            .args(options);
+        command.output().expect("it runs")
+    }
+
+    fn results(&self, out: &str, name: &str) -> BTreeMap<String, Vec<u8>> {
+        let mut files = BTreeMap::new();
+        gather(&self.0.join(out).join(name), "", &mut files);
+        assert!(
+            files.contains_key("manifest.json"),
+            "{out}/{name} is not done"
+        );
+        files
+    }
+}
+
+fn gather(folder: &Path, before: &str, files: &mut BTreeMap<String, Vec<u8>>) {
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let name = format!(
+            "{before}{}",
+            path.file_name().expect("a name").to_string_lossy()
+        );
+        if path.is_dir() {
+            gather(&path, &format!("{name}/"), files);
+        } else {
+            files.insert(name, fs::read(&path).expect("a file"));
+        }
+    }
+}
+
+fn run(mut command: Command) -> (i32, String) {
+    let output = command.output().expect("it runs");
+    let text = String::from_utf8_lossy(&output.stdout).into_owned()
+        + &String::from_utf8_lossy(&output.stderr);
+    (output.status.code().expect("a code"), text)
+}
+
+#[test]
+fn parts_and_interrupted_tasks_give_what_one_task_gives() {
+    let studies = Studies::make();
+    let (code, said) = run(studies.batch("whole", &[]));
+    assert_eq!(code, 4, "a broken study stops no other: {said}");
+    assert!(said.contains("done 2, failed 1"), "{said}");
+    let whole = ["a", "b"].map(|name| studies.results("whole", name));
+    assert!(whole[0].contains_key("by_flexion.csv") && whole[0].contains_key("joint.csv"));
+    assert_ne!(whole[0]["femur.jts"], whole[1]["femur.jts"]);
+    what_is_done_is_not_done_again(&studies);
+    shards_are_one(&studies, &whole);
+    killed_is_uninterrupted(&studies, &whole);
+    they_are_put_together(&studies);
+}
+
+fn what_is_done_is_not_done_again(studies: &Studies) {
+    let manifest = studies.0.join("whole/a/manifest.json");
+    let written = || {
+        fs::metadata(&manifest)
+            .and_then(|about| about.modified())
+            .expect("a time")
+    };
+    let before = written();
+    let (code, said) = run(studies.batch("whole", &["--only", "unfinished", "--verify"]));
+    assert_eq!((code, written()), (4, before), "{said}");
+    // What failed is not tried again, so that nothing is said of it but its state.
+    assert!(!said.contains("calibration.txt"), "{said}");
+    let (_, said) = run(studies.batch("whole", &["--only", "failed"]));
+    assert!(said.contains("calibration.txt"), "{said}");
+    let (code, said) = run(studies.batch("whole", &["--status", "--partition", "slice:1/3"]));
+    assert_eq!(code, 0, "{said}");
+    assert!(said.starts_with("a\tdone\t2 frames"), "{said}");
+    // Other settings make other results.
+    let (code, said) = run(studies.batch("whole", &["--status", "--fps", "15"]));
+    assert_eq!((code, said.matches("outdated").count()), (6, 3), "{said}");
+}
+
+fn shards_are_one(studies: &Studies, whole: &[BTreeMap<String, Vec<u8>>; 2]) {
+    let first = studies.batch("parts", &["--partition", "slice:1/2"]);
+    let mut second = studies.batch("parts", &[]);
+    for (name, value) in [("ID", "7"), ("COUNT", "2"), ("MIN", "6")] {
+        second.env(format!("SLURM_ARRAY_TASK_{name}"), value);
+    }
+    let beside = thread::spawn(move || run(second));
+    let (code, said) = run(first);
+    assert_eq!(code, 4, "the broken study is the first part's: {said}");
+    let (code, said) = beside.join().expect("it ends");
+    assert_eq!(code, 0, "{said}");
+    for (name, whole) in ["a", "b"].iter().zip(whole) {
+        assert!(studies.results("parts", name) == *whole, "{name} differs");
+    }
+}
+
+fn killed_is_uninterrupted(studies: &Studies, whole: &[BTreeMap<String, Vec<u8>>; 2]) {
+    let only_a = ["--partition", "slice:1/3"];
+    let mut child = studies.batch("killed", &only_a).spawn().expect("it runs");
+    let journal = studies.0.join("killed/.aside/a/journal.txt");
+    let steps = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    let begun = Instant::now();
+    while steps() < 2 && begun.elapsed() < Duration::from_secs(120) {
+        thread::sleep(Duration::from_millis(2));
+    }
+    // Signal 9 where there are signals.
+    child.kill().expect("it is killed");
+    child.wait().expect("it ends");
+    assert!(
+        !studies.0.join("killed/a").exists(),
+        "it was too quick to be killed"
+    );
+    let (code, said) = run(studies.batch("killed", &["--partition", "slice:1/3", "--status"]));
+    assert_eq!((code, said.contains("claimed")), (6, true), "{said}");
+    let before = steps();
+    assert!(before >= 2, "it was killed before its first step");
+    let (code, said) = run(studies.batch("killed", &only_a));
+    assert_eq!(code, 0, "{said}");
+    assert!(studies.results("killed", "a") == whole[0], "it differs");
+    let left = |folder: &str| {
+        fs::read_dir(studies.0.join("killed").join(folder))
+            .expect("a folder")
+            .count()
+    };
+    assert_eq!((left(".aside"), left(".claims")), (0, 0));
+}
+
+fn they_are_put_together(studies: &Studies) {
+    let output = studies.collect("whole", &[]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success() && said.contains("all: 2 knees"),
+        "{said}"
+    );
+    assert!(said.contains("1 studies have no results: broken"), "{said}");
+    let read = |name: &str| fs::read_to_string(studies.0.join("group").join(name)).expect("a file");
+    assert!(read("groups.csv").contains("\n\"all\",\"\",10,"));
+    assert!(read("groups.svg").contains("all (n = 2)"));
+    assert_eq!(read("doubtful.csv").lines().count(), 1);
+    let manifest = studies.0.join("whole/b/manifest.json");
+    let text = fs::read_to_string(&manifest).expect("a manifest");
+    let version = format!("\"version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(text.contains(&version));
+    fs::write(&manifest, text.replace(&version, "\"version\": \"0.0.0\""))
+        .expect("another version");
+    let output = studies.collect("whole", &[]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        !output.status.success() && said.contains("--mixed"),
+        "{said}"
+    );
+    assert!(studies.collect("whole", &["--mixed"]).status.success());
+}
+
+#[test]
+fn a_rehearsal_goes_all_the_way_and_finds_nothing() {
+    let folder = std::env::temp_dir().join(format!("fluoropose-rehearsal-{}", std::process::id()));
+    fs::create_dir_all(folder.join("frames")).expect("a folder");
+    fs::write(folder.join("frames/1.png"), "no picture").expect("a frame");
+    for name in ["calibration.txt", "femur.stl"] {
+        fs::write(folder.join(name), name).expect("a file");
+    }
+    let study = "name = 'x'\ncalibration = 'calibration.txt'\nframes = 'frames'\n[[component]]\nname = 'femur'\nmodel = 'femur.stl'\n";
+    fs::write(folder.join("study.toml"), study).expect("a study");
+    let names = (0..20).map(|number| format!("study.toml,s{number}\n"));
+    fs::write(
+        folder.join("list.csv"),
+        String::from("study,name\n") + &names.collect::<String>(),
+    )
+    .expect("a list");
+    let fluoropose = |words: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fluoropose"));
+        run({
+            command.args(words).current_dir(&folder);
+            command
+        })
+    };
+    let (code, said) = fluoropose(&[
+        "batch",
+        "list.csv",
+        "--out",
+        "out",
+        "--rehearse",
+        "--partition",
+        "hash:1/1",
+    ]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.ends_with("20 studies: done 20\n"), "{said}");
+    let (code, said) = fluoropose(&["collect", "list.csv", "--results", "out", "--out", "group"]);
+    assert_eq!((code, said.contains("rehearsal")), (1, true), "{said}");
+    fs::remove_dir_all(folder).expect("it can be removed");
+}

@@ -1,0 +1,174 @@
+//! The Python package: what fits into every run, and the whole of it, as a wheel in an environment of its own.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use fluoropose_phantom::sequence::{self, Options};
+
+use super::checked_profile::CHECKED;
+use super::counts;
+use super::report::{Report, Said};
+use crate::setup::rust_target::own_cargo;
+use crate::setup::{command, components, python};
+use crate::{wheel, workspace};
+
+/// The extension's crate.
+pub(super) const PACKAGE: &str = "fluoropose-python";
+/// What the extension is called in cargo's output, and in the package.
+const BUILT: [(&str, &str); 3] = [
+    ("libfluoropose_python.so", "_native.abi3.so"),
+    ("libfluoropose_python.dylib", "_native.abi3.so"),
+    ("fluoropose_python.dll", "_native.pyd"),
+];
+/// What the whole suite reads the package's files with.
+const READERS: [&str; 8] = [
+    "numpy>=1.23",
+    "mypy",
+    "pandas",
+    "pandas-stubs",
+    "spm1d",
+    "matplotlib",
+    "nbclient",
+    "ipykernel",
+];
+
+/// The extension with its lints, and the quick tests, without a wheel: they find the package where it lies.
+pub(crate) fn quick(report: &mut Report) {
+    let folder = workspace::target_dir().join("python/package");
+    let built = report.step("python: extension with lints", || {
+        assemble(&folder)?;
+        Ok(Said::default())
+    });
+    if built {
+        report.step("python: tests", || {
+            let python = with_numpy()?;
+            tests(&python, "test_quick_*.py", Some(&folder))
+        });
+    } else {
+        report.skip("python: tests", "the extension was not built");
+    }
+}
+
+/// The wheel in a clean environment: types, all tests, the notebook.
+pub(crate) fn run(report: &mut Report) {
+    let mut installed = None;
+    report.step("python: wheel in a clean environment", || {
+        let wheel = wheel::make(&workspace::target_dir().join("python/wheel"))?;
+        // Made anew each time: nothing of an older wheel is left.
+        let _ = fs::remove_dir_all(workspace::target_dir().join("python/clean"));
+        let python = python::environment("clean", &[])?;
+        python::pip(&python, &[wheel])?;
+        let said = command::output(
+            Command::new(&python).args(["-m", "pip", "list", "--format", "freeze"]),
+        )?;
+        let others = said.lines().filter(|line| {
+            !["pip=", "setuptools=", "wheel="]
+                .iter()
+                .any(|own| line.starts_with(own))
+        });
+        let others: Vec<&str> = others.collect();
+        ensure!(
+            others.len() == 2 && others[1].starts_with("numpy="),
+            "numpy alone is to come with fluoropose, not {others:?}"
+        );
+        installed = Some(python);
+        Ok(others.join(", ").into())
+    });
+    let Some(python) = installed else {
+        for name in [QUICK, TYPES, WHOLE] {
+            report.skip(name, "there is no wheel");
+        }
+        return;
+    };
+    report.step(QUICK, || tests(&python, "test_quick_*.py", None));
+    report.step(TYPES, || {
+        python::pip(&python, &READERS)?;
+        let package = workspace::root().join("core/python");
+        let mut mypy = Command::new(&python);
+        mypy.args([
+            "-m",
+            "mypy",
+            "--strict",
+            "python/fluoropose",
+            "tests/example_types.py",
+        ]);
+        command::run(mypy.current_dir(package))?;
+        Ok(Said::default())
+    });
+    report.step(WHOLE, || tests(&python, "test_*.py", None));
+}
+
+const QUICK: &str = "python: tests with numpy alone";
+const TYPES: &str = "python: types";
+const WHOLE: &str = "python: tests with the files' readers";
+
+/// Builds the extension as the native suite built what it is made of, and puts the package together.
+fn assemble(folder: &Path) -> Result<()> {
+    let mut cargo = own_cargo();
+    cargo.args(["build", "--package", PACKAGE]).args(CHECKED);
+    components::lint(&mut cargo)?;
+    command::run(&mut cargo)?;
+    let package = folder.join("fluoropose");
+    let _ = fs::remove_dir_all(&package);
+    fs::create_dir_all(&package)?;
+    let release = workspace::target_dir().join("release");
+    let built = BUILT.iter().find(|(name, _)| release.join(name).is_file());
+    let (name, to) = built.context("cargo left no extension")?;
+    fs::copy(release.join(name), package.join(to))?;
+    for entry in fs::read_dir(workspace::root().join("core/python/python/fluoropose"))? {
+        let path = entry?.path();
+        if path.is_file() {
+            fs::copy(&path, package.join(path.file_name().unwrap_or_default()))?;
+        }
+    }
+    Ok(())
+}
+
+/// The Python at hand where it has numpy, else an environment that has.
+fn with_numpy() -> Result<PathBuf> {
+    let python = python::python()?;
+    if command::output(Command::new(&python).args(["-c", "import numpy"])).is_ok() {
+        return Ok(python);
+    }
+    Ok(python::environment("numpy", &["numpy>=1.23"])?)
+}
+
+/// Runs the package's tests on a synthetic study.
+fn tests(python: &Path, pattern: &str, package: Option<&Path>) -> Result<Said> {
+    let study = workspace::target_dir().join("python/study");
+    let options = Options {
+        frames: 2,
+        seed: 3,
+        ..Options::default()
+    };
+    sequence::write(&options, &study)?;
+    let notes = workspace::target_dir().join("python/skipped");
+    let _ = fs::remove_file(&notes);
+    let mut tests = Command::new(python);
+    tests
+        .args([
+            "-m",
+            "unittest",
+            "discover",
+            "--verbose",
+            "--start-directory",
+            "tests",
+            "--pattern",
+            pattern,
+        ])
+        .current_dir(workspace::root().join("core/python"))
+        .env("FLUOROPOSE_DEMO", &study)
+        .env("FLUOROPOSE_SKIPPED", &notes)
+        .env("PYTHONDONTWRITEBYTECODE", "1");
+    if let Some(package) = package {
+        tests.env("PYTHONPATH", package);
+    }
+    let (success, output) = command::tee_all(&mut tests)?;
+    ensure!(
+        success,
+        "tests of the Python package failed; their output above says where"
+    );
+    Ok(counts::of_unittest(&output)?.into())
+}
