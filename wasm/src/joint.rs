@@ -2,7 +2,8 @@
 
 use fluoropose::joint::kinematics::{Side, joint_axes};
 use fluoropose::joint::numbers::NUMBERS;
-use fluoropose::joint::relative::{NOTHING_COMMON, Placed, Relative};
+use fluoropose::joint::relative::{Placed, Relative};
+use fluoropose::joint::shared::{ERRORS, KnownTo};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
@@ -10,16 +11,21 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
 
-use crate::found::{UPPER, covariance_of};
+use crate::found::{FILM, UPPER, Uncertainty, covariance_of};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
 
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
 /// Numbers of a component in a frame that come in: a pose and its uncertainty ([`crate::found::Uncertainty`]).
-const PLACED: usize = 33;
-/// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold.
-pub(crate) const OUT: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+const PLACED: usize = 6 + UNCERTAIN;
+/// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold, and what errors of the
+/// whole film do to each number.
+pub(crate) const OUT: usize = SHOWN + ERRORS * NUMBERS;
+/// Those of them that have names.
+pub(crate) const SHOWN: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+/// Numbers of a pose's uncertainty.
+const UNCERTAIN: usize = core::mem::size_of::<Uncertainty>() / core::mem::size_of::<f64>();
 
 /// A component: its mesh, empty where there is no model, and the anatomical axes of its file.
 pub(crate) struct Part {
@@ -133,9 +139,9 @@ impl KneeJoint {
     fn all(&self, frames: &[f64], memory: &mut [u32]) -> Result<Vec<f64>, JsError> {
         let joint = self.joint()?;
         let placed = |part: &Part, middle: &Vector3, numbers: &[f64]| -> Result<Placed, JsError> {
-            let (pose, covariance) = posed(numbers, middle)?;
+            let (pose, covariance, film_steps) = posed(numbers, middle)?;
             let axes = joint_axes(&part.axes, self.side);
-            Ok(Placed::new(&pose, &axes, middle, covariance))
+            Ok(Placed::new(&pose, &axes, middle, covariance).on_film(film_steps))
         };
         let middles = [self.femur.middle()?, self.tibia.middle()?];
         let mut numbers = Vec::with_capacity(frames.len() / (2 * PLACED) * OUT);
@@ -143,7 +149,7 @@ impl KneeJoint {
             let (femur, tibia) = frame.split_at(PLACED);
             let femur = placed(&self.femur, &middles[0], femur)?;
             let tibia = placed(&self.tibia, &middles[1], tibia)?;
-            let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
+            let relative = Relative::new(&femur, &tibia, KnownTo::USUALLY);
             let found = match &joint {
                 Some(joint) => joint.at(&relative, memory).map_err(sentence)?,
                 None => JointFrame::without_models(&relative, self.side),
@@ -152,14 +158,19 @@ impl KneeJoint {
             numbers.extend(found.deviations.unwrap_or([f64::NAN; NUMBERS]));
             let beyond = |mm| found.lift_off_probability(mm).unwrap_or(f64::NAN);
             numbers.extend(THRESHOLDS_MM.map(beyond));
+            numbers.extend(found.shared.as_flattened());
         }
         Ok(numbers)
     }
 }
 
-/// A pose, and its covariance where that is known, or at least the standard deviations of its six numbers.
-fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovariance>), JsError> {
+/// A pose, its covariance where that is known, or at least the standard deviations of its six numbers, and what of it is the film's.
+fn posed(
+    numbers: &[f64],
+    middle: &Vector3,
+) -> Result<(Pose, Option<PoseCovariance>, [[f64; 6]; 2]), JsError> {
     let (pose, uncertainty) = numbers.split_at(6);
+    let (uncertainty, film) = uncertainty.split_at(UNCERTAIN - FILM);
     let pose = Pose::from(from_numbers(pose)?);
     let (deviations, upper) = uncertainty.split_at(6);
     let known = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
@@ -171,7 +182,12 @@ fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovarian
         }
         _ => None,
     };
-    Ok((pose, covariance))
+    // Sessions from before it was kept do not have it.
+    let film_steps = match film.as_chunks::<6>().0 {
+        [curve, blur] if known(film) => [*curve, *blur],
+        _ => [[0.0; 6]; 2],
+    };
+    Ok((pose, covariance, film_steps))
 }
 
 #[cfg(test)]
@@ -207,10 +223,10 @@ mod tests {
     fn frame() -> Vec<f64> {
         let mut frame = vec![3.0, 30.0, -1000.0, 0.0, 0.0, 0.0];
         frame.extend([0.2, 0.3, 0.0, 0.0, 0.0, 0.0]);
-        frame.extend([f64::NAN; UPPER]);
+        frame.extend([f64::NAN; UPPER + FILM]);
         frame.extend([0.0, 0.0, -1000.0, 0.0, 0.0, 0.0]);
         frame.extend([0.0; 6]);
-        frame.extend([f64::NAN; UPPER]);
+        frame.extend([f64::NAN; UPPER + FILM]);
         frame
     }
 
@@ -224,7 +240,7 @@ mod tests {
         let mut joint = knee(true);
         assert!(joint.has_plate());
         let numbers = joint.numbers(&frame()).ok().unwrap();
-        assert_eq!(numbers.len(), joint.columns().len());
+        assert_eq!(numbers.len(), OUT);
         for (name, wanted) in [
             ("field_anterior_mm", 3.0),
             ("flexion_deg", 0.0),

@@ -12,5 +12,5 @@ pub mod write;
 
 pub use facts::{Facts, Input};
 pub use figure::figure;
-pub use film::{JointFilm, JointRow, Step};
+pub use film::{JointFilm, JointRow, Step, impossibilities};
 pub use html::html;

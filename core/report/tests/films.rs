@@ -3,6 +3,7 @@
 
 use fluoropose::Side;
 use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
 use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, read, write};
@@ -30,6 +31,7 @@ fn film(rotation_deg: f64) -> JointFilm {
             joint: (k != 8).then_some(JointFrame {
                 numbers,
                 deviations,
+                shared: [[0.0; NUMBERS]; ERRORS],
             }),
             filtered: None,
             checked: k == 2,
@@ -217,13 +219,72 @@ fn doubtful_frames_are_shown_and_count_for_nothing() {
     let mut spoilt = film(12.0);
     let joint = spoilt.rows[5].joint.as_mut().unwrap();
     joint.numbers[place::LATERAL_AP] = 900.0;
-    joint.numbers[place::FLEXION] = -170.0;
+    joint.numbers[place::FLEXION] = -17.0;
     let (clean, pivot) = (film(12.0).pivot().unwrap(), spoilt.pivot().unwrap());
     assert_eq!((clean.n, pivot), (28, clean));
     assert_eq!(spoilt.levels()[0], 0.0);
     let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
     assert_eq!(at(&spoilt), at(&film(12.0)));
     assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));
+}
+
+/// A tibia on the wrong side of its mirror: told, left out, and not drawn.
+#[test]
+fn numbers_that_no_knee_has_are_told_and_not_drawn() {
+    let mut spoilt = film(12.0);
+    for k in [12, 13, 20] {
+        let mut joint = spoilt.rows[k].joint.unwrap();
+        joint.numbers[place::ROTATION] = 160.0;
+        spoilt.rows[k] = JointRow::new(k + 11, Some(joint), None);
+    }
+    let why = "internal rotation would be 160\u{b0}, which no knee does";
+    assert_eq!(spoilt.rows[13].doubt.as_ref().unwrap().find(why), Some(0));
+    let [told] = &spoilt.impossibilities()[..] else {
+        panic!("one kind")
+    };
+    assert!(
+        told.starts_with("frame 23 and 2 more: ") && told.contains(why),
+        "{told}"
+    );
+    let picture = figure(&spoilt);
+    assert!(!picture.contains(": 160.00") && picture.contains("not drawn: 3 that no knee has"));
+    assert!(picture.contains("<title>frame 22: "));
+    let page = html(&spoilt, &Facts::default());
+    assert!(page.contains("23\u{2013}24, 31</td>") && page.contains(why) && page.contains("160.0"));
+    assert!(!page.contains("All 29 frames"));
+    assert!(write::table(&spoilt).contains(why));
+    for row in &mut spoilt.rows {
+        *row = JointRow::new(
+            row.number,
+            row.joint,
+            Some("a tray on the wrong side".to_owned()),
+        );
+    }
+    let page = html(&spoilt, &Facts::default());
+    assert!(page.contains("All 29 frames are doubtful") && page.contains("In 3 of them"));
+    assert!(page.contains("11\u{2013}22, 25\u{2013}30, 32\u{2013}40</td>"));
+}
+
+/// An angle that passes half a turn is no line across the figure.
+#[test]
+fn no_line_joins_angles_that_jump() {
+    let lines = |jump: f64| {
+        let mut film = film(12.0);
+        for (k, row) in film.rows.iter_mut().enumerate() {
+            if let Some(joint) = &mut row.joint {
+                joint.numbers[place::ROTATION] += if k < 15 { -30.0 } else { jump - 30.0 };
+            }
+        }
+        let picture = figure(&film);
+        let frames = picture.split("<g class=\"frames\">").nth(3).unwrap();
+        frames
+            .split("</g>")
+            .next()
+            .unwrap()
+            .matches("<polyline")
+            .count()
+    };
+    assert_eq!((lines(0.0), lines(40.0), lines(48.0)), (2, 2, 3));
 }
 
 #[test]

@@ -96,13 +96,16 @@ fn facts(knee: &Knee, sources: &Sources) -> Facts {
 }
 
 fn print(out: &Path, film: &JointFilm) {
-    let posed = film.rows.iter().filter(|row| row.joint.is_some()).count();
-    let doubtful = film.rows.iter().filter(|row| row.doubt.is_some()).count();
     println!(
-        "{}: {posed} of {} frames have a joint, {doubtful} are doubtful",
+        "{}: {} of {} frames have a joint, {} are doubtful",
         film.name,
-        film.rows.len()
+        film.posed(),
+        film.rows.len(),
+        film.doubtful()
     );
+    for told in film.impossibilities() {
+        println!("{told}");
+    }
     if !film.has_deviations() {
         println!("no standard deviations: the poses come without covariances");
     }
