@@ -12,6 +12,7 @@
 //! | [`impossible`] | whether a knee can have such numbers |
 //! | [`pivot`] | the centre of rotation on the plate over several frames |
 //! | [`course`] | numbers against flexion, and over a cycle |
+//! | [`group`] | numbers of several knees together |
 //! | [`low_pass`] | numbers and poses without what is faster than a cutoff |
 
 pub mod condyles;
@@ -19,6 +20,7 @@ pub mod course;
 #[cfg(test)]
 pub(crate) mod fake;
 pub mod floating;
+pub mod group;
 pub mod impossible;
 pub mod kinematics;
 pub mod low_pass;

@@ -4,25 +4,30 @@
 //! band of one standard deviation, and the values at steps of 10 degrees with their bars. And the tray from above.
 
 mod course;
+mod group;
 mod tray;
 
 use fluoropose::joint::numbers::place;
 
 use crate::film::JointFilm;
 use crate::svg::{Anchor, Drawing, Plot};
+pub use group::group_figure;
+
 use course::{Course, LATERAL, MEDIAL, PLAIN, doubtful_point};
 
 /// Size in its own units, and its width in print: two columns of a journal.
 const SIZE: [f64; 2] = [720.0, 664.0];
 const WIDTH_MM: f64 = 180.0;
+/// From where to where its columns of panels reach.
+const LEFT: [f64; 2] = [64.0, 340.0];
+const RIGHT: [f64; 2] = [432.0, 706.0];
 
 /// The figure of a film as SVG.
 #[must_use]
 pub fn figure(film: &JointFilm) -> String {
     let mut drawing = Drawing::default();
     let course = Course::of(film);
-    let left = [64.0, 340.0];
-    let right = [432.0, 706.0];
+    let (left, right) = (LEFT, RIGHT);
     let label = "Flexion (\u{b0})";
 
     letter(&mut drawing, "a", left[0], 26.0);

@@ -5,12 +5,14 @@
 mod facts;
 mod figure;
 mod film;
+mod group;
 mod html;
 pub mod read;
 mod svg;
 pub mod write;
 
 pub use facts::{Facts, Input};
-pub use figure::figure;
+pub use figure::{figure, group_figure};
 pub use film::{JointFilm, JointRow, Step, impossibilities};
+pub use group::{Group, Knee};
 pub use html::html;

@@ -6,7 +6,9 @@ use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
-use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, read, write};
+use fluoropose_report::{
+    Facts, Group, Input, JointFilm, JointRow, Knee, figure, group_figure, html, read, write,
+};
 
 /// Bent from 0 to 58 degrees in 2-degree steps about a centre at (-4, 12); frame 8 has no pose, frame 5 is doubtful.
 fn film(rotation_deg: f64) -> JointFilm {
@@ -80,6 +82,63 @@ fn the_table_reads_back_to_the_last_bit() {
         assert!(text.contains(word), "{word}");
     }
     assert!(film.values(3)[8].is_nan());
+}
+
+#[test]
+fn a_table_reads_back_as_a_film() {
+    let film = film(12.0);
+    let read = read::film(&write::table(&film)).unwrap();
+    assert_eq!((read.name.as_str(), read.side), ("a & b", Side::Left));
+    assert_eq!((read.plate_depth_mm, read.plate_width_mm), (48.0, 74.0));
+    assert_eq!(read.rows.len(), film.rows.len());
+    for (read, row) in read.rows.iter().zip(&film.rows) {
+        assert_eq!((read.number, read.checked), (row.number, row.checked));
+        assert_eq!((&read.doubt, read.joint), (&row.doubt, row.joint));
+    }
+    assert!(read::film("frame,x,doubt\n1,2,\"\"\n").is_err());
+}
+
+/// Two knees, the first with two films: each knee counts once, and steps that one knee alone reaches have one.
+#[test]
+fn a_group_is_the_mean_of_its_knees() {
+    let raised = |by: f64, frames: usize| {
+        let mut film = film(12.0);
+        film.rows.truncate(frames);
+        for joint in film.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
+            joint.numbers[place::ROTATION] = by;
+        }
+        film
+    };
+    let knee = |name: &str, films| Knee {
+        name: name.to_owned(),
+        films,
+    };
+    let group = Group::new(
+        "two <knees>".to_owned(),
+        vec![
+            knee("p1", vec![raised(2.0, 30), raised(4.0, 30)]),
+            knee("p2", vec![raised(9.0, 22)]),
+        ],
+    );
+    assert_eq!(group.levels(), [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+    let at = |level| group.at(place::ROTATION, level);
+    assert_eq!((at(30.0).mean, at(30.0).n), (6.0, 2));
+    assert!((at(30.0).deviation - 18f64.sqrt()).abs() < 1e-12);
+    assert_eq!(
+        (at(50.0).mean, at(50.0).n, at(50.0).deviation.is_nan()),
+        (3.0, 1, true)
+    );
+    let text = write::group_table(&group);
+    assert!(
+        text.contains("# knee p1: a & b, a & b\n")
+            && text.lines().last().unwrap().starts_with("50,1,")
+            && text.contains(",50,NaN,")
+    );
+    let picture = group_figure(&group);
+    assert!(picture.contains("2 knees, 3 films") && picture.contains("two &lt;knees&gt;"));
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    let nothing = group_figure(&Group::new(String::new(), Vec::new()));
+    assert!(nothing.contains("0 knees") && !nothing.contains("NaN"));
 }
 
 #[test]

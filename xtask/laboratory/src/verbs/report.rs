@@ -1,5 +1,6 @@
 //! Verb `report`: a study's joint motion as table, files, figure and report.
 
+mod group;
 mod knee;
 mod sources;
 
@@ -21,13 +22,19 @@ COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number,
 frames a second are known.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
 COMPONENT.covariances.csv beside them, and doubts track.csv; `track` writes both.\n\n\
+Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \
+flexion, each knee first), figure.svg, and cycle (a row a film).\n\n\
 Examples:\n  cargo xtask report --study study.toml --poses tracked --out report\n  \
-cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3"
+cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3\n  \
+cargo xtask report --group p1=a/joint.csv p1=b/joint.csv p2=c/joint.csv --out group"
 )]
 pub struct Args {
     /// Study file with the models of a femoral and of a tibial component, and the side
-    #[arg(long)]
-    study: PathBuf,
+    #[arg(long, required_unless_present = "group")]
+    study: Option<PathBuf>,
+    /// Instead of a study: knees that are published together, each table joint.csv with the name of its knee; a knee may have several
+    #[arg(long, value_name = "KNEE=FILE", num_args = 1.., conflicts_with_all = ["study", "poses", "fps", "cutoff"])]
+    group: Vec<String>,
     /// Folder of the poses; without it the study's references
     #[arg(long, value_name = "DIR")]
     poses: Option<PathBuf>,
@@ -47,14 +54,16 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
-    let study = Study::read(&args.study)?;
-    let sources = Sources::read(&args.study, &study, args.poses.as_deref())?;
+    let Some(file) = args.study else {
+        return group::run(&args.group, &args.out);
+    };
+    let study = Study::read(&file)?;
+    let sources = Sources::read(&file, &study, args.poses.as_deref())?;
     let filtering = Filtering::new(args.fps.or(study.frames_per_s), args.cutoff)?;
     let knee = Knee::new(&study, &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
-    std::fs::create_dir_all(&args.out)
-        .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
+    make_folder(&args.out)?;
     write_all(&args.out, &film, &sources, &facts)?;
     print(&args.out, &film);
     Ok(())
@@ -74,13 +83,23 @@ fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> 
     if film.frames_per_s.is_some() {
         write_text(&out.join("joint.mot"), &write::mot(film)?)?;
     }
+    write_cycles(out, &[film])
+}
+
+/// A file of each number, a row a film.
+fn write_cycles(out: &Path, films: &[&JointFilm]) -> Result<()> {
     let cycle = out.join("cycle");
-    std::fs::create_dir_all(&cycle).context("cannot make the folder cycle")?;
+    make_folder(&cycle)?;
     for (number, column) in COLUMNS.iter().enumerate() {
         let name = cycle.join(format!("{}.csv", column.name));
-        write_text(&name, &write::matrix(&[film], number))?;
+        write_text(&name, &write::matrix(films, number))?;
     }
     Ok(())
+}
+
+fn make_folder(folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))
 }
 
 fn facts(knee: &Knee, sources: &Sources) -> Facts {

@@ -1,0 +1,80 @@
+//! Several knees together.
+
+use fluoropose::joint::course::{FLEXION_STEP_DEG, Phase};
+use fluoropose::joint::group::{OverKnees, over_knees};
+
+use crate::film::JointFilm;
+
+/// A knee with its films: the same implant in the same person.
+#[derive(Clone, Debug)]
+pub struct Knee {
+    /// What it is called.
+    pub name: String,
+    /// Its films.
+    pub films: Vec<JointFilm>,
+}
+
+/// Knees that are published together.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// What it is called.
+    pub name: String,
+    knees: Vec<Knee>,
+    /// Of each film of each knee.
+    phases: Vec<Vec<Vec<Phase>>>,
+}
+
+impl Group {
+    /// Of knees with their films.
+    #[must_use]
+    pub fn new(name: String, knees: Vec<Knee>) -> Self {
+        let phases = |knee: &Knee| knee.films.iter().map(JointFilm::phases).collect();
+        let phases = knees.iter().map(phases).collect();
+        Self {
+            name,
+            knees,
+            phases,
+        }
+    }
+
+    /// The knees.
+    #[must_use]
+    pub fn knees(&self) -> &[Knee] {
+        &self.knees
+    }
+
+    /// The films, knee by knee.
+    #[must_use]
+    pub fn films(&self) -> Vec<&JointFilm> {
+        self.knees.iter().flat_map(|knee| &knee.films).collect()
+    }
+
+    /// The flexions that any film passes, degrees.
+    #[must_use]
+    pub fn levels(&self) -> Vec<f64> {
+        let all = self.films().into_iter().flat_map(JointFilm::levels);
+        let steps = all.map(|level| (level / FLEXION_STEP_DEG).round() as i64);
+        let steps: std::collections::BTreeSet<i64> = steps.collect();
+        let level = |step: i64| step as f64 * FLEXION_STEP_DEG;
+        steps.into_iter().map(level).collect()
+    }
+
+    /// A number of one knee at one flexion: that of each of its films, which is the mean over the film's phases.
+    #[must_use]
+    pub fn of_knee(&self, knee: usize, number: usize, level_deg: f64) -> Vec<f64> {
+        let films = self.knees[knee].films.iter().zip(&self.phases[knee]);
+        let value =
+            |(film, phases): (&JointFilm, &Vec<Phase>)| film.at(number, phases, level_deg).mean;
+        films.map(value).collect()
+    }
+
+    /// A number of the group at one flexion: each knee first, then all. Nothing is extrapolated, so `n` may differ from step to step.
+    #[must_use]
+    pub fn at(&self, number: usize, level_deg: f64) -> OverKnees {
+        let knees = 0..self.knees.len();
+        let values: Vec<Vec<f64>> = knees
+            .map(|knee| self.of_knee(knee, number, level_deg))
+            .collect();
+        over_knees(values.iter().map(Vec::as_slice))
+    }
+}
