@@ -116,7 +116,7 @@ async function overs(page) {
   await joint(page).getByRole('button', { name: 'Abduction alone' }).press('Enter');
   await until(() => joint(page).getByRole('img').count(), (count) => count === 1, 'one curve');
   await joint(page).getByRole('button', { name: 'All curves' }).press('Enter');
-  await until(() => joint(page).getByRole('img').count(), (count) => count === 8, 'all curves');
+  await until(() => joint(page).getByRole('img').count(), (count) => count === 9, 'all curves and the tray');
   const size = joint(page).getByRole('separator', { name: 'Height of the curves' });
   await size.press('ArrowUp');
   assert.equal(await until(() => size.getAttribute('aria-valuenow'), (now) => now !== '40', 'a higher dock'), '44');

@@ -23,11 +23,11 @@ pageTest('keys and mouse', async (page, t) => {
 
   await step(page, t, 'F and D go through the frames and stop at the ends', async () => {
     const seen = [];
-    for (const key of ['f', 'f', 'f', 'd', 'd', 'd', 'PageDown']) {
+    for (const key of ['f', 'f', 'f', 'd', 'd', 'd', 'PageDown', 'ArrowLeft', 'ArrowRight']) {
       await page.keyboard.press(key);
       seen.push(await frameShown(page));
     }
-    assert.deepEqual(seen, [2, 3, 3, 2, 1, 1, 2]);
+    assert.deepEqual(seen, [2, 3, 3, 2, 1, 1, 2, 1, 2]);
     await page.keyboard.press('PageUp');
   });
 

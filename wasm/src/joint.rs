@@ -1,5 +1,6 @@
 //! The joint's numbers, frame by frame, for curves and tables.
 
+use fluoropose::joint::impossible::impossible;
 use fluoropose::joint::kinematics::{Side, joint_axes};
 use fluoropose::joint::numbers::NUMBERS;
 use fluoropose::joint::relative::{Placed, Relative};
@@ -14,6 +15,9 @@ use wasm_bindgen::prelude::*;
 use crate::found::{FILM, UPPER, Uncertainty, covariance_of};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
+
+/// Points of the tray's border.
+pub(crate) const BORDER: usize = 180;
 
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
@@ -121,6 +125,27 @@ impl KneeJoint {
         let found = self.all(frames, &mut memory);
         self.memory = memory;
         found
+    }
+
+    /// The border of the tray's plate as seen from above: anterior and medial place of each point, mm; empty where there is no plate.
+    ///
+    /// # Errors
+    /// The core's sentence about a mesh.
+    #[wasm_bindgen(js_name = plateOutline)]
+    pub fn plate_outline(&self) -> Result<Vec<f64>, JsError> {
+        let Some(joint) = self.joint()? else {
+            return Ok(Vec::new());
+        };
+        let mut outline = vec![[0.0; 2]; BORDER];
+        joint.plate_outline(&mut outline);
+        Ok(outline.into_flattened())
+    }
+
+    /// Why no knee has one of a frame's numbers, as [`Self::numbers`] gives them: a sentence without its full stop. Nothing where it can
+    /// have them all.
+    pub fn impossible(&self, frame: &[f64]) -> Option<String> {
+        let numbers = frame.first_chunk::<NUMBERS>()?;
+        impossible(numbers).map(|wrong| wrong.to_string())
     }
 }
 
@@ -259,6 +284,18 @@ mod tests {
             let found = named(&joint, &numbers, name);
             assert!((found - wanted).abs() < 1e-5, "{name}: {found}");
         }
+    }
+
+    #[test]
+    fn a_femur_that_looks_the_other_way_is_told() {
+        let mut joint = knee(true);
+        let mut frame = frame();
+        let here = joint.numbers(&frame).ok().unwrap();
+        assert_eq!(joint.impossible(&here), None);
+        frame[5] = 160.0;
+        let there = joint.numbers(&frame).ok().unwrap();
+        let told = joint.impossible(&there).unwrap();
+        assert!(told.contains("160") && told.contains("no knee"), "{told}");
     }
 
     /// The tray may be turned about z by 0.01 rad and shifted forwards by 0.3 mm. The femoral origin is 50 mm above its middle, so

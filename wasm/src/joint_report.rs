@@ -7,12 +7,9 @@ use fluoropose::pose::Pose;
 use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, write};
 use wasm_bindgen::prelude::*;
 
-use crate::joint::{KneeJoint, OUT, Part, SHOWN};
+use crate::joint::{BORDER, KneeJoint, OUT, Part, SHOWN};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::from_numbers;
-
-/// Points of the tray's border.
-const BORDER: usize = 180;
 
 /// A joint's motion on its way into files. Frames come one by one, in the order of the film.
 #[wasm_bindgen]

@@ -76,6 +76,7 @@ function useKeys(): void {
       // Enter belongs to the control that has the focus.
       if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
+      if (/-frame$/.test(action.name) && key.startsWith('Arrow') && hasArrows(target)) return false;
       store.quiet();
       return actions.run(action);
     };
@@ -88,6 +89,11 @@ function useKeys(): void {
       window.removeEventListener('blur', onBlur);
     };
   }, [app, actions, services]);
+}
+
+/** What moves by arrows itself: sliders, groups of which one is chosen, pictures that turn. */
+function hasArrows(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.matches('input, [role]:not([role="application"])');
 }
 
 function typing(target: EventTarget | null): boolean {

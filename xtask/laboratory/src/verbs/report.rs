@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 use fluoropose::joint::COLUMNS;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
 
-use crate::files::{Study, write_text};
+use crate::files::{Study, stated_frames_per_s, write_text};
 use knee::{Filtering, Knee};
 use sources::Sources;
 
@@ -41,7 +41,7 @@ pub struct Args {
     /// Folder for what is written; made if absent
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Frames a second; without it those that the study states
+    /// Frames a second; without it those that the study or its DICOM frames state
     #[arg(long, value_name = "HZ")]
     fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
@@ -59,7 +59,7 @@ pub fn run(args: Args) -> Result<()> {
     };
     let study = Study::read(&file)?;
     let sources = Sources::read(&file, &study, args.poses.as_deref())?;
-    let filtering = Filtering::new(args.fps.or(study.frames_per_s), args.cutoff)?;
+    let filtering = Filtering::new(frames_per_s(args.fps, &study)?, args.cutoff)?;
     let knee = Knee::new(&study, &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
@@ -67,6 +67,16 @@ pub fn run(args: Args) -> Result<()> {
     write_all(&args.out, &film, &sources, &facts)?;
     print(&args.out, &film);
     Ok(())
+}
+
+/// As asked for, or as the study states it, or as its frames do.
+fn frames_per_s(asked: Option<f64>, study: &Study) -> Result<Option<f64>> {
+    match (asked.or(study.frames_per_s), &study.frames) {
+        (Some(rate), _) => Ok(Some(rate)),
+        // Frames that are not at hand tell no times.
+        (None, Some(folder)) => Ok(stated_frames_per_s(folder).unwrap_or_default()),
+        (None, None) => Ok(None),
+    }
 }
 
 fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> Result<()> {
