@@ -31,6 +31,16 @@ pageTest('keys and mouse', async (page, t) => {
     await page.keyboard.press('PageUp');
   });
 
+  await step(page, t, 'left and right point once other arrows have, until the mouse moves', async () => {
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await frameShown(page), 1);
+    await page.mouse.move(500, 300);
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await frameShown(page), 2);
+    await page.keyboard.press('PageUp');
+  });
+
   await step(page, t, 'Ctrl+Z and Ctrl+Y take points back and bring them again', async () => {
     await page.keyboard.press('p');
     for (const corner of CORNERS) await stage.click(corner);

@@ -1,5 +1,5 @@
 import { useEffect } from 'preact/hooks';
-import { actionFor } from '../commands/bindings';
+import { actionFor, type KeyInput } from '../commands/bindings';
 import { runCheckKey } from '../commands/check_keys';
 import { texts } from '../texts/texts';
 import { useApp, useAppState } from '../commands/app';
@@ -53,6 +53,15 @@ function useKeys(): void {
   const { actions, services } = app;
   useEffect(() => {
     const { store } = services;
+    // Left and right change frames until the other arrows, or Shift, have taken the pointer from the mouse.
+    let pointsByKeys = false;
+    const onMove = () => (pointsByKeys = false);
+    const meant = (input: KeyInput) => {
+      const action = actionFor(input, store.ui.tool);
+      if (action?.name !== 'tracing' || action.command.what !== 'point') return action;
+      if (pointsByKeys || input.shift || action.command.rows !== 0 || actions.stage?.busy()) pointsByKeys = true;
+      return pointsByKeys ? action : actionFor(input);
+    };
     const onDown = (event: KeyboardEvent) => {
       if (event.key === ' ' && !typing(event.target) && !onControl(event.target)) {
         event.preventDefault();
@@ -69,7 +78,7 @@ function useKeys(): void {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
       if (!typing(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
       if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
-      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
+      const action = meant({ key, ctrl: ctrlKey || metaKey, shift, alt });
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
@@ -82,10 +91,12 @@ function useKeys(): void {
     };
     window.addEventListener('keydown', onDown);
     window.addEventListener('keyup', onUp);
+    window.addEventListener('pointermove', onMove);
     window.addEventListener('blur', onBlur);
     return () => {
       window.removeEventListener('keydown', onDown);
       window.removeEventListener('keyup', onUp);
+      window.removeEventListener('pointermove', onMove);
       window.removeEventListener('blur', onBlur);
     };
   }, [app, actions, services]);
