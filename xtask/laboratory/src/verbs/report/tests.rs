@@ -128,8 +128,32 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     }
     check_centre(&text("figure.svg"), column);
     check_group(&folder, column);
+    read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A program that shares no code with this one reads all files, where the machine has a Python.
+fn read_by_another_program(out: &Path) {
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/golden/joint_files.py"
+    );
+    let python = std::process::Command::new("python3")
+        .args([script, out.to_str().unwrap(), "--field-axes"])
+        .output();
+    match python {
+        Ok(said) => {
+            let text =
+                [said.stdout, said.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+            assert!(
+                said.status.success() && text[0].starts_with("read"),
+                "{text:?}"
+            );
+            eprintln!("{}", text[0].trim());
+        }
+        Err(none) => eprintln!("the files are not read by another program: no python3 ({none})"),
+    }
 }
 
 /// The film taken as two knees: what both have is the mean, without any spread.
