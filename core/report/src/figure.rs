@@ -89,7 +89,7 @@ fn doubts(drawing: &mut Drawing, film: &JointFilm, [x, y]: [f64; 2]) {
         words.push("doubtful".to_owned());
     }
     if impossible > 0 {
-        words.push(format!("not drawn: {impossible} that no knee has"));
+        words.push(format!("not drawn, no knee does that: {impossible}"));
     }
     drawing.words([x + 12.0, y], Anchor::Start, 11.0, words.join("; "));
 }

@@ -2,6 +2,7 @@
 
 use fluoropose::joint::course::{FLEXION_STEP_DEG, Phase};
 use fluoropose::joint::group::{OverKnees, over_knees};
+use fluoropose::joint::numbers::place;
 
 use crate::film::JointFilm;
 
@@ -49,14 +50,15 @@ impl Group {
         self.knees.iter().flat_map(|knee| &knee.films).collect()
     }
 
-    /// The flexions that any film passes, degrees.
+    /// The flexions that any film passes within a phase, degrees.
     #[must_use]
     pub fn levels(&self) -> Vec<f64> {
         let all = self.films().into_iter().flat_map(JointFilm::levels);
         let steps = all.map(|level| (level / FLEXION_STEP_DEG).round() as i64);
         let steps: std::collections::BTreeSet<i64> = steps.collect();
-        let level = |step: i64| step as f64 * FLEXION_STEP_DEG;
-        steps.into_iter().map(level).collect()
+        let all = steps.into_iter().map(|step| step as f64 * FLEXION_STEP_DEG);
+        all.filter(|&level| self.at(place::FLEXION, level).n > 0)
+            .collect()
     }
 
     /// A number of one knee at one flexion: that of each of its films, which is the mean over the film's phases.

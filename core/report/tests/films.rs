@@ -120,7 +120,8 @@ fn a_group_is_the_mean_of_its_knees() {
             knee("p2", vec![raised(9.0, 22)]),
         ],
     );
-    assert_eq!(group.levels(), [0.0, 10.0, 20.0, 30.0, 40.0, 50.0]);
+    // At 10 degrees there is but a doubtful frame.
+    assert_eq!(group.levels(), [0.0, 20.0, 30.0, 40.0, 50.0]);
     let at = |level| group.at(place::ROTATION, level);
     assert_eq!((at(30.0).mean, at(30.0).n), (6.0, 2));
     assert!((at(30.0).deviation - 18f64.sqrt()).abs() < 1e-12);
@@ -306,7 +307,7 @@ fn numbers_that_no_knee_has_are_told_and_not_drawn() {
         "{told}"
     );
     let picture = figure(&spoilt);
-    assert!(!picture.contains(": 160.00") && picture.contains("not drawn: 3 that no knee has"));
+    assert!(!picture.contains(": 160.00") && picture.contains("not drawn, no knee does that: 3"));
     assert!(picture.contains("<title>frame 22: "));
     let page = html(&spoilt, &Facts::default());
     assert!(page.contains("23\u{2013}24, 31</td>") && page.contains(why) && page.contains("160.0"));

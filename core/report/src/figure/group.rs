@@ -8,7 +8,8 @@ use super::{LEFT, RIGHT, SIZE, WIDTH_MM, legend, letter, thresholds};
 use crate::group::Group;
 use crate::svg::{Anchor, Drawing, Plot, Scale};
 
-/// The figure of a group as SVG: mean and standard deviation over knees at steps of 10 degrees of flexion, and each knee as a thin line.
+/// The figure of a group as SVG: mean and standard deviation over knees at steps of 10 degrees of flexion that two knees or more reach, and
+/// each knee as a thin line.
 #[must_use]
 pub fn group_figure(group: &Group) -> String {
     let mut drawing = Drawing::default();
@@ -122,7 +123,7 @@ impl Course<'_> {
 
     fn knees(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: Ink) {
         drawing.open("knees");
-        let stroke = format!("{} stroke-opacity=\"0.35\"", ink.stroke(0.8));
+        let stroke = format!("{} stroke-opacity=\"0.5\"", ink.stroke(0.8));
         for knee in 0..self.group.knees().len() {
             let points: Vec<[f64; 2]> = self
                 .knee(knee, number)
@@ -136,7 +137,9 @@ impl Course<'_> {
     fn mean(&self, drawing: &mut Drawing, plot: &Plot, means: &[OverKnees], ink: Ink) {
         drawing.open("mean");
         let points = self.levels.iter().zip(means);
-        let points: Vec<[f64; 2]> = points.map(|(&x, one)| plot.place(x, one.mean)).collect();
+        // One knee is no group.
+        let mean = |one: &OverKnees| if one.n > 1 { one.mean } else { f64::NAN };
+        let points: Vec<[f64; 2]> = points.map(|(&x, one)| plot.place(x, mean(one))).collect();
         lines(drawing, &points, &ink.stroke(1.6));
         let bar = format!("stroke=\"{}\" stroke-width=\"1\"", ink.colour);
         for (&[x, y], one) in points.iter().zip(means) {

@@ -1,4 +1,4 @@
-import { useMemo } from 'preact/hooks';
+import { useMemo, useRef } from 'preact/hooks';
 import type { Doc } from '../../document/types';
 import type { JointNumbers } from '../../results/joint_curves';
 import { trayOf, type TrayLine } from '../../results/joint_tray';
@@ -29,9 +29,7 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
       </div>
       <svg viewBox={`${low} ${high} ${2 * reach[0]} ${2 * reach[1]}`} role="img" aria-label={here ? words.here(shown + 1) : words.none(shown + 1)}>
         <polygon class="tray-border" points={border.map((point) => point.join()).join(' ')} />
-        {lines.map((line) => (
-          <line key={line.index} class={line.doubtful ? 'tray-line doubtful' : 'tray-line'} {...endsOf(line)} onClick={() => onPick(line.index)} />
-        ))}
+        <Fan lines={lines} onPick={onPick} />
         {here && (
           <>
             <line class="tray-here" {...endsOf(here)} />
@@ -48,6 +46,26 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
       </svg>
     </section>
   );
+}
+
+/** More lines than these would be one surface. */
+const MOST = 60;
+
+/** Drawn when lines change alone, not with every frame that is looked at. */
+function Fan({ lines, onPick }: { lines: readonly TrayLine[]; onPick: (index: number) => void }) {
+  const pick = useRef(onPick);
+  pick.current = onPick;
+  return useMemo(() => {
+    const every = Math.ceil(lines.length / MOST);
+    const some = lines.filter((_, at) => at % every === 0);
+    return (
+      <g>
+        {some.map((line) => (
+          <line key={line.index} class={line.doubtful ? 'tray-line doubtful' : 'tray-line'} {...endsOf(line)} onClick={() => pick.current(line.index)} />
+        ))}
+      </g>
+    );
+  }, [lines]);
 }
 
 function endsOf({ medial, lateral }: TrayLine) {
