@@ -274,6 +274,8 @@ export const en = {
     frameOf: (frame: number, count: number, name: string) => `${frame} of ${count}, ${name}`,
     noFrames: 'no frames',
     previousFrame: 'Previous frame',
+    play: 'Play the film',
+    pause: 'Stop the film',
     nextFrame: 'Next frame',
     check: 'Checked',
     checkTitle: 'What is here has been looked at and is right (Y)',
