@@ -2,7 +2,7 @@
 
 use fluoropose::joint::impossible::impossible;
 use fluoropose::joint::kinematics::{Side, joint_axes};
-use fluoropose::joint::numbers::NUMBERS;
+use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::relative::{Placed, Relative};
 use fluoropose::joint::shared::{ERRORS, KnownTo};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
@@ -164,9 +164,10 @@ impl KneeJoint {
     fn all(&self, frames: &[f64], memory: &mut [u32]) -> Result<Vec<f64>, JsError> {
         let joint = self.joint()?;
         let placed = |part: &Part, middle: &Vector3, numbers: &[f64]| -> Result<Placed, JsError> {
-            let (pose, covariance, film_steps) = posed(numbers, middle)?;
+            let posed = posed(numbers, middle)?;
             let axes = joint_axes(&part.axes, self.side);
-            Ok(Placed::new(&pose, &axes, middle, covariance).on_film(film_steps))
+            let placed = Placed::new(&posed.pose, &axes, middle, posed.covariance);
+            Ok(placed.on_film(posed.film_steps))
         };
         let middles = [self.femur.middle()?, self.tibia.middle()?];
         let mut numbers = Vec::with_capacity(frames.len() / (2 * PLACED) * OUT);
@@ -190,10 +191,7 @@ impl KneeJoint {
 }
 
 /// A pose, its covariance where that is known, or at least the standard deviations of its six numbers, and what of it is the film's.
-fn posed(
-    numbers: &[f64],
-    middle: &Vector3,
-) -> Result<(Pose, Option<PoseCovariance>, [[f64; 6]; 2]), JsError> {
+fn posed(numbers: &[f64], middle: &Vector3) -> Result<Posed, JsError> {
     let (pose, uncertainty) = numbers.split_at(6);
     let (uncertainty, film) = uncertainty.split_at(UNCERTAIN - FILM);
     let pose = Pose::from(from_numbers(pose)?);
@@ -212,7 +210,11 @@ fn posed(
         [curve, blur] if known(film) => [*curve, *blur],
         _ => [[0.0; 6]; 2],
     };
-    Ok((pose, covariance, film_steps))
+    Ok(Posed {
+        pose,
+        covariance,
+        film_steps,
+    })
 }
 
 #[cfg(test)]
@@ -274,9 +276,10 @@ mod tests {
             ("medial_height_mm", 20.0),
             ("lateral_height_mm", 21.0),
             ("lift_off_mm", 1.0),
-            ("sd_field_anterior_mm", 0.2),
-            ("sd_medial_ap_mm", 0.2),
-            ("sd_medial_height_mm", 0.3),
+            // Models whose size is known to a thousandth: their middles lie 3 and 0 mm right of the axis, 30 above and 20 below it.
+            ("sd_field_anterior_mm", 0.2f64.hypot(0.003)),
+            ("sd_medial_ap_mm", 0.2f64.hypot(0.003)),
+            ("sd_medial_height_mm", 0.3f64.hypot(0.03).hypot(0.02)),
             ("sd_lift_off_mm", 0.0),
             ("sd_flexion_deg", 0.0),
             ("p_lift_off_over_0.7_mm", 1.0),
@@ -330,7 +333,7 @@ mod tests {
         frames[3 * PLACED + 8] = f64::NAN;
         let numbers = joint.numbers(&frames).ok().unwrap();
         let (first, second) = numbers.split_at(OUT);
-        assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2).abs() < 1e-9);
+        assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2f64.hypot(0.003)).abs() < 1e-9);
         assert!(named(&joint, first, "lift_off_mm").is_nan());
         assert!((named(&joint, second, "field_anterior_mm") - 3.0).abs() < 1e-9);
         assert!(named(&joint, second, "sd_field_anterior_mm").is_nan());

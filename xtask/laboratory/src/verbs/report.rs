@@ -2,16 +2,17 @@
 
 mod group;
 mod knee;
+mod out;
 mod sources;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use fluoropose::joint::COLUMNS;
+use anyhow::Result;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
 
 use crate::files::{Study, stated_frames_per_s, write_text};
 use knee::{Filtering, Knee};
+use out::{make_folder, write_cycles};
 use sources::Sources;
 
 /// Options of `report`.
@@ -94,22 +95,6 @@ fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> 
         write_text(&out.join("joint.mot"), &write::mot(film)?)?;
     }
     write_cycles(out, &[film])
-}
-
-/// A file of each number, a row a film.
-fn write_cycles(out: &Path, films: &[&JointFilm]) -> Result<()> {
-    let cycle = out.join("cycle");
-    make_folder(&cycle)?;
-    for (number, column) in COLUMNS.iter().enumerate() {
-        let name = cycle.join(format!("{}.csv", column.name));
-        write_text(&name, &write::matrix(films, number))?;
-    }
-    Ok(())
-}
-
-fn make_folder(folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))
 }
 
 fn facts(knee: &Knee, sources: &Sources) -> Facts {

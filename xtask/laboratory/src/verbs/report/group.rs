@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use fluoropose_report::{Group, Knee, group_figure, read, write};
 
-use super::{make_folder, write_cycles};
+use super::out::{make_folder, write_cycles};
 use crate::files::{name_of, read_text, write_text};
 
 pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
