@@ -4,7 +4,8 @@
 //! ([`Trail::expect`]); it is refined on the frame ([`look`]), and where what comes of it is out of the ordinary, poses
 //! around it are searched. A [`Way`] leads from an [`Anchor`], a frame whose pose is known, over the frames beside it; where
 //! two ways meet, [`join_ways`] takes the better of both. [`mirrored_pose`] gives the rival on the other side of the mirror;
-//! [`choose_sides`] tells over the film which side is the right one, and [`mirrored_runs`] where to go over to it. Frames that then
+//! [`choose_sides`] tells over the film which side is the right one, and [`runs_to_go_over`] where to go over to it; the same
+//! for poses that are no mirror image ([`elsewhere`]). Jumps are crossed from both sides (`Crossing`, feature `alloc`). Frames that then
 //! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
 //! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
@@ -17,6 +18,11 @@ mod cell;
 mod conclude;
 mod conclusion;
 mod contrast;
+#[cfg(feature = "alloc")]
+mod crossing;
+mod elsewhere;
+#[cfg(feature = "alloc")]
+mod false_minimum;
 #[cfg(feature = "alloc")]
 mod following;
 mod frame_pose;
@@ -42,6 +48,11 @@ pub use conclude::{conclude, trusted_depths};
 pub use conclusion::{Conclusion, Why, fill_gaps};
 pub use contrast::{Contrast, contrast};
 #[cfg(feature = "alloc")]
+pub use crossing::{Crossing, frames_to_cross_from};
+pub use elsewhere::elsewhere;
+#[cfg(feature = "alloc")]
+pub use false_minimum::{ROUNDS, elsewhere_margins, leaves_less, runs_elsewhere};
+#[cfg(feature = "alloc")]
 pub use following::{Following, KnownFemur};
 pub use frame_pose::{FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame};
 pub use look::{Looked, Missing, look};
@@ -52,8 +63,10 @@ pub use search_order::{TRIES, frames_to_search, run_to_search};
 #[cfg(feature = "alloc")]
 pub use second_look::{SecondLook, second_looks};
 pub use settle::settled;
-pub use side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
-pub use sides::{Side, SideEvidence, SideFigures, SideStep, choose_sides};
+pub use side_samples::{
+    SideMargin, SideSample, frames_for_sides, nearer_rival, runs_to_go_over, side_margin,
+};
+pub use sides::{Rival, Side, SideEvidence, SideFigures, SideStep, choose_sides};
 pub use state::State;
 pub use subject::Subject;
 pub use trail::{Trail, Usual};

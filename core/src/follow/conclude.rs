@@ -5,22 +5,24 @@ use alloc::vec::Vec;
 
 use super::cell::Cell;
 use super::conclusion::Conclusion;
+use super::side_samples::SideMargin;
 use super::trust::{FrameEvidence, Trust, TrustLimits, judge_film};
 use crate::math::Vector3;
 
-/// Concludes for every frame of a component. `side_margins` tell by how much the other side of each frame is less likely
+/// Concludes for every frame of a component. `side_margins` tell by how much another pose of each frame is less likely
 /// ([`super::side_margin`]), `other_depths_mm` how far the other component is from the camera, at the middle of its box, where
 /// that is known; either may be shorter than the film. `middle` is the model's.
 #[must_use]
 pub fn conclude(
     cells: &[Cell],
-    side_margins: &[Option<f64>],
+    side_margins: &[Option<SideMargin>],
     other_depths_mm: &[Option<f64>],
     middle: &Vector3,
 ) -> Vec<Conclusion> {
-    let at = |values: &[Option<f64>], frame: usize| values.get(frame).copied().flatten();
     let evidence = cells.iter().enumerate().map(|(frame, cell)| {
-        FrameEvidence::of(cell, at(side_margins, frame), at(other_depths_mm, frame))
+        let margin = side_margins.get(frame).copied().flatten();
+        let depth = other_depths_mm.get(frame).copied().flatten();
+        FrameEvidence::of(cell, margin, depth)
     });
     let evidence: Vec<FrameEvidence> = evidence.collect();
     let mut trusts = vec![Trust::default(); cells.len()];
@@ -36,7 +38,7 @@ pub fn conclude(
 #[must_use]
 pub fn trusted_depths(
     cells: &[Cell],
-    side_margins: &[Option<f64>],
+    side_margins: &[Option<SideMargin>],
     middle: &Vector3,
 ) -> Vec<Option<f64>> {
     let alone = conclude(cells, side_margins, &[], middle);

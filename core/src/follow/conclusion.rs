@@ -5,6 +5,7 @@ use core::fmt;
 use super::cell::Cell;
 use super::look::Missing;
 use super::motion::between;
+use super::side_samples::SideMargin;
 use super::state::State;
 use super::trust::{Distrust, FrameEvidence, Trust};
 use crate::math::Vector3;
@@ -103,7 +104,7 @@ impl fmt::Display for Conclusion {
 impl FrameEvidence {
     /// What a frame says when its film is judged. `side_margin` and `other_depth_mm` are those of the fields.
     #[must_use]
-    pub fn of(cell: &Cell, side_margin: Option<f64>, other_depth_mm: Option<f64>) -> Self {
+    pub fn of(cell: &Cell, side_margin: Option<SideMargin>, other_depth_mm: Option<f64>) -> Self {
         Self {
             found: cell.found().copied(),
             side_margin,

@@ -1,5 +1,6 @@
 //! A component followed by a caller that gives frames one by one, when they are asked for.
 
+mod other_poses;
 mod task;
 
 use alloc::boxed::Box;
@@ -13,11 +14,13 @@ use task::{Span, Task, Walk};
 use super::cell::{Anchor, Cell};
 use super::conclude::{conclude, trusted_depths};
 use super::conclusion::Conclusion;
+use super::crossing::{Crossing, frames_to_cross_from};
+use super::false_minimum::ROUNDS;
 use super::frame_pose::FramePose;
 use super::search_order::{frames_to_search, run_to_search};
 use super::second_look::{SecondLook, second_looks};
-use super::side_samples::{SideSample, frames_for_sides, mirrored_runs, side_margin};
-use super::sides::{SideEvidence, SideStep, choose_sides};
+use super::side_samples::SideSample;
+use super::sides::SideStep;
 use super::subject::Subject;
 use crate::finder::choice::Counterpart;
 use crate::math::Vector3;
@@ -51,6 +54,12 @@ enum Phase {
     Sides,
     /// To the other side, where that is the right one.
     GoOver,
+    /// Frames are seen from elsewhere.
+    Elsewhere,
+    /// To what was seen there, where that is the right one.
+    GoElsewhere,
+    /// Jumps are crossed.
+    Cross,
     /// Frames that stand out are looked at once more.
     Again,
     Over,
@@ -76,6 +85,14 @@ pub struct Following {
     may_choose: bool,
     femur: Option<KnownFemur>,
     samples: Vec<SideSample>,
+    /// Frames seen from elsewhere.
+    elsewhere: Vec<SideSample>,
+    /// The frames that went over to what was seen elsewhere, as they were before.
+    before: Vec<(Range<usize>, Vec<Cell>)>,
+    /// From where jumps are still to be crossed, and whether forward.
+    to_cross: VecDeque<(usize, bool)>,
+    /// So often frames may still go over to what was seen elsewhere.
+    rounds: usize,
     /// Other sides of frames that somebody wants to compare.
     rivals: Vec<SideSample>,
     steps: Vec<SideStep>,
@@ -96,6 +113,10 @@ impl Following {
             may_choose: false,
             femur: None,
             samples: Vec::new(),
+            elsewhere: Vec::new(),
+            before: Vec::new(),
+            to_cross: VecDeque::new(),
+            rounds: ROUNDS,
             rivals: Vec::new(),
             steps: Vec::new(),
         }
@@ -158,7 +179,7 @@ impl Following {
         memory: &mut RefineMemory<'_>,
     ) -> Result<Option<FramePose>, RefineError> {
         let task = match self.tasks.front_mut() {
-            Some(task @ (Task::Walk(_) | Task::Span(_))) => {
+            Some(task @ (Task::Walk(_) | Task::Span(_) | Task::Crossing(_))) => {
                 return Ok(task.go_on(subject, image, &self.middle, memory));
             }
             // The answer of a search comes by another way.
@@ -190,6 +211,9 @@ impl Following {
             }
             Some(Task::Again(look)) => Ok(self.look_again(&look, subject, image, memory)),
             Some(Task::BothSides(frame)) => Ok(self.see_both_sides(subject, image, frame, memory)),
+            Some(Task::Elsewhere(frame)) => {
+                Ok(self.see_from_elsewhere(subject, image, frame, memory))
+            }
             _ => Ok(None),
         }
     }
@@ -208,27 +232,6 @@ impl Following {
         Some(better.unwrap_or(look.own))
     }
 
-    fn see_both_sides(
-        &mut self,
-        subject: &Subject<'_>,
-        image: &ImageTarget<'_>,
-        frame: usize,
-        memory: &mut RefineMemory<'_>,
-    ) -> Option<FramePose> {
-        let &own = self.cells[frame].found()?;
-        let sample = SideSample {
-            frame,
-            own,
-            mirrored: super::mirrored_pose(subject, image, &own, memory),
-            fixed: self.cells[frame].fixed,
-        };
-        match self.phase {
-            Phase::Compare => self.rivals.push(sample),
-            _ => self.samples.push(sample),
-        }
-        Some(own)
-    }
-
     /// Begins to choose the sides of the mirror, for a tibia with its femur, where that is known.
     pub fn choose_sides(&mut self, femur: Option<KnownFemur>) {
         self.see_sides();
@@ -242,8 +245,7 @@ impl Following {
     pub fn see_sides(&mut self) {
         if self.phase == Phase::Followed {
             self.phase = Phase::Sides;
-            let wanted = frames_for_sides(&self.cells).filter(|frame| self.range.contains(frame));
-            self.tasks.extend(wanted.map(Task::BothSides));
+            self.see_other_sides();
         }
     }
 
@@ -260,7 +262,7 @@ impl Following {
     #[must_use]
     pub fn rival(&self, frame: usize) -> Option<&FramePose> {
         let compared = self.rivals.iter().find(|sample| sample.frame == frame)?;
-        compared.mirrored.as_ref()
+        compared.other.as_ref()
     }
 
     /// Ends the work before all is done: what its unfinished parts saw counts.
@@ -290,11 +292,6 @@ impl Following {
         conclude(&self.cells, &margins, other_depths_mm, &self.middle)
     }
 
-    fn side_margins(&self) -> Vec<Option<f64>> {
-        let margin = |frame| side_margin(&self.samples, &self.steps, frame);
-        (0..self.cells.len()).map(margin).collect()
-    }
-
     /// What is to be done when nothing is left to do; `None` where the caller has to say more, or all is over.
     fn go_on(&mut self) -> Option<()> {
         match self.phase {
@@ -312,15 +309,48 @@ impl Following {
                 self.phase = Phase::GoOver;
             }
             Phase::GoOver => {
-                let looks = second_looks(&self.cells, &self.middle).into_iter();
-                let looks = looks.filter(|look| self.range.contains(&look.frame));
-                self.tasks.extend(looks.map(Box::new).map(Task::Again));
-                self.phase = Phase::Again;
+                self.see_elsewhere();
+                self.phase = Phase::Elsewhere;
             }
+            Phase::Elsewhere => self.leave_false_minima(),
+            Phase::GoElsewhere => match self.keep_what_leaves_less() {
+                true => {
+                    self.see_other_sides();
+                    self.phase = Phase::Sides;
+                }
+                false => self.begin_to_cross(),
+            },
+            Phase::Cross => self.cross_next(),
             Phase::Again => self.phase = Phase::Over,
             Phase::Followed | Phase::Over | Phase::Compare => return None,
         }
         Some(())
+    }
+
+    fn leave_false_minima(&mut self) {
+        match self.begin_elsewhere() {
+            true => self.phase = Phase::GoElsewhere,
+            false => self.begin_to_cross(),
+        }
+    }
+
+    fn begin_to_cross(&mut self) {
+        self.to_cross = frames_to_cross_from(&self.cells, &self.middle).into();
+        self.phase = Phase::Cross;
+    }
+
+    /// Crosses the next jump, or looks again at what stands out, where none is left.
+    fn cross_next(&mut self) {
+        if let Some((from, forward)) = self.to_cross.pop_front() {
+            let crossing = Crossing::over(&self.cells, from, forward, &self.middle);
+            self.tasks
+                .extend(crossing.map(Box::new).map(Task::Crossing));
+            return;
+        }
+        let looks = second_looks(&self.cells, &self.middle).into_iter();
+        let looks = looks.filter(|look| self.range.contains(&look.frame));
+        self.tasks.extend(looks.map(Box::new).map(Task::Again));
+        self.phase = Phase::Again;
     }
 
     fn begin_ways(&mut self) {
@@ -362,30 +392,5 @@ impl Following {
         self.cells[anchor.frame] = Cell::from(anchor);
         let walks = [run.end - 1, run.start].map(|to| Walk::new(anchor, to));
         self.tasks.extend(walks.map(Box::new).map(Task::Walk));
-    }
-
-    fn begin_other_sides(&mut self) {
-        let femur = self.femur.as_ref();
-        let tilt = |frame: usize, pose: &Pose| femur.and_then(|femur| femur.tilt_deg(frame, pose));
-        let evidence = self
-            .samples
-            .iter()
-            .map(|sample| sample.evidence(|pose| tilt(sample.frame, pose)));
-        let evidence: Vec<SideEvidence> = evidence.collect();
-        self.steps = vec![SideStep::default(); evidence.len()];
-        choose_sides(&evidence, &mut self.steps);
-        let runs: Vec<(Range<usize>, Anchor)> =
-            mirrored_runs(&self.samples, &self.steps, self.cells.len()).collect();
-        for (run, anchor) in runs {
-            let run = run.start.max(self.range.start)..run.end.min(self.range.end);
-            // What is there is of the wrong side; what a person gave stays.
-            for cell in self.cells[run.clone()]
-                .iter_mut()
-                .filter(|cell| !cell.fixed)
-            {
-                *cell = Cell::default();
-            }
-            self.go_through(&anchor, &run);
-        }
     }
 }

@@ -69,12 +69,8 @@ pub fn refined_on_frame(
         (None, _) => refine(model, &views, start, options, memory)?,
         (Some(_), From::Near) => correct(model, &views, &begun(start), options, memory)?,
         (Some(_), From::Far) => {
-            let probe = RefineOptions {
-                effort: Effort::Probe,
-                ..options
-            };
-            let near = refine(model, &views, start, probe, memory)?;
-            correct(model, &views, &begun(&near.pose), options, memory)?
+            let near = probed(subject, image, start, memory)?;
+            correct(model, &views, &begun(&near), options, memory)?
         }
     };
     let assessment = assess(subject.model, &views, &refined, memory)?;
@@ -86,6 +82,24 @@ pub fn refined_on_frame(
         misfit_px: sqrt(2.0 * refined.loss),
         contrast: contrast(subject, image, &refined.pose, memory)?,
     })
+}
+
+/// Where refinement comes from a start on the first look, over edges as they seem to be.
+///
+/// # Errors
+/// Those of [`refine`].
+pub(super) fn probed(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    start: &Pose,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Pose, RefineError> {
+    let views = [CameraView::only(subject.camera, *image)];
+    let probe = RefineOptions {
+        effort: Effort::Probe,
+        ..subject.options
+    };
+    Ok(refine(subject.model, &views, start, probe, memory)?.pose)
 }
 
 /// A pose from which the last stage of refinement begins.

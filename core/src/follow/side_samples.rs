@@ -1,10 +1,11 @@
-//! Frames of a film seen from both sides of a component's mirror: which, what they say, and where the other side is taken.
+//! Frames of a film seen from both sides of a component's mirror, and from elsewhere: which, what they say, and where another
+//! pose is taken.
 
 use core::ops::Range;
 
 use super::cell::{Anchor, Cell};
 use super::frame_pose::FramePose;
-use super::sides::{Side, SideEvidence, SideFigures, SideStep};
+use super::sides::{Rival, Side, SideEvidence, SideFigures, SideStep};
 use crate::pose::{Pose, geodesic_deg};
 
 /// Every so many frames both sides are looked at; more often in a short film.
@@ -13,15 +14,17 @@ const LEAST: usize = 6;
 /// Where there is no other side, it fits so many times worse.
 const NO_OTHER: f64 = 10.0;
 
-/// A frame seen from both sides.
+/// A frame seen from both sides, or from elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideSample {
     /// Number of the frame.
     pub frame: usize,
     /// The pose on the trail.
     pub own: FramePose,
-    /// Its mirror image ([`super::mirrored_pose`]), where there is one.
-    pub mirrored: Option<FramePose>,
+    /// What the other pose is.
+    pub rival: Rival,
+    /// The other pose ([`super::mirrored_pose`], [`super::elsewhere()`]), where there is one.
+    pub other: Option<FramePose>,
     /// Whether a person gave the pose.
     pub fixed: bool,
 }
@@ -36,23 +39,37 @@ impl SideSample {
             tilt_deg: tilt_deg(&found.pose),
         };
         let own = figures(&self.own);
+        // Where there is no other side, that speaks for the own; where starts beside it lead back to it, for nothing.
         let none = SideFigures {
-            misfit_px: NO_OTHER * own.misfit_px,
+            misfit_px: match self.rival {
+                Rival::Mirrored => NO_OTHER * own.misfit_px,
+                Rival::Elsewhere => own.misfit_px,
+            },
             tilt_deg: None,
         };
-        // Where a person has chosen, the own side is the right one.
-        let mirrored = self.mirrored.filter(|_| !self.fixed);
+        let other = self.free();
         let apart = |other: FramePose| geodesic_deg(&self.own.pose.rotation, &other.pose.rotation);
         SideEvidence {
             frame: self.frame,
             own,
-            mirrored: mirrored.as_ref().map_or(none, figures),
-            apart_deg: mirrored.map_or(180.0, apart),
+            mirrored: other.as_ref().map_or(none, figures),
+            apart_deg: other.map_or(180.0, apart),
+            rival: self.rival,
         }
     }
 
-    fn has_other_side(&self) -> bool {
-        self.mirrored.is_some() && !self.fixed
+    /// The other pose; none where a person has chosen.
+    fn free(&self) -> Option<FramePose> {
+        self.other.filter(|_| !self.fixed)
+    }
+
+    /// The mirror image of what a cell has now, which may have gone over to the other side since both were seen.
+    #[must_use]
+    pub fn mirrored_now(&self, now: &FramePose) -> Option<FramePose> {
+        match now == &self.own {
+            true => self.other,
+            false => Some(self.own),
+        }
     }
 }
 
@@ -64,8 +81,9 @@ pub fn frames_for_sides(cells: &[Cell]) -> impl Iterator<Item = usize> + '_ {
     posed().enumerate().filter(wanted).map(|(_, frame)| frame)
 }
 
-/// Runs of frames, of a film of `frames`, in which the other side is the right one, each with the frame to follow it from.
-pub fn mirrored_runs<'s>(
+/// Runs of frames, of a film of `frames`, in which the other pose is the right one by the `steps` of [`super::choose_sides`], each
+/// with the frame to follow it from.
+pub fn runs_to_go_over<'s>(
     samples: &'s [SideSample],
     steps: &'s [SideStep],
     frames: usize,
@@ -82,7 +100,7 @@ pub fn mirrored_runs<'s>(
             let behind = samples.get(at).map_or(frames, |next| {
                 usize::midpoint(samples[at - 1].frame, next.frame) + 1
             });
-            let anchor = best_mirrored(&samples[begin..at]);
+            let anchor = best_other(&samples[begin..at]);
             if let (Side::Mirrored, Some(anchor)) = (side, anchor) {
                 return Some((first..behind, anchor));
             }
@@ -91,28 +109,49 @@ pub fn mirrored_runs<'s>(
     })
 }
 
-fn best_mirrored(samples: &[SideSample]) -> Option<Anchor> {
+fn best_other(samples: &[SideSample]) -> Option<Anchor> {
     // What a person gave stays, even where the film speaks for the other side.
-    let free = samples.iter().filter(|sample| !sample.fixed);
-    let mirrored = free.filter_map(|sample| {
+    let others = samples.iter().filter_map(|sample| {
         Some(Anchor {
             frame: sample.frame,
-            found: sample.mirrored?,
+            found: sample.free()?,
             fixed: false,
         })
     });
-    mirrored.max_by(|a, b| a.found.score().total_cmp(&b.found.score()))
+    others.max_by(|a, b| a.found.score().total_cmp(&b.found.score()))
 }
 
-/// By how much the other side of a frame is less likely, by the nearest frame that was seen from both; `None` where there is
-/// no other side.
+/// By how much another pose of a frame is less likely than its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideMargin {
+    /// What the other pose is.
+    pub rival: Rival,
+    /// 1 is what a frame says that decides by itself.
+    pub margin: f64,
+}
+
+/// By how much the other pose of a frame is less likely, by the nearest frame that was seen with it; `None` where there is
+/// none.
 #[must_use]
-pub fn side_margin(samples: &[SideSample], steps: &[SideStep], frame: usize) -> Option<f64> {
+pub fn side_margin(samples: &[SideSample], steps: &[SideStep], frame: usize) -> Option<SideMargin> {
     let away = |&k: &usize| samples[k].frame.abs_diff(frame);
     let nearest = (0..samples.len().min(steps.len())).min_by_key(away)?;
-    samples[nearest]
-        .has_other_side()
-        .then(|| steps[nearest].margin)
+    let rival = samples[nearest].rival;
+    samples[nearest].free()?;
+    let step = &steps[nearest];
+    let margin = match (rival, step.side) {
+        // Nothing went over to what leaves less.
+        (Rival::Elsewhere, Side::Mirrored) => 0.0,
+        _ => step.margin,
+    };
+    Some(SideMargin { rival, margin })
+}
+
+/// The more likely of two other poses of a frame.
+#[must_use]
+pub fn nearer_rival(one: Option<SideMargin>, other: Option<SideMargin>) -> Option<SideMargin> {
+    let both = one.into_iter().chain(other);
+    both.min_by(|one, other| one.margin.total_cmp(&other.margin))
 }
 
 #[cfg(test)]
@@ -150,14 +189,15 @@ mod tests {
                 frame: 4 * frame,
                 own: pose(0.0, 0.8),
                 // The given frame's mirror image fits best of all.
-                mirrored: Some(pose(0.3, if frame == 0 { 0.1 } else { 0.3 })),
+                rival: Rival::Mirrored,
+                other: Some(pose(0.3, if frame == 0 { 0.1 } else { 0.3 })),
                 fixed: frame == 0,
             })
             .collect();
         let evidence: Vec<SideEvidence> = samples.iter().map(|s| s.evidence(|_| None)).collect();
         let mut steps = [SideStep::default(); 6];
         choose_sides(&evidence, &mut steps);
-        let runs: Vec<(Range<usize>, Anchor)> = mirrored_runs(&samples, &steps, 24).collect();
+        let runs: Vec<(Range<usize>, Anchor)> = runs_to_go_over(&samples, &steps, 24).collect();
         assert_eq!(runs.len(), 1);
         assert_ne!(runs[0].1.frame, 0);
         assert_eq!(side_margin(&samples, &steps, 1), None);

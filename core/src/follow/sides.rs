@@ -16,17 +16,28 @@ pub struct SideFigures {
     pub tilt_deg: Option<f64>,
 }
 
-/// What a frame says of a pose and of its mirror image.
+/// What another pose of a frame is to the one on the trail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rival {
+    /// Its mirror image, which leaves as much but for what differs between model and part: misfits are a hint only.
+    Mirrored,
+    /// Another minimum ([`super::elsewhere`]): the right one of the two leaves less.
+    Elsewhere,
+}
+
+/// What a frame says of a pose and of another one, its mirror image before all.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideEvidence {
     /// Number of the frame.
     pub frame: usize,
     /// Of the pose on the trail.
     pub own: SideFigures,
-    /// Of its mirror image.
+    /// Of the other one.
     pub mirrored: SideFigures,
     /// Turn between the two, degrees.
     pub apart_deg: f64,
+    /// What the other pose is.
+    pub rival: Rival,
 }
 
 /// Which of the two is the right one.
@@ -54,20 +65,26 @@ pub struct SideStep {
 const ONE_DEG: f64 = 4.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
+/// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
+pub(super) const ELSEWHERE_RATIO: f64 = 1.1;
 /// What residuals say that decide nothing by themselves.
 const HINT: f64 = 0.25;
 /// The most that one frame says.
-const MOST: f64 = 2.0;
+pub(super) const MOST: f64 = 2.0;
 
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.
     fn for_own(&self) -> f64 {
-        if self.apart_deg < ONE_DEG {
+        if self.meet() {
             return 0.0;
         }
         let ratio = self.mirrored.misfit_px / self.own.misfit_px;
-        let residual = ln(ratio.clamp(0.1, 10.0)) / ln(DECISIVE_RATIO);
-        if residual.abs() >= 1.0 {
+        let decisive = match self.rival {
+            Rival::Mirrored => DECISIVE_RATIO,
+            Rival::Elsewhere => ELSEWHERE_RATIO,
+        };
+        let residual = ln(ratio.clamp(0.1, 10.0)) / ln(decisive);
+        if residual.abs() >= 1.0 || self.rival == Rival::Elsewhere {
             return residual.clamp(-MOST, MOST);
         }
         let tilt = match (self.own.tilt_deg, self.mirrored.tilt_deg) {
@@ -86,10 +103,15 @@ impl SideEvidence {
     /// What it costs to go over to the other side on the way to the next frame.
     fn to(&self, next: &Self) -> f64 {
         let [meeting, apart] = GO_OVER;
-        match self.apart_deg.min(next.apart_deg) < ONE_DEG {
+        match self.meet() || next.meet() {
             true => meeting,
             false => apart,
         }
+    }
+
+    /// Whether both sides of a mirror are one here.
+    fn meet(&self) -> bool {
+        self.rival == Rival::Mirrored && self.apart_deg < ONE_DEG
     }
 }
 
@@ -143,6 +165,7 @@ mod tests {
             own: figures(1.0, 0),
             mirrored: figures(ratio, 1),
             apart_deg,
+            rival: Rival::Mirrored,
         }
     }
 

@@ -4,6 +4,8 @@ use core::fmt;
 
 use super::frame_pose::FramePose;
 use super::motion::between;
+use super::side_samples::SideMargin;
+use super::sides::Rival;
 use super::trail::apart;
 use crate::math::Vector3;
 use crate::pose::Pose;
@@ -13,8 +15,8 @@ use crate::pose::Pose;
 pub struct FrameEvidence {
     /// The pose; none where none was found.
     pub found: Option<FramePose>,
-    /// By how much the mirror image is less likely over the film; `None` where there is no other side.
-    pub side_margin: Option<f64>,
+    /// By how much another pose, its mirror image before all, is less likely over the film; `None` where there is none.
+    pub side_margin: Option<SideMargin>,
     /// What another way to this frame, from the other end, came to.
     pub other_way: Option<Pose>,
     /// The other component's distance from the camera, at the middle of its box, mm.
@@ -79,8 +81,8 @@ impl TrustLimits {
 /// Why a pose is to be looked at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Distrust {
-    /// Its mirror image is as likely.
-    Side,
+    /// Another pose is as likely.
+    Side(Rival),
     /// The ways from both ends lead to different poses: degrees.
     Ways(f64),
     /// It lies off the way between the frames on both sides: degrees, mm.
@@ -106,7 +108,7 @@ impl Distrust {
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
-            Self::Side => "ambiguous",
+            Self::Side(_) => "ambiguous",
             Self::Ways(_) => "two ways",
             Self::Jump(..) => "jump",
             Self::Faint(_) => "faint",
@@ -121,7 +123,10 @@ impl Distrust {
 impl fmt::Display for Distrust {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            Self::Side => f.write_str("its mirror image is as likely"),
+            Self::Side(Rival::Mirrored) => f.write_str("its mirror image is as likely"),
+            Self::Side(Rival::Elsewhere) => {
+                f.write_str("a pose some degrees beside it, which is no mirror image, is as likely")
+            }
             Self::Ways(deg) => write!(
                 f,
                 "the ways from both ends of the film come to poses {deg:.1} degrees apart"
@@ -253,13 +258,13 @@ fn judge(
             worst.distrust = (badness > 1.0).then_some(distrust);
         }
     };
-    if let Some(margin) = one.side_margin {
+    if let Some(SideMargin { rival, margin }) = one.side_margin {
         let open = if margin < limits.side {
             2.0 - margin
         } else {
             0.0
         };
-        weigh(open, Distrust::Side);
+        weigh(open, Distrust::Side(rival));
     }
     if let Some(other) = &one.other_way {
         let [deg, _] = apart(other, &found.pose, middle);

@@ -4,9 +4,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
-use fluoropose::follow::{Conclusion, Following, KnownFemur, State, Subject};
+use fluoropose::follow::{
+    Conclusion, Following, KnownFemur, State, Subject, elsewhere, frame_pose_at, mirrored_pose,
+};
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::math::{add, apply, multiply, rotation_by, subtract};
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
@@ -352,6 +355,59 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     };
     let tibia = follow(&tray, &tibiae, &[0, FRAMES - 1], Some(known));
     assert_followed(&tibia.conclude(&femur.depths()), &tibiae, &[0, FRAMES - 1]);
+}
+
+#[test]
+fn from_a_false_pose_turned_to_any_side_the_right_one_is_seen_elsewhere() {
+    let (thigh, tray) = (femur(), tibia());
+    let at = &deep_knee_bend(80, Side::Left, &thigh, 70.0, 1)[30];
+    let grey = frame([(&thigh, at.femur, 120.0), (&tray, at.tibia, 70.0)], 0);
+    let frame = Frame::new(&grey, SIDE, SIDE, SIDE).expect("fits");
+    let image = ImageTarget {
+        frame: &frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: None,
+    };
+    let camera = Camera::from_principal_distance(SIDE, SIDE, 1200.0, 0.746, [0.0, 0.0]);
+    let camera = camera.expect("valid");
+    for (part, truth) in [
+        (&thigh, Pose::from(at.femur)),
+        (&tray, Pose::from(at.tibia)),
+    ] {
+        let model = surface(part.clone());
+        let model = model.as_model();
+        let planes = symmetry_planes(model.mesh());
+        let subject = Subject::new(&model, &planes, &camera);
+        let mut buffers = RefineBuffers::default();
+        let mut memory = buffers.borrow(&model, &camera);
+        for side in 0..8 {
+            let (sin, cos) = (f64::from(side) * 0.7 + 0.2).sin_cos();
+            let turn = rotation_by(&[0.14 * cos, 0.14 * sin, 0.0]);
+            // About the middle of the component, as far as it lies off the view's axis.
+            let middle = truth.transform(&model.bounds().centre);
+            let turned = Pose {
+                rotation: multiply(&turn, &truth.rotation),
+                translation: add(
+                    &apply(&turn, &subtract(&truth.translation, &middle)),
+                    &middle,
+                ),
+            };
+            let own = frame_pose_at(&subject, &image, &turned, &mut memory).expect("drawn");
+            let other = elsewhere(&subject, &image, (&own, None), &mut memory).expect("found");
+            let off = geodesic_deg(&other.pose.rotation, &truth.rotation);
+            assert!(off < 2.0, "side {side}: {off} degrees");
+            // Where it and its mirror image are known, what else there is leaves more.
+            let mirrored = mirrored_pose(&subject, &image, &other, &mut memory);
+            let known = (&other, mirrored.as_ref());
+            let else_there = elsewhere(&subject, &image, known, &mut memory);
+            let ratio = else_there.map(|there| there.misfit_px / other.misfit_px);
+            assert!(
+                ratio.is_none_or(|ratio| ratio > 1.1),
+                "side {side}: {ratio:?}"
+            );
+        }
+    }
 }
 
 /// A femur that rests for some frames, is gone for ten, and rests elsewhere for eight; its poses before and after.

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::follow::cell::{Anchor, Cell};
+use crate::follow::crossing::Crossing;
 use crate::follow::frame_pose::{FramePose, frame_pose_at};
 use crate::follow::look::{Looked, look};
 use crate::follow::meeting::{have_met, join_ways};
@@ -41,6 +42,10 @@ pub(super) enum Task {
     },
     /// A frame is seen from the other side of the mirror too.
     BothSides(usize),
+    /// A frame is looked at from starts beside its pose.
+    Elsewhere(usize),
+    /// A jump is crossed.
+    Crossing(Box<Crossing>),
     /// A frame that stands out is looked at once more.
     Again(Box<SecondLook>),
 }
@@ -49,13 +54,15 @@ impl Task {
     /// The frame that is to be looked at; `None` where it is done.
     pub(super) fn wanted(&mut self) -> Option<usize> {
         match self {
-            Self::Given { frame, .. } | Self::Found { frame, .. } | Self::BothSides(frame) => {
-                Some(*frame)
-            }
+            Self::Given { frame, .. }
+            | Self::Found { frame, .. }
+            | Self::BothSides(frame)
+            | Self::Elsewhere(frame) => Some(*frame),
             Self::Again(look) => Some(look.frame),
             Self::Search { frames, .. } => frames.last().copied(),
             Self::Walk(walk) => walk.way.next(walk.to),
             Self::Span(span) => span.wanted(),
+            Self::Crossing(crossing) => crossing.next(),
         }
     }
 
@@ -72,6 +79,7 @@ impl Task {
         match self {
             Self::Walk(walk) => walk.saw(frame, looked, middle),
             Self::Span(span) => span.saw(which, frame, looked, middle),
+            Self::Crossing(crossing) => crossing.saw(frame, looked, middle),
             _ => {}
         }
         looked.found.ok()
@@ -85,6 +93,7 @@ impl Task {
                 let (which, frame) = span.next()?;
                 Some((&span.ways[which], which, frame))
             }
+            Self::Crossing(crossing) => Some((crossing.way(), 0, crossing.next()?)),
             _ => None,
         }
     }
@@ -101,6 +110,7 @@ impl Task {
                 }
             }
             Self::Span(span) => span.write(cells),
+            Self::Crossing(crossing) => crossing.write(cells),
             _ => {}
         }
     }

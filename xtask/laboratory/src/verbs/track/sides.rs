@@ -3,8 +3,10 @@
 use anyhow::Result;
 use fluoropose::finder::choice::Counterpart;
 use fluoropose::follow::{
-    Anchor, Cell, FramePose, SecondLook, SideEvidence, SideSample, SideStep, choose_sides,
-    frames_for_sides, mirrored_pose, mirrored_runs, second_looks, side_margin,
+    Anchor, Cell, Crossing, FramePose, Looked, ROUNDS, Rival, SecondLook, SideEvidence, SideMargin,
+    SideSample, SideStep, choose_sides, elsewhere, elsewhere_margins, frames_for_sides,
+    frames_to_cross_from, leaves_less, look, mirrored_pose, nearer_rival, runs_elsewhere,
+    runs_to_go_over, second_looks, side_margin,
 };
 use fluoropose::pose::Pose;
 use rayon::prelude::*;
@@ -14,39 +16,109 @@ use super::part::Part;
 use super::record::Record;
 use super::run::Run;
 
-/// By how much the other side of each frame is less likely; `None` where there is none.
-pub(super) type Margins = Vec<Option<f64>>;
+/// By how much another pose of each frame is less likely; `None` where there is none.
+pub(super) type Margins = Vec<Option<SideMargin>>;
 
-/// Chooses the sides of a component; where the other side is the right one it is followed there. `femurs` are the femoral
-/// poses of all frames in the field's axes, for a tibia.
+/// Brings a component to its right side of the mirror and out of false minima. `femurs` are the femoral poses of all frames in the
+/// field's axes, for a tibia.
 pub(super) fn settle(
     run: &Run<'_>,
     part: &Part<'_>,
     femurs: Option<&[Option<Pose>]>,
     cells: &mut [Cell],
 ) -> Result<Margins> {
-    let samples = samples(run, part, cells)?;
+    let mut rounds = ROUNDS;
+    loop {
+        let (samples, steps) = choose(run, part, femurs, cells)?;
+        let beside = seen_elsewhere(run, part, &samples, cells)?;
+        if rounds > 0 && leave_false_minima(run, part, &beside, cells)? {
+            rounds -= 1;
+            continue;
+        }
+        cross_jumps(run, part, cells)?;
+        look_again(run, part, cells)?;
+        let beside = elsewhere_margins(&beside, cells.len());
+        let margin = |(frame, beside)| nearer_rival(side_margin(&samples, &steps, frame), beside);
+        return Ok(beside.into_iter().enumerate().map(margin).collect());
+    }
+}
+
+/// Chooses the sides of a component; where the other side is the right one it is followed there.
+fn choose(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    femurs: Option<&[Option<Pose>]>,
+    cells: &mut [Cell],
+) -> Result<(Vec<SideSample>, Vec<SideStep>)> {
+    let samples = seen_from_both_sides(run, part, cells)?;
     let evidence: Vec<SideEvidence> = samples
         .iter()
         .map(|sample| sample.evidence(|pose| tilt_deg(part, sample.frame, femurs, pose)))
         .collect();
     let mut steps = vec![SideStep::default(); samples.len()];
     choose_sides(&evidence, &mut steps);
-    for (sample, (seen, step)) in samples.iter().zip(evidence.iter().zip(&steps)) {
-        run.debug(|| {
-            format!(
-                "{} frame {}: own {:.3} px {:?}, mirrored {:.3} px {:?}, {:.1} deg apart: {:?} by {:.2}",
-                part.name(), sample.frame + 1, seen.own.misfit_px, seen.own.tilt_deg,
-                seen.mirrored.misfit_px, seen.mirrored.tilt_deg, seen.apart_deg, step.side, step.margin
-            )
-        });
+    for (seen, step) in evidence.iter().zip(&steps) {
+        tell(run, part, seen, Some(step));
     }
-    for (range, anchor) in mirrored_runs(&samples, &steps, cells.len()) {
+    for (range, anchor) in runs_to_go_over(&samples, &steps, cells.len()) {
         go_over(run, part, anchor, range, cells)?;
     }
-    look_again(run, part, cells)?;
-    let margin = |frame| side_margin(&samples, &steps, frame);
-    Ok((0..cells.len()).map(margin).collect())
+    Ok((samples, steps))
+}
+
+/// Goes over to what was seen elsewhere where that is the right one over the film; whether it went anywhere.
+fn leave_false_minima(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    samples: &[SideSample],
+    cells: &mut [Cell],
+) -> Result<bool> {
+    let mut any = false;
+    for (range, anchor) in runs_elsewhere(samples, cells.len()) {
+        let before = cells[range.clone()].to_vec();
+        go_over(run, part, anchor, range.clone(), cells)?;
+        match leaves_less(&cells[range.clone()], &before) {
+            true => any = true,
+            false => cells[range].copy_from_slice(&before),
+        }
+    }
+    Ok(any)
+}
+
+fn tell(run: &Run<'_>, part: &Part<'_>, seen: &SideEvidence, step: Option<&SideStep>) {
+    run.debug(|| {
+        let (own, other) = (seen.own, seen.mirrored);
+        let (name, frame, deg) = (part.name(), seen.frame + 1, seen.apart_deg);
+        format!(
+            "{name} frame {frame}: own {:.3} px {:?}, {:?} {:.3} px {:?}, {deg:.1} deg apart: {step:?}",
+            own.misfit_px, own.tilt_deg, seen.rival, other.misfit_px, other.tilt_deg
+        )
+    });
+}
+
+/// Follows the frames on either side of jumps from the other side.
+fn cross_jumps(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
+    let middle = part.middle();
+    for (from, forward) in frames_to_cross_from(cells, &middle) {
+        let Some(mut crossing) = Crossing::over(cells, from, forward, &middle) else {
+            continue;
+        };
+        let mut bits = 0;
+        while let Some(frame) = crossing.next() {
+            let trail = crossing.way().trail();
+            let expected = trail.expect(frame, &middle).pose.rotation;
+            bits = bits_of(expected.into_iter().flatten().chain([f64::from_bits(bits)]));
+            let key = format!("cross/{}/{}/{frame}/{bits:x}", part.number, part.phase());
+            let looked: Looked = run.journal.step(&key, || {
+                part.see(run.film, frame, |subject, image, memory| {
+                    look(subject, image, frame, trail, memory)
+                })
+            })?;
+            crossing.saw(frame, looked, &middle);
+        }
+        crossing.write(cells);
+    }
+    Ok(())
 }
 
 /// Looks once more at frames that stand out.
@@ -114,26 +186,65 @@ fn go_over(
     follow(run, part, &[anchor], range, cells)
 }
 
-fn samples(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<SideSample>> {
+fn seen_from_both_sides(run: &Run<'_>, part: &Part<'_>, cells: &[Cell]) -> Result<Vec<SideSample>> {
     let wanted: Vec<usize> = frames_for_sides(cells).collect();
+    seen(run, part, cells, Rival::Mirrored, &wanted, |frame, own| {
+        part.see(run.film, frame, |subject, image, memory| {
+            mirrored_pose(subject, image, own, memory)
+        })
+    })
+}
+
+fn seen_elsewhere(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    samples: &[SideSample],
+    cells: &[Cell],
+) -> Result<Vec<SideSample>> {
+    let wanted = samples.iter().map(|sample| sample.frame);
+    let wanted: Vec<usize> = wanted.filter(|&frame| !cells[frame].fixed).collect();
+    let mirrored = |frame: usize, own: &FramePose| {
+        let sample = samples.iter().find(|sample| sample.frame == frame)?;
+        sample.mirrored_now(own)
+    };
+    let beside = seen(run, part, cells, Rival::Elsewhere, &wanted, |frame, own| {
+        part.see(run.film, frame, |subject, image, memory| {
+            elsewhere(subject, image, (own, mirrored(frame, own).as_ref()), memory)
+        })
+    })?;
+    for sample in &beside {
+        tell(run, part, &sample.evidence(|_| None), None);
+    }
+    Ok(beside)
+}
+
+/// Looks at some frames for another pose.
+fn seen(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    cells: &[Cell],
+    rival: Rival,
+    frames: &[usize],
+    look: impl Fn(usize, &FramePose) -> Result<Option<FramePose>> + Sync,
+) -> Result<Vec<SideSample>> {
+    let what = match rival {
+        Rival::Mirrored => "mirror",
+        Rival::Elsewhere => "elsewhere",
+    };
     let sample = |&frame: &usize| -> Result<Option<SideSample>> {
         let Some(&own) = cells[frame].found() else {
             return Ok(None);
         };
         let bits = bits_of(own.numbers().into_iter());
-        let key = format!("mirror/{}/{}/{frame}/{bits:x}", part.number, part.phase());
-        let mirrored = run.journal.step(&key, || {
-            part.see(run.film, frame, |subject, image, memory| {
-                mirrored_pose(subject, image, &own, memory)
-            })
-        })?;
+        let key = format!("{what}/{}/{}/{frame}/{bits:x}", part.number, part.phase());
         Ok(Some(SideSample {
             frame,
             own,
-            mirrored,
+            rival,
+            other: run.journal.step(&key, || look(frame, &own))?,
             fixed: cells[frame].fixed,
         }))
     };
-    let samples: Vec<Option<SideSample>> = wanted.par_iter().map(sample).collect::<Result<_>>()?;
+    let samples: Vec<Option<SideSample>> = frames.par_iter().map(sample).collect::<Result<_>>()?;
     Ok(samples.into_iter().flatten().collect())
 }

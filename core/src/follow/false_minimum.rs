@@ -1,0 +1,160 @@
+//! Whether a trail lies in a false minimum: what was seen elsewhere, over the film, and the way from there.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use super::cell::{Anchor, Cell};
+use super::side_samples::{SideMargin, SideSample, runs_to_go_over, side_margin};
+use super::sides::{Side, SideEvidence, SideStep, choose_sides};
+use crate::math::ln;
+
+/// So often a film may go over to what was seen elsewhere: from one minimum to another, and from there once more.
+pub const ROUNDS: usize = 2;
+/// By so much what was seen elsewhere must be more likely.
+const WORTH: f64 = 1.0;
+
+/// Runs of frames, of a film of `frames`, in which what was seen elsewhere is the right one, each with the frame to follow it
+/// from. They are to be kept where that way [`leaves_less`], and all frames seen anew, at most [`ROUNDS`] times.
+#[must_use]
+pub fn runs_elsewhere(samples: &[SideSample], frames: usize) -> Vec<(Range<usize>, Anchor)> {
+    let mut steps = elsewhere_steps(samples);
+    for step in steps.iter_mut().filter(|step| step.margin < WORTH) {
+        step.side = Side::Own;
+    }
+    runs_to_go_over(samples, &steps, frames).collect()
+}
+
+/// By how much what was seen elsewhere is less likely than the trail, in each frame of a film; `None` where nothing was.
+#[must_use]
+pub fn elsewhere_margins(samples: &[SideSample], frames: usize) -> Vec<Option<SideMargin>> {
+    let steps = elsewhere_steps(samples);
+    let margin = |frame| side_margin(samples, &steps, frame);
+    (0..frames).map(margin).collect()
+}
+
+/// What the film says of the trail and of what was seen elsewhere.
+fn elsewhere_steps(samples: &[SideSample]) -> Vec<SideStep> {
+    let evidence = samples.iter().map(|sample| sample.evidence(|_| None));
+    let evidence: Vec<SideEvidence> = evidence.collect();
+    let mut steps = vec![SideStep::default(); evidence.len()];
+    choose_sides(&evidence, &mut steps);
+    steps
+}
+
+/// Whether another way through some frames leaves less than the one before: over those in which both have the component; or
+/// has it in more frames.
+#[must_use]
+pub fn leaves_less(other: &[Cell], before: &[Cell]) -> bool {
+    let count = |cells: &[Cell]| cells.iter().filter(|cell| cell.found().is_some()).count();
+    let both = other.iter().zip(before);
+    let ratios = both.filter_map(|(other, before)| {
+        let (other, before) = (other.found()?, before.found()?);
+        Some(ln(
+            before.misfit_px.max(f64::MIN_POSITIVE) / other.misfit_px.max(f64::MIN_POSITIVE)
+        ))
+    });
+    count(other) >= count(before) && ratios.sum::<f64>() > 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::contrast::Contrast;
+    use crate::follow::{FramePose, Looked, Rival};
+    use crate::math::{radians, rotation_by};
+    use crate::pose::Pose;
+    use crate::refine::Fit;
+
+    fn pose(turn_deg: f64, misfit_px: f64) -> FramePose {
+        FramePose {
+            pose: Pose {
+                rotation: rotation_by(&[radians(turn_deg), 0.0, 0.0]),
+                translation: [0.0, 0.0, -1000.0],
+            },
+            covariance: None,
+            fit: Fit::default(),
+            misfit_px,
+            contrast: Contrast {
+                step: 50.0,
+                strength: 1.0,
+                known: 1.0,
+            },
+        }
+    }
+
+    /// A film whose other minimum leaves so many times as much, seen in every second frame.
+    fn film(ratios: &[f64]) -> Vec<SideSample> {
+        let sample = |(k, &ratio): (usize, &f64)| SideSample {
+            frame: 2 * k + 1,
+            own: pose(0.0, 0.6),
+            rival: Rival::Elsewhere,
+            other: Some(pose(8.0, 0.6 * ratio)),
+            fixed: false,
+        };
+        ratios.iter().enumerate().map(sample).collect()
+    }
+
+    fn runs(samples: &[SideSample]) -> Vec<Range<usize>> {
+        let runs = runs_elsewhere(samples, 2 * samples.len()).into_iter();
+        runs.map(|(run, _)| run).collect()
+    }
+
+    #[test]
+    fn a_trail_that_slid_goes_back_to_what_leaves_less() {
+        let slid = film(&[0.82, 0.9, 0.84, 0.8, 1.02, 0.83, 1.1, 1.15, 1.2, 1.1, 1.2]);
+        assert_eq!(runs(&slid).as_slice(), core::slice::from_ref(&(0..13)));
+        // One frame that errs, and a film that says as much of both.
+        assert!(runs(&film(&[1.2, 1.1, 0.8, 1.2, 1.1])).is_empty());
+        assert!(runs(&film(&[0.98, 1.01, 0.97, 1.0])).is_empty());
+        let margins = elsewhere_margins(&film(&[0.98, 1.01, 0.97, 1.0]), 8);
+        assert!(
+            margins
+                .iter()
+                .all(|margin| margin.is_some_and(|one| one.margin < 1.0))
+        );
+        let margins = elsewhere_margins(&slid, 22);
+        assert!(
+            margins[..13]
+                .iter()
+                .all(|margin| margin.is_some_and(|one| one.margin == 0.0))
+        );
+        assert!(
+            margins[15..]
+                .iter()
+                .all(|margin| margin.is_some_and(|one| one.margin > 1.0))
+        );
+    }
+
+    #[test]
+    fn what_a_person_gave_stays_and_nothing_elsewhere_says_nothing() {
+        let mut given = film(&[0.8; 6]);
+        given.iter_mut().for_each(|sample| sample.fixed = true);
+        assert!(runs(&given).is_empty());
+        assert_eq!(elsewhere_margins(&given, 3), [None; 3]);
+        let mut alone = film(&[0.8; 6]);
+        alone.iter_mut().for_each(|sample| sample.other = None);
+        assert!(runs(&alone).is_empty());
+    }
+
+    #[test]
+    fn a_way_is_kept_where_it_leaves_less_in_no_fewer_frames() {
+        let way = |misfits: &[f64]| -> Vec<Cell> {
+            let cell = |&misfit_px: &f64| {
+                Cell::on_the_way(Looked {
+                    found: Ok(pose(0.0, misfit_px)),
+                    ordinary: true,
+                    searched: false,
+                    known: 1.0,
+                })
+            };
+            misfits.iter().map(cell).collect()
+        };
+        let before = way(&[0.6, 0.7, 0.65]);
+        assert!(leaves_less(&way(&[0.5, 0.72, 0.6]), &before));
+        assert!(!leaves_less(&way(&[0.64, 0.72, 0.62]), &before));
+        let mut shorter = way(&[0.5, 0.5, 0.5]);
+        shorter[2] = Cell::default();
+        assert!(!leaves_less(&shorter, &before));
+    }
+}
