@@ -54,13 +54,14 @@ impl Opening<'_> {
         self.fill_specks();
         region.clear();
         doubt.clear();
-        for (index, &mark) in self.marks.iter().enumerate() {
-            let (column, row) = self.window.place(index);
-            let (column, row) = (self.window.left + column, self.window.top + row);
-            if mark & KEPT != 0 {
-                region.set(column, row, true);
-            } else if mark & LEVEL != 0 {
-                doubt.set(column, row, true);
+        for (row, marks) in self.marks.chunks(self.window.width).enumerate() {
+            let row = self.window.top + row;
+            for (column, &mark) in marks.iter().enumerate() {
+                if mark & KEPT != 0 {
+                    region.set(self.window.left + column, row, true);
+                } else if mark & LEVEL != 0 {
+                    doubt.set(self.window.left + column, row, true);
+                }
             }
         }
     }
@@ -88,13 +89,12 @@ impl Opening<'_> {
     /// The pixel at or below a threshold that is farthest from all pixels above it and from the window's border; `None`
     /// where there is no such pixel.
     pub(super) fn thickest(&mut self, level: u16) -> Option<usize> {
-        let (width, height) = (self.window.width, self.window.height);
-        for index in 0..self.window.pixels() {
-            let (column, row) = self.window.place(index);
-            let inner = column > 0 && row > 0 && column + 1 < width && row + 1 < height;
-            let dark = self.reached.get(index).is_some_and(|&grey| grey <= level);
+        for (mark, &grey) in self.marks.iter_mut().zip(self.reached) {
+            *mark = if grey <= level { LEVEL } else { 0 };
+        }
+        for index in border(&self.window) {
             if let Some(mark) = self.marks.get_mut(index) {
-                *mark = if inner && dark { LEVEL } else { 0 };
+                *mark = 0;
             }
         }
         self.measure(|mark| mark & LEVEL == 0);
@@ -128,84 +128,131 @@ impl Opening<'_> {
         for (distance, &mark) in self.distance.iter_mut().zip(&*self.marks) {
             *distance = if is_source(mark) { 0 } else { u16::MAX };
         }
-        let (width, height) = (self.window.width, self.window.height);
-        let mut relax = |column: usize, row: usize, up: bool| {
-            let other = if up { row.wrapping_sub(1) } else { row + 1 };
-            let beside = if up {
-                column.wrapping_sub(1)
-            } else {
-                column + 1
-            };
-            let index = row * width + column;
-            let near = [
-                (beside, row, SIDE),
-                (column, other, SIDE),
-                (column.wrapping_sub(1), other, CORNER),
-                (column + 1, other, CORNER),
-            ];
-            let mut least = self.distance.get(index).copied().unwrap_or(0);
-            for (column, row, step) in near {
-                if column < width && row < height {
-                    let there = self.distance.get(row * width + column).copied();
-                    least = least.min(there.unwrap_or(u16::MAX).saturating_add(step));
-                }
-            }
-            if let Some(place) = self.distance.get_mut(index) {
-                *place = least;
-            }
-        };
-        for row in 0..height {
-            (0..width).for_each(|column| relax(column, row, true));
+        let (width, pixels) = (self.window.width, self.window.pixels());
+        for first in (0..pixels).step_by(width) {
+            let (above, rest) = self.distance.split_at_mut(first);
+            let row = rest.get_mut(..width).unwrap_or_default();
+            step_from(
+                row,
+                above.get(first.wrapping_sub(width)..).unwrap_or_default(),
+            );
+            step_along(row.iter_mut());
         }
-        for row in (0..height).rev() {
-            (0..width)
-                .rev()
-                .for_each(|column| relax(column, row, false));
+        for first in (0..pixels).step_by(width).rev() {
+            let (rest, below) = self.distance.split_at_mut(first + width);
+            let row = rest.get_mut(first..).unwrap_or_default();
+            step_from(row, below.get(..width).unwrap_or_default());
+            step_along(row.iter_mut().rev());
         }
     }
 
     /// Sets the flag `set` on all pixels connected with `start` whose flags `of` are `are` and which, unless `reach` is 0,
     /// lie deeper than `reach`. Returns their number.
     fn flood(&mut self, start: usize, [of, are]: [u8; 2], set: u8, reach: u16) -> usize {
+        let width = self.window.width;
         let (marks, stack) = (&mut *self.marks, &mut *self.stack);
-        let (distance, window) = (&*self.distance, self.window);
-        let (mut count, mut waiting) = (0, 0);
-        let mut enter = |pixel: usize, stack: &mut [u32], waiting: &mut usize| {
+        let distance = &*self.distance;
+        let is_open = |marks: &[u8], pixel: usize| {
             let deep = reach == 0 || distance.get(pixel).is_some_and(|&d| d > reach);
-            let mark = marks.get_mut(pixel).filter(|mark| **mark & of == are);
-            // Each pixel waits once at most, so there is room.
-            if let (true, Some(mark), Some(place)) = (deep, mark, stack.get_mut(*waiting)) {
+            deep && marks.get(pixel).is_some_and(|&mark| mark & of == are)
+        };
+        let (mut count, mut waiting) = (0, 0);
+        // Each pixel waits once at most, so there is room.
+        let enter = |pixel: usize, marks: &mut [u8], stack: &mut [u32], waiting: &mut usize| {
+            if let (Some(mark), Some(place)) = (marks.get_mut(pixel), stack.get_mut(*waiting)) {
                 *mark |= set;
                 *place = pixel as u32;
                 *waiting += 1;
-                count += 1;
             }
         };
-        enter(start, stack, &mut waiting);
+        if is_open(marks, start) {
+            enter(start, marks, stack, &mut waiting);
+            count += 1;
+        }
         while waiting > 0 {
             waiting -= 1;
             let pixel = stack.get(waiting).copied().unwrap_or(0) as usize;
-            window.neighbours(pixel, |next| enter(next, stack, &mut waiting));
+            let first = pixel - self.window.place(pixel).0;
+            // What is open to both sides of it in its row, which is entered at once.
+            let mut run = pixel..pixel + 1;
+            while run.start > first && is_open(marks, run.start - 1) {
+                run.start -= 1;
+            }
+            while run.end < first + width && is_open(marks, run.end) {
+                run.end += 1;
+            }
+            for index in run.clone().filter(|&index| index != pixel) {
+                if let Some(mark) = marks.get_mut(index) {
+                    *mark |= set;
+                }
+            }
+            count += run.len() - 1;
+            // Of the runs beside it in the rows above and below one pixel each waits.
+            let above = first.checked_sub(width).map(|_| width);
+            let below = (first + width < self.window.pixels()).then_some(width);
+            for (row, up) in [(above, true), (below, false)] {
+                let Some(row) = row else { continue };
+                let beside = |index: usize| if up { index - row } else { index + row };
+                let mut before = false;
+                for index in run.clone() {
+                    let next = beside(index);
+                    let open = is_open(marks, next);
+                    if open && !before {
+                        enter(next, marks, stack, &mut waiting);
+                        count += 1;
+                    }
+                    before = open;
+                }
+            }
         }
         count
     }
 
     /// Fills small holes, which noise makes and no implant has.
     fn fill_specks(&mut self) {
-        let (width, height) = (self.window.width, self.window.height);
-        for index in 0..self.window.pixels() {
-            let (column, row) = self.window.place(index);
-            if column == 0 || row == 0 || column + 1 == width || row + 1 == height {
-                self.flood(index, [KEPT | OUTSIDE, 0], OUTSIDE, 0);
-            }
+        for index in border(&self.window) {
+            self.flood(index, [KEPT | OUTSIDE, 0], OUTSIDE, 0);
         }
         let area = self.marks.iter().filter(|mark| **mark & KEPT != 0).count();
+        let covered = KEPT | OUTSIDE | HOLE;
         for index in 0..self.window.pixels() {
-            let hole = self.flood(index, [KEPT | OUTSIDE | HOLE, 0], HOLE, 0);
-            if hole > 0 && (hole as f64) < SPECK * area as f64 {
+            if self.marks.get(index).is_none_or(|mark| mark & covered != 0) {
+                continue;
+            }
+            let hole = self.flood(index, [covered, 0], HOLE, 0);
+            if (hole as f64) < SPECK * area as f64 {
                 self.flood(index, [HOLE | KEPT, HOLE], KEPT, 0);
             }
         }
+    }
+}
+
+/// The pixels along the sides of a window; those in its corners may come twice.
+fn border(window: &Window) -> impl Iterator<Item = usize> + use<> {
+    let (width, pixels) = (window.width, window.pixels());
+    let sides = (0..pixels).step_by(width);
+    let ends = (0..width).chain(pixels.saturating_sub(width)..pixels);
+    ends.chain(sides.flat_map(move |first| [first, first + width - 1]))
+}
+
+/// Lowers the distances of a row to what a step from the row beside it leads to; that is empty where there is none.
+fn step_from(row: &mut [u16], beside: &[u16]) {
+    let lower = |row: &mut [u16], beside: &[u16], step: u16| {
+        for (here, there) in row.iter_mut().zip(beside) {
+            *here = (*here).min(there.saturating_add(step));
+        }
+    };
+    lower(row, beside, SIDE);
+    lower(row, beside.get(1..).unwrap_or_default(), CORNER);
+    lower(row.get_mut(1..).unwrap_or_default(), beside, CORNER);
+}
+
+/// Lowers the distances of a row to what steps from one to the next lead to.
+fn step_along<'d>(row: impl Iterator<Item = &'d mut u16>) {
+    let mut last = u16::MAX;
+    for here in row {
+        *here = (*here).min(last.saturating_add(SIDE));
+        last = *here;
     }
 }
 
@@ -294,6 +341,89 @@ mod tests {
             // Between the blocks and in the other one nothing is certain.
             assert!(doubt.get(33, 19) && doubt.get(other.0, other.1));
             assert!(!region.get(33, 19) && !doubt.get(33, 10));
+        }
+    }
+
+    fn random(seed: u64, of: u64) -> std::vec::Vec<u8> {
+        let mut state = seed;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 33) % of
+        };
+        (0..WIDTH * HEIGHT).map(|_| next() as u8).collect()
+    }
+
+    /// Oracle: steps from pixel to pixel until nothing changes.
+    fn naive_distance(sources: &[bool]) -> std::vec::Vec<u16> {
+        let far = |&source: &bool| if source { 0 } else { u16::MAX };
+        let mut distance: std::vec::Vec<u16> = sources.iter().map(far).collect();
+        loop {
+            let before = distance.clone();
+            for (index, here) in distance.iter_mut().enumerate() {
+                let (column, row) = (index % WIDTH, index / WIDTH);
+                for (c, r) in (0..9).map(|k| (column + k % 3, row + k / 3)) {
+                    if (1..=WIDTH).contains(&c) && (1..=HEIGHT).contains(&r) {
+                        let across = c != column + 1 && r != row + 1;
+                        let step = if across { CORNER } else { SIDE };
+                        let there = before[(r - 1) * WIDTH + c - 1].saturating_add(step);
+                        *here = (*here).min(there);
+                    }
+                }
+            }
+            if distance == before {
+                return distance;
+            }
+        }
+    }
+
+    #[test]
+    fn distances_and_floods_are_those_of_the_definition() {
+        let window = Window {
+            left: 0,
+            top: 0,
+            width: WIDTH,
+            height: HEIGHT,
+        };
+        for seed in 0..12 {
+            // From a few sources to a maze.
+            let marks = random(seed, 2 + seed % 4);
+            let marks: std::vec::Vec<u8> = marks.iter().map(|&k| u8::from(k == 0)).collect();
+            let sources: std::vec::Vec<bool> = marks.iter().map(|&mark| mark == 0).collect();
+            let mut opening = Opening {
+                window,
+                reached: &[],
+                distance: &mut std::vec![0; marks.len()],
+                marks: &mut marks.clone(),
+                stack: &mut std::vec![0; marks.len()],
+            };
+            opening.measure(|mark| mark == 0);
+            assert_eq!(opening.distance, naive_distance(&sources));
+            for start in [0, 100, 1000, marks.len() - 1] {
+                for reach in [0, SIDE] {
+                    opening.marks.copy_from_slice(&marks);
+                    let count = opening.flood(start, [LEVEL | KEPT, LEVEL], KEPT, reach);
+                    let open = |index: usize| {
+                        marks[index] == LEVEL && (reach == 0 || opening.distance[index] > reach)
+                    };
+                    let mut joined = std::vec![false; marks.len()];
+                    joined[start] = open(start);
+                    while {
+                        let before = joined.clone();
+                        for (index, is_in) in joined.iter_mut().enumerate() {
+                            window.neighbours(index, |next| {
+                                *is_in |= before[next] && open(index);
+                            });
+                        }
+                        joined != before
+                    } {}
+                    let kept: std::vec::Vec<bool> =
+                        opening.marks.iter().map(|mark| mark & KEPT != 0).collect();
+                    assert_eq!(kept, joined, "seed {seed}, start {start}, reach {reach}");
+                    assert_eq!(count, joined.iter().filter(|is_in| **is_in).count());
+                }
+            }
         }
     }
 

@@ -61,7 +61,9 @@ impl Window {
 
     /// Column and row of a pixel in the window.
     pub(super) fn place(&self, index: usize) -> (usize, usize) {
-        (index % self.width, index / self.width)
+        // Shorter numbers divide sooner, and a window has no more pixels than they count.
+        let (index, width) = (index as u32, self.width as u32);
+        ((index % width) as usize, (index / width) as usize)
     }
 
     /// Calls `visit` with the pixels above, to the left, to the right and below.
