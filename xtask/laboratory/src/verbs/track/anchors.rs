@@ -39,7 +39,7 @@ pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<(usize, 
 }
 
 /// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
-fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
+pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
     let mut anchors = Vec::new();
     for (frame, pose) in fixed_poses(run, part)? {
         anchors.push(of_person(run, part, frame, &pose)?);
@@ -90,23 +90,18 @@ fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Resul
     })
 }
 
-/// The frames that a component is followed from: those that a person gave, else one in which it is found.
-pub(super) fn begin(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
-    let anchors = given(run, part)?;
-    if !anchors.is_empty() {
-        return Ok(anchors);
+/// A frame that a component is followed from, where it is found in it.
+pub(super) fn found_in(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<Option<Anchor>> {
+    let found = searched(run, part, frame, None)?;
+    if found.is_some() {
+        run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
     }
-    for frame in frames_to_search(&(0..run.film.count())) {
-        if let Some(found) = searched(run, part, frame, None)? {
-            run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
-            return Ok(vec![Anchor {
-                frame,
-                found,
-                fixed: false,
-            }]);
-        }
-    }
-    Ok(Vec::new())
+    let fixed = false;
+    Ok(found.map(|found| Anchor {
+        frame,
+        found,
+        fixed,
+    }))
 }
 
 /// Looks for a component that was not found once more, beside another one: what is the other's is left out of sight.

@@ -1,11 +1,11 @@
 //! How a film shows metal: darker or brighter than what surrounds it.
 
 use anyhow::Result;
-use fluoropose::follow::Anchor;
+use fluoropose::follow::{Anchor, frames_to_search};
 use fluoropose::refine::{Polarity, polarity_at, polarity_near};
 use rayon::prelude::*;
 
-use super::anchors::{begin, begin_beside, fixed_poses};
+use super::anchors::{begin_beside, fixed_poses, found_in, given};
 use super::part::Part;
 use super::run::Run;
 use crate::files::grey;
@@ -15,41 +15,103 @@ use crate::options::most;
 const VOTES: usize = 3;
 
 /// The components, and the frames that each is followed from. Where nobody says how the film shows metal, and nothing is pointed
-/// at that would tell it, metal is looked for as fluoroscopes show it, dark, and where that does not show all components the other
-/// way too: what is found better counts, for a bright thing beside dark ones may be taken for a component.
+/// at that would tell it, metal is looked for as fluoroscopes show it, dark, and where a frame shows nothing so the other way too:
+/// whichever shows a component first is gone on with. Where that does not show all components, what is found better counts, for a
+/// bright thing beside dark ones may be taken for a component.
 pub(super) fn begun<'s>(
     run: &Run<'_>,
     parts: impl Fn(Polarity) -> Result<Vec<Part<'s>>>,
 ) -> Result<(Vec<Part<'s>>, Vec<Vec<Anchor>>)> {
-    let begin_all = |parts: &[Part<'s>]| -> Result<Vec<Vec<Anchor>>> {
-        let alone = parts.par_iter().map(|part| begin(run, part));
-        let alone = alone.collect::<Result<Vec<_>>>()?;
-        let one = |(part, found): (&Part<'s>, &Vec<Anchor>)| {
-            if !found.is_empty() {
-                return Ok(found.clone());
-            }
-            let others = parts.iter().zip(&alone);
-            let others = others.map(|(other, anchors)| (other, anchors.as_slice()));
-            begin_beside(run, part, &others.collect::<Vec<_>>())
-        };
-        parts.iter().zip(&alone).map(one).collect()
-    };
     let told = match run.request.polarity {
         Some(stated) => Some(stated),
         None => told_by_what_is_given(run, &parts(Polarity::default())?)?,
     };
-    let dark = parts(told.unwrap_or_default())?;
-    let anchors = begin_all(&dark)?;
-    if told.is_some() || anchors.iter().all(|anchors| !anchors.is_empty()) {
-        return Ok((dark, anchors));
+    let mut ways = vec![Search::begin(run, parts(told.unwrap_or_default())?)?];
+    if told.is_none() {
+        ways.push(Search::begin(run, parts(Polarity::BrightImplant)?)?);
     }
-    let bright = parts(Polarity::BrightImplant)?;
-    let others = begin_all(&bright)?;
-    Ok(if score(&others) > score(&anchors) {
-        (bright, others)
-    } else {
-        (dark, anchors)
-    })
+    for frame in frames_to_search(&(0..run.film.count())) {
+        for k in 0..ways.len() {
+            let others_lead = (0..ways.len()).any(|other| other != k && !ways[other].is_empty());
+            if !others_lead && ways[k].alone(run, frame)? {
+                return Ok(ways.swap_remove(k).found());
+            }
+        }
+    }
+    ways.sort_by_key(Search::is_empty);
+    for way in &mut ways {
+        for frame in frames_to_search(&(0..run.film.count())) {
+            way.alone(run, frame)?;
+        }
+        if way.beside(run)? {
+            break;
+        }
+    }
+    // Of those that are as good the first.
+    let scored = ways.into_iter().rev().map(|way| (score(&way.anchors), way));
+    let best = scored.max_by(|(one, _), (other, _)| one.total_cmp(other));
+    Ok(best.map_or_else(Default::default, |(_, way)| way.found()))
+}
+
+/// The search for all components of a film that shows metal in one way.
+struct Search<'s> {
+    parts: Vec<Part<'s>>,
+    anchors: Vec<Vec<Anchor>>,
+    /// Frames that were searched.
+    seen: Vec<usize>,
+}
+
+impl<'s> Search<'s> {
+    /// With what a person gave.
+    fn begin(run: &Run<'_>, parts: Vec<Part<'s>>) -> Result<Self> {
+        let anchors = parts.iter().map(|part| given(run, part));
+        let anchors = anchors.collect::<Result<_>>()?;
+        let seen = Vec::new();
+        Ok(Self {
+            parts,
+            anchors,
+            seen,
+        })
+    }
+
+    /// Looks for what is missing in a whole frame; whether all is found then.
+    fn alone(&mut self, run: &Run<'_>, frame: usize) -> Result<bool> {
+        if !self.seen.contains(&frame) {
+            self.seen.push(frame);
+            let both = self.parts.par_iter().zip(&mut self.anchors);
+            both.filter(|(_, anchors)| anchors.is_empty())
+                .try_for_each(|(part, anchors)| -> Result<()> {
+                    anchors.extend(found_in(run, part, frame)?);
+                    Ok(())
+                })?;
+        }
+        Ok(self.is_whole())
+    }
+
+    /// Looks for what is missing beside what was found; whether all is found then.
+    fn beside(&mut self, run: &Run<'_>) -> Result<bool> {
+        let alone = self.anchors.clone();
+        let others = self.parts.iter().zip(&alone);
+        let others: Vec<_> = others.map(|(part, own)| (part, own.as_slice())).collect();
+        for (part, anchors) in self.parts.iter().zip(&mut self.anchors) {
+            if anchors.is_empty() {
+                *anchors = begin_beside(run, part, &others)?;
+            }
+        }
+        Ok(self.is_whole())
+    }
+
+    fn is_whole(&self) -> bool {
+        self.anchors.iter().all(|anchors| !anchors.is_empty())
+    }
+
+    fn is_empty(&self) -> bool {
+        self.anchors.iter().all(Vec::is_empty)
+    }
+
+    fn found(self) -> (Vec<Part<'s>>, Vec<Vec<Anchor>>) {
+        (self.parts, self.anchors)
+    }
 }
 
 /// How well components are found in all: the sum of what the best frame of each scores.
