@@ -40,6 +40,19 @@ pageTest('the joint', async (page, t) => {
     await screenshot(page, 'joint');
   });
   await step(page, t, 'leads to a frame, and has a gap where a pose is missing', () => leads(page, truth));
+  await step(page, t, 'goes on with the film that plays', async () => {
+    const shownNow = () => page.getByRole('application', { name: /frame \d+ of 8/ }).getAttribute('aria-label');
+    const before = await shownNow();
+    await page.getByRole('button', { name: 'Play the film' }).click();
+    const line = () => joint(page).getByRole('region', { name: 'Tray from above' }).getByRole('img').getAttribute('aria-label');
+    const first = await line();
+    await until(shownNow, (now) => now !== before, 'another frame');
+    await until(line, (now) => now !== first, 'its line on the tray');
+    await page.getByRole('button', { name: 'Stop the film' }).click();
+    const still = await shownNow();
+    await page.waitForTimeout(300);
+    assert.equal(await shownNow(), still);
+  });
   await step(page, t, 'runs over time and flexion, and one curve can be alone', () => overs(page));
   await step(page, t, 'asks for the side', () => asksForSide(page));
   await step(page, t, 'can be used by everybody', async () => {
@@ -116,7 +129,7 @@ async function overs(page) {
   await joint(page).getByRole('button', { name: 'Abduction alone' }).press('Enter');
   await until(() => joint(page).getByRole('img').count(), (count) => count === 1, 'one curve');
   await joint(page).getByRole('button', { name: 'All curves' }).press('Enter');
-  await until(() => joint(page).getByRole('img').count(), (count) => count === 8, 'all curves');
+  await until(() => joint(page).getByRole('img').count(), (count) => count === 9, 'all curves and the tray');
   const size = joint(page).getByRole('separator', { name: 'Height of the curves' });
   await size.press('ArrowUp');
   assert.equal(await until(() => size.getAttribute('aria-valuenow'), (now) => now !== '40', 'a higher dock'), '44');

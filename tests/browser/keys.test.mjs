@@ -23,11 +23,21 @@ pageTest('keys and mouse', async (page, t) => {
 
   await step(page, t, 'F and D go through the frames and stop at the ends', async () => {
     const seen = [];
-    for (const key of ['f', 'f', 'f', 'd', 'd', 'd', 'PageDown']) {
+    for (const key of ['f', 'f', 'f', 'd', 'd', 'd', 'PageDown', 'ArrowLeft', 'ArrowRight']) {
       await page.keyboard.press(key);
       seen.push(await frameShown(page));
     }
-    assert.deepEqual(seen, [2, 3, 3, 2, 1, 1, 2]);
+    assert.deepEqual(seen, [2, 3, 3, 2, 1, 1, 2, 1, 2]);
+    await page.keyboard.press('PageUp');
+  });
+
+  await step(page, t, 'left and right point once other arrows have, until the mouse moves', async () => {
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await frameShown(page), 1);
+    await page.mouse.move(500, 300);
+    await page.keyboard.press('ArrowRight');
+    assert.equal(await frameShown(page), 2);
     await page.keyboard.press('PageUp');
   });
 

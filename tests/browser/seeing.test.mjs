@@ -215,6 +215,24 @@ async function space(page) {
   await region.getByRole('button', { name: 'As the camera' }).click();
   await drawn(page);
   await screenshot(page, 'space');
+  await besideTheFrame(page, region, canvas);
+}
+
+/** As large as the frame, which keeps its place. @param {Page} page @param {import('playwright-core').Locator} region @param {import('playwright-core').Locator} canvas */
+async function besideTheFrame(page, region, canvas) {
+  const stage = page.getByRole('main');
+  const before = await stage.boundingBox();
+  const beside = region.getByRole('button', { name: 'Beside the frame' });
+  await beside.click();
+  await drawn(page);
+  const [frame, models] = [await stage.boundingBox(), await canvas.boundingBox()];
+  assert(before && frame && models);
+  assert(models.x >= frame.x + frame.width - 1 && Math.abs(models.width - frame.width) < 8 && Math.abs(models.height - frame.height) < 8, JSON.stringify({ frame, models }));
+  assert(models.x + models.width <= before.x + before.width + 1, 'it covers nothing else');
+  await screenshot(page, 'space-large');
+  await beside.click();
+  await drawn(page);
+  assert.deepEqual(await stage.boundingBox(), before);
 }
 
 /** @param {Page} page */

@@ -206,7 +206,12 @@ impl FilmFollower {
         let middle = self.model.as_model().bounds().centre;
         let uncertainties = cells.iter().map(|cell| {
             let found = cell.found()?;
-            Some(uncertainty(&found.covariance?, &found.pose, &middle))
+            Some(uncertainty(
+                &found.covariance?,
+                &found.film_steps,
+                &found.pose,
+                &middle,
+            ))
         });
         FollowedFilm {
             residuals: cells

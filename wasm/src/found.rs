@@ -27,13 +27,17 @@ pub(crate) struct Candidate {
 }
 
 /// How uncertain a pose is, as it leaves: the standard deviations of its six numbers, in their order and units, and then the
-/// covariance that they come from, [`PoseCovariance::matrix`] from its diagonal on, row by row.
-pub(crate) type Uncertainty = [f64; 6 + UPPER];
+/// covariance that they come from, [`PoseCovariance::matrix`] from its diagonal on, row by row; then what of it is the film's
+/// (`film_steps` of the core), zero where nothing is known of that.
+pub(crate) type Uncertainty = [f64; 6 + UPPER + FILM];
 /// Numbers of the upper half of a covariance.
 pub(crate) const UPPER: usize = 21;
+/// Numbers of the film's part of it.
+pub(crate) const FILM: usize = 12;
 
 pub(crate) fn uncertainty(
     covariance: &PoseCovariance,
+    film_steps: &[[f64; 6]; 2],
     pose: &Pose,
     middle: &Vector3,
 ) -> Uncertainty {
@@ -47,8 +51,9 @@ pub(crate) fn uncertainty(
         deviations.y_rot_deg,
     ];
     let upper = (0..6).flat_map(|row| covariance.matrix[row][row..].iter().copied());
-    let mut all = [0.0; 6 + UPPER];
-    for (place, number) in all.iter_mut().zip(six.into_iter().chain(upper)) {
+    let mut all = [0.0; 6 + UPPER + FILM];
+    let film = film_steps.as_flattened().iter().copied();
+    for (place, number) in all.iter_mut().zip(six.into_iter().chain(upper).chain(film)) {
         *place = number;
     }
     all
@@ -227,10 +232,16 @@ mod tests {
         let matrix = core::array::from_fn(|a| {
             core::array::from_fn(|b| if a == b { 9.0 } else { (a + b) as f64 / 10.0 })
         });
-        let numbers = uncertainty(&PoseCovariance { matrix }, &Pose::IDENTITY, &[0.0; 3]);
+        let numbers = uncertainty(
+            &PoseCovariance { matrix },
+            &[[7.0; 6], [8.0; 6]],
+            &Pose::IDENTITY,
+            &[0.0; 3],
+        );
         // Without a middle apart from the origin, its shift is that of the numbers.
         assert_eq!(numbers[..3], [3.0; 3]);
-        let upper = numbers[6..].try_into().unwrap();
+        assert_eq!(numbers[27..], [[7.0; 6], [8.0; 6]].concat());
+        let upper = numbers[6..27].try_into().unwrap();
         assert_eq!(covariance_of(upper), PoseCovariance { matrix });
     }
 }

@@ -1,8 +1,10 @@
 //! The joint's numbers, frame by frame, for curves and tables.
 
+use fluoropose::joint::impossible::impossible;
 use fluoropose::joint::kinematics::{Side, joint_axes};
-use fluoropose::joint::numbers::NUMBERS;
-use fluoropose::joint::relative::{NOTHING_COMMON, Placed, Relative};
+use fluoropose::joint::numbers::{NUMBERS, Posed};
+use fluoropose::joint::relative::{Placed, Relative};
+use fluoropose::joint::shared::{ERRORS, KnownTo};
 use fluoropose::joint::{COLUMNS, Joint, JointFrame};
 use fluoropose::math::Vector3;
 use fluoropose::mesh::Mesh;
@@ -10,16 +12,24 @@ use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use wasm_bindgen::prelude::*;
 
-use crate::found::{UPPER, covariance_of};
+use crate::found::{FILM, UPPER, Uncertainty, covariance_of};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers};
+
+/// Points of the tray's border.
+pub(crate) const BORDER: usize = 180;
 
 /// Thresholds of lift-off in use, mm.
 const THRESHOLDS_MM: [f64; 2] = [0.7, 1.0];
 /// Numbers of a component in a frame that come in: a pose and its uncertainty ([`crate::found::Uncertainty`]).
-const PLACED: usize = 33;
-/// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold.
-pub(crate) const OUT: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+const PLACED: usize = 6 + UNCERTAIN;
+/// And that go out: numbers, their standard deviations, the probability of lift-off beyond each threshold, and what errors of the
+/// whole film do to each number.
+pub(crate) const OUT: usize = SHOWN + ERRORS * NUMBERS;
+/// Those of them that have names.
+pub(crate) const SHOWN: usize = 2 * NUMBERS + THRESHOLDS_MM.len();
+/// Numbers of a pose's uncertainty.
+const UNCERTAIN: usize = core::mem::size_of::<Uncertainty>() / core::mem::size_of::<f64>();
 
 /// A component: its mesh, empty where there is no model, and the anatomical axes of its file.
 pub(crate) struct Part {
@@ -116,6 +126,27 @@ impl KneeJoint {
         self.memory = memory;
         found
     }
+
+    /// The border of the tray's plate as seen from above: anterior and medial place of each point, mm; empty where there is no plate.
+    ///
+    /// # Errors
+    /// The core's sentence about a mesh.
+    #[wasm_bindgen(js_name = plateOutline)]
+    pub fn plate_outline(&self) -> Result<Vec<f64>, JsError> {
+        let Some(joint) = self.joint()? else {
+            return Ok(Vec::new());
+        };
+        let mut outline = vec![[0.0; 2]; BORDER];
+        joint.plate_outline(&mut outline);
+        Ok(outline.into_flattened())
+    }
+
+    /// Why no knee has one of a frame's numbers, as [`Self::numbers`] gives them: a sentence without its full stop. Nothing where it can
+    /// have them all.
+    pub fn impossible(&self, frame: &[f64]) -> Option<String> {
+        let numbers = frame.first_chunk::<NUMBERS>()?;
+        impossible(numbers).map(|wrong| wrong.to_string())
+    }
 }
 
 impl KneeJoint {
@@ -133,9 +164,10 @@ impl KneeJoint {
     fn all(&self, frames: &[f64], memory: &mut [u32]) -> Result<Vec<f64>, JsError> {
         let joint = self.joint()?;
         let placed = |part: &Part, middle: &Vector3, numbers: &[f64]| -> Result<Placed, JsError> {
-            let (pose, covariance) = posed(numbers, middle)?;
+            let posed = posed(numbers, middle)?;
             let axes = joint_axes(&part.axes, self.side);
-            Ok(Placed::new(&pose, &axes, middle, covariance))
+            let placed = Placed::new(&posed.pose, &axes, middle, posed.covariance);
+            Ok(placed.on_film(posed.film_steps))
         };
         let middles = [self.femur.middle()?, self.tibia.middle()?];
         let mut numbers = Vec::with_capacity(frames.len() / (2 * PLACED) * OUT);
@@ -143,7 +175,7 @@ impl KneeJoint {
             let (femur, tibia) = frame.split_at(PLACED);
             let femur = placed(&self.femur, &middles[0], femur)?;
             let tibia = placed(&self.tibia, &middles[1], tibia)?;
-            let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
+            let relative = Relative::new(&femur, &tibia, KnownTo::USUALLY);
             let found = match &joint {
                 Some(joint) => joint.at(&relative, memory).map_err(sentence)?,
                 None => JointFrame::without_models(&relative, self.side),
@@ -152,14 +184,16 @@ impl KneeJoint {
             numbers.extend(found.deviations.unwrap_or([f64::NAN; NUMBERS]));
             let beyond = |mm| found.lift_off_probability(mm).unwrap_or(f64::NAN);
             numbers.extend(THRESHOLDS_MM.map(beyond));
+            numbers.extend(found.shared.as_flattened());
         }
         Ok(numbers)
     }
 }
 
-/// A pose, and its covariance where that is known, or at least the standard deviations of its six numbers.
-fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovariance>), JsError> {
+/// A pose, its covariance where that is known, or at least the standard deviations of its six numbers, and what of it is the film's.
+fn posed(numbers: &[f64], middle: &Vector3) -> Result<Posed, JsError> {
     let (pose, uncertainty) = numbers.split_at(6);
+    let (uncertainty, film) = uncertainty.split_at(UNCERTAIN - FILM);
     let pose = Pose::from(from_numbers(pose)?);
     let (deviations, upper) = uncertainty.split_at(6);
     let known = |numbers: &[f64]| numbers.iter().all(|number| number.is_finite());
@@ -171,7 +205,16 @@ fn posed(numbers: &[f64], middle: &Vector3) -> Result<(Pose, Option<PoseCovarian
         }
         _ => None,
     };
-    Ok((pose, covariance))
+    // Sessions from before it was kept do not have it.
+    let film_steps = match film.as_chunks::<6>().0 {
+        [curve, blur] if known(film) => [*curve, *blur],
+        _ => [[0.0; 6]; 2],
+    };
+    Ok(Posed {
+        pose,
+        covariance,
+        film_steps,
+    })
 }
 
 #[cfg(test)]
@@ -207,10 +250,10 @@ mod tests {
     fn frame() -> Vec<f64> {
         let mut frame = vec![3.0, 30.0, -1000.0, 0.0, 0.0, 0.0];
         frame.extend([0.2, 0.3, 0.0, 0.0, 0.0, 0.0]);
-        frame.extend([f64::NAN; UPPER]);
+        frame.extend([f64::NAN; UPPER + FILM]);
         frame.extend([0.0, 0.0, -1000.0, 0.0, 0.0, 0.0]);
         frame.extend([0.0; 6]);
-        frame.extend([f64::NAN; UPPER]);
+        frame.extend([f64::NAN; UPPER + FILM]);
         frame
     }
 
@@ -224,7 +267,7 @@ mod tests {
         let mut joint = knee(true);
         assert!(joint.has_plate());
         let numbers = joint.numbers(&frame()).ok().unwrap();
-        assert_eq!(numbers.len(), joint.columns().len());
+        assert_eq!(numbers.len(), OUT);
         for (name, wanted) in [
             ("field_anterior_mm", 3.0),
             ("flexion_deg", 0.0),
@@ -233,9 +276,10 @@ mod tests {
             ("medial_height_mm", 20.0),
             ("lateral_height_mm", 21.0),
             ("lift_off_mm", 1.0),
-            ("sd_field_anterior_mm", 0.2),
-            ("sd_medial_ap_mm", 0.2),
-            ("sd_medial_height_mm", 0.3),
+            // Models whose size is known to a thousandth: their middles lie 3 and 0 mm right of the axis, 30 above and 20 below it.
+            ("sd_field_anterior_mm", 0.2f64.hypot(0.003)),
+            ("sd_medial_ap_mm", 0.2f64.hypot(0.003)),
+            ("sd_medial_height_mm", 0.3f64.hypot(0.03).hypot(0.02)),
             ("sd_lift_off_mm", 0.0),
             ("sd_flexion_deg", 0.0),
             ("p_lift_off_over_0.7_mm", 1.0),
@@ -243,6 +287,18 @@ mod tests {
             let found = named(&joint, &numbers, name);
             assert!((found - wanted).abs() < 1e-5, "{name}: {found}");
         }
+    }
+
+    #[test]
+    fn a_femur_that_looks_the_other_way_is_told() {
+        let mut joint = knee(true);
+        let mut frame = frame();
+        let here = joint.numbers(&frame).ok().unwrap();
+        assert_eq!(joint.impossible(&here), None);
+        frame[5] = 160.0;
+        let there = joint.numbers(&frame).ok().unwrap();
+        let told = joint.impossible(&there).unwrap();
+        assert!(told.contains("160") && told.contains("no knee"), "{told}");
     }
 
     /// The tray may be turned about z by 0.01 rad and shifted forwards by 0.3 mm. The femoral origin is 50 mm above its middle, so
@@ -277,7 +333,7 @@ mod tests {
         frames[3 * PLACED + 8] = f64::NAN;
         let numbers = joint.numbers(&frames).ok().unwrap();
         let (first, second) = numbers.split_at(OUT);
-        assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2).abs() < 1e-9);
+        assert!((named(&joint, first, "sd_field_anterior_mm") - 0.2f64.hypot(0.003)).abs() < 1e-9);
         assert!(named(&joint, first, "lift_off_mm").is_nan());
         assert!((named(&joint, second, "field_anterior_mm") - 3.0).abs() < 1e-9);
         assert!(named(&joint, second, "sd_field_anterior_mm").is_nan());

@@ -7,12 +7,9 @@ use fluoropose::pose::Pose;
 use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, write};
 use wasm_bindgen::prelude::*;
 
-use crate::joint::{KneeJoint, OUT, Part};
+use crate::joint::{BORDER, KneeJoint, OUT, Part, SHOWN};
 use fluoropose_page::error::sentence;
 use fluoropose_page::pose_numbers::from_numbers;
-
-/// Points of the tray's border.
-const BORDER: usize = 180;
 
 /// A joint's motion on its way into files. Frames come one by one, in the order of the film.
 #[wasm_bindgen]
@@ -66,12 +63,10 @@ impl JointReport {
             [] => None,
             numbers => Some(frame_of(numbers)?),
         };
+        let number = self.film.rows.len() + 1;
         self.film.rows.push(JointRow {
-            number: self.film.rows.len() + 1,
-            joint,
-            filtered: None,
             checked,
-            doubt,
+            ..JointRow::new(number, joint, doubt)
         });
         Ok(())
     }
@@ -193,6 +188,7 @@ fn frame_of(numbers: &[f64]) -> Result<JointFrame, JsError> {
     Ok(JointFrame {
         numbers: take(0),
         deviations: deviations[0].is_finite().then_some(deviations),
+        shared: core::array::from_fn(|error| take(SHOWN + error * NUMBERS)),
     })
 }
 
@@ -212,9 +208,9 @@ mod tests {
         for frame in 0..3 {
             let femur = [1.0, 2.0, -900.0, 20.0 * f64::from(frame), 0.0, 0.0];
             let tibia = [0.0, -30.0, -900.0, 0.0, 0.0, 0.0];
-            let mut placed = [f64::NAN; 66];
+            let mut placed = [f64::NAN; 90];
             placed[..6].copy_from_slice(&femur);
-            placed[33..39].copy_from_slice(&tibia);
+            placed[45..51].copy_from_slice(&tibia);
             let numbers = joint.numbers(&placed).ok().unwrap();
             let numbers = if frame == 1 { &[] } else { &numbers[..] };
             let doubt = (frame == 2).then(|| "a rim".to_owned());

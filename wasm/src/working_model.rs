@@ -221,7 +221,12 @@ impl WorkingModel {
     /// How uncertain a pose is; nothing where that is not known.
     pub(crate) fn uncertainty_of(&self, ranked: &Ranked) -> Option<Uncertainty> {
         let middle = self.owned.as_model().bounds().centre;
-        Some(uncertainty(&ranked.covariance?, &ranked.pose, &middle))
+        Some(uncertainty(
+            &ranked.covariance?,
+            &[[0.0; 6]; 2],
+            &ranked.pose,
+            &middle,
+        ))
     }
 
     /// How sure a refined pose is and how well it fits, by what a camera saw.
@@ -237,7 +242,8 @@ impl WorkingModel {
         let mut memory = self.buffers.refine().borrow(&model, view.camera);
         let found = assess(&model, &[view], refined, &mut memory).map_err(sentence)?;
         let middle = model.bounds().centre;
-        let known = |covariance| uncertainty(&covariance, &refined.pose, &middle);
+        let known =
+            |covariance| uncertainty(&covariance, &found.film_steps, &refined.pose, &middle);
         Ok(Assessed {
             uncertainty: found.covariance.map(known),
             fit: found.fit,

@@ -9,7 +9,7 @@ use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_laboratory::verbs::report::knee::{Filtering, Knee};
-use fluoropose_laboratory::verbs::report::sources::{Body, Sources};
+use fluoropose_laboratory::verbs::report::sources::{Body, Sources, Uncertain};
 use fluoropose_report::levels::by_flexion;
 use fluoropose_report::{JointFilm, figure, write};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
@@ -20,7 +20,8 @@ use crate::failure::python_error;
 use crate::model::Model;
 use crate::poses::{Six, euler, rows_of};
 
-/// A component: its model, poses (n x 6), covariances (n x 36 or nothing) and stated axes.
+/// A component: its model, poses (n x 6), what is uncertain of them (n x 48 or nothing: the covariance, and what a step of each of the
+/// film's constants does) and stated axes.
 type Component<'py> = (
     Py<Model>,
     PyReadonlyArray2<'py, f64>,
@@ -68,26 +69,35 @@ pub(crate) fn joint(
     };
     let joint = py.detach(|| -> anyhow::Result<Joint> {
         let knee = Knee::new(name, side, &sources)?;
+        let film = knee.film(&sources, &Filtering::new(fps, cutoff)?)?;
+        let told = knee.remarks.iter().cloned();
         Ok(Joint {
-            film: knee.film(&sources, &Filtering::new(fps, cutoff)?)?,
+            remarks: told.chain(film.impossibilities()).collect(),
+            film,
             axes: [knee.femur_axes.to_string(), knee.tibia_axes.to_string()],
-            remarks: knee.remarks.clone(),
         })
     });
     joint.map_err(python_error)
 }
 
-fn body(py: Python<'_>, name: &str, (model, poses, covariances, axes): Component<'_>) -> Body {
+fn body(py: Python<'_>, name: &str, (model, poses, uncertain, axes): Component<'_>) -> Body {
     let model: Arc<OwnedModel> = model.borrow(py).model.clone();
     let pose = |row: &Six| euler(row).map(Pose::from);
     let mut known = BTreeMap::new();
-    if let Some(covariances) = covariances {
-        let numbers: Vec<f64> = covariances.as_array().iter().copied().collect();
-        for (frame, numbers) in numbers.as_chunks::<36>().0.iter().enumerate() {
-            if numbers.iter().all(|number| number.is_finite()) {
-                let matrix =
-                    std::array::from_fn(|row| std::array::from_fn(|k| numbers[6 * row + k]));
-                known.insert(frame, PoseCovariance { matrix });
+    if let Some(uncertain) = uncertain {
+        let numbers: Vec<f64> = uncertain.as_array().iter().copied().collect();
+        for (frame, numbers) in numbers.as_chunks::<48>().0.iter().enumerate() {
+            let rows: [[f64; 6]; 8] =
+                std::array::from_fn(|row| std::array::from_fn(|k| numbers[6 * row + k]));
+            let [matrix @ .., brighter, blurred] = rows;
+            let is_known = |rows: &[[f64; 6]]| rows.as_flattened().iter().all(|n| n.is_finite());
+            if is_known(&matrix) {
+                let steps = [brighter, blurred];
+                let uncertain = Uncertain {
+                    covariance: PoseCovariance { matrix },
+                    film_steps: is_known(&steps).then_some(steps),
+                };
+                known.insert(frame, uncertain);
             }
         }
     }
@@ -96,7 +106,7 @@ fn body(py: Python<'_>, name: &str, (model, poses, covariances, axes): Component
         stated_axes: axes,
         model: (*model).clone(),
         poses: rows_of(&poses).iter().map(pose).collect(),
-        covariances: known,
+        uncertain: known,
     }
 }
 

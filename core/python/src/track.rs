@@ -4,11 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose::refine::Polarity;
 use fluoropose_laboratory::files::read_text;
 use fluoropose_laboratory::progress::Stop;
-use fluoropose_laboratory::verbs::report::sources::covariances;
+use fluoropose_laboratory::verbs::report::sources::{Uncertain, covariances};
 use fluoropose_laboratory::verbs::track::{Click, FixedPoses, Request, Row, Tracked};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -72,7 +71,7 @@ pub(crate) fn track<'py>(
 }
 
 /// The covariances that were written of a component.
-fn of(out: &Path, component: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
+fn of(out: &Path, component: &str) -> Result<BTreeMap<usize, Uncertain>> {
     covariances(&read_text(
         &out.join(format!("{component}.covariances.csv")),
     )?)
@@ -81,7 +80,7 @@ fn of(out: &Path, component: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
 fn component<'py>(
     py: Python<'py>,
     part: &Tracked,
-    covariances: &BTreeMap<usize, PoseCovariance>,
+    covariances: &BTreeMap<usize, Uncertain>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let answer = PyDict::new(py);
     let rows = &part.rows;
@@ -92,14 +91,20 @@ fn component<'py>(
     let covariance = |frame| {
         let known = covariances.get(&frame);
         known.map_or(vec![f64::NAN; 36], |known| {
-            known.matrix.as_flattened().to_vec()
+            known.covariance.matrix.as_flattened().to_vec()
         })
     };
+    let steps = |frame| {
+        let known = covariances.get(&frame).and_then(|known| known.film_steps);
+        known.map_or(vec![f64::NAN; 12], |known| known.as_flattened().to_vec())
+    };
+    let film_steps: Vec<f64> = (0..rows.len()).flat_map(steps).collect();
     let covariances: Vec<f64> = (0..rows.len()).flat_map(covariance).collect();
     answer.set_item("name", &part.component)?;
     answer.set_item("pose", array_of(py, poses.collect())?)?;
     answer.set_item("sd", array_of(py, deviations.collect())?)?;
     answer.set_item("covariance", covariances)?;
+    answer.set_item("film_steps", film_steps)?;
     answer.set_item(
         "state",
         rows.iter().map(|row| row.state.word()).collect::<Vec<_>>(),

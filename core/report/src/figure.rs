@@ -4,25 +4,30 @@
 //! band of one standard deviation, and the values at steps of 10 degrees with their bars. And the tray from above.
 
 mod course;
+mod group;
 mod tray;
 
 use fluoropose::joint::numbers::place;
 
 use crate::film::JointFilm;
 use crate::svg::{Anchor, Drawing, Plot};
-use course::{Course, LATERAL, MEDIAL, PLAIN};
+pub use group::group_figure;
+
+use course::{Course, LATERAL, MEDIAL, PLAIN, doubtful_point};
 
 /// Size in its own units, and its width in print: two columns of a journal.
 const SIZE: [f64; 2] = [720.0, 664.0];
 const WIDTH_MM: f64 = 180.0;
+/// From where to where its columns of panels reach.
+const LEFT: [f64; 2] = [64.0, 340.0];
+const RIGHT: [f64; 2] = [432.0, 706.0];
 
 /// The figure of a film as SVG.
 #[must_use]
 pub fn figure(film: &JointFilm) -> String {
     let mut drawing = Drawing::default();
     let course = Course::of(film);
-    let left = [64.0, 340.0];
-    let right = [432.0, 706.0];
+    let (left, right) = (LEFT, RIGHT);
     let label = "Flexion (\u{b0})";
 
     letter(&mut drawing, "a", left[0], 26.0);
@@ -30,6 +35,7 @@ pub fn figure(film: &JointFilm) -> String {
     let axis = "AP position (mm, anterior +)";
     course.panel(&mut drawing, left, [270.0, 40.0], &condyles, [label, axis]);
     legend(&mut drawing, [left[0] + 14.0, 27.0]);
+    doubts(&mut drawing, film, [right[0] + 14.0, 27.0]);
 
     letter(&mut drawing, "b", right[0], 26.0);
     let rotation = [(place::ROTATION, PLAIN)];
@@ -68,6 +74,24 @@ fn legend(drawing: &mut Drawing, [x, y]: [f64; 2]) {
         ink.mark(drawing, [x + 12.0, y - 4.0], 3.4, "");
         drawing.words([x + 30.0, y], Anchor::Start, 11.0, word);
     }
+}
+
+/// What hollow points are, where there are any, and what is not drawn.
+fn doubts(drawing: &mut Drawing, film: &JointFilm, [x, y]: [f64; 2]) {
+    let impossible = film.impossible();
+    let hollow = film
+        .rows
+        .iter()
+        .any(|row| row.doubt.is_some() && row.is_possible());
+    let mut words = Vec::new();
+    if hollow {
+        doubtful_point(drawing, [x + 4.0, y - 4.0], PLAIN, "");
+        words.push("doubtful".to_owned());
+    }
+    if impossible > 0 {
+        words.push(format!("not drawn, no knee does that: {impossible}"));
+    }
+    drawing.words([x + 12.0, y], Anchor::Start, 11.0, words.join("; "));
 }
 
 /// The thresholds of lift-off that are in use.

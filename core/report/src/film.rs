@@ -5,8 +5,34 @@ use fluoropose::joint::JointFrame;
 use fluoropose::joint::course::{
     FLEXION_STEP_DEG, Phase, REVERSAL_DEG, at_flexion, cycle, levels, phases,
 };
+use fluoropose::joint::impossible::{Impossible, impossible};
 use fluoropose::joint::numbers::{NUMBERS, place};
-use fluoropose::joint::pivot::{CondyleLine, Pivot, pivot};
+use fluoropose::joint::pivot::{CondyleLine, Pivot, pivot_of_film};
+
+/// What is told of numbers that no knee has: each kind once, with the first frame of it and how many there are. `frames`: the number
+/// of each, from 1, and its numbers in the order of [`COLUMNS`](fluoropose::joint::COLUMNS), NaN for what is not known.
+#[must_use]
+pub fn impossibilities(frames: impl Iterator<Item = (usize, [f64; NUMBERS])>) -> Vec<String> {
+    let mut kinds: Vec<(Impossible, usize, usize)> = Vec::new();
+    for (number, numbers) in frames {
+        let Some(wrong) = impossible(&numbers) else {
+            continue;
+        };
+        let kind = core::mem::discriminant::<Impossible>;
+        match kinds
+            .iter_mut()
+            .find(|(known, ..)| kind(known) == kind(&wrong))
+        {
+            Some((.., count)) => *count += 1,
+            None => kinds.push((wrong, number, 1)),
+        }
+    }
+    let sentence = |(wrong, first, count): (Impossible, usize, usize)| match count {
+        1 => format!("frame {first}: {wrong}"),
+        _ => format!("frame {first} and {} more: {wrong}", count - 1),
+    };
+    kinds.into_iter().map(sentence).collect()
+}
 
 /// A frame of a film.
 #[derive(Clone, Debug, Default)]
@@ -55,6 +81,28 @@ pub struct Step {
     pub n: usize,
 }
 
+impl JointRow {
+    /// A frame with what is known of it. Numbers that no knee has make it doubtful, whatever its poses say of themselves.
+    #[must_use]
+    pub fn new(number: usize, joint: Option<JointFrame>, doubt: Option<String>) -> Self {
+        let wrong = joint.and_then(|joint| impossible(&joint.numbers));
+        let told = wrong.map(|wrong| wrong.to_string());
+        let said: Vec<String> = told.into_iter().chain(doubt).collect();
+        Self {
+            number,
+            joint,
+            doubt: (!said.is_empty()).then(|| said.join("; ")),
+            ..Self::default()
+        }
+    }
+
+    /// Whether it has numbers that a knee can have.
+    pub(crate) fn is_possible(&self) -> bool {
+        self.joint
+            .is_some_and(|joint| impossible(&joint.numbers).is_none())
+    }
+}
+
 impl JointFilm {
     /// A number in each frame; NaN where there is none.
     #[must_use]
@@ -71,6 +119,43 @@ impl JointFilm {
             .iter()
             .map(|row| of(row).unwrap_or(f64::NAN))
             .collect()
+    }
+
+    /// The same numbers without those of frames that no knee can have: what is drawn.
+    pub(crate) fn possible(&self, mut numbers: Vec<f64>) -> Vec<f64> {
+        for (number, row) in numbers.iter_mut().zip(&self.rows) {
+            if !row.is_possible() {
+                *number = f64::NAN;
+            }
+        }
+        numbers
+    }
+
+    /// How many frames have numbers that no knee can have.
+    pub(crate) fn impossible(&self) -> usize {
+        self.rows
+            .iter()
+            .filter(|row| row.joint.is_some() && !row.is_possible())
+            .count()
+    }
+
+    /// What is told of numbers that no knee has; see [`impossibilities`].
+    #[must_use]
+    pub fn impossibilities(&self) -> Vec<String> {
+        let numbers = |row: &JointRow| Some((row.number, row.joint?.numbers));
+        impossibilities(self.rows.iter().filter_map(numbers))
+    }
+
+    /// How many frames are doubtful.
+    #[must_use]
+    pub fn doubtful(&self) -> usize {
+        self.rows.iter().filter(|row| row.doubt.is_some()).count()
+    }
+
+    /// How many frames have a pose of both components.
+    #[must_use]
+    pub fn posed(&self) -> usize {
+        self.rows.iter().filter(|row| row.joint.is_some()).count()
     }
 
     /// The same numbers without those of doubtful frames: what steps, phases and centre are made from.
@@ -140,7 +225,22 @@ impl JointFilm {
     #[must_use]
     pub fn pivot(&self) -> Option<Pivot> {
         let trusted = self.rows.iter().filter(|row| row.doubt.is_none());
-        pivot(trusted.filter_map(|row| Some(line(&row.joint?.numbers))))
+        let joints = trusted.filter_map(|row| row.joint);
+        pivot_of_film(|error| {
+            joints.clone().map(
+                move |JointFrame {
+                          mut numbers,
+                          shared,
+                          ..
+                      }| {
+                    if let Some(error) = error {
+                        let moved = numbers.iter_mut().zip(shared[error]);
+                        moved.for_each(|(number, by)| *number += by);
+                    }
+                    line(&numbers)
+                },
+            )
+        })
     }
 }
 

@@ -5,17 +5,18 @@ use std::fmt::Write as _;
 use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
 use fluoropose::joint::numbers::place;
+use fluoropose::joint::shared::KnownTo;
 
 use crate::facts::{CONVENTIONS, Facts, filter, times};
 use crate::figure::figure;
-use crate::film::{JointFilm, JointRow};
+use crate::film::JointFilm;
 use crate::svg::escaped;
 
 const STYLE: &str = "\
 :root{color-scheme:light}body{font:10.5pt/1.45 Helvetica,Arial,'Liberation Sans',sans-serif;color:#111;background:#fff;max-width:190mm;margin:8mm auto;padding:0 4mm}\
 h1{font-size:17pt;margin:0 0 1mm}h2{font-size:12.5pt;margin:7mm 0 2mm;break-after:avoid}p{margin:0 0 2mm;max-width:165mm}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:8.5pt;width:100%}\
-th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
+th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word,td.frames{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
 td{border-bottom:.1mm solid #ccc}th:first-child,td:first-child,td.word,th.word{text-align:left}td.digest{font-family:monospace;font-size:7pt;white-space:normal;overflow-wrap:anywhere;text-align:left}\
 thead{display:table-header-group}tr{break-inside:avoid}figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto}\
 figcaption{font-size:9pt;margin-top:1mm}.doubtful td{background:#f6efe2}\
@@ -48,21 +49,17 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
     out
 }
 
-fn posed(film: &JointFilm) -> usize {
-    film.rows.iter().filter(|row| row.joint.is_some()).count()
-}
-
 fn summary(film: &JointFilm) -> String {
     let side = match film.side {
         Side::Left => "Left",
         Side::Right => "Right",
     };
-    let doubtful = film.rows.iter().filter(|row| row.doubt.is_some()).count();
+    let doubtful = film.doubtful();
     format!(
         "{side} knee, {} frames: {} with a pose of both components, {doubtful} doubtful. Made by fluoropose {}. Not a medical device, and not for \
          decisions about patients.",
         film.rows.len(),
-        posed(film),
+        film.posed(),
         env!("CARGO_PKG_VERSION")
     )
 }
@@ -73,8 +70,12 @@ fn caption(film: &JointFilm) -> String {
     } else {
         "Without standard deviations: the uncertainty of the poses is not known."
     };
+    let not_drawn = match film.impossible() {
+        0 => String::new(),
+        some => format!("; {some} frames have numbers that no knee has, and are not drawn"),
+    };
     format!(
-        "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames, left out of all that follows; large marks: linear \
+        "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames, left out of all that follows{not_drawn}; large marks: linear \
          interpolation at steps of 10\u{b0} of flexion within monotonic phases, mean over the phases that pass it. {bands} a, lowest points of \
          the medial and lateral condyle above the tray, from the middle of the tray. b, rotation of the tibia. c, the tray from above \
          with the line between the lowest points at each step, light to dark with flexion, and the centre of rotation with one standard \
@@ -145,22 +146,25 @@ fn steps(out: &mut String, film: &JointFilm) {
 }
 
 fn doubts(out: &mut String, film: &JointFilm) {
-    let doubtful: Vec<&JointRow> = film.rows.iter().filter(|row| row.doubt.is_some()).collect();
     let missing = film.rows.iter().filter(|row| row.joint.is_none());
-    let missing: Vec<String> = missing.map(|row| row.number.to_string()).collect();
+    let missing: Vec<usize> = missing.map(|row| row.number).collect();
     out.push_str("<h2>Doubtful and missing frames</h2>\n");
-    if doubtful.is_empty() {
+    let reasons = reasons(film);
+    if let Some(all) = all_doubtful(film) {
+        let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&all));
+    }
+    if reasons.is_empty() {
         out.push_str("<p>No frame is marked as doubtful.</p>\n");
     } else {
         out.push_str(
-            "<table><thead><tr><th>frame</th><th class=\"word\">why</th></tr></thead><tbody>\n",
+            "<table><thead><tr><th>frames</th><th class=\"word\">why</th></tr></thead><tbody>\n",
         );
-        for row in doubtful {
-            let why = escaped(row.doubt.as_deref().unwrap_or_default());
+        for (why, frames) in reasons {
             let _ = writeln!(
                 out,
-                "<tr><td>{}</td><td class=\"word\">{why}</td></tr>",
-                row.number
+                "<tr><td class=\"frames\">{}</td><td class=\"word\">{}</td></tr>",
+                in_runs(&frames),
+                escaped(why)
             );
         }
         out.push_str("</tbody></table>\n");
@@ -169,9 +173,47 @@ fn doubts(out: &mut String, film: &JointFilm) {
         let _ = writeln!(
             out,
             "<p>Frames without a pose of both components, empty everywhere: {}.</p>",
-            missing.join(", ")
+            in_runs(&missing)
         );
     }
+}
+
+/// What is said once for a film of which nothing can be relied on.
+fn all_doubtful(film: &JointFilm) -> Option<String> {
+    let (posed, doubtful) = (film.posed(), film.doubtful());
+    (posed > 0 && doubtful >= posed).then(|| {
+        let impossible = match film.impossible() {
+            0 => String::new(),
+            some => format!(" In {some} of them a number is one that no knee has."),
+        };
+        format!("All {posed} frames are doubtful, so that there are no steps of flexion and no centre of rotation.{impossible}")
+    })
+}
+
+/// Each reason once, with its frames, in the order in which they come up.
+fn reasons(film: &JointFilm) -> Vec<(&str, Vec<usize>)> {
+    let mut all: Vec<(&str, Vec<usize>)> = Vec::new();
+    for row in &film.rows {
+        let Some(why) = row.doubt.as_deref() else {
+            continue;
+        };
+        match all.iter_mut().find(|(known, _)| *known == why) {
+            Some((_, frames)) => frames.push(row.number),
+            None => all.push((why, vec![row.number])),
+        }
+    }
+    all
+}
+
+/// Rising numbers in words: runs with a dash.
+fn in_runs(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b);
+    let words = runs.map(|run| match run {
+        [one] => one.to_string(),
+        [first, .., last] => format!("{first}\u{2013}{last}"),
+        [] => String::new(),
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
@@ -186,17 +228,22 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
         "Lowest points are not contact: the insert between the components is not seen. Lift-off is the difference of their heights above the tray, so it is that of an insert equally thick on both sides.",
     );
     if film.has_deviations() {
+        let KnownTo { distance, size } = KnownTo::USUALLY;
+        say(&format!(
+            "Standard deviations hold what errs from frame to frame and what is wrong with the whole film alike: its display and blur as far as they are \
+             not known, a principal distance known to {} % and models whose size is known to {} % (judgements: this film does not tell them). What the \
+             film has alike in both components is taken so, and no mean over frames makes it less.",
+            100.0 * distance,
+            100.0 * size
+        ));
         say(
-            "Standard deviations take the errors of the two poses as independent. What both have in common, such as constants of the film, then counts twice: depth looks less certain in the joint than it is.",
-        );
-        say(
-            "They know of errors that vary along an outline and of what is not known of the film, not of a wrong model, calibration or a pose on the wrong side of a mirror.",
+            "They do not know of a wrong model, of a calibration that is wrong by more, or of a pose on the wrong side of a mirror.",
         );
     } else {
         say("These poses come without a covariance, so no number has a standard deviation here.");
     }
     say(
-        "The centre of rotation takes the frames as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
+        "The centre of rotation takes what errs from frame to frame as independent, which neighbouring frames are not: its standard deviation is too small where many frames cover little motion.",
     );
     for remark in &facts.remarks {
         say(remark);

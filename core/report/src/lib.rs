@@ -2,10 +2,11 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod cohorts;
 mod facts;
 mod figure;
 mod film;
-pub mod group;
+mod group;
 mod html;
 pub mod levels;
 pub mod read;
@@ -13,6 +14,7 @@ mod svg;
 pub mod write;
 
 pub use facts::{Facts, Input};
-pub use figure::figure;
-pub use film::{JointFilm, JointRow, Step};
+pub use figure::{figure, group_figure};
+pub use film::{JointFilm, JointRow, Step, impossibilities};
+pub use group::{Group, Knee};
 pub use html::html;

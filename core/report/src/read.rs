@@ -1,7 +1,12 @@
 //! Files of the field, read. `.jts`, `.jtak` and `.jtap` are read by `fluoropose::pose::jts`.
 
-use fluoropose::Pose;
+use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::shared::ERRORS;
+use fluoropose::joint::{COLUMNS, JointFrame};
+use fluoropose::{Pose, Side};
 use thiserror::Error;
+
+use crate::film::{JointFilm, JointRow};
 
 /// Why a file cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -136,6 +141,81 @@ pub fn table(text: &str) -> Result<Table, ReadError> {
         )
     });
     rows(names, numbers, &[','])
+}
+
+/// The film of a joint table: what [`crate::write::table`] wrote of it, without the tray's outline and what errors are shared.
+///
+/// # Errors
+/// [`ReadError`] names the line, or says what is missing.
+pub fn film(text: &str) -> Result<JointFilm, ReadError> {
+    let table = table(text)?;
+    let mut film = JointFilm {
+        name: stated(text, "study: ", "; knee: ")
+            .ok_or(ReadError::Kind("joint table"))?
+            .to_owned(),
+        side: match stated(text, "; knee: ", ";") {
+            Some("left") => Side::Left,
+            Some("right") => Side::Right,
+            _ => return Err(ReadError::Kind("joint table")),
+        },
+        plate_depth_mm: millimetres(text, "tray: ", " mm deep"),
+        plate_width_mm: millimetres(text, " mm deep, ", " mm wide"),
+        plate_outline: Vec::new(),
+        frames_per_s: None,
+        cutoff_hz: None,
+        rows: Vec::new(),
+    };
+    let column = |name: &str| table.column(name).ok_or(ReadError::Kind("joint table"));
+    let (numbers, checked) = (column("frame")?, column("checked")?);
+    let all: Result<Vec<_>, _> = COLUMNS.iter().map(|one| column(one.name)).collect();
+    let deviations: Result<Vec<_>, _> = COLUMNS
+        .iter()
+        .map(|one| column(&format!("sd_{}", one.name)))
+        .collect();
+    let (all, deviations) = (all?, deviations?);
+    let body = text
+        .lines()
+        .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let doubts = body.skip(1).map(|line| {
+        let doubt = line
+            .split_once(",\"")
+            .map_or("", |(_, doubt)| doubt)
+            .trim_end();
+        doubt
+            .strip_suffix('"')
+            .unwrap_or(doubt)
+            .replace("\"\"", "\"")
+    });
+    for (at, doubt) in doubts.enumerate() {
+        let take = |columns: &[Vec<f64>]| core::array::from_fn(|k| columns[k][at]);
+        let joint = JointFrame {
+            numbers: take(&all),
+            deviations: Some(take(&deviations)).filter(|all: &[f64; NUMBERS]| all[0].is_finite()),
+            shared: [[0.0; NUMBERS]; ERRORS],
+        };
+        let is_there = joint.numbers[place::FLEXION].is_finite();
+        film.rows.push(JointRow {
+            number: numbers[at] as usize,
+            joint: is_there.then_some(joint),
+            filtered: None,
+            checked: checked[at] > 0.0,
+            doubt: (!doubt.is_empty()).then_some(doubt),
+        });
+    }
+    Ok(film)
+}
+
+/// What a heading says between two words.
+fn stated<'t>(text: &'t str, before: &str, after: &str) -> Option<&'t str> {
+    let heading = text.lines().take_while(|line| line.starts_with('#'));
+    let mut rests = heading.filter_map(|line| Some(line.split_once(before)?.1));
+    rests.next()?.split_once(after).map(|(stated, _)| stated)
+}
+
+fn millimetres(text: &str, before: &str, after: &str) -> f64 {
+    stated(text, before, after)
+        .and_then(|stated| stated.parse().ok())
+        .unwrap_or(0.0)
 }
 
 fn rows<'t>(

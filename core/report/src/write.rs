@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
-use fluoropose::joint::numbers::NUMBERS;
+use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::pose::jts::{JTA_EULER_KINEMATICS, JTA_EULER_POSE};
 use fluoropose::pose::{EulerPose, Pose};
 use thiserror::Error;
 
 use crate::film::{JointFilm, JointRow};
+use crate::group::Group;
 
 /// Why a file cannot be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -41,6 +42,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
         "field_*: origin of the femoral component in the axes of the tibial one; flexion, abduction, internal rotation: tibia against femur, z-x-y, which is Grood and Suntay's sequence".to_owned(),
         "gs_*: shift of the tibial origin from the femoral one along the axes of Grood and Suntay 1983".to_owned(),
         "medial_*, lateral_*: lowest points of the femoral component above the tray's plate, from the plate's middle, anterior and medial positive; lift_off: lateral less medial height".to_owned(),
+        format!("tray: {} mm deep, {} mm wide", film.plate_depth_mm, film.plate_width_mm),
         "checked: 1 where a person has checked both poses as they are".to_owned(),
         filter,
     ]
@@ -142,6 +144,42 @@ pub fn matrix(films: &[&JointFilm], number: usize) -> String {
     for film in films {
         let points: Vec<String> = film.cycle(number).iter().map(f64::to_string).collect();
         let _ = writeln!(out, "{}", points.join(","));
+    }
+    out
+}
+
+/// The numbers of a group at steps of flexion: mean and standard deviation over knees, each knee first, and how many there are.
+#[must_use]
+pub fn group_table(group: &Group) -> String {
+    let mut out = format!(
+        "# fluoropose {}, group table version 1\n",
+        env!("CARGO_PKG_VERSION")
+    );
+    let name = group.name.replace(['\n', '\r'], " ");
+    let _ = writeln!(
+        out,
+        "# group: {name}; mean and standard deviation over knees, of each knee the mean of its films, of each film that of its monotonic phases; without doubtful frames, nothing extrapolated, NaN where fewer than two knees have a number"
+    );
+    for knee in group.knees() {
+        let films: Vec<&str> = knee.films.iter().map(|film| film.name.as_str()).collect();
+        let line = format!("# knee {}: {}", knee.name, films.join(", "));
+        let _ = writeln!(out, "{}", line.replace(['\n', '\r'], " "));
+    }
+    let mut names = vec!["flexion_step_deg".to_owned(), "n".to_owned()];
+    names.extend(COLUMNS.iter().flat_map(|column| {
+        [
+            format!("mean_{}", column.name),
+            format!("sd_{}", column.name),
+        ]
+    }));
+    let _ = writeln!(out, "{}", names.join(","));
+    for level in group.levels() {
+        let _ = write!(out, "{level},{}", group.at(place::FLEXION, level).n);
+        for number in 0..NUMBERS {
+            let one = group.at(number, level);
+            let _ = write!(out, ",{},{}", one.mean, one.deviation);
+        }
+        out.push('\n');
     }
     out
 }

@@ -3,9 +3,12 @@
 
 use fluoropose::Side;
 use fluoropose::joint::numbers::{NUMBERS, place};
+use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
-use fluoropose_report::{Facts, Input, JointFilm, JointRow, figure, html, read, write};
+use fluoropose_report::{
+    Facts, Group, Input, JointFilm, JointRow, Knee, figure, group_figure, html, read, write,
+};
 
 /// Bent from 0 to 58 degrees in 2-degree steps about a centre at (-4, 12); frame 8 has no pose, frame 5 is doubtful.
 fn film(rotation_deg: f64) -> JointFilm {
@@ -30,6 +33,7 @@ fn film(rotation_deg: f64) -> JointFilm {
             joint: (k != 8).then_some(JointFrame {
                 numbers,
                 deviations,
+                shared: [[0.0; NUMBERS]; ERRORS],
             }),
             filtered: None,
             checked: k == 2,
@@ -78,6 +82,64 @@ fn the_table_reads_back_to_the_last_bit() {
         assert!(text.contains(word), "{word}");
     }
     assert!(film.values(3)[8].is_nan());
+}
+
+#[test]
+fn a_table_reads_back_as_a_film() {
+    let film = film(12.0);
+    let read = read::film(&write::table(&film)).unwrap();
+    assert_eq!((read.name.as_str(), read.side), ("a & b", Side::Left));
+    assert_eq!((read.plate_depth_mm, read.plate_width_mm), (48.0, 74.0));
+    assert_eq!(read.rows.len(), film.rows.len());
+    for (read, row) in read.rows.iter().zip(&film.rows) {
+        assert_eq!((read.number, read.checked), (row.number, row.checked));
+        assert_eq!((&read.doubt, read.joint), (&row.doubt, row.joint));
+    }
+    assert!(read::film("frame,x,doubt\n1,2,\"\"\n").is_err());
+}
+
+/// Two knees, the first with two films: each knee counts once, and steps that one knee alone reaches have one.
+#[test]
+fn a_group_is_the_mean_of_its_knees() {
+    let raised = |by: f64, frames: usize| {
+        let mut film = film(12.0);
+        film.rows.truncate(frames);
+        for joint in film.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
+            joint.numbers[place::ROTATION] = by;
+        }
+        film
+    };
+    let knee = |name: &str, films| Knee {
+        name: name.to_owned(),
+        films,
+    };
+    let group = Group::new(
+        "two <knees>".to_owned(),
+        vec![
+            knee("p1", vec![raised(2.0, 30), raised(4.0, 30)]),
+            knee("p2", vec![raised(9.0, 22)]),
+        ],
+    );
+    // At 10 degrees there is but a doubtful frame.
+    assert_eq!(group.levels(), [0.0, 20.0, 30.0, 40.0, 50.0]);
+    let at = |level| group.at(place::ROTATION, level);
+    assert_eq!((at(30.0).mean, at(30.0).n), (6.0, 2));
+    assert!((at(30.0).deviation - 18f64.sqrt()).abs() < 1e-12);
+    assert_eq!(
+        (at(50.0).mean, at(50.0).n, at(50.0).deviation.is_nan()),
+        (3.0, 1, true)
+    );
+    let text = write::group_table(&group);
+    assert!(
+        text.contains("# knee p1: a & b, a & b\n")
+            && text.lines().last().unwrap().starts_with("50,1,")
+            && text.contains(",50,NaN,")
+    );
+    let picture = group_figure(&group);
+    assert!(picture.contains("2 knees, 3 films") && picture.contains("two &lt;knees&gt;"));
+    assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    let nothing = group_figure(&Group::new(String::new(), Vec::new()));
+    assert!(nothing.contains("0 knees") && !nothing.contains("NaN"));
 }
 
 #[test]
@@ -217,13 +279,72 @@ fn doubtful_frames_are_shown_and_count_for_nothing() {
     let mut spoilt = film(12.0);
     let joint = spoilt.rows[5].joint.as_mut().unwrap();
     joint.numbers[place::LATERAL_AP] = 900.0;
-    joint.numbers[place::FLEXION] = -170.0;
+    joint.numbers[place::FLEXION] = -17.0;
     let (clean, pivot) = (film(12.0).pivot().unwrap(), spoilt.pivot().unwrap());
     assert_eq!((clean.n, pivot), (28, clean));
     assert_eq!(spoilt.levels()[0], 0.0);
     let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
     assert_eq!(at(&spoilt), at(&film(12.0)));
     assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));
+}
+
+/// A tibia on the wrong side of its mirror: told, left out, and not drawn.
+#[test]
+fn numbers_that_no_knee_has_are_told_and_not_drawn() {
+    let mut spoilt = film(12.0);
+    for k in [12, 13, 20] {
+        let mut joint = spoilt.rows[k].joint.unwrap();
+        joint.numbers[place::ROTATION] = 160.0;
+        spoilt.rows[k] = JointRow::new(k + 11, Some(joint), None);
+    }
+    let why = "internal rotation would be 160\u{b0}, which no knee does";
+    assert_eq!(spoilt.rows[13].doubt.as_ref().unwrap().find(why), Some(0));
+    let [told] = &spoilt.impossibilities()[..] else {
+        panic!("one kind")
+    };
+    assert!(
+        told.starts_with("frame 23 and 2 more: ") && told.contains(why),
+        "{told}"
+    );
+    let picture = figure(&spoilt);
+    assert!(!picture.contains(": 160.00") && picture.contains("not drawn, no knee does that: 3"));
+    assert!(picture.contains("<title>frame 22: "));
+    let page = html(&spoilt, &Facts::default());
+    assert!(page.contains("23\u{2013}24, 31</td>") && page.contains(why) && page.contains("160.0"));
+    assert!(!page.contains("All 29 frames"));
+    assert!(write::table(&spoilt).contains(why));
+    for row in &mut spoilt.rows {
+        *row = JointRow::new(
+            row.number,
+            row.joint,
+            Some("a tray on the wrong side".to_owned()),
+        );
+    }
+    let page = html(&spoilt, &Facts::default());
+    assert!(page.contains("All 29 frames are doubtful") && page.contains("In 3 of them"));
+    assert!(page.contains("11\u{2013}22, 25\u{2013}30, 32\u{2013}40</td>"));
+}
+
+/// An angle that passes half a turn is no line across the figure.
+#[test]
+fn no_line_joins_angles_that_jump() {
+    let lines = |jump: f64| {
+        let mut film = film(12.0);
+        for (k, row) in film.rows.iter_mut().enumerate() {
+            if let Some(joint) = &mut row.joint {
+                joint.numbers[place::ROTATION] += if k < 15 { -30.0 } else { jump - 30.0 };
+            }
+        }
+        let picture = figure(&film);
+        let frames = picture.split("<g class=\"frames\">").nth(3).unwrap();
+        frames
+            .split("</g>")
+            .next()
+            .unwrap()
+            .matches("<polyline")
+            .count()
+    };
+    assert_eq!((lines(0.0), lines(40.0), lines(48.0)), (2, 2, 3));
 }
 
 #[test]

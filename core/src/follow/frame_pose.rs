@@ -18,6 +18,8 @@ pub struct FramePose {
     pub pose: Pose,
     /// How sure the pose is; `None` where the outline does not determine it, or a person gave it.
     pub covariance: Option<PoseCovariance>,
+    /// What of the covariance is the film's ([`crate::refine::Assessment::film_steps`]).
+    pub film_steps: [[f64; 6]; 2],
     /// How well the model's outline is met by edges.
     pub fit: Fit,
     /// What remains between outline and edges: the root of twice the robust loss, pixels.
@@ -75,6 +77,7 @@ pub fn refined_on_frame(
     Ok(FramePose {
         pose: refined.pose,
         covariance: assessment.covariance,
+        film_steps: assessment.film_steps,
         fit: assessment.fit,
         misfit_px: sqrt(2.0 * refined.loss),
         contrast: contrast(subject, image, &refined.pose, memory)?,
@@ -127,6 +130,7 @@ pub fn frame_pose_at(
     Ok(FramePose {
         pose: *pose,
         covariance: None,
+        film_steps: [[0.0; 6]; 2],
         fit,
         misfit_px: fit.misfit_px,
         contrast: contrast(subject, image, pose, memory)?,

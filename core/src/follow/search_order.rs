@@ -70,6 +70,7 @@ mod tests {
         let found = Ok(FramePose {
             pose: Pose::IDENTITY,
             covariance: None,
+            film_steps: [[0.0; 6]; 2],
             fit: Fit::default(),
             misfit_px: 0.3,
             contrast: Contrast {

@@ -139,6 +139,7 @@ mod tests {
         let found = FramePose {
             pose,
             covariance: None,
+            film_steps: [[0.0; 6]; 2],
             fit: Fit {
                 met: 1.0,
                 known: 1.0,

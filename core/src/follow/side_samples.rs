@@ -170,6 +170,7 @@ mod tests {
                 translation: [0.0, 0.0, -1000.0],
             },
             covariance: None,
+            film_steps: [[0.0; 6]; 2],
             fit: Fit::default(),
             misfit_px,
             contrast: Contrast {

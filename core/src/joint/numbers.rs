@@ -4,12 +4,13 @@ use crate::joint::condyles::{Above, Condyles, probability_beyond};
 use crate::joint::floating::floating_translations;
 use crate::joint::kinematics::{Side, joint_angles, joint_axes};
 use crate::joint::plate::Plate;
-use crate::joint::relative::{Placed, Relative};
+use crate::joint::relative::{Carried, Placed, Relative};
+use crate::joint::shared::{ERRORS, KnownTo, Step};
 use crate::math::{Vector3, radians, wrap};
 use crate::memory::TooLittleMemory;
 use crate::mesh::Mesh;
 use crate::pose::Pose;
-use crate::pose::covariance::{Matrix6, PoseCovariance};
+use crate::pose::covariance::PoseCovariance;
 
 /// By whose convention a number is meant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,6 +101,9 @@ pub struct JointFrame {
     pub numbers: [f64; NUMBERS],
     /// One standard deviation of each; `None` where the covariance of a pose is not known.
     pub deviations: Option<[f64; NUMBERS]>,
+    /// How each moves with one standard deviation of each error that the whole film has alike ([`super::shared`]); the deviations hold
+    /// it. Zero where they are not known.
+    pub shared: [[f64; NUMBERS]; ERRORS],
 }
 
 impl JointFrame {
@@ -111,9 +115,15 @@ impl JointFrame {
             numbers[..place::MEDIAL_AP].copy_from_slice(&of_pose(&pose.inverse(), side));
             numbers
         };
+        let here = numbers(&relative.tibia_from_femur);
+        Self::carried(here, relative.carry(|pose| nearest(numbers(pose), &here)))
+    }
+
+    fn carried(numbers: [f64; NUMBERS], carried: Option<Carried<NUMBERS>>) -> Self {
         Self {
-            numbers: numbers(&relative.tibia_from_femur),
-            deviations: relative.deviations(numbers),
+            numbers,
+            deviations: carried.map(|carried| carried.deviations),
+            shared: carried.map_or([[0.0; NUMBERS]; ERRORS], |carried| carried.shared),
         }
     }
 
@@ -144,6 +154,28 @@ pub fn of_pose(relative: &Pose, side: Side) -> [f64; place::MEDIAL_AP] {
         floating.anterior_mm,
         floating.distraction_mm,
     ]
+}
+
+/// What is known of a component's pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posed {
+    /// That of its file (`camera_from_model`).
+    pub pose: Pose,
+    /// Its covariance, where that is known.
+    pub covariance: Option<PoseCovariance>,
+    /// What of the covariance is the film's ([`crate::refine::Assessment::film_steps`]); zero where nothing is said of it.
+    pub film_steps: [Step; 2],
+}
+
+impl From<Pose> for Posed {
+    /// Without a covariance.
+    fn from(pose: Pose) -> Self {
+        Self {
+            pose,
+            covariance: None,
+            film_steps: [[0.0; 6]; 2],
+        }
+    }
 }
 
 /// The two components of a knee, as their meshes and the anatomical axes of these.
@@ -196,18 +228,15 @@ impl<'m> Joint<'m> {
         self.above.memory_needed()
     }
 
-    /// One component as the other sees it, from the poses of their files (`camera_from_model`), the covariances of
-    /// these where they are known, and that between them ([`super::relative::common`]).
+    /// One component as the other sees it, from what is known of both poses, and how well camera and models are known.
     #[must_use]
-    pub fn relative(
-        &self,
-        femur: (&Pose, Option<PoseCovariance>),
-        tibia: (&Pose, Option<PoseCovariance>),
-        common: &Matrix6,
-    ) -> Relative {
-        let femur = Placed::new(femur.0, &self.femur_axes, &self.femur_centre, femur.1);
-        let tibia = Placed::new(tibia.0, &self.tibia_axes, &self.tibia_centre, tibia.1);
-        Relative::new(&femur, &tibia, common)
+    pub fn relative(&self, femur: &Posed, tibia: &Posed, known: KnownTo) -> Relative {
+        let placed = |posed: &Posed, axes, centre| {
+            Placed::new(&posed.pose, axes, centre, posed.covariance).on_film(posed.film_steps)
+        };
+        let femur = placed(femur, &self.femur_axes, &self.femur_centre);
+        let tibia = placed(tibia, &self.tibia_axes, &self.tibia_centre);
+        Relative::new(&femur, &tibia, known)
     }
 
     /// All numbers of a frame.
@@ -226,17 +255,8 @@ impl<'m> Joint<'m> {
             self.numbers(pose, &condyles)
         };
         let here = numbers(pose);
-        let deviations = relative.deviations(|pose| {
-            let mut moved = numbers(pose);
-            for k in [place::FLEXION, place::ABDUCTION, place::ROTATION] {
-                moved[k] = here[k] + turned(moved[k] - here[k]);
-            }
-            moved
-        });
-        Ok(JointFrame {
-            numbers: here,
-            deviations,
-        })
+        let carried = relative.carry(|pose| nearest(numbers(pose), &here));
+        Ok(JointFrame::carried(here, carried))
     }
 
     fn numbers(&self, tibia_from_femur: &Pose, condyles: &Condyles) -> [f64; NUMBERS] {
@@ -257,6 +277,14 @@ impl<'m> Joint<'m> {
         ]);
         numbers
     }
+}
+
+/// Numbers of a pose nearby, with angles that did not pass half a turn.
+fn nearest(mut moved: [f64; NUMBERS], here: &[f64; NUMBERS]) -> [f64; NUMBERS] {
+    for k in [place::FLEXION, place::ABDUCTION, place::ROTATION] {
+        moved[k] = here[k] + turned(moved[k] - here[k]);
+    }
+    moved
 }
 
 /// A difference of angles by less than half a turn, degrees.

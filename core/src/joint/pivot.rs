@@ -1,5 +1,6 @@
 //! The centre of rotation on the plate over several frames: where the condyle lines meet.
 
+use crate::joint::shared::ERRORS;
 use crate::math::{atan2, degrees, sqrt, wrap};
 
 /// Below this range of directions, degrees, the lines hardly cross, and where they meet says nothing.
@@ -44,6 +45,26 @@ impl Pivot {
         !(self.rotation_deg >= ILL_CONDITIONED_DEG
             && self.deviation_mm.iter().all(|d| d.is_finite()))
     }
+}
+
+/// The centre of lines that move with errors which all frames have alike ([`super::shared`]): of [`pivot`], and as much less certain
+/// as it moves with one standard deviation of each. `lines`: as they were found (`None`), and as an error moves all of them.
+pub fn pivot_of_film<L>(lines: impl Fn(Option<usize>) -> L) -> Option<Pivot>
+where
+    L: Iterator<Item = CondyleLine> + Clone,
+{
+    let mut found = pivot(lines(None))?;
+    for error in 0..ERRORS {
+        let moved = pivot(lines(Some(error)))?;
+        let by = [
+            moved.anterior_mm - found.anterior_mm,
+            moved.medial_mm - found.medial_mm,
+        ];
+        for (deviation, by) in found.deviation_mm.iter_mut().zip(by) {
+            *deviation = sqrt(*deviation * *deviation + by * by);
+        }
+    }
+    Some(found)
 }
 
 /// The point that the lines miss least: least squares of the distances, each in units of its own error. Two lowest points err

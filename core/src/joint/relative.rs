@@ -1,10 +1,11 @@
 //! The femoral component as the tibial one sees it, and how certain that is.
 
+use crate::joint::shared::{self, ERRORS, KnownTo, Step};
 use crate::math::{
     Matrix3, Vector3, add, apply, cross, multiply, rotation_by, sqrt, subtract, transpose,
 };
 use crate::pose::Pose;
-use crate::pose::covariance::{Matrix6, PoseCovariance, congruence, product_with_transpose};
+use crate::pose::covariance::{Matrix6, PoseCovariance, congruence};
 
 /// Steps of the numerical derivatives: of turns in radians, of shifts in mm. The tops of condyles bend over some tens of mm, so
 /// a tenth of a degree is a small step, and rounding is a millionth of one.
@@ -20,6 +21,8 @@ pub struct Placed {
     pub middle: Vector3,
     /// Covariance of the pose; `None` where it is not known.
     pub covariance: Option<PoseCovariance>,
+    /// What of the covariance is the film's ([`crate::refine::Assessment::film_steps`]), and so the other component's too.
+    pub film_steps: [Step; 2],
 }
 
 impl Placed {
@@ -36,7 +39,14 @@ impl Placed {
             pose: pose.compose(axes),
             middle: axes.inverse().transform(centre),
             covariance,
+            film_steps: [[0.0; 6]; 2],
         }
+    }
+
+    /// The same with the film's part of its covariance.
+    #[must_use]
+    pub fn on_film(self, film_steps: [Step; 2]) -> Self {
+        Self { film_steps, ..self }
     }
 }
 
@@ -49,42 +59,36 @@ pub struct Relative {
     pub middle: Vector3,
     /// Covariance of this pose, in tibial axes. `None` where that of a component is not known.
     pub covariance: Option<PoseCovariance>,
+    /// What of it is wrong with the whole film alike: how the pose moves with one standard deviation of each error, in tibial axes.
+    pub shared: [Step; ERRORS],
 }
 
-/// No error is known that moves both poses.
-pub const NOTHING_COMMON: Matrix6 = [[0.0; 6]; 6];
-
-/// Covariance between the two poses of what moves both: each entry is an error by one standard deviation, as the step (turn in
-/// radians, shift in mm, camera axes) that it makes in the femoral and in the tibial pose.
-///
-/// One film has one display and one blur, and one calibration one principal distance: what is wrong with these moves both
-/// components along the view alike, and little of it is left in the joint. [`crate::refine::Assessment::film_steps`] has the
-/// steps of the film's constants.
-#[must_use]
-pub fn common(errors: &[([f64; 6], [f64; 6])]) -> Matrix6 {
-    let mut sum = NOTHING_COMMON;
-    for (femur, tibia) in errors {
-        for (row, a) in sum.iter_mut().zip(femur) {
-            for (value, b) in row.iter_mut().zip(tibia) {
-                *value += a * b;
-            }
-        }
-    }
-    sum
+/// What numbers of a relative pose are not known to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Carried<const N: usize> {
+    /// One standard deviation of each.
+    pub deviations: [f64; N],
+    /// How each moves with one standard deviation of each error that the whole film has alike ([`super::shared`]); the deviations hold
+    /// it.
+    pub shared: [[f64; N]; ERRORS],
 }
 
 impl Relative {
-    /// Of both components in one frame. `common` is the covariance between the steps of the femoral pose (rows) and of the
-    /// tibial one (columns): [`common`], or [`NOTHING_COMMON`] where it is not known. What is in both covariances
-    /// and is not said to be common counts twice, so the joint's depth then looks less certain than it is, never more.
+    /// Of both components in one frame: what the film's constants, the principal distance and the sizes of the models do to both
+    /// poses alike is carried as such. What is in both covariances and is not among the film's steps counts twice: the joint's depth
+    /// then looks less certain than it is, never more.
     #[must_use]
-    pub fn new(femur: &Placed, tibia: &Placed, common: &Matrix6) -> Self {
-        let steps = Steps::new(femur, tibia);
+    pub fn new(femur: &Placed, tibia: &Placed, known: KnownTo) -> Self {
+        let to_joint = Steps::new(femur, tibia);
+        let parts = [femur, tibia];
+        let middles = parts.map(|part| part.pose.transform(&part.middle));
+        let errors = shared::steps(middles, parts.map(|part| part.film_steps), known);
         let both = femur.covariance.zip(tibia.covariance);
         Self {
             tibia_from_femur: tibia.pose.inverse().compose(&femur.pose),
             middle: femur.middle,
-            covariance: both.map(|(femur, tibia)| steps.carry(&femur, &tibia, common)),
+            covariance: both.map(|both| to_joint.carry(both, &errors)),
+            shared: errors.map(|[femur, tibia]| to_joint.step(&femur, &tibia)),
         }
     }
 
@@ -94,14 +98,31 @@ impl Relative {
         self.tibia_from_femur.inverse()
     }
 
-    /// Covariance of any numbers of the relative pose, to first order, by central differences. `None` without a covariance of
+    /// What any numbers of the relative pose are not known to, to first order, by central differences. `None` without a covariance of
     /// the pose.
     pub fn carry<const N: usize>(
         &self,
-        mut numbers: impl FnMut(&Pose) -> [f64; N],
-    ) -> Option<[[f64; N]; N]> {
+        numbers: impl FnMut(&Pose) -> [f64; N],
+    ) -> Option<Carried<N>> {
         let covariance = self.covariance?.matrix;
-        let slopes: [[f64; N]; 6] = core::array::from_fn(|k| {
+        let slopes = self.slopes(numbers);
+        let along = |step: &Step, n: usize| (0..6).map(|k| slopes[k][n] * step[k]).sum::<f64>();
+        let variance = |n: usize| -> f64 {
+            let slope = core::array::from_fn(|k| slopes[k][n]);
+            (0..6)
+                .map(|row| slope[row] * dot(&covariance[row], &slope))
+                .sum()
+        };
+        Some(Carried {
+            deviations: core::array::from_fn(|n| sqrt(variance(n).max(0.0))),
+            shared: self
+                .shared
+                .map(|step| core::array::from_fn(|n| along(&step, n))),
+        })
+    }
+
+    fn slopes<const N: usize>(&self, mut numbers: impl FnMut(&Pose) -> [f64; N]) -> [[f64; N]; 6] {
+        core::array::from_fn(|k| {
             let size = if k < 3 { TURN_STEP } else { SHIFT_STEP };
             let mut at = |size: f64| {
                 let mut step = [0.0; 6];
@@ -110,14 +131,7 @@ impl Relative {
             };
             let (up, down) = (at(size), at(-size));
             core::array::from_fn(|n| (up[n] - down[n]) / (2.0 * size))
-        });
-        let product = |a: usize, b: usize| -> f64 {
-            let row = |i: usize| (0..6).map(|j| covariance[i][j] * slopes[j][b]).sum::<f64>();
-            (0..6).map(|i| slopes[i][a] * row(i)).sum()
-        };
-        Some(core::array::from_fn(|a| {
-            core::array::from_fn(|b| product(a, b))
-        }))
+        })
     }
 
     /// One standard deviation of each of any numbers; see [`Self::carry`].
@@ -125,8 +139,7 @@ impl Relative {
         &self,
         numbers: impl FnMut(&Pose) -> [f64; N],
     ) -> Option<[f64; N]> {
-        let covariance = self.carry(numbers)?;
-        Some(core::array::from_fn(|n| sqrt(covariance[n][n].max(0.0))))
+        Some(self.carry(numbers)?.deviations)
     }
 
     /// The pose after a turn about the middle and a shift, in tibial axes.
@@ -171,19 +184,36 @@ impl Steps {
 
     fn carry(
         &self,
-        femur: &PoseCovariance,
-        tibia: &PoseCovariance,
-        common: &Matrix6,
+        both: (PoseCovariance, PoseCovariance),
+        errors: &[[Step; 2]; ERRORS],
     ) -> PoseCovariance {
+        let femur = shared::widened(&both.0, errors, 0);
+        let tibia = shared::widened(&both.1, errors, 1);
         let own = congruence(&self.femur, &femur.matrix);
         let other = congruence(&self.tibia, &tibia.matrix);
-        let between = product_with_transpose(&self.femur, common, &self.tibia);
-        PoseCovariance {
-            matrix: core::array::from_fn(|a| {
-                core::array::from_fn(|b| own[a][b] + other[a][b] + between[a][b] + between[b][a])
-            }),
+        let mut matrix =
+            core::array::from_fn(|a| core::array::from_fn(|b| own[a][b] + other[a][b]));
+        for [femur, tibia] in errors {
+            let (femur, tibia) = (times(&self.femur, femur), times(&self.tibia, tibia));
+            shared::add_product(&mut matrix, &femur, &tibia);
+            shared::add_product(&mut matrix, &tibia, &femur);
         }
+        PoseCovariance { matrix }
     }
+
+    /// How the relative pose moves where both do.
+    fn step(&self, femur: &Step, tibia: &Step) -> Step {
+        let (femur, tibia) = (times(&self.femur, femur), times(&self.tibia, tibia));
+        core::array::from_fn(|k| femur[k] + tibia[k])
+    }
+}
+
+fn dot(a: &Step, b: &Step) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn times(matrix: &Matrix6, step: &Step) -> Step {
+    matrix.map(|row| dot(&row, step))
 }
 
 /// Turns to turns, turns to shifts, shifts to shifts.

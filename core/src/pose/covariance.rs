@@ -197,7 +197,7 @@ fn joined(turn: &Vector3, shift: &Vector3) -> [f64; 6] {
 }
 
 /// `a * b * c'`.
-pub(crate) fn product_with_transpose(a: &Matrix6, b: &Matrix6, c: &Matrix6) -> Matrix6 {
+fn product_with_transpose(a: &Matrix6, b: &Matrix6, c: &Matrix6) -> Matrix6 {
     multiply_square(&multiply_square(a, b), &transpose_square(c))
 }
 

@@ -54,7 +54,7 @@ pub struct Assessment {
     pub covariance: Option<PoseCovariance>,
     /// How the pose would move (turn in radians, shift in mm, camera axes) with one standard deviation of each of two
     /// independent errors of what components of one film share: its display, with what blur and attenuation are then, and its
-    /// blur beyond that. Both are in the covariance already; [`crate::joint::relative::common`] takes them of both
+    /// blur beyond that. Both are in the covariance already; [`crate::joint::shared`] takes them of both
     /// components. Zero where no film is known. The distance between edges and outline that physics leaves out is in the
     /// covariance and not here: nobody knows how much of it is common.
     pub film_steps: [[f64; 6]; 2],

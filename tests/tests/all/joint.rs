@@ -3,9 +3,9 @@
 use fluoropose::joint::course::{REVERSAL_DEG, at_flexion, phases};
 use fluoropose::joint::kinematics::Side;
 use fluoropose::joint::low_pass::LowPass;
-use fluoropose::joint::numbers::NUMBERS;
+use fluoropose::joint::numbers::{NUMBERS, Posed};
 use fluoropose::joint::pivot::{CondyleLine, pivot};
-use fluoropose::joint::relative::common;
+use fluoropose::joint::shared::KnownTo;
 use fluoropose::joint::{COLUMNS, Joint};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -47,6 +47,14 @@ fn pose(six: &[f64]) -> Pose {
         x_rot_deg: six[4],
         y_rot_deg: six[5],
     })
+}
+
+fn posed(pose: Pose, deviations: &[f64; 6], film: [f64; 6]) -> Posed {
+    Posed {
+        pose,
+        covariance: covariance(deviations, &film),
+        film_steps: [film, [0.0; 6]],
+    }
 }
 
 fn covariance(deviations: &[f64; 6], also: &[f64; 6]) -> Option<PoseCovariance> {
@@ -133,9 +141,9 @@ fn check_frames(permute: &Pose) {
         for row in of_side {
             let poses = [&row[1..7], &row[7..13]].map(|six| pose(six).compose(&back));
             let relative = joint.relative(
-                (&poses[0], covariance(&FEMUR_SD, &COMMON[0])),
-                (&poses[1], covariance(&TIBIA_SD, &COMMON[1])),
-                &common(&[(COMMON[0], COMMON[1])]),
+                &posed(poses[0], &FEMUR_SD, COMMON[0]),
+                &posed(poses[1], &TIBIA_SD, COMMON[1]),
+                KnownTo::EXACTLY,
             );
             let found = joint.at(&relative, &mut memory).expect("room");
             let deviations = found.deviations.expect("covariances");

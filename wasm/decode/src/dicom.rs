@@ -103,6 +103,11 @@ impl Dicom {
         self.attributes.frames
     }
 
+    /// Frames a second, where the file states them and they are even.
+    pub(crate) fn frames_per_s(&self) -> Option<f64> {
+        self.attributes.frames_per_s
+    }
+
     /// Decodes frame `index`, below [`Self::count`]; `bytes` are those that [`Self::open`] left.
     pub(crate) fn frame(&self, bytes: &[u8], index: usize) -> Result<GreyFrame, Problem> {
         let attributes = self.per_frame.get(index).unwrap_or(&self.attributes);

@@ -76,6 +76,15 @@ impl<'a> FrameFile<'a> {
         }
     }
 
+    /// Frames a second, where the file states them and they are even: of DICOM the times of the frames, the time of each, or
+    /// the rate at which they were taken.
+    pub fn frames_per_s(&self) -> Option<f64> {
+        match &self.content {
+            Content::Dicom(dicom) => dicom.frames_per_s(),
+            _ => None,
+        }
+    }
+
     /// Decodes frame `index`, counted from 0.
     ///
     /// # Errors

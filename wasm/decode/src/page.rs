@@ -45,6 +45,12 @@ impl PageFrameFile {
         self.0.kind().word().to_owned()
     }
 
+    /// Frames a second, if stated.
+    #[wasm_bindgen(getter, js_name = framesPerSecond)]
+    pub fn frames_per_s(&self) -> Option<f64> {
+        self.0.frames_per_s()
+    }
+
     /// Decodes frame `index`, counted from 0.
     ///
     /// # Errors

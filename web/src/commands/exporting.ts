@@ -10,6 +10,7 @@ import { sentenceOf } from '../jobs/services';
 import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
 import type { Exporting, ExportKind } from '../terms/exporting';
 import { PROGRAM } from '../terms/program';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { JointText } from '../workers/protocol/joint';
@@ -94,7 +95,7 @@ export async function write(app: App, exporting: Exporting, film: FilmType | nul
     store.say('info', savedWords(doc, exporting, name));
   } catch (error) {
     const isCalledOff = error instanceof Aborted;
-    store.say(isCalledOff ? 'info' : 'error', isCalledOff ? texts.exporting.called(name) : sentenceOf(error));
+    store.say(isCalledOff ? 'info' : 'error', isCalledOff ? later.exporting.called(name) : sentenceOf(error));
   }
 }
 
@@ -125,7 +126,7 @@ function savedWords(doc: Doc, exporting: Exporting, name: string): string {
     const missing = poses.filter((pose) => !pose).length;
     return forms.poses === 'csv' ? texts.said.tableSaved(texts.component[component], poses.length) : texts.said.posesSaved(texts.component[component], poses.length, missing);
   }
-  if (kind !== 'outlines') return texts.exporting.saved(name);
+  if (kind !== 'outlines') return later.exporting.saved(name);
   const outlines = outlinesOf(doc);
   if (forms.outlines === 'outlines') return texts.exchange.saved(outlines.length, 0, 0);
   const closed = outlines.filter((outline) => outline.closed);

@@ -6,7 +6,7 @@ import { cameraOf } from '../results/keys';
 import { doubtOf } from '../results/motion';
 import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
 import { formatNumber } from '../texts/numbers';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 import type { Bridge } from '../workers/bridge';
 import { overlayWorker } from '../workers/start';
 import type { FilmType, OverlayCurve, OverlayFrame, OverlayLook, OverlayProtocol } from '../workers/protocol/overlay';
@@ -22,14 +22,14 @@ export function overlayLook(doc: Doc, numbers: JointNumbers): OverlayLook | null
   if (!first) return null;
   const { name, rate, frames } = doc;
   const curves = numbers.of.size > 0 ? curvesOf(doc, numbers) : [];
-  return { name, width: first.width, height: first.height, frames: frames.length, rate: rate ?? USUAL_RATE, curves, noCurves: texts.exporting.film.noCurves };
+  return { name, width: first.width, height: first.height, frames: frames.length, rate: rate ?? USUAL_RATE, curves, noCurves: later.exporting.film.noCurves };
 }
 
 /** As the published figure has them; without a tray what the poses alone tell. */
-function curvesOf({ frames }: Doc, { of, columns, hasPlate }: JointNumbers): OverlayCurve[] {
-  const { curves, of: sides } = texts.joint;
+function curvesOf({ frames }: Doc, { of, impossible, columns, hasPlate }: JointNumbers): OverlayCurve[] {
+  const { curves, of: sides } = later.curves;
   const line = (column: string, colour: string, label: string) => {
-    const over = (name: string) => Float64Array.from(frames, ({ id }) => of.get(id)?.[columns.indexOf(name)] ?? NaN);
+    const over = (name: string) => Float64Array.from(frames, ({ id }) => (impossible.has(id) ? NaN : (of.get(id)?.[columns.indexOf(name)] ?? NaN)));
     return { colour, label, values: over(column), deviations: over(`sd_${column}`) };
   };
   const one = (title: string, unit: string, column: string): OverlayCurve => ({ title, unit, lines: [line(column, LINES.only, '')] });
@@ -56,11 +56,11 @@ export class OverlayFrames {
     const { doc, ui } = store;
     const frame = doc.frames[index];
     const facts = frame && studio.frameFacts(frame.id);
-    if (!frame || !facts) throw new Error(texts.exporting.film.absent(index + 1));
+    if (!frame || !facts) throw new Error(later.exporting.film.absent(index + 1));
     this.#canvas.width = this.#spare.width = frame.width;
     this.#canvas.height = this.#spare.height = frame.height;
     studio.paintFrame(contextOf(this.#canvas), frame.id, doc.window ?? facts.window, ui.seeing.preprocessing);
-    const { heading, time } = texts.exporting.film;
+    const { heading, time } = later.exporting.film;
     return {
       index,
       picture: await createImageBitmap(this.#canvas),
@@ -87,7 +87,7 @@ export class OverlayFrames {
 
 /** What is missing or doubtful, so that nobody takes a picture for more than it is. */
 function notesOn(doc: Doc, index: number): string[] {
-  const { none, doubtful } = texts.exporting.film;
+  const { none, doubtful } = later.exporting.film;
   return COMPONENT_NAMES.flatMap((component) => {
     const cell = cellOf(doc, doc.frames[index]?.id, component);
     const title = titleOf(component);
@@ -106,7 +106,7 @@ function contextOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
 /** Writes all frames. It stands among the page's jobs, and can be called off; then nothing is written. */
 export async function writeOverlayFilm(services: Services, look: OverlayLook, form: FilmType | 'pictures'): Promise<Blob> {
   const worker = overlayWorker();
-  const { title, unit } = texts.exporting.film;
+  const { title, unit } = later.exporting.film;
   const abort = new AbortController();
   const job = { title, unit, total: look.frames, cancel: () => abort.abort() };
   try {

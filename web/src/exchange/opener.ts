@@ -346,9 +346,12 @@ async function openFrames(
   opened.push(texts.said.theFrames(entries.length, entries[0]!.name));
 }
 
-function addToDocument({ store }: Services, entries: readonly FrameEntry[]): void {
+function addToDocument({ store, studio }: Services, entries: readonly FrameEntry[]): void {
   const first = store.doc.frames.length;
   store.perform(commands.addFrames(entries));
+  // Frames that were here before may be of another film.
+  const rate = first === 0 && entries.length > 1 ? (studio.statedGeometry(entries[0]!.id)?.rate ?? null) : null;
+  if (rate !== null && store.doc.rate === null) store.amend((doc) => ({ ...doc, rate }));
   if (store.doc.name === '') store.amend((doc) => ({ ...doc, name: studyName(entries[0]!) }));
   if (store.doc.frames.length > first) store.goTo(first);
 }

@@ -10,7 +10,7 @@ export interface PoseNumbers {
 
 /**
  * How uncertain a pose is: one standard deviation of each of its numbers and, where it is known, the covariance that they come
- * from: the upper half, row by row, as the core has it.
+ * from: the upper half, row by row, as the core has it; and what of it is the film's (not in older sessions).
  */
 export interface Uncertainty extends PoseNumbers {
   readonly covariance?: readonly number[];

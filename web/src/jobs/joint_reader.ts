@@ -12,6 +12,7 @@ const AT_ONCE = 32;
 
 interface Known extends Pick<JointFrame, 'femur' | 'tibia'> {
   readonly row: Float64Array;
+  readonly impossible: string | null;
 }
 
 /** Works out the numbers of the joint while somebody looks at them: of each frame once, and again when a pose of it changes. */
@@ -43,11 +44,14 @@ export class JointReader {
     const asked = jointAsked(this.#services.store.doc);
     if (!asked || !this.#open || this.#open.key !== keyOf(asked) || this.#key !== this.#open.key) return NO_NUMBERS;
     if (this.#shown?.asked !== asked || this.#shown.known !== this.#version) {
-      const rows = asked.frames.flatMap(({ id }): [string, Float64Array][] => {
-        const row = this.#known.get(id)?.row;
-        return row ? [[id, row]] : [];
-      });
-      const numbers = { ...this.#open.facts, of: new Map(rows), waiting: this.#missing(asked).length };
+      const of = new Map<string, Float64Array>();
+      const impossible = new Map<string, string>();
+      for (const { id } of asked.frames) {
+        const known = this.#known.get(id);
+        if (known) of.set(id, known.row);
+        if (known?.impossible) impossible.set(id, known.impossible);
+      }
+      const numbers = { ...this.#open.facts, of, impossible, waiting: this.#missing(asked).length };
       this.#shown = { asked, known: this.#version, numbers };
     }
     return this.#shown.numbers;
@@ -98,9 +102,11 @@ export class JointReader {
     if (this.#key !== key) this.#known.clear();
     this.#key = key;
     const uncertain = ({ pose, deviations }: Candidate) => ({ pose, deviations });
-    const numbers = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })));
-    const width = this.#open.facts.columns.length;
-    frames.forEach(({ id, femur, tibia }, at) => this.#known.set(id, { femur, tibia, row: numbers.subarray(at * width, (at + 1) * width) }));
+    const { numbers, impossible } = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })));
+    const width = numbers.length / frames.length;
+    frames.forEach(({ id, femur, tibia }, at) => {
+      this.#known.set(id, { femur, tibia, row: numbers.subarray(at * width, (at + 1) * width), impossible: impossible[at] ?? null });
+    });
   }
 
   /** What a stopped worker held is gone, and it is opened anew: twice, because this may be what stops it. */

@@ -1,4 +1,4 @@
-import { useEffect } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { currentFrame, type State } from '../document/store';
 import type { Doc } from '../document/types';
 import { viewpointOf, type ViewName } from '../geometry/axes';
@@ -8,6 +8,7 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { placedModels } from '../stage/shading';
 import type { PlacedModel } from '../stage/three/models';
+import { useBesideFrame } from './beside';
 import { drawingKey, turnByKey, useSpaceView } from './space_view';
 
 const VIEWS: readonly ViewName[] = ['camera', 'front', 'side', 'above'];
@@ -21,6 +22,9 @@ export function Space({ state }: { state: State }) {
   const placed = frame ? placedModels(state, services.studio, frame) : [];
   const models = placed.map((model) => withArrows(model, doc, model.component === component));
   const { canvas, view, trouble } = useSpaceView();
+  const host = useRef<HTMLElement>(null);
+  const [large, setLarge] = useState(false);
+  useBesideFrame(host, large);
   const selected = models.find((model) => model.component === component) ?? models[0];
   const axes = selected ? doc.components[selected.component].axes : null;
   useEffect(() => {
@@ -31,7 +35,7 @@ export function Space({ state }: { state: State }) {
   const told = axes?.told === 'all' ? axesInWords(axes.directions, doc.side) : '';
   const note = trouble ?? (selected ? (view ? told : words.loading) : words.none);
   return (
-    <section class="card space" aria-label={words.region}>
+    <section ref={host} class={large ? 'card space large' : 'card space'} aria-label={words.region}>
       <canvas
         ref={canvas}
         class="space-canvas"
@@ -48,6 +52,9 @@ export function Space({ state }: { state: State }) {
               {words.views[name]}
             </button>
           ))}
+          <button type="button" class="button small" aria-pressed={large} onClick={() => setLarge(!large)}>
+            {words.large}
+          </button>
         </div>
         <p class="card-note" role="note">
           {note}

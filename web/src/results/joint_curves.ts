@@ -1,6 +1,6 @@
 import type { Doc } from '../document/types';
 import type { Convention, CurveName, Over } from '../terms/joint';
-import { jointTrusts } from './motion';
+import { jointTrusts, runsOf } from './motion';
 
 /** Numbers of a joint, as far as they are worked out. */
 export interface JointNumbers {
@@ -8,13 +8,17 @@ export interface JointNumbers {
   readonly columns: readonly string[];
   /** Lowest points and lift-off are known. */
   readonly hasPlate: boolean;
-  /** By the frame's id, in the order of the columns. */
+  /** The border of the tray's plate from above: anterior and medial place of each point, mm; empty where there is none. */
+  readonly plate: Float64Array;
+  /** By the frame's id, in the order of the columns, and what the core needs again behind them. */
   readonly of: ReadonlyMap<string, Float64Array>;
+  /** By the frame's id: why no knee has one of its numbers. */
+  readonly impossible: ReadonlyMap<string, string>;
   /** Frames that are still being worked out. */
   readonly waiting: number;
 }
 
-export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, of: new Map(), waiting: 0 };
+export const NO_NUMBERS: JointNumbers = { columns: [], hasPlate: false, plate: new Float64Array(), of: new Map(), impossible: new Map(), waiting: 0 };
 
 /** The core's names of what a curve shows; of two, the medial one comes first. */
 export const CURVES: Readonly<Record<CurveName, { readonly columns: readonly string[]; readonly unit: '°' | 'mm' }>> = {
@@ -48,6 +52,8 @@ export interface CurvePoint {
   readonly deviation: number;
   readonly doubtful: boolean;
   readonly checked: boolean;
+  /** No knee has the numbers of this frame: it is not drawn, and no axis reaches to it. */
+  readonly impossible: boolean;
 }
 
 /** What a curve runs over; `rate`: frames a second, for time alone. */
@@ -65,12 +71,36 @@ export function pointsOf(doc: Doc, numbers: JointNumbers, column: string, along:
     const row = numbers.of.get(id);
     if (!row || !Number.isFinite(row[value])) return [];
     const x = along.over === 'flexion' ? row[flexion]! : along.over === 'time' ? index / along.rate : index + 1;
-    return [{ index, x, value: row[value]!, deviation: row[deviation]!, ...trusts[index]! }];
+    return [{ index, x, value: row[value]!, deviation: row[deviation]!, ...trusts[index]!, impossible: numbers.impossible.has(id) }];
   });
 }
 
+/** Numbers that differ by more from frame to frame, degrees or mm, are joined by no line: an angle that passed half a turn, or a wrong pose. */
+const JUMP = 45;
+
+/** What one line is drawn through: frames that follow each other, that a knee can have, and between which nothing jumps. */
+export function linesOf(points: readonly CurvePoint[]): readonly (readonly CurvePoint[])[] {
+  const possible = points.filter(({ impossible }) => !impossible);
+  return runsOf(possible, (a, b) => Math.abs(a.value - b.value) <= JUMP);
+}
+
+/** What is told of numbers that no knee has: each sentence once, with its frames, from 1. */
+export function impossibilitiesOf(doc: Doc, { impossible }: JointNumbers): readonly { readonly why: string; readonly frames: readonly number[] }[] {
+  const told = new Map<string, number[]>();
+  doc.frames.forEach(({ id }, index) => {
+    const why = impossible.get(id);
+    // Frames differ in the number alone.
+    const kind = why?.replace(/-?\d+/g, '');
+    if (!why || kind === undefined) return;
+    const known = [...told.keys()].find((other) => other.replace(/-?\d+/g, '') === kind);
+    told.set(known ?? why, [...(told.get(known ?? why) ?? []), index + 1]);
+  });
+  return [...told].map(([why, frames]) => ({ why, frames }));
+}
+
 /** From the least to the most that is to be seen, with its bands; of bands that are far wider than usual not all. */
-export function rangeOf(points: readonly CurvePoint[]): readonly [number, number] {
+export function rangeOf(all: readonly CurvePoint[]): readonly [number, number] {
+  const points = all.filter(({ impossible }) => !impossible);
   const known = points.map(({ deviation }) => deviation).filter(Number.isFinite).sort((a, b) => a - b);
   const most = 4 * (known[known.length >> 1] ?? 0);
   const reach = ({ deviation }: CurvePoint) => (Number.isFinite(deviation) ? Math.min(deviation, most) : 0);

@@ -107,12 +107,13 @@ export function doubtOf(cell: Cell): string | null {
   return verdictOf(cell.result)?.because ?? texts.joint.undecided;
 }
 
-/** What stands in frames that follow each other: a line is drawn through a run, none across a gap. */
-export function runsOf<T extends { readonly index: number }>(points: readonly T[]): readonly (readonly T[])[] {
+/** What stands in frames that follow each other: a line is drawn through a run, none across a gap, or where two are not `joined`. */
+export function runsOf<T extends { readonly index: number }>(points: readonly T[], joined: (a: T, b: T) => boolean = () => true): readonly (readonly T[])[] {
   const runs: T[][] = [];
   for (const point of points) {
     const run = runs.at(-1);
-    if (run && run.at(-1)!.index === point.index - 1) run.push(point);
+    const last = run?.at(-1);
+    if (run && last && last.index === point.index - 1 && joined(last, point)) run.push(point);
     else runs.push([point]);
   }
   return runs;

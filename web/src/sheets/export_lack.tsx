@@ -4,6 +4,7 @@ import type { State } from '../document/store';
 import { cellOf, chosenCandidate } from '../document/types';
 import type { JointNumbers } from '../results/joint_curves';
 import { motionNeeds } from '../results/motion';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import type { FilmType } from '../workers/protocol/overlay';
 import { Needs } from '../steps/joint/needs';
@@ -12,7 +13,7 @@ import { Needs } from '../steps/joint/needs';
 export function lackOf(state: State, numbers: JointNumbers, film: FilmType | null | undefined): ComponentChildren | null {
   const doc = state.history.present;
   const { kind, forms } = state.ui.exporting;
-  const words = texts.exporting;
+  const words = later.exporting;
   if (doc.frames.length === 0) return words.nothing.frames;
   switch (kind) {
     case 'session':
@@ -35,13 +36,13 @@ export function lackOf(state: State, numbers: JointNumbers, film: FilmType | nul
 
 /** Numbers that are still being worked out would be missing in a file. */
 function waitingFor({ waiting }: JointNumbers): string | null {
-  return waiting > 0 ? texts.exporting.faults.waiting(waiting) : null;
+  return waiting > 0 ? later.exporting.faults.waiting(waiting) : null;
 }
 
 function posesLack({ ui, history }: State): string | null {
   const doc = history.present;
   const { forms, component } = ui.exporting;
-  const { nothing } = texts.exporting;
+  const { nothing } = later.exporting;
   const named = texts.component[component];
   if (forms.poses === 'jtap') return chosenCandidate(cellOf(doc, doc.frames[ui.frameIndex]?.id, component)) ? null : nothing.pose(named);
   const some = (one: typeof component) => posesOf(doc, one).some((pose) => pose !== null);

@@ -3,7 +3,7 @@ import { useApp } from '../commands/app';
 import { textOf } from '../commands/exporting';
 import { USUAL_RATE } from '../commands/overlay_film';
 import type { State } from '../document/store';
-import { texts } from '../texts/texts';
+import { later } from '../texts/later';
 import type { FilmType } from '../workers/protocol/overlay';
 import { useStill } from './export_film';
 import { useLatest } from './latest';
@@ -24,7 +24,7 @@ function TextPreview({ state }: { state: State }) {
   const { exporting, frameIndex } = state.ui;
   const { numbers } = app.joint;
   const made = useLatest(() => textOf(app, exporting), [state.history.present, numbers, exporting, frameIndex]);
-  const words = texts.exporting;
+  const words = later.exporting;
   if (made === null) return <p class="sheet-text quiet">{words.making}</p>;
   if (made.trouble) return <p class="sheet-text" role="alert">{made.trouble}</p>;
   const { value } = made;
@@ -43,7 +43,7 @@ function FilmPreview({ state, isFilm }: { state: State; isFilm: boolean }) {
   const still = useStill();
   const doc = state.history.present;
   const made = useLatest(() => still(state), [doc, app.joint.numbers, state.ui.frameIndex, state.ui.seeing.preprocessing]);
-  const words = texts.exporting;
+  const words = later.exporting;
   return (
     <>
       {isFilm && doc.rate === null && <p class="sheet-text">{words.film.unknownRate(USUAL_RATE)}</p>}
@@ -61,7 +61,7 @@ function Picture({ of }: { of: Blob }) {
     setAddress(made);
     return () => URL.revokeObjectURL(made);
   }, [of]);
-  return <img class="export-picture" alt={texts.exporting.preview} src={address} />;
+  return <img class="export-picture" alt={later.exporting.preview} src={address} />;
 }
 
 /** The report's own style holds in it, and nowhere else; the page's policy allows none inside of what is parsed. */
@@ -78,7 +78,7 @@ function Page({ html }: { html: string }) {
     root.replaceChildren(...parsed.body.childNodes);
   }, [html]);
   return (
-    <div class="export-preview export-page" tabIndex={0} role="region" aria-label={texts.exporting.preview}>
+    <div class="export-preview export-page" tabIndex={0} role="region" aria-label={later.exporting.preview}>
       <div ref={host} />
     </div>
   );

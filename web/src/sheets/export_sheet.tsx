@@ -5,6 +5,7 @@ import { Segments } from '../controls/segments';
 import type { State } from '../document/store';
 import { COMPONENT_NAMES, titleOf } from '../terms/component';
 import { EXPORTS, type Exporting, FORMS } from '../terms/exporting';
+import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { EarlierWork } from '../steps/open/earlier_work';
 import { RateField } from '../steps/joint/rate_field';
@@ -18,7 +19,7 @@ import '../styles/export.css';
 export function ExportSheet({ state }: { state: State }) {
   const { store } = useApp().services;
   const { exporting } = state.ui;
-  const words = texts.exporting;
+  const words = later.exporting;
   return (
     <div class="sheet-body export">
       <div class="export-kinds" role="radiogroup" aria-label={words.kinds}>
@@ -62,7 +63,7 @@ function Contents({ state }: { state: State }) {
       {lack ? <div class="sheet-text">{lack}</div> : <ExportPreview state={state} film={film} />}
       <div class="sheet-buttons export-write">
         <button type="button" class="button primary" disabled={lack !== null || busy} onClick={() => void save()}>
-          {texts.exporting.write(name)}
+          {later.exporting.write(name)}
         </button>
       </div>
     </>
@@ -74,7 +75,7 @@ function Options({ state }: { state: State }) {
   const { joint, services } = useApp();
   const { exporting } = state.ui;
   const { kind, forms, component, column } = exporting;
-  const words = texts.exporting;
+  const words = later.exporting;
   const set = (change: Partial<Exporting>) => services.store.show({ exporting: { ...exporting, ...change } });
   const titles: Readonly<Record<string, string>> = words.forms[kind];
   const options = FORMS[kind].map((form) => ({ value: form as string, title: titles[form] ?? form, hint: words.hints[`${kind} ${form}`] ?? titles[form] ?? form }));

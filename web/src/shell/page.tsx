@@ -1,5 +1,5 @@
 import { useEffect } from 'preact/hooks';
-import { actionFor } from '../commands/bindings';
+import { actionFor, type KeyInput } from '../commands/bindings';
 import { runCheckKey } from '../commands/check_keys';
 import { texts } from '../texts/texts';
 import { useApp, useAppState } from '../commands/app';
@@ -53,6 +53,15 @@ function useKeys(): void {
   const { actions, services } = app;
   useEffect(() => {
     const { store } = services;
+    // Left and right change frames until the other arrows, or Shift, have taken the pointer from the mouse.
+    let pointsByKeys = false;
+    const onMove = () => (pointsByKeys = false);
+    const meant = (input: KeyInput) => {
+      const action = actionFor(input, store.ui.tool);
+      if (action?.name !== 'tracing' || action.command.what !== 'point') return action;
+      if (pointsByKeys || input.shift || action.command.rows !== 0 || actions.stage?.busy()) pointsByKeys = true;
+      return pointsByKeys ? action : actionFor(input);
+    };
     const onDown = (event: KeyboardEvent) => {
       if (event.key === ' ' && !typing(event.target) && !onControl(event.target)) {
         event.preventDefault();
@@ -69,25 +78,33 @@ function useKeys(): void {
       const { key, ctrlKey, metaKey, shiftKey: shift, altKey: alt, target } = event;
       if (!typing(target) && runCheckKey(app, { key, ctrl: ctrlKey || metaKey, shift, alt })) return true;
       if (runHandOrSeeingKey(app, event, { typing: typing(target), onControl: onControl(target) })) return true;
-      const action = actionFor({ key, ctrl: ctrlKey || metaKey, shift, alt }, store.ui.tool);
+      const action = meant({ key, ctrl: ctrlKey || metaKey, shift, alt });
       if (!action) return false;
       const everywhere = action.name === 'save' || action.name === 'open' || action.name === 'leave';
       if (typing(target) && !everywhere) return false;
       // Enter belongs to the control that has the focus.
       if (onControl(target) && (action.name === 'close-outline' || (action.name === 'tracing' && /^(Enter|Arrow)/.test(key)))) return false;
       if (target instanceof HTMLInputElement && target.type === 'range' && key.startsWith('Page')) return false;
+      if (/-frame$/.test(action.name) && key.startsWith('Arrow') && hasArrows(target)) return false;
       store.quiet();
       return actions.run(action);
     };
     window.addEventListener('keydown', onDown);
     window.addEventListener('keyup', onUp);
+    window.addEventListener('pointermove', onMove);
     window.addEventListener('blur', onBlur);
     return () => {
       window.removeEventListener('keydown', onDown);
       window.removeEventListener('keyup', onUp);
+      window.removeEventListener('pointermove', onMove);
       window.removeEventListener('blur', onBlur);
     };
   }, [app, actions, services]);
+}
+
+/** What moves by arrows itself: sliders, groups of which one is chosen, pictures that turn. */
+function hasArrows(target: EventTarget | null): boolean {
+  return target instanceof HTMLElement && target.matches('input, [role]:not([role="application"])');
 }
 
 function typing(target: EventTarget | null): boolean {

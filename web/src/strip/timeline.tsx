@@ -5,6 +5,7 @@ import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
 import { CellRow } from './cell_row';
 import { CellSide } from './cell_side';
+import { PlayButton } from './play_button';
 import { type Layout, useInView } from '../controls/in_view';
 import { Icon } from '../controls/icons';
 
@@ -52,6 +53,7 @@ function FrameSlider({ state }: { state: State }) {
         <button type="button" class="button square" aria-label={work.nextFrame} title={texts.withKey(work.nextFrame, 'F')} disabled={frameIndex >= last} onClick={() => actions.run({ name: 'next-frame' })}>
           <Icon name="next" />
         </button>
+        <PlayButton state={state} />
         <span class="frame-count">
           {frames.length === 0 ? '–' : frameIndex + 1} / {frames.length}
         </span>

@@ -3,7 +3,6 @@ import { axes, models, study } from './en_axes';
 import { tracing } from './en_tracing';
 import { calibrate } from './en_calibrate';
 import { check } from './en_check';
-import { exporting } from './en_exporting';
 import { files } from './en_files';
 import { film } from './en_film';
 import { first } from './en_first';
@@ -25,7 +24,7 @@ export const en = {
   tracing,
   calibrate,
   check,
-  exporting,
+  exporting: { title: 'Save and export' },
   files,
   film,
   first,
@@ -275,6 +274,8 @@ export const en = {
     frameOf: (frame: number, count: number, name: string) => `${frame} of ${count}, ${name}`,
     noFrames: 'no frames',
     previousFrame: 'Previous frame',
+    play: 'Play the film',
+    pause: 'Stop the film',
     nextFrame: 'Next frame',
     check: 'Checked',
     checkTitle: 'What is here has been looked at and is right (Y)',

@@ -2,7 +2,6 @@ import type { ExportKind, FormOf } from '../terms/exporting';
 
 /** English of the sheet that writes files. */
 export const exporting = {
-  title: 'Save and export',
   kinds: 'What to save',
   kind: { session: 'Session', poses: 'Poses', joint: 'Joint numbers', figure: 'Figure', report: 'Report', film: 'Overlay film', outlines: 'Outlines' } satisfies Record<ExportKind, string>,
   meaning: {

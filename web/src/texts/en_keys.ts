@@ -55,7 +55,7 @@ export const keys = {
     erase: 'Brush erases, or adds again',
     press: 'Press at the pointer, as a click does; the brush lets go with the next',
     rows: [
-      { shown: ['Arrows'], does: 'Move the pointer; the selected point with Edit points; the outline with its own tool (Shift: 10 px)' },
+      { shown: ['Arrows'], does: 'Move the pointer, left and right once others have; the selected point with Edit points; the outline with its own tool (Shift: 10 px)' },
       { shown: ['Ctrl + arrows'], does: 'Turn the outline by 1 degree, scale it by 1 % (its own tool)' },
       { shown: ['Backspace'], does: 'Live-wire: take the last stretch back' },
       { shown: ['Shift held'], does: 'Live-wire: straight to the pointer' },

@@ -46,5 +46,6 @@ export const seeing = {
     noWebgl: 'this browser draws no 3-D pictures (WebGL is off or missing)',
     views: { camera: 'As the camera', front: 'From the front', side: 'From the side', above: 'From above' },
     looking: 'Look from',
+    large: 'Beside the frame',
   },
 };

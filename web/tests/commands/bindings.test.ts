@@ -13,6 +13,8 @@ describe('keys', () => {
     ['p', {}, { name: 'tool', tool: 'trace' }],
     ['d', {}, { name: 'previous-frame' }],
     ['PageDown', {}, { name: 'next-frame' }],
+    ['ArrowRight', {}, { name: 'next-frame' }],
+    ['ArrowLeft', {}, { name: 'previous-frame' }],
     ['z', { ctrl: true }, { name: 'undo' }],
     ['Z', { ctrl: true, shift: true }, { name: 'redo' }],
     ['y', { ctrl: true }, { name: 'redo' }],
@@ -28,7 +30,8 @@ describe('keys', () => {
     expect(pressWith('transform', 'ArrowLeft')).toEqual({ name: 'tracing', command: { what: 'move', columns: -1, rows: 0 } });
     expect(pressWith('wire', 'ArrowUp', { shift: true })).toEqual({ name: 'tracing', command: { what: 'point', columns: 0, rows: -10 } });
     expect(pressWith('transform', 'ArrowRight', { ctrl: true })).toEqual({ name: 'tracing', command: { what: 'turn', degrees: 1 } });
-    expect(pressWith('hand', 'ArrowLeft')).toBeNull();
+    expect(pressWith('hand', 'ArrowLeft')).toEqual({ name: 'previous-frame' });
+    expect(pressWith('hand', 'ArrowUp')).toBeNull();
     expect(pressWith('wire', 'Backspace')).toEqual({ name: 'tracing', command: { what: 'take-back' } });
     expect(pressWith('trace', 'Backspace')).toEqual({ name: 'delete-point' });
     expect(pressWith('threshold', 's', { shift: true })).toEqual({ name: 'tracing', command: { what: 'shape' } });
@@ -45,7 +48,7 @@ describe('keys', () => {
       if (!action) continue;
       for (const keys of shown) {
         const [last = '', ...before] = keys === '+' ? ['+'] : keys.split(' + ').reverse();
-        const key = { 'Page Up': 'PageUp', 'Page Down': 'PageDown', Esc: 'Escape' }[last] ?? last;
+        const key = { 'Page Up': 'PageUp', 'Page Down': 'PageDown', Esc: 'Escape', '←': 'ArrowLeft', '→': 'ArrowRight' }[last] ?? last;
         const held = { ctrl: before.includes('Ctrl'), shift: before.includes('Shift'), alt: before.includes('Alt') };
         expect(pressWith(tools?.[0] ?? 'hand', key, held), keys).toEqual(action);
       }

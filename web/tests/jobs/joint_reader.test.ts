@@ -19,8 +19,9 @@ function bench(troubles: Error[] = []) {
     await Promise.resolve();
     const trouble = troubles.shift();
     if (trouble) throw trouble;
-    if ('side' in input) return { columns: ['x'], hasPlate: false };
-    return Float64Array.from(input as readonly { femur: Uncertain }[], ({ femur }) => femur.pose.x);
+    if ('side' in input) return { columns: ['x'], hasPlate: false, plate: new Float64Array() };
+    const frames = input as readonly { femur: Uncertain }[];
+    return { numbers: Float64Array.from(frames, ({ femur }) => femur.pose.x), impossible: frames.map(({ femur }) => (femur.pose.x === 7 ? 'no knee does it' : null)) };
   };
   const reader = new JointReader({ store, studio: { meshOf: () => null } } as unknown as ConstructorParameters<typeof JointReader>[0], { call } as unknown as ConstructorParameters<typeof JointReader>[1]);
   store.perform(addFrames(Array.from({ length: FRAMES }, (_, k) => ({ id: `f${k}`, name: `f${k}`, source: 's', indexInSource: k, width: 8, height: 8 }))));
@@ -43,6 +44,7 @@ describe('the reader of the joint', () => {
     await rest();
     expect(asked()).toEqual([32, 8]);
     expect(reader.numbers.of.get('f35')?.[0]).toBe(35);
+    expect([...reader.numbers.impossible]).toEqual([['f7', 'no knee does it']]);
     expect(reader.numbers).toBe(reader.numbers);
   });
 

@@ -4,7 +4,7 @@ import { bare } from '../../src/document/hand_poses';
 import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Posed } from '../../src/document/types';
-import { curvesShown, type JointNumbers, pointsOf, rangeOf } from '../../src/results/joint_curves';
+import { curvesShown, impossibilitiesOf, type JointNumbers, linesOf, pointsOf, rangeOf } from '../../src/results/joint_curves';
 import { faultsOf, inRuns } from '../../src/results/joint_faults';
 import { jointAsked, motionNeeds, runsOf } from '../../src/results/motion';
 import { COMPONENT_NAMES, type ComponentName } from '../../src/terms/component';
@@ -33,7 +33,7 @@ const row = (...numbers: number[]) => Float64Array.from(numbers);
 function numbers(): JointNumbers {
   const flexions = [0, 20, 40, NaN, 30, 10];
   const rows = flexions.flatMap((flexion, k): [string, Float64Array][] => (Number.isNaN(flexion) ? [] : [[`f${k}`, row(flexion, -k, 0.1, k === 1 ? NaN : 2)]]));
-  return { columns: COLUMNS, hasPlate: false, of: new Map(rows), waiting: 0 };
+  return { columns: COLUMNS, hasPlate: false, plate: new Float64Array(), of: new Map(rows), impossible: new Map(), waiting: 0 };
 }
 
 describe('curves of a joint', () => {
@@ -51,6 +51,23 @@ describe('curves of a joint', () => {
     expect(xs('frame')).toEqual([1, 2, 3, 5, 6]);
     expect(xs('time')).toEqual([0, 0.1, 0.2, 0.4, 0.5]);
     expect(xs('flexion')).toEqual([0, 20, 40, 30, 10]);
+  });
+
+  it('are joined by no line where a number jumps, and leave out what no knee has', () => {
+    const { doc } = film();
+    const turned = numbers();
+    turned.of.get('f1')![0] = 154;
+    turned.of.get('f2')![0] = -165;
+    const points = (told: JointNumbers) => pointsOf(doc, told, 'flexion_deg', { over: 'frame', rate: 1 });
+    const joined = (told: JointNumbers) => linesOf(points(told)).map((run) => run.map(({ index }) => index));
+    expect(joined(turned)).toEqual([[0], [1], [2], [4, 5]]);
+    const impossible = { ...turned, impossible: new Map([['f1', 'flexion would be 154\u00b0'], ['f2', 'flexion would be -165\u00b0'], ['f4', 'it would lie behind']]) };
+    expect(joined(impossible)).toEqual([[0], [5]]);
+    expect(rangeOf(points(impossible))[1]).toBeLessThan(20);
+    expect(impossibilitiesOf(doc, impossible)).toEqual([
+      { why: 'flexion would be 154\u00b0', frames: [2, 3] },
+      { why: 'it would lie behind', frames: [5] },
+    ]);
   });
 
   it('say which points are doubtful, and which were checked in both components', () => {

@@ -24,7 +24,8 @@ describe('curves beside a film', () => {
 
 describe('how uncertain a pose is', () => {
   const deviations = { x: 1, y: 2, z: 3, zRot: 4, xRot: 5, yRot: 6 };
-  const covariance = Array.from({ length: 21 }, (_, k) => k / 10);
+  /** 21 of the covariance, and 12 of the film. */
+  const covariance = Array.from({ length: 33 }, (_, k) => k / 10);
 
   it('crosses over whole', () => {
     const there = uncertaintyArray({ ...deviations, covariance });
@@ -32,9 +33,11 @@ describe('how uncertain a pose is', () => {
     expect(uncertaintyFrom(undefined)).toBeNull();
   });
 
-  it('is NaN where it is not known, of old sessions the covariance alone', () => {
+  it('is NaN where it is not known, of old sessions the film or all of the covariance', () => {
+    const older = uncertaintyArray({ ...deviations, covariance: covariance.slice(0, 21) });
+    expect([older.length, older[26], older.slice(27).every(Number.isNaN)]).toEqual([39, 2, true]);
     const old = uncertaintyArray(deviations);
-    expect([old.length, old[5], old.slice(6).every(Number.isNaN)]).toEqual([27, 6, true]);
+    expect([old.length, old[5], old.slice(6).every(Number.isNaN)]).toEqual([39, 6, true]);
     expect(uncertaintyArray(null).every(Number.isNaN)).toBe(true);
   });
 });

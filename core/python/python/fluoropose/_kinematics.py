@@ -155,7 +155,10 @@ def _write(path: _checks.PathLike, text: str) -> None:
 
 
 def _covariances(poses: object) -> NDArray[np.float64] | None:
-    return poses.covariance.reshape(len(poses), 36) if isinstance(poses, Poses) else None
+    if not isinstance(poses, Poses):
+        return None
+    parts = (poses.covariance.reshape(len(poses), 36), poses.film_steps.reshape(len(poses), 12))
+    return np.concatenate(parts, axis=1)
 
 
 def _doubts(*both: object) -> dict[int, str]:

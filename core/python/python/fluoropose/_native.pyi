@@ -43,6 +43,7 @@ class Followed(TypedDict):
     pose: NDArray[np.float64]
     sd: NDArray[np.float64]
     covariance: list[float]
+    film_steps: list[float]
     state: list[str]
     verdict: list[str]
     because: list[str]

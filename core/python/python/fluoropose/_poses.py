@@ -55,6 +55,9 @@ class Poses:
     """One standard deviation of each; NaN where it is not known."""
     covariance: NDArray[np.float64] = field(repr=False)
     """(frames, 6, 6): of a rotation about the middle of the model (radians) and a shift (mm), both in camera axes."""
+    film_steps: NDArray[np.float64] = field(repr=False)
+    """(frames, 2, 6): what one standard deviation of each of the film's constants does to the pose, part of the covariance; in
+    all frames of a film it is the same way at once."""
     state: tuple[str, ...] = field(repr=False)
     """fixed, followed, interpolated, doubtful, untrackable or unsolved."""
     verdict: tuple[str, ...] = field(repr=False)

@@ -282,6 +282,7 @@ def _poses(found: _native.Followed) -> Poses:
         pose=found["pose"],
         sd=found["sd"],
         covariance=np.reshape(found["covariance"], (length, 6, 6)),
+        film_steps=np.reshape(found["film_steps"], (length, 2, 6)),
         state=tuple(found["state"]),
         verdict=tuple(found["verdict"]),
         because=tuple(found["because"]),

@@ -1,5 +1,6 @@
 //! Numbers of a film drawn against its flexion.
 
+use fluoropose::joint::COLUMNS;
 use fluoropose::joint::course::{JUMP_DEG, Phase};
 use fluoropose::joint::numbers::place;
 
@@ -58,6 +59,15 @@ impl Ink {
     }
 }
 
+/// A frame that counts for nothing.
+pub(super) fn doubtful_point(drawing: &mut Drawing, at: [f64; 2], ink: Ink, title: &str) {
+    let dress = format!(
+        "fill=\"#fff\" stroke=\"{}\" stroke-width=\"0.7\"",
+        ink.colour
+    );
+    drawing.point(at, 2.2, &dress, title);
+}
+
 /// A film against its flexion.
 pub(super) struct Course<'f> {
     pub(super) film: &'f JointFilm,
@@ -72,7 +82,7 @@ impl<'f> Course<'f> {
             film,
             phases: film.phases(),
             levels: film.levels(),
-            flexion: film.values(place::FLEXION),
+            flexion: film.possible(film.values(place::FLEXION)),
         }
     }
 
@@ -87,7 +97,8 @@ impl<'f> Course<'f> {
     ) -> Plot {
         let reach = numbers.iter().flat_map(|&(number, _)| {
             let deviations = self.film.deviations(number).into_iter();
-            let both = self.film.values(number).into_iter().zip(deviations);
+            let values = self.film.possible(self.film.values(number));
+            let both = values.into_iter().zip(deviations);
             both.flat_map(|(value, deviation)| {
                 let deviation = if deviation.is_finite() {
                     deviation
@@ -134,13 +145,13 @@ impl<'f> Course<'f> {
 
     /// Every frame: a thin line through unbroken runs, and a point, hollow where it is doubtful.
     fn frames(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
-        let values = self.film.values(number);
+        let values = self.film.possible(self.film.values(number));
         drawing.open("frames");
         let places: Vec<[f64; 2]> = (0..values.len())
             .map(|k| plot.place(self.flexion[k], values[k]))
             .collect();
         let stroke = format!("{} stroke-opacity=\"0.75\"", ink.stroke(0.9));
-        for run in self.runs(&values) {
+        for run in self.runs(&values, number) {
             drawing.line(&places[run], &stroke);
         }
         let many = values.len() > MANY;
@@ -149,22 +160,26 @@ impl<'f> Course<'f> {
             if !place[1].is_finite() || (many && !doubtful) {
                 continue;
             }
-            let fill = if doubtful { "#fff" } else { ink.colour };
-            let dress = format!(
-                "fill=\"{fill}\" stroke=\"{}\" stroke-width=\"0.7\"",
-                ink.colour
-            );
             let title = format!("frame {}: {value:.2}", row.number);
-            drawing.point(*place, if doubtful { 2.2 } else { 1.3 }, &dress, &title);
+            if doubtful {
+                doubtful_point(drawing, *place, *ink, &title);
+            } else {
+                drawing.point(*place, 1.3, &format!("fill=\"{}\"", ink.colour), &title);
+            }
         }
         drawing.close();
     }
 
-    /// Frames in a row that have a number and between which flexion does not jump.
-    fn runs(&self, values: &[f64]) -> Vec<std::ops::Range<usize>> {
+    /// Frames in a row that have a number and between which neither flexion nor another angle jumps.
+    fn runs(&self, values: &[f64], number: usize) -> Vec<std::ops::Range<usize>> {
+        let most = match COLUMNS[number].unit {
+            "deg" => JUMP_DEG,
+            _ => f64::INFINITY,
+        };
         let joined = |at: usize| {
-            let change = self.flexion[at] - self.flexion[at - 1];
-            values[at].is_finite() && values[at - 1].is_finite() && change.abs() <= JUMP_DEG
+            let jump = |values: &[f64]| (values[at] - values[at - 1]).abs();
+            // A difference to what is not a number is not small.
+            jump(&self.flexion) <= JUMP_DEG && jump(values) <= most
         };
         let mut runs = Vec::new();
         let mut first = 0;

@@ -104,6 +104,41 @@ fn a_known_pivot_lies_within_its_stated_error() {
     }
 }
 
+/// What moves all lines of a film alike moves their centre, and no number of frames makes that less.
+#[test]
+fn a_known_pivot_lies_within_its_error_where_films_are_wrong_as_a_whole() {
+    let (mut random, films, at) = (Normal(5), 400, [-6.0, 17.0]);
+    let error: [[f64; 2]; ERRORS] =
+        core::array::from_fn(|k| if k == 3 { [2.0, 1.5] } else { [0.0; 2] });
+    let moved = |line: &CondyleLine, by: [f64; 2]| CondyleLine {
+        medial: [line.medial[0] + by[0], line.medial[1] + by[1]],
+        lateral: [line.lateral[0] + by[0], line.lateral[1] + by[1]],
+    };
+    let mut held = [0; 2];
+    for _ in 0..films {
+        let wrong = random.next();
+        let lines = lines(at, 12.0, 40, 0.5, &mut random);
+        let lines: Vec<CondyleLine> = lines
+            .iter()
+            .map(|line| moved(line, error[3].map(|x| x * wrong)))
+            .collect();
+        let found = pivot_of_film(|one| {
+            let by = one.map_or([0.0; 2], |one| error[one]);
+            lines.iter().map(move |line| moved(line, by))
+        });
+        let found = found.expect("a pivot");
+        let place = [found.anterior_mm, found.medial_mm];
+        for k in 0..2 {
+            held[k] += usize::from((place[k] - at[k]).abs() < found.deviation_mm[k]);
+        }
+    }
+    let percent = held.map(|held| 100.0 * held as f64 / films as f64);
+    assert!(
+        percent.iter().all(|p| (p - 68.0).abs() < 8.0),
+        "{percent:?}"
+    );
+}
+
 #[test]
 fn little_rotation_is_called_ill_conditioned_and_none_has_no_centre() {
     let lines_of = |range| lines([-6.0, 17.0], range, 40, 0.3, &mut Normal(9));

@@ -30,6 +30,7 @@ fn placed(place: [f64; 3], turns: [f64; 3], middle: [f64; 3], depth_mm: f64) -> 
         pose: pose(place, turns),
         middle,
         covariance: Some(covariance(&factor(depth_mm))),
+        film_steps: [[0.0; 6]; 2],
     }
 }
 
@@ -64,8 +65,12 @@ fn deviations_are_those_of_drawn_poses() {
         placed
     };
     let (wide_femur, wide_tibia) = (widened(&femur, &of_femur), widened(&tibia, &of_tibia));
-    let shared = common(&[(of_femur, of_tibia)]);
-    let relative = Relative::new(&wide_femur, &wide_tibia, &shared);
+    let none = [0.0; 6];
+    let relative = Relative::new(
+        &wide_femur.on_film([of_femur, none]),
+        &wide_tibia.on_film([of_tibia, none]),
+        KnownTo::EXACTLY,
+    );
     let expected = relative.deviations(by_relative).expect("covariances");
     let here = numbers(&femur.pose, &tibia.pose);
 
@@ -89,7 +94,7 @@ fn deviations_are_those_of_drawn_poses() {
     }
 
     // Without what is known to be common the mediolateral number, which is mostly depth here, looks less certain.
-    let apart = Relative::new(&wide_femur, &wide_tibia, &NOTHING_COMMON);
+    let apart = Relative::new(&wide_femur, &wide_tibia, KnownTo::EXACTLY);
     let apart = apart.deviations(by_relative).expect("covariances");
     assert!(apart[2] > 1.2 * expected[2], "{} {}", apart[2], expected[2]);
 }
@@ -109,7 +114,7 @@ fn the_relative_pose_is_that_of_the_joint_and_knows_no_covariance_by_itself() {
         5.0,
     );
     tibia.covariance = None;
-    let relative = Relative::new(&femur, &tibia, &NOTHING_COMMON);
+    let relative = Relative::new(&femur, &tibia, KnownTo::USUALLY);
     assert_eq!(relative.covariance, None);
     assert_eq!(relative.deviations(by_relative), None);
     let expected = numbers(&femur.pose, &tibia.pose);

@@ -5,10 +5,11 @@ use dicom_object::{InMemDicomObject, Tag};
 use super::problem::{FORMAT, damaged};
 use super::syntax::{Coding, Syntax};
 use super::tags::{
-    BITS_ALLOCATED, BITS_STORED, COLUMNS, DETECTOR_SPACING, FRAMES, HIGH_BIT, INTERCEPT,
-    MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR, ROWS, SAMPLES_PER_PIXEL,
-    SCANNED_SPACING, SIGNED, SLOPE, SOURCE_TO_DETECTOR, SOURCE_TO_ISOCENTRE, SOURCE_TO_PATIENT,
-    SPACING_CALIBRATION, WINDOW_CENTRE, WINDOW_FUNCTION, WINDOW_WIDTH,
+    BITS_ALLOCATED, BITS_STORED, CINE_RATE, COLUMNS, DETECTOR_SPACING, FRAME_TIME, FRAME_TIMES,
+    FRAMES, HIGH_BIT, INTERCEPT, MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR,
+    ROWS, SAMPLES_PER_PIXEL, SCANNED_SPACING, SIGNED, SLOPE, SOURCE_TO_DETECTOR,
+    SOURCE_TO_ISOCENTRE, SOURCE_TO_PATIENT, SPACING_CALIBRATION, WINDOW_CENTRE, WINDOW_FUNCTION,
+    WINDOW_WIDTH,
 };
 use crate::error::Problem;
 use crate::frame::{Geometry, SpacingCalibration, checked_area};
@@ -60,6 +61,7 @@ pub(super) struct Attributes {
     pub intercept: f64,
     pub window: Option<StatedWindow>,
     pub geometry: Geometry,
+    pub frames_per_s: Option<f64>,
 }
 
 /// Typed access to the library's object.
@@ -147,6 +149,7 @@ impl Attributes {
             intercept: values.finite(INTERCEPT).unwrap_or(0.0),
             window: window(&values),
             geometry: geometry(&values),
+            frames_per_s: frames_per_s(&values),
         })
     }
 
@@ -301,6 +304,35 @@ fn window(values: &Values) -> Option<StatedWindow> {
         width: values.positive(WINDOW_WIDTH)?,
         half_unit: function.is_empty() || function == "LINEAR",
     })
+}
+
+/// Times between frames that differ by more than this part of their mean are no rate.
+const EVEN: f64 = 0.1;
+
+/// From what says most: the times of all frames, the time of each, the rate at which it was taken. A pulsed or variable rate is none.
+fn frames_per_s(values: &Values) -> Option<f64> {
+    let even = |times: Vec<f64>| {
+        // The first frame comes at no time after another.
+        let steps = times.get(1..).filter(|steps| !steps.is_empty())?;
+        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+        let is_even = steps.iter().all(|step| (step - mean).abs() <= EVEN * mean);
+        Some(mean).filter(|mean| is_even && mean.is_finite() && *mean > 0.0)
+    };
+    let ms = match values.numbers(FRAME_TIMES) {
+        Some(times) if times.len() > 1 => Some(even(times)?),
+        _ => values.positive(FRAME_TIME),
+    };
+    let rate = ms.map(|ms| 1000.0 / ms);
+    // Times are stated in decimals, rates mostly are multiples of a half.
+    let whole = |rate: f64| {
+        let half = (2.0 * rate).round() / 2.0;
+        if (rate - half).abs() < 2e-4 * rate {
+            half
+        } else {
+            rate
+        }
+    };
+    rate.map(whole).or_else(|| values.positive(CINE_RATE))
 }
 
 fn geometry(values: &Values) -> Geometry {

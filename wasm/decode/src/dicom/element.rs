@@ -6,8 +6,9 @@ use super::problem::damaged;
 use super::tags::is_wanted;
 use crate::error::Problem;
 
-/// Elements longer than this are not copied for the library: nothing that is wanted comes near it.
-const MAX_WANTED_BYTES: u32 = 4096;
+/// Elements longer than this are not copied for the library: of what is wanted the times of a film's frames are the longest, some eight
+/// bytes each.
+const MAX_WANTED_BYTES: u32 = 65_536;
 
 /// Deepest nesting of sequences.
 const MAX_DEPTH: usize = 32;

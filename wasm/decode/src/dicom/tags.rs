@@ -16,6 +16,9 @@ pub(super) const WINDOW_WIDTH: u32 = 0x0028_1051;
 pub(super) const INTERCEPT: u32 = 0x0028_1052;
 pub(super) const SLOPE: u32 = 0x0028_1053;
 pub(super) const WINDOW_FUNCTION: u32 = 0x0028_1056;
+pub(super) const CINE_RATE: u32 = 0x0018_0040;
+pub(super) const FRAME_TIME: u32 = 0x0018_1063;
+pub(super) const FRAME_TIMES: u32 = 0x0018_1065;
 pub(super) const SOURCE_TO_DETECTOR: u32 = 0x0018_1110;
 pub(super) const SOURCE_TO_PATIENT: u32 = 0x0018_1111;
 pub(super) const MAGNIFICATION: u32 = 0x0018_1114;
@@ -25,7 +28,7 @@ pub(super) const SOURCE_TO_ISOCENTRE: u32 = 0x0018_9402;
 pub(super) const PIXEL_SPACING: u32 = 0x0028_0030;
 pub(super) const SPACING_CALIBRATION: u32 = 0x0028_0A02;
 
-const WANTED: [u32; 24] = [
+const WANTED: [u32; 27] = [
     SAMPLES_PER_PIXEL,
     PHOTOMETRIC,
     PLANAR,
@@ -42,6 +45,9 @@ const WANTED: [u32; 24] = [
     INTERCEPT,
     SLOPE,
     WINDOW_FUNCTION,
+    CINE_RATE,
+    FRAME_TIME,
+    FRAME_TIMES,
     SOURCE_TO_DETECTOR,
     SOURCE_TO_PATIENT,
     MAGNIFICATION,

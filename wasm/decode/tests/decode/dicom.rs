@@ -279,6 +279,38 @@ fn geometry_is_reported() {
     );
 }
 
+/// Of what a file says of times the most exact counts, and uneven ones are no rate.
+#[test]
+fn frames_a_second_come_from_times_or_rate() {
+    let rate = |stated: &[(u32, &[u8; 2], &str)]| {
+        let mut file = Builder::new(EXPLICIT);
+        for &(tag, kind, value) in stated {
+            file.text(tag, kind, value);
+        }
+        let image = Builder::image(EXPLICIT, 1, 1, 8, 4);
+        let bytes = join(file, image).octets(&[1, 2, 3, 4]);
+        FrameFile::open(bytes, "a.dcm").unwrap().frames_per_s()
+    };
+    let cine = (0x0018_0040, b"IS", "25");
+    let time = |ms| (0x0018_1063, b"DS", ms);
+    let times = |ms| (0x0018_1065, b"DS", ms);
+    assert_eq!(rate(&[]), None);
+    assert_eq!(rate(&[cine]), Some(25.0));
+    assert_eq!(rate(&[cine, time("66.67")]), Some(15.0));
+    let ntsc = rate(&[time("33.367")]).unwrap();
+    assert!((ntsc - 29.97).abs() < 1e-3, "{ntsc}");
+    assert_eq!(rate(&[cine, time("0")]), Some(25.0));
+    assert_eq!(rate(&[time("40"), times("0\\133\\134\\133")]), Some(7.5));
+    assert_eq!(rate(&[cine, times("0\\33\\66\\33")]), None);
+    assert_eq!(rate(&[cine, times("0")]), Some(25.0));
+    // Of a long film.
+    let long = ["0"]
+        .into_iter()
+        .chain(vec!["33.333"; 3000])
+        .collect::<Vec<_>>();
+    assert_eq!(rate(&[times(&long.join("\\"))]), Some(30.0));
+}
+
 /// Elements of one builder before those of another.
 fn join(mut first: Builder, second: Builder) -> Builder {
     first.verbatim(&second.into_data_set());

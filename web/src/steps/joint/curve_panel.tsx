@@ -4,7 +4,7 @@ import type { Doc } from '../../document/types';
 import { type Along, type CurvePoint, CURVES, type JointNumbers, pointsOf, rangeOf } from '../../results/joint_curves';
 import type { CurveName } from '../../terms/joint';
 import { formatDeviation, formatNumber } from '../../texts/numbers';
-import { texts } from '../../texts/texts';
+import { later } from '../../texts/later';
 import { Icon } from '../../controls/icons';
 import { type Line, Plot } from './plot';
 
@@ -25,7 +25,7 @@ interface CurvePanelProps {
 
 /** One curve with its name, its unit and what it is in one frame. */
 export function CurvePanel({ name, doc, numbers, along, theme, shown, current, alone, onAlone, onHover, onPick }: CurvePanelProps) {
-  const words = texts.joint;
+  const words = later.curves;
   const { title, sign } = words.curves[name];
   const { columns, unit } = CURVES[name];
   const { cells, marks, frames } = doc;
@@ -70,7 +70,7 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
 }
 
 function chartLabel(name: CurveName, lines: readonly Line[], { over }: Along): string {
-  const words = texts.joint;
+  const words = later.curves;
   const { title } = words.curves[name];
   const values = lines.flatMap(({ points }) => points.map(({ value }) => value));
   if (values.length === 0) return words.noChart(title);
@@ -83,7 +83,7 @@ function chartLabel(name: CurveName, lines: readonly Line[], { over }: Along): s
 function beyond(doc: Doc, numbers: JointNumbers, shown: number): string {
   const row = numbers.of.get(doc.frames[shown]?.id ?? '');
   const probability = row?.[numbers.columns.indexOf('p_lift_off_over_1.0_mm')] ?? NaN;
-  return Number.isFinite(probability) ? texts.joint.beyond(formatNumber(100 * probability, 0)) : '';
+  return Number.isFinite(probability) ? later.curves.beyond(formatNumber(100 * probability, 0)) : '';
 }
 
 /** To hundredths, as tables of joints have it; a band wider than that is shown as it is. */

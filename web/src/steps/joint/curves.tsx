@@ -3,21 +3,23 @@ import { useApp } from '../../commands/app';
 import { Segments } from '../../controls/segments';
 import type { State } from '../../document/store';
 import type { Doc } from '../../document/types';
-import { curvesShown, type JointNumbers } from '../../results/joint_curves';
-import { motionNeeds } from '../../results/motion';
+import { curvesShown, impossibilitiesOf, type JointNumbers } from '../../results/joint_curves';
+import { inRuns } from '../../results/joint_faults';
+import { jointTrusts, motionNeeds } from '../../results/motion';
 import { standingOf } from '../../results/steps';
 import { CONVENTIONS, DOCK, OVERS } from '../../terms/joint';
-import { texts } from '../../texts/texts';
+import { later } from '../../texts/later';
 import { CurvePanel } from './curve_panel';
 import { DockSize } from './dock_size';
 import { Needs } from './needs';
 import { RateField } from './rate_field';
+import { Tray } from './tray';
 
 /** What the curves run over and by whose convention; the table. */
 export function JointTools({ state }: { state: State }) {
   const { store } = useApp().services;
   const { convention, over, height } = state.ui.joint;
-  const words = texts.joint;
+  const words = later.curves;
   const isNext = standingOf(state.history.present).step === 'joint';
   return (
     <>
@@ -66,7 +68,7 @@ export function Curves({ state }: { state: State }) {
   const { rate } = state.history.present;
   const needs = motionNeeds(state.history.present);
   if (needs) return <Needs needs={needs} />;
-  if (over === 'time' && rate === null) return <p class="joint-needs">{texts.joint.rateNeeded}</p>;
+  if (over === 'time' && rate === null) return <p class="joint-needs">{later.curves.rateNeeded}</p>;
   return <Panels state={state} numbers={numbers} />;
 }
 
@@ -81,7 +83,7 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
   const large = names.find((name) => name === alone);
   return (
     <>
-      <div class={large ? 'joint-panels alone' : 'joint-panels'} style={{ '--curves': Math.ceil(names.length / 2) }}>
+      <div class={large ? 'joint-panels alone' : numbers.hasPlate ? 'joint-panels with-tray' : 'joint-panels'} style={{ '--curves': Math.ceil(names.length / 2) }}>
         {(large ? [large] : names).map((name) => (
           <CurvePanel
             key={name}
@@ -98,14 +100,34 @@ function Panels({ state, numbers }: { state: State; numbers: JointNumbers }) {
             onPick={(index) => store.goTo(index)}
           />
         ))}
+        {!large && numbers.hasPlate && <Tray doc={doc} numbers={numbers} shown={hovered ?? state.ui.frameIndex} onPick={(index) => store.goTo(index)} />}
       </div>
+      <Wrong numbers={numbers} doc={doc} />
       <Legend numbers={numbers} doc={doc} hovered={hovered} />
     </>
   );
 }
 
+/** What no knee does, each once, and what is to be said of the film as a whole. */
+function Wrong({ numbers, doc }: { numbers: JointNumbers; doc: Doc }) {
+  const words = later.curves;
+  const told = useMemo(() => impossibilitiesOf(doc, numbers), [doc.frames, numbers]);
+  const { of, impossible, waiting } = numbers;
+  const trusts = jointTrusts(doc);
+  const none = of.size > 1 && waiting === 0 && doc.frames.every(({ id }, index) => !of.has(id) || trusts[index]!.doubtful || impossible.has(id));
+  if (told.length === 0 && !none) return null;
+  return (
+    <div class="joint-wrong" role="status">
+      {none && <p>{words.allDoubtful(of.size)}</p>}
+      {told.map(({ why, frames }) => (
+        <p key={why}>{words.impossible(inRuns(frames), frames.length, why)}</p>
+      ))}
+    </div>
+  );
+}
+
 function Legend({ numbers, doc, hovered }: { numbers: JointNumbers; doc: Doc; hovered: number | null }) {
-  const words = texts.joint;
+  const words = later.curves;
   const hasBands = useMemo(() => {
     const at = numbers.columns.indexOf('sd_flexion_deg');
     return [...numbers.of.values()].some((row) => Number.isFinite(row[at]));

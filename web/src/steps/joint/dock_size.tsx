@@ -1,7 +1,7 @@
 import { useApp } from '../../commands/app';
 import type { State } from '../../document/store';
 import { DOCK } from '../../terms/joint';
-import { texts } from '../../texts/texts';
+import { later } from '../../texts/later';
 
 /** The dock's upper border: drawn by the mouse, or moved by arrows. */
 export function DockSize({ state }: { state: State }) {
@@ -25,7 +25,7 @@ export function DockSize({ state }: { state: State }) {
       class="joint-size"
       role="separator"
       aria-orientation="horizontal"
-      aria-label={texts.joint.size}
+      aria-label={later.curves.size}
       aria-valuenow={Math.round(100 * height)}
       aria-valuemin={100 * DOCK.least}
       aria-valuemax={100 * DOCK.large}

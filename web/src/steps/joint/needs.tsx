@@ -1,12 +1,13 @@
 import { useApp } from '../../commands/app';
 import * as commands from '../../document/commands';
 import type { MotionNeeds } from '../../results/motion';
+import { later } from '../../texts/later';
 import { texts } from '../../texts/texts';
 
 /** What the curves wait for, and where to say it. */
 export function Needs({ needs }: { needs: MotionNeeds }) {
   const { store } = useApp().services;
-  const words = texts.joint.needs;
+  const words = later.curves.needs;
   switch (needs.what) {
     case 'poses':
       return <p class="joint-needs">{words.poses}</p>;

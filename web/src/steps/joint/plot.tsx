@@ -5,7 +5,7 @@ import type { Theme } from '../../document/store';
 import type { CurvePoint } from '../../results/joint_curves';
 import type { Over } from '../../terms/joint';
 import { formatNumber } from '../../texts/numbers';
-import { texts } from '../../texts/texts';
+import { later } from '../../texts/later';
 import { drawLines, drawWords, FONT, type Inks, nearestPoint } from './plot_drawing';
 
 export interface Line {
@@ -53,7 +53,7 @@ export function Plot(props: PlotProps) {
   useEffect(() => {
     if (plot.current) placeMarks(plot.current, lines, current, shown);
   }, [theme, lines, range, over, current, shown]);
-  return <div ref={host} class="joint-plot" role="img" aria-label={label} title={texts.joint.chartTitle} />;
+  return <div ref={host} class="joint-plot" role="img" aria-label={label} title={later.curves.chartTitle} />;
 }
 
 type Now = { readonly current: PlotProps };
@@ -81,7 +81,7 @@ function optionsOf(now: Now, inks: Inks, size: { width: number; height: number }
       draw: [
         (plot) => {
           const { lines, sign, over } = now.current;
-          drawWords(plot, sign, texts.joint.overUnits[over], inks.quiet);
+          drawWords(plot, sign, later.curves.overUnits[over], inks.quiet);
           drawLines(plot, lines.map(({ points, ink }) => ({ points, colour: inks.of[ink] })), inks.ground);
           placeMarks(plot, lines, now.current.current, now.current.shown);
         },
@@ -134,7 +134,7 @@ function placeMarks(plot: uPlot, lines: readonly Line[], current: number, shown:
   for (const { points } of lines) {
     for (const index of new Set([current, shown])) {
       const point = points.find((point) => point.index === index);
-      if (!point) continue;
+      if (!point || point.impossible) continue;
       const mark = document.createElement('i');
       mark.className = index === current ? 'joint-mark' : 'joint-mark hovered';
       mark.style.left = `${plot.valToPos(point.x, 'x')}px`;

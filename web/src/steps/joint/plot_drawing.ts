@@ -1,5 +1,5 @@
 import type uPlot from 'uplot';
-import type { CurvePoint } from '../../results/joint_curves';
+import { type CurvePoint, linesOf } from '../../results/joint_curves';
 import { runsOf } from '../../results/motion';
 
 /** Colours that the page's style gives, as the canvas wants them. */
@@ -29,19 +29,19 @@ export function drawLines(plot: uPlot, lines: readonly Drawn[], ground: string):
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   const at = ({ x }: CurvePoint, value: number): readonly [number, number] => [plot.valToPos(x, 'x', true), plot.valToPos(value, 'y', true)];
-  for (const { points, colour } of lines) for (const run of runsOf(points)) drawBand(ctx, run, colour, at);
+  for (const { points, colour } of lines) for (const run of linesOf(points)) drawBand(ctx, run, colour, at);
   for (const { points, colour } of lines) {
     ctx.strokeStyle = colour;
     ctx.lineWidth = 1.4 * ratio;
     ctx.lineJoin = 'round';
-    for (const run of runsOf(points)) {
+    for (const run of linesOf(points)) {
       ctx.beginPath();
       for (const point of run) ctx.lineTo(...at(point, point.value));
       ctx.stroke();
     }
     const apart = bbox.width / ratio / Math.max(1, points.length);
     const radius = ratio * Math.max(POINT.least, Math.min(POINT.most, 0.45 * apart));
-    for (const point of points) drawPoint(ctx, point, at(point, point.value), radius, colour, ground);
+    for (const point of points) if (!point.impossible) drawPoint(ctx, point, at(point, point.value), radius, colour, ground);
   }
   ctx.restore();
 }

@@ -53,7 +53,7 @@ async function opened(blob: Blob, name: string): Promise<FrameFile> {
 function taken(file: FrameFile, index: number): DecodedFrame {
   const raw = file.frame(index);
   try {
-    return copied(raw);
+    return copied(raw, file.framesPerSecond ?? null);
   } finally {
     raw.free();
   }
@@ -67,7 +67,7 @@ async function decodeAll(file: FrameFile, context: Context<FrameProgress>): Prom
   }
 }
 
-function copied(raw: RawFrame): DecodedFrame {
+function copied(raw: RawFrame, rate: number | null): DecodedFrame {
   const { width, height, windowCentre: centre, windowWidth, notes } = raw;
   const stated = centre !== undefined && windowWidth !== undefined;
   return {
@@ -76,11 +76,11 @@ function copied(raw: RawFrame): DecodedFrame {
     pixels: raw.pixels as DecodedFrame['pixels'],
     window: stated ? { centre, width: windowWidth } : null,
     notes,
-    geometry: geometryOf(raw),
+    geometry: geometryOf(raw, rate),
   };
 }
 
-function geometryOf(raw: RawFrame): StatedGeometry {
+function geometryOf(raw: RawFrame, rate: number | null): StatedGeometry {
   const { columnSpacingMm, rowSpacingMm, pixelSpacingCalibration } = raw;
   return {
     detectorSpacing: pairOf([columnSpacingMm, rowSpacingMm]),
@@ -91,6 +91,7 @@ function geometryOf(raw: RawFrame): StatedGeometry {
     sourceToPatient: raw.sourceToPatientMm ?? null,
     sourceToIsocentre: raw.sourceToIsocentreMm ?? null,
     magnification: raw.magnification ?? null,
+    rate,
   };
 }
 

@@ -17,12 +17,15 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       open?.free();
       open = null;
       open = new KneeJoint(...partOf(femur), ...partOf(tibia), side === 'left');
-      return { columns: open.columns, hasPlate: open.hasPlate };
+      return { columns: open.columns, hasPlate: open.hasPlate, plate: open.plateOutline() };
     },
     joint: async (frames) => {
-      if (!open) throw new Error('No joint is open');
-      const numbers = frames.flatMap(({ femur, tibia }) => [...uncertain(femur), ...uncertain(tibia)]);
-      return open.numbers(Float64Array.from(numbers)) as Float64Array<ArrayBuffer>;
+      const joint = open;
+      if (!joint) throw new Error('No joint is open');
+      const asked = frames.flatMap(({ femur, tibia }) => [...uncertain(femur), ...uncertain(tibia)]);
+      const numbers = joint.numbers(Float64Array.from(asked)) as Float64Array<ArrayBuffer>;
+      const width = numbers.length / Math.max(1, frames.length);
+      return { numbers, impossible: frames.map((_, at) => joint.impossible(numbers.subarray(at * width, (at + 1) * width)) ?? null) };
     },
     publish: ({ film, what }) => {
       if (!open) throw new Error('No joint is open');

@@ -15,7 +15,7 @@ export interface DecodedFrame {
   readonly window: { readonly centre: number; readonly width: number } | null;
   /** What was done to the pixels on the way, a sentence each. */
   readonly notes: readonly string[];
-  /** What the file says of sizes and distances. */
+  /** What the file says of sizes, distances and times. */
   readonly geometry: StatedGeometry;
 }
 
@@ -29,6 +29,8 @@ export interface StatedGeometry {
   readonly sourceToPatient: number | null;
   readonly sourceToIsocentre: number | null;
   readonly magnification: number | null;
+  /** Frames a second. */
+  readonly rate: number | null;
 }
 
 export type FileKind = 'frames' | 'model' | 'calibration' | 'poses' | 'library' | 'session' | 'outlines' | 'coco' | 'distortion' | 'study' | 'video' | 'unknown';

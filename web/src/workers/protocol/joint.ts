@@ -20,6 +20,8 @@ export interface JointFacts {
   readonly columns: readonly string[];
   /** Lowest points and lift-off are known. */
   readonly hasPlate: boolean;
+  /** The border of the tray's plate from above: anterior and medial place of each point, mm; empty where there is none. */
+  readonly plate: Float64Array;
 }
 
 /** A pose, and how uncertain it is, where that is known. */
@@ -55,11 +57,18 @@ export type PoseText =
   | { readonly form: 'jtak' | 'jtap'; readonly poses: readonly (PoseNumbers | null)[] }
   | { readonly form: 'tra'; readonly poses: Readonly<Record<ComponentName, readonly (PoseNumbers | null)[]>> };
 
+export interface JointOfFrames {
+  /** One frame after another: those that have names, and then what the core needs of them again. */
+  readonly numbers: Float64Array<ArrayBuffer>;
+  /** Why no knee has one of a frame's numbers, without its full stop; null where it can have them. */
+  readonly impossible: readonly (string | null)[];
+}
+
 export interface JointProtocol {
   /** What the numbers of a joint are taken of, until another one is opened. */
   openJoint: { input: JointModels; output: JointFacts; progress: never };
-  /** The numbers of frames, one after another, NaN for what is not known. Throws while no joint is open. */
-  joint: { input: readonly { readonly femur: Uncertain; readonly tibia: Uncertain }[]; output: Float64Array<ArrayBuffer>; progress: never };
+  /** The numbers of frames, NaN for what is not known. Throws while no joint is open. */
+  joint: { input: readonly { readonly femur: Uncertain; readonly tibia: Uncertain }[]; output: JointOfFrames; progress: never };
   /** The same text as the command line's. Throws while no joint is open, and for what needs times where there are none. */
   publish: { input: { readonly film: PublishedFilm; readonly what: JointText }; output: string; progress: never };
   poseText: { input: PoseText; output: string; progress: never };

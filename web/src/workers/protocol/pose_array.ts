@@ -10,8 +10,8 @@ export function poseFrom(values: ArrayLike<number>): PoseNumbers {
   return { x, y, z, zRot, xRot, yRot };
 }
 
-/** Numbers of a pose's uncertainty on the same way: six standard deviations and the upper half of a covariance. */
-const UNCERTAIN = 27;
+/** Numbers of a pose's uncertainty on the same way: six standard deviations, the upper half of a covariance, what of it is the film's. */
+const UNCERTAIN = 39;
 
 export function uncertaintyFrom(values: Float64Array | undefined): Uncertainty | null {
   return values ? { ...poseFrom(values), covariance: Array.from(values.subarray(6, UNCERTAIN)) } : null;

@@ -106,6 +106,18 @@ impl Frames {
     }
 }
 
+/// Frames a second as the first file of a folder states them, where it does.
+///
+/// # Errors
+/// For a folder or a file that cannot be read.
+pub fn stated_frames_per_s(folder: &Path) -> Result<Option<f64>> {
+    let Some(first) = files_in(folder)?.into_iter().next() else {
+        return Ok(None);
+    };
+    let file = FrameFile::open(read(&first)?, &name_of(&first))?;
+    Ok(file.frames_per_s())
+}
+
 /// A decoded frame as the core looks at it.
 ///
 /// # Errors

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use fluoropose_report::group::{Group, Knee, figure, table};
+use fluoropose_report::cohorts::{Group, Knee, figure, table};
 use fluoropose_report::levels::{self, Level};
 
 use crate::files::{csv_fields, read_text, write_text};

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use fluoropose::joint::kinematics::{self, joint_axes, relative_pose};
 use fluoropose::joint::numbers::{NUMBERS, of_pose, place};
-use fluoropose::joint::relative::NOTHING_COMMON;
+use fluoropose::joint::shared::KnownTo;
 use fluoropose::joint::{COLUMNS, Joint};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose_report::impossibilities;
 
 use crate::files::{Role, read_model_of, read_poses};
 use crate::finding::axes_of;
@@ -87,6 +88,7 @@ pub fn run(args: Args) -> Result<()> {
         place::MEDIAL_AP
     };
     let mut table = heading(columns);
+    let mut frames = Vec::new();
     for (frame, (femur, tibia)) in femur.into_iter().zip(tibia).enumerate() {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
@@ -95,21 +97,24 @@ pub fn run(args: Args) -> Result<()> {
                     &femur.compose(&femur_part.joint_axes(side)),
                     &tibia.compose(&tibia_part.joint_axes(side)),
                 );
-                let lowest = match &joint {
-                    Some(joint) => {
-                        let poses = ((&femur, None), (&tibia, None));
-                        let relative = joint.relative(poses.0, poses.1, &NOTHING_COMMON);
-                        joint.at(&relative, &mut memory)?.numbers
-                    }
-                    None => [f64::NAN; NUMBERS],
-                };
-                for number in joint_numbers(&relative, side, &lowest[place::MEDIAL_AP..columns]) {
+                let mut numbers = [f64::NAN; NUMBERS];
+                if let Some(joint) = &joint {
+                    let known = KnownTo::USUALLY;
+                    let both = joint.relative(&femur.into(), &tibia.into(), known);
+                    numbers = joint.at(&both, &mut memory)?.numbers;
+                }
+                numbers[..place::MEDIAL_AP].copy_from_slice(&of_pose(&relative, side));
+                for number in row_numbers(&relative, &numbers[..columns]) {
                     write!(table, ",{number:.4}")?;
                 }
+                frames.push((frame + 1, numbers));
             }
             None => table.push_str(&",".repeat(POSE_NUMBERS + columns)),
         }
         table.push('\n');
+    }
+    for told in impossibilities(frames.into_iter()) {
+        eprintln!("{told}");
     }
     std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
 }
@@ -201,11 +206,7 @@ fn heading(columns: usize) -> String {
     line
 }
 
-fn joint_numbers(
-    relative: &Pose,
-    side: kinematics::Side,
-    lowest: &[f64],
-) -> impl Iterator<Item = f64> {
+fn row_numbers(relative: &Pose, joint: &[f64]) -> impl Iterator<Item = f64> {
     let pose = EulerPose::from(*relative);
     let pose = [
         pose.x_mm,
@@ -215,9 +216,7 @@ fn joint_numbers(
         pose.x_rot_deg,
         pose.y_rot_deg,
     ];
-    pose.into_iter()
-        .chain(of_pose(relative, side))
-        .chain(lowest.iter().copied())
+    pose.into_iter().chain(joint.iter().copied())
 }
 
 #[cfg(test)]

@@ -1,18 +1,20 @@
 //! Verb `report`: a study's joint motion as table, files, figure and report.
 
+mod group;
 pub mod knee;
+mod out;
 pub mod sources;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use fluoropose::Side;
-use fluoropose::joint::COLUMNS;
 use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
 
-use crate::files::{Study, write_text};
+use crate::files::{Study, stated_frames_per_s, write_text};
 use knee::{Filtering, Knee};
+use out::{make_folder, write_cycles};
 use sources::Sources;
 
 /// Options of `report`.
@@ -23,20 +25,26 @@ COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number,
 frames a second are known.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
 COMPONENT.covariances.csv beside them, and doubts track.csv; `track` writes both.\n\n\
+Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \
+flexion, each knee first), figure.svg, and cycle (a row a film).\n\n\
 Examples:\n  cargo xtask report --study study.toml --poses tracked --out report\n  \
-cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3"
+cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3\n  \
+cargo xtask report --group p1=a/joint.csv p1=b/joint.csv p2=c/joint.csv --out group"
 )]
 pub struct Args {
     /// Study file with the models of a femoral and of a tibial component, and the side
-    #[arg(long)]
-    pub study: PathBuf,
+    #[arg(long, required_unless_present = "group")]
+    pub study: Option<PathBuf>,
+    /// Instead of a study: knees that are published together, each table joint.csv with the name of its knee; a knee may have several
+    #[arg(long, value_name = "KNEE=FILE", num_args = 1.., conflicts_with_all = ["study", "poses", "fps", "cutoff"])]
+    pub group: Vec<String>,
     /// Folder of the poses; without it the study's references
     #[arg(long, value_name = "DIR")]
     pub poses: Option<PathBuf>,
     /// Folder for what is written; made if absent
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Frames a second; without it those that the study states
+    /// Frames a second; without it those that the study or its DICOM frames state
     #[arg(long, value_name = "HZ")]
     pub fps: Option<f64>,
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
@@ -49,24 +57,26 @@ pub struct Args {
 /// # Errors
 /// For files that are missing, unreadable or do not belong together.
 pub fn run(args: Args) -> Result<()> {
-    let film = report(&args)?;
+    let Some(study) = &args.study else {
+        return group::run(&args.group, &args.out);
+    };
+    let film = report(study, &args)?;
     print(&args.out, &film);
     Ok(())
 }
 
-/// Writes the files; what they are made from comes back.
+/// Writes the files of a study; what they are made from comes back.
 ///
 /// # Errors
 /// As of [`run`].
-pub fn report(args: &Args) -> Result<JointFilm> {
-    let study = Study::read(&args.study)?;
-    let sources = Sources::read(&args.study, &study, args.poses.as_deref())?;
-    let filtering = Filtering::new(args.fps.or(study.frames_per_s), args.cutoff)?;
+pub fn report(file: &Path, args: &Args) -> Result<JointFilm> {
+    let study = Study::read(file)?;
+    let sources = Sources::read(file, &study, args.poses.as_deref())?;
+    let filtering = Filtering::new(frames_per_s(args.fps, &study)?, args.cutoff)?;
     let knee = Knee::new(&study.name, side(&study)?, &sources)?;
     let film = knee.film(&sources, &filtering)?;
     let facts = facts(&knee, &sources);
-    std::fs::create_dir_all(&args.out)
-        .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
+    make_folder(&args.out)?;
     write_all(&args.out, &film, &sources, &facts)?;
     Ok(film)
 }
@@ -78,6 +88,16 @@ fn side(study: &Study) -> Result<Side> {
         implant::Side::Left => Side::Left,
         implant::Side::Right => Side::Right,
     })
+}
+
+/// As asked for, or as the study states it, or as its frames do.
+fn frames_per_s(asked: Option<f64>, study: &Study) -> Result<Option<f64>> {
+    match (asked.or(study.frames_per_s), &study.frames) {
+        (Some(rate), _) => Ok(Some(rate)),
+        // Frames that are not at hand tell no times.
+        (None, Some(folder)) => Ok(stated_frames_per_s(folder).unwrap_or_default()),
+        (None, None) => Ok(None),
+    }
 }
 
 fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> Result<()> {
@@ -94,13 +114,7 @@ fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> 
     if film.frames_per_s.is_some() {
         write_text(&out.join("joint.mot"), &write::mot(film)?)?;
     }
-    let cycle = out.join("cycle");
-    std::fs::create_dir_all(&cycle).context("cannot make the folder cycle")?;
-    for (number, column) in COLUMNS.iter().enumerate() {
-        let name = cycle.join(format!("{}.csv", column.name));
-        write_text(&name, &write::matrix(&[film], number))?;
-    }
-    Ok(())
+    write_cycles(out, &[film])
 }
 
 fn facts(knee: &Knee, sources: &Sources) -> Facts {
@@ -116,13 +130,16 @@ fn facts(knee: &Knee, sources: &Sources) -> Facts {
 }
 
 fn print(out: &Path, film: &JointFilm) {
-    let posed = film.rows.iter().filter(|row| row.joint.is_some()).count();
-    let doubtful = film.rows.iter().filter(|row| row.doubt.is_some()).count();
     println!(
-        "{}: {posed} of {} frames have a joint, {doubtful} are doubtful",
+        "{}: {} of {} frames have a joint, {} are doubtful",
         film.name,
-        film.rows.len()
+        film.posed(),
+        film.rows.len(),
+        film.doubtful()
     );
+    for told in film.impossibilities() {
+        println!("{told}");
+    }
     if !film.has_deviations() {
         println!("no standard deviations: the poses come without covariances");
     }

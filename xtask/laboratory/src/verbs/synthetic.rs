@@ -23,7 +23,7 @@ use crate::options::Pair;
 use ranges::FAILURE_DEG;
 
 pub use anywhere::{Anywhere, Places, measure_anywhere};
-pub use films::{FilmKind, FilmRow, FilmWay, Films, measure_films};
+pub use films::{FilmKind, FilmRow, FilmWay, Films, JointBands, measure_films};
 pub use protocol::{Accuracy, Protocol, StartOff, Variant, measure, measure_as};
 pub use refusal::{Kind, Refusal, measure_refusal};
 

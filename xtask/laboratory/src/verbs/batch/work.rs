@@ -79,13 +79,15 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
     let study = Study::read(&entry.study)?;
     let has = |role| study.components.iter().any(|one| one.role() == Some(role));
     if has(Role::Femur) && has(Role::Tibia) {
-        let film = report(&report::Args {
-            study: entry.study.clone(),
+        let of_study = report::Args {
+            study: Some(entry.study.clone()),
+            group: Vec::new(),
             poses: Some(aside.to_owned()),
             out: aside.to_owned(),
             fps: settings.frames_per_s,
             cutoff: settings.cutoff_hz,
-        })?;
+        };
+        let film = report(&entry.study, &of_study)?;
         write_text(
             &aside.join(LEVELS),
             &levels::table(&levels::by_flexion(&film)),

@@ -2,8 +2,9 @@
 
 use anyhow::{Context, Result, bail};
 use fluoropose::joint::low_pass::LowPass;
-use fluoropose::joint::numbers::NUMBERS;
-use fluoropose::joint::relative::{NOTHING_COMMON, Relative};
+use fluoropose::joint::numbers::{NUMBERS, Posed};
+use fluoropose::joint::relative::Relative;
+use fluoropose::joint::shared::KnownTo;
 use fluoropose::joint::{Joint, JointFrame};
 use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::{Pose, Side};
@@ -73,6 +74,10 @@ impl<'s> Knee<'s> {
                 remarks.push(format!("The shape of the component {} does not tell front from back; if flexion has the wrong sign, its axes have to be stated.", body.name));
             }
         }
+        let says = |body: &Body| body.uncertain.values().all(|one| one.film_steps.is_some());
+        if !says(&sources.femur) || !says(&sources.tibia) {
+            remarks.push("The covariances do not say what of them is the film's, so that it counts twice, as if it were wrong in each component by itself: `track` writes it now.".to_owned());
+        }
         let joint = Joint::new(
             (
                 *sources.femur.model.as_model().mesh(),
@@ -113,11 +118,8 @@ impl<'s> Knee<'s> {
                 None => None,
             };
             rows.push(JointRow {
-                number: frame + 1,
-                joint,
                 filtered: filtered.get(frame).copied().flatten(),
-                checked: false,
-                doubt: sources.doubts.get(&frame).cloned(),
+                ..JointRow::new(frame + 1, joint, sources.doubts.get(&frame).cloned())
             });
         }
         let mut outline = vec![[0.0; 2]; BORDER];
@@ -137,12 +139,15 @@ impl<'s> Knee<'s> {
 
     fn relative(&self, sources: &Sources, frame: usize) -> Option<Relative> {
         let of = |body: &Body| {
-            let covariance = body.covariances.get(&frame).copied();
-            Some((body.poses[frame]?, covariance))
+            let uncertain = body.uncertain.get(&frame);
+            Some(Posed {
+                pose: body.poses[frame]?,
+                covariance: uncertain.map(|one| one.covariance),
+                film_steps: uncertain.and_then(|one| one.film_steps).unwrap_or_default(),
+            })
         };
         let (femur, tibia) = (of(&sources.femur)?, of(&sources.tibia)?);
-        let (femur, tibia) = ((&femur.0, femur.1), (&tibia.0, tibia.1));
-        Some(self.joint.relative(femur, tibia, &NOTHING_COMMON))
+        Some(self.joint.relative(&femur, &tibia, KnownTo::USUALLY))
     }
 
     /// The numbers of the filtered relative poses; nothing without a filter.

@@ -24,7 +24,16 @@ pub struct Body {
     /// Its poses, a row a frame.
     pub poses: Vec<Option<Pose>>,
     /// By frame, from 0, where they are known.
-    pub covariances: BTreeMap<usize, PoseCovariance>,
+    pub uncertain: BTreeMap<usize, Uncertain>,
+}
+
+/// How uncertain a pose is.
+#[derive(Clone, Copy, Debug)]
+pub struct Uncertain {
+    /// Its covariance.
+    pub covariance: PoseCovariance,
+    /// What a step of each of the film's constants does to it; `None` in files from before it was written.
+    pub film_steps: Option<[[f64; 6]; 2]>,
 }
 
 /// What a report is made from.
@@ -102,7 +111,7 @@ impl Body {
         inputs.push(digest(&format!("{word} model"), &component.model)?);
         inputs.push(digest(&format!("{word} poses"), &file)?);
         let beside = file.with_extension("covariances.csv");
-        let covariances = match poses.is_some() && beside.is_file() {
+        let uncertain = match poses.is_some() && beside.is_file() {
             true => {
                 inputs.push(digest(&format!("{word} covariances"), &beside)?);
                 covariances(&read_text(&beside)?)
@@ -115,7 +124,7 @@ impl Body {
             stated_axes: component.axes.clone(),
             model: read_model_of(&component.model, component.role())?,
             poses: read_poses(&file)?,
-            covariances,
+            uncertain,
         })
     }
 }
@@ -135,24 +144,26 @@ fn digest(what: &str, file: &Path) -> Result<Input> {
     })
 }
 
-/// Covariances by frame, from 0, as `track` writes them: a frame, from 1, and 36 numbers.
+/// As `track` writes them: a frame, from 1, 36 numbers, and twice six of the film, which older files do not have. By frame, from 0.
 ///
 /// # Errors
 /// Names the line.
-pub fn covariances(text: &str) -> Result<BTreeMap<usize, PoseCovariance>> {
+pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
     let mut all = BTreeMap::new();
     for (index, line) in text.lines().enumerate().skip(1) {
         let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
         let numbers = numbers.with_context(|| format!("line {}", index + 1))?;
         let (rows, rest) = numbers.get(1..).unwrap_or_default().as_chunks::<6>();
-        let matrix: Option<[[f64; 6]; 6]> = rows.try_into().ok().filter(|_| rest.is_empty());
-        let matrix =
-            matrix.with_context(|| format!("line {} does not hold 37 numbers", index + 1))?;
+        let whole = rest.is_empty() && matches!(rows.len(), 6 | 8);
+        let matrix = rows.first_chunk::<6>().filter(|_| whole);
+        let matrix = *matrix
+            .with_context(|| format!("line {} does not hold 37 or 49 numbers", index + 1))?;
+        let uncertain = Uncertain {
+            covariance: PoseCovariance { matrix },
+            film_steps: rows[6..].try_into().ok(),
+        };
         // A whole number from 1: fractions would name no frame.
-        all.insert(
-            (numbers[0] as usize).saturating_sub(1),
-            PoseCovariance { matrix },
-        );
+        all.insert((numbers[0] as usize).saturating_sub(1), uncertain);
     }
     Ok(all)
 }

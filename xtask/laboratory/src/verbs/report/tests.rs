@@ -89,7 +89,8 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     std::fs::create_dir_all(&folder).unwrap();
     write_study(&folder);
     let args = |cutoff| Args {
-        study: folder.join("study.toml"),
+        study: Some(folder.join("study.toml")),
+        group: Vec::new(),
         poses: Some(folder.clone()),
         out: folder.join("out"),
         fps: Some(15.0),
@@ -126,8 +127,74 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
         assert!(report.contains(words), "{words}");
     }
     check_centre(&text("figure.svg"), column);
+    check_group(&folder, column);
+    read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A program that shares no code with this one reads all files, where the machine has a Python.
+fn read_by_another_program(out: &Path) {
+    let script = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/golden/joint_files.py"
+    );
+    let python = std::process::Command::new("python3")
+        .args([script, out.to_str().unwrap(), "--field-axes"])
+        .output();
+    match python {
+        Ok(said) => {
+            let text =
+                [said.stdout, said.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+            assert!(
+                said.status.success() && text[0].starts_with("read"),
+                "{text:?}"
+            );
+            eprintln!("{}", text[0].trim());
+        }
+        Err(none) => eprintln!("the files are not read by another program: no python3 ({none})"),
+    }
+}
+
+/// The film taken as two knees: what both have is the mean, without any spread.
+fn check_group(folder: &Path, column: impl Fn(&str) -> Vec<f64>) {
+    let table = folder.join("out/joint.csv");
+    let named = |knee: &str| format!("{knee}={}", table.display());
+    let args = |group: Vec<String>| Args {
+        study: None,
+        group,
+        poses: None,
+        out: folder.join("group"),
+        fps: None,
+        cutoff: None,
+    };
+    run(args(vec![named("p1"), named("p2"), named("p2")])).unwrap();
+    let text = std::fs::read_to_string(folder.join("group/group.csv")).unwrap();
+    let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
+    let [names, row] = rows[..] else {
+        panic!("{text}")
+    };
+    let at = |name: &str| {
+        let at = names.split(',').position(|other| other == name).unwrap();
+        row.split(',').nth(at).unwrap().parse::<f64>().unwrap()
+    };
+    assert_eq!(
+        (at("flexion_step_deg"), at("n"), at("sd_lift_off_mm")),
+        (30.0, 2.0, 0.0)
+    );
+    let all = column("medial_ap_mm");
+    let known = all.iter().filter(|x| x.is_finite());
+    let (low, high) = known.fold((f64::MAX, f64::MIN), |(low, high), &x| {
+        (low.min(x), high.max(x))
+    });
+    assert!((low..=high).contains(&at("mean_medial_ap_mm")));
+    let cycle = std::fs::read_to_string(folder.join("group/cycle/flexion_deg.csv")).unwrap();
+    assert_eq!(
+        cycle.lines().filter(|line| !line.starts_with('#')).count(),
+        3
+    );
+    let unnamed = run(args(vec![table.display().to_string()])).unwrap_err();
+    assert!(unnamed.to_string().contains("whose knee"));
 }
 
 /// The centre that the figure tells.

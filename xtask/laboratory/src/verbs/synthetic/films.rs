@@ -1,6 +1,7 @@
 //! Grey films of the built-in implants: how far off their poses are, and whether that is told.
 
 mod draw;
+mod joint;
 mod kinds;
 mod outcome;
 mod study;
@@ -11,6 +12,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use fluoropose::camera::Camera;
+use fluoropose::mesh::Model;
 use fluoropose_phantom::implant::{self, Parameters, Triangles};
 use rayon::prelude::*;
 
@@ -18,6 +20,7 @@ use crate::files::{owned, write_json};
 use crate::finding::{ViewOptions, build_library};
 use crate::progress::progress;
 use draw::{Film, Number, draw};
+pub use joint::JointBands;
 pub use kinds::FilmKind;
 use outcome::Outcome;
 use study::Study;
@@ -119,28 +122,31 @@ pub fn measure_films(what: &Films<'_>, each: impl Fn(&FilmRow)) -> Result<Vec<Fi
                 camera,
             };
             let outcomes = study.outcomes(way)?;
-            add_rows(&kind.name, way, &outcomes, &each, &mut rows);
+            add_rows((&kind.name, way), &models, &outcomes, &each, &mut rows);
             all.extend(outcomes);
         }
     }
     if what.kinds.len() > 1 {
         for (way, outcomes) in what.ways.iter().zip(&all) {
-            add_rows("all of these", *way, outcomes, &each, &mut rows);
+            add_rows(("all of these", *way), &models, outcomes, &each, &mut rows);
         }
     }
     Ok(rows)
 }
 
 fn add_rows(
-    films: &str,
-    way: FilmWay,
+    (films, way): (&str, FilmWay),
+    models: &[Model<'_>; 2],
     outcomes: &[[Outcome; 2]],
     each: &impl Fn(&FilmRow),
     rows: &mut Vec<FilmRow>,
 ) {
     for (part, name) in PARTS.into_iter().enumerate() {
         let column: Vec<Outcome> = outcomes.iter().map(|film| film[part]).collect();
-        let row = FilmRow::of(films, [name, way.word()], &column);
+        let mut row = FilmRow::of(films, [name, way.word()], &column);
+        if part == 1 {
+            row.joint = JointBands::of(models, outcomes);
+        }
         each(&row);
         rows.push(row);
     }

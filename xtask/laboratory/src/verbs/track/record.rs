@@ -31,7 +31,7 @@ impl Reader<'_> {
 
 impl Record for FramePose {
     fn numbers(&self) -> Vec<f64> {
-        let mut numbers = Vec::with_capacity(60);
+        let mut numbers = Vec::with_capacity(72);
         numbers.extend(self.pose.rotation.iter().flatten());
         numbers.extend(self.pose.translation);
         numbers.push(f64::from(u8::from(self.covariance.is_some())));
@@ -44,6 +44,7 @@ impl Record for FramePose {
         let contrast = &self.contrast;
         numbers.extend([fit.size_px, self.misfit_px, contrast.step]);
         numbers.extend([contrast.strength, contrast.known]);
+        numbers.extend(self.film_steps.iter().flatten());
         numbers
     }
 
@@ -75,9 +76,11 @@ impl Record for FramePose {
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
+        let film_steps: [[f64; 6]; 2] = [reader.some()?, reader.some()?];
         reader.0.is_empty().then_some(Self {
             pose,
             covariance,
+            film_steps,
             fit,
             misfit_px,
             contrast: Contrast {
@@ -181,6 +184,7 @@ mod tests {
             covariance: Some(PoseCovariance {
                 matrix: std::array::from_fn(|row| std::array::from_fn(|k| (row * 6 + k) as f64)),
             }),
+            film_steps: [[0.1; 6], [-1.0 / 3.0; 6]],
             fit: Fit {
                 met: 1.0 / 3.0,
                 ..Fit::default()

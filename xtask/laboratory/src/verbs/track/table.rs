@@ -31,18 +31,24 @@ pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_m
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness\n";
 
 /// The covariance of each pose that has one, a row a frame: the frame, and 36 numbers row by row, of a turn about the middle of
-/// the model (radians) and a shift (mm), both in camera axes.
+/// the model (radians) and a shift (mm), both in camera axes; then how the pose moves with one standard deviation of each of two constants
+/// of the film, which is in the covariance and moves the other component too.
 pub(super) fn covariance_table(cells: &[Cell]) -> String {
     let mut text = String::from("frame");
     for row in 1..=6 {
         (1..=6).for_each(|column| text.push_str(&format!(",c{row}{column}")));
     }
+    for constant in 1..=2 {
+        (1..=6).for_each(|k| text.push_str(&format!(",film{constant}_{k}")));
+    }
     text.push('\n');
     for (frame, cell) in cells.iter().enumerate() {
         let found = cell.found().filter(|_| !cell.fixed);
-        if let Some(covariance) = found.and_then(|found| found.covariance) {
+        if let Some((found, covariance)) = found.and_then(|found| Some((found, found.covariance?)))
+        {
             text.push_str(&(frame + 1).to_string());
-            for number in covariance.matrix.as_flattened() {
+            let steps = found.film_steps.as_flattened();
+            for number in covariance.matrix.as_flattened().iter().chain(steps) {
                 text.push_str(&format!(",{number}"));
             }
             text.push('\n');

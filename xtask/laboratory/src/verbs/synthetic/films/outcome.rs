@@ -3,7 +3,7 @@
 use fluoropose::finder::choice::{ChoiceContext, choose};
 use fluoropose::finder::{Candidate, Limits, Verdict, contenders, judge};
 use fluoropose::pose::Pose;
-use fluoropose::pose::covariance::Deviations;
+use fluoropose::pose::covariance::{Deviations, PoseCovariance};
 
 use crate::finding::misfits::Beside;
 use crate::measure::accuracy::Errors;
@@ -30,7 +30,10 @@ pub(super) struct Outcome {
 pub(super) struct Found {
     pub(super) pose: Pose,
     pub(super) errors: Errors,
-    /// How sure the pose was said to be.
+    /// Where it is.
+    pub(super) truth: Pose,
+    /// How sure the pose was said to be, as a whole and number by number.
+    pub(super) covariance: Option<PoseCovariance>,
     pub(super) sd: Option<Deviations>,
     /// Whether depth or rotation is off by more than three standard deviations.
     pub(super) wrong: bool,
@@ -84,6 +87,8 @@ impl Found {
         Self {
             pose: candidate.pose,
             errors,
+            truth: *truth,
+            covariance: candidate.covariance,
             sd,
             wrong: sd.is_none_or(|sd| {
                 beyond(errors.z_mm, sd.z_mm) || beyond(errors.geodesic_deg, sd.rotation_deg)

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::joint::JointBands;
 use super::outcome::{Found, Outcome};
 use crate::measure::accuracy::{Errors, mean, median_absolute, rms};
 use crate::measure::coverage::Coverage;
@@ -42,6 +43,8 @@ pub struct FilmRow {
     pub inside: Coverage,
     /// Median time of a pose, ms.
     pub median_ms: f64,
+    /// Of the second component, what its joint with the first one is known to.
+    pub joint: Option<JointBands>,
 }
 
 impl FilmRow {
@@ -83,6 +86,7 @@ impl FilmRow {
             far_but_good: good.iter().filter(|found| found.far).count(),
             inside: Coverage::of(kept.iter().map(|found| (&found.errors, found.sd.as_ref()))),
             median_ms: median_absolute(&times),
+            joint: None,
         }
     }
 }
@@ -135,12 +139,16 @@ pub(super) fn print(row: &FilmRow) {
         wide,
         row.median_ms
     );
+    if let Some(joint) = &row.joint {
+        println!("{}", joint.words());
+    }
 }
 
 pub(super) fn print_legend() {
     println!(
         "mm and degrees, of poses at most 4 degrees off; told: the median standard deviation of z; wrong*: more than 3 standard \
 deviations off in depth or rotation and called good; far**: more than 2 degrees or 5 mm of depth off and called good; 68 and 95 %: \
-percent of poses whose region of that size holds the truth, number by number."
+percent of poses whose region of that size holds the truth, number by number. Joints: percent whose band of one standard deviation holds the truth, and \
+the root mean square of errors for that of the bands."
     );
 }

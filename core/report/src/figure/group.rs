@@ -1,0 +1,195 @@
+//! The same four panels over a group of knees.
+
+use fluoropose::joint::group::OverKnees;
+use fluoropose::joint::numbers::place;
+
+use super::course::{Ink, LATERAL, MEDIAL, PLAIN};
+use super::{LEFT, RIGHT, SIZE, WIDTH_MM, legend, letter, thresholds};
+use crate::group::Group;
+use crate::svg::{Anchor, Drawing, Plot, Scale};
+
+/// The figure of a group as SVG: mean and standard deviation over knees at steps of 10 degrees of flexion that two knees or more reach, and
+/// each knee as a thin line.
+#[must_use]
+pub fn group_figure(group: &Group) -> String {
+    let mut drawing = Drawing::default();
+    let course = Course {
+        group,
+        levels: group.levels(),
+    };
+    let label = "Flexion (\u{b0})";
+    letter(&mut drawing, "a", LEFT[0], 26.0);
+    let condyles = [(place::MEDIAL_AP, MEDIAL), (place::LATERAL_AP, LATERAL)];
+    let axis = "AP position (mm, anterior +)";
+    course.panel(&mut drawing, LEFT, [270.0, 40.0], &condyles, [label, axis]);
+    legend(&mut drawing, [LEFT[0] + 14.0, 27.0]);
+
+    letter(&mut drawing, "b", RIGHT[0], 26.0);
+    let rotation = [(place::ROTATION, PLAIN)];
+    let axis = "Tibial rotation (\u{b0}, internal +)";
+    course.panel(&mut drawing, RIGHT, [270.0, 40.0], &rotation, [label, axis]);
+    let words = counts(group);
+    drawing.words([RIGHT[1], 27.0], Anchor::End, 11.0, words);
+
+    letter(&mut drawing, "c", LEFT[0], 346.0);
+    course.counts(&mut drawing, [606.0, 360.0], label);
+
+    letter(&mut drawing, "d", RIGHT[0], 346.0);
+    let abduction = [(place::ABDUCTION, PLAIN)];
+    let axis = "Abduction (\u{b0})";
+    course.panel(&mut drawing, RIGHT, [464.0, 360.0], &abduction, ["", axis]);
+    let lift_off = [(place::LIFT_OFF, PLAIN)];
+    let axis = "Lift-off (mm)";
+    let plot = course.panel(
+        &mut drawing,
+        RIGHT,
+        [606.0, 496.0],
+        &lift_off,
+        [label, axis],
+    );
+    thresholds(&mut drawing, &plot);
+    drawing.finish(SIZE, WIDTH_MM, &format!("Joint motion of {}", group.name))
+}
+
+fn counts(group: &Group) -> String {
+    format!(
+        "{} knees, {} films",
+        group.knees().len(),
+        group.films().len()
+    )
+}
+
+struct Course<'g> {
+    group: &'g Group,
+    levels: Vec<f64>,
+}
+
+impl Course<'_> {
+    fn panel(
+        &self,
+        drawing: &mut Drawing,
+        [left, right]: [f64; 2],
+        [bottom, top]: [f64; 2],
+        numbers: &[(usize, Ink)],
+        labels: [&str; 2],
+    ) -> Plot {
+        let means: Vec<Vec<OverKnees>> = numbers
+            .iter()
+            .map(|&(number, _)| {
+                self.levels
+                    .iter()
+                    .map(|&level| self.group.at(number, level))
+                    .collect()
+            })
+            .collect();
+        let spread = |one: &OverKnees| {
+            if one.deviation.is_finite() {
+                one.deviation
+            } else {
+                0.0
+            }
+        };
+        let bands = means
+            .iter()
+            .flatten()
+            .flat_map(|one| [one.mean - spread(one), one.mean + spread(one)]);
+        let knees = (0..self.group.knees().len())
+            .flat_map(|knee| {
+                numbers
+                    .iter()
+                    .flat_map(move |&(number, _)| self.knee(knee, number))
+            })
+            .map(|[_, value]| value);
+        let marks = ((bottom - top) / 42.0).clamp(2.0, 6.0);
+        let plot = Plot {
+            x: Scale::over(self.levels.iter().copied(), 7.0, left, right),
+            y: Scale::over(bands.chain(knees), marks, bottom, top),
+        };
+        plot.axes(drawing, labels, !labels[0].is_empty());
+        for (&(number, ink), means) in numbers.iter().zip(&means) {
+            self.knees(drawing, &plot, number, ink);
+            self.mean(drawing, &plot, means, ink);
+        }
+        plot
+    }
+
+    /// A knee's own means at the levels, NaN where it has none.
+    fn knee(&self, knee: usize, number: usize) -> impl Iterator<Item = [f64; 2]> {
+        self.levels.iter().map(move |&level| {
+            let values = self.group.of_knee(knee, number, level);
+            [level, over(&values)]
+        })
+    }
+
+    fn knees(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: Ink) {
+        drawing.open("knees");
+        let stroke = format!("{} stroke-opacity=\"0.5\"", ink.stroke(0.8));
+        for knee in 0..self.group.knees().len() {
+            let points: Vec<[f64; 2]> = self
+                .knee(knee, number)
+                .map(|[x, y]| plot.place(x, y))
+                .collect();
+            lines(drawing, &points, &stroke);
+        }
+        drawing.close();
+    }
+
+    fn mean(&self, drawing: &mut Drawing, plot: &Plot, means: &[OverKnees], ink: Ink) {
+        drawing.open("mean");
+        let points = self.levels.iter().zip(means);
+        // One knee is no group.
+        let mean = |one: &OverKnees| if one.n > 1 { one.mean } else { f64::NAN };
+        let points: Vec<[f64; 2]> = points.map(|(&x, one)| plot.place(x, mean(one))).collect();
+        lines(drawing, &points, &ink.stroke(1.6));
+        let bar = format!("stroke=\"{}\" stroke-width=\"1\"", ink.colour);
+        for (&[x, y], one) in points.iter().zip(means) {
+            if !y.is_finite() {
+                continue;
+            }
+            if one.deviation.is_finite() {
+                let ends = [-1.0, 1.0].map(|sign| plot.y.at(one.mean + sign * one.deviation));
+                drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
+                for end in ends {
+                    drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
+                }
+            }
+            ink.mark(
+                drawing,
+                [x, y],
+                3.6,
+                &format!("{:.2}, n = {}", one.mean, one.n),
+            );
+        }
+        drawing.close();
+    }
+
+    /// How many knees each step has.
+    fn counts(&self, drawing: &mut Drawing, [bottom, top]: [f64; 2], label: &str) {
+        let n = |level: f64| self.group.at(place::FLEXION, level).n as f64;
+        let counts: Vec<f64> = self.levels.iter().map(|&level| n(level)).collect();
+        let plot = Plot {
+            x: Scale::over(self.levels.iter().copied(), 7.0, LEFT[0], LEFT[1]),
+            y: Scale::over(counts.iter().copied().chain([0.0]), 5.0, bottom, top),
+        };
+        plot.axes(drawing, [label, "Knees"], true);
+        for (&level, &count) in self.levels.iter().zip(&counts) {
+            let [x, y] = plot.place(level, count);
+            drawing.line(&[[x, bottom], [x, y]], "stroke=\"#777\" stroke-width=\"5\"");
+            drawing.words([x, y - 4.0], Anchor::Middle, 10.5, count);
+        }
+    }
+}
+
+fn over(values: &[f64]) -> f64 {
+    fluoropose::joint::group::over_knees([values]).mean
+}
+
+/// Lines through what is known, none across a gap.
+fn lines(drawing: &mut Drawing, points: &[[f64; 2]], stroke: &str) {
+    for run in points
+        .split(|[_, y]| !y.is_finite())
+        .filter(|run| run.len() > 1)
+    {
+        drawing.line(run, stroke);
+    }
+}
