@@ -193,10 +193,19 @@ async function otherForms(page) {
 /** Nothing is written, and the page says so. @param {Page} page */
 async function calledOff(page) {
   const sheet = await openExport(page, 'Overlay film', 'PNG series');
+  // Eight pictures are written in a moment, sooner than a slow machine finds the button: each waits for a second here.
+  await page.evaluate(() => {
+    const own = window.createImageBitmap.bind(window);
+    const slow = async (/** @type {ImageBitmapSource} */ source) => {
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+      return own(source);
+    };
+    Object.assign(window, { createImageBitmap: slow, atOnce: own });
+  });
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
-  // Eight pictures are written in a moment: a click would first wait for the button to stand still.
-  await page.getByRole('button', { name: 'Cancel: Writing the film' }).dispatchEvent('click');
+  await page.getByRole('button', { name: 'Cancel: Writing the film' }).click();
   await panel.waitForWords(page, /^Called off: \S+ was not written/);
+  await page.evaluate(() => Object.assign(window, { createImageBitmap: Reflect.get(window, 'atOnce') }));
 }
 
 /** @param {Page} page @param {...string} choices */

@@ -81,7 +81,7 @@ describe('curves of a joint', () => {
   });
 
   it('leave room for their bands, but not for one that is far wider than the others', () => {
-    const point = (value: number, deviation: number) => ({ index: 0, x: 0, value, deviation, doubtful: false, checked: false });
+    const point = (value: number, deviation: number) => ({ index: 0, x: 0, value, deviation, doubtful: false, checked: false, impossible: false });
     const [low, high] = rangeOf([point(0, 1), point(10, 1), point(5, NaN)]);
     expect(low).toBeCloseTo(-1.48);
     expect(high).toBeCloseTo(11.48);
