@@ -59,7 +59,7 @@ pub(crate) fn run(since: Option<&str>) -> Result<Report> {
         });
     }
     if python {
-        python::quick(&mut report);
+        python::alone(&mut report);
     }
     if !web.is_empty() {
         report.step("changed: unit tests of the page", || page_tests(&web));

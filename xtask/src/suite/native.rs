@@ -31,11 +31,12 @@ pub(crate) fn run(report: &mut Report) {
         quiet(own_cargo().args(["fmt", "--all", "--check"]))
     });
     report.step("native: compiled, with lints", || {
-        let everything = ["--all-targets", "--no-run"];
-        quiet(&mut checked(&everything)?)
+        // Not `--all-targets`, which makes a program of the Python extension's tests: it has none.
+        let everything = ["--lib", "--bins", "--tests", "--benches", "--examples"];
+        quiet(&mut checked("build", &everything)?)
     });
     report.step("native: tests", || {
-        tests(&mut checked(&["--no-fail-fast"])?)
+        tests(&mut checked("test", &["--no-fail-fast"])?)
     });
     python::quick(report);
     report.step("native: examples of the core", || {
@@ -70,12 +71,11 @@ fn quiet(command: &mut Command) -> Result<Said> {
     Ok(command::run(command)?.into())
 }
 
-/// `cargo test` of the whole workspace, compiled by the linter.
-fn checked(options: &[&str]) -> Result<Command> {
+/// Cargo on the whole workspace, compiled by the linter: what one command has built the next finds.
+fn checked(what: &str, options: &[&str]) -> Result<Command> {
     let mut cargo = own_cargo();
     cargo
-        // It has no tests of its own: those of the Python package build it.
-        .args(["test", "--workspace", "--exclude", python::PACKAGE])
+        .args([what, "--workspace"])
         .args(CHECKED)
         .args(options);
     components::lint(&mut cargo)?;

@@ -34,20 +34,26 @@ const READERS: [&str; 8] = [
     "ipykernel",
 ];
 
-/// The extension with its lints, and the quick tests, without a wheel: they find the package where it lies.
+/// The quick tests, without a wheel: they find the package where it lies, with the extension that the native suite built.
 pub(crate) fn quick(report: &mut Report) {
-    let folder = workspace::target_dir().join("python/package");
-    let built = report.step("python: extension with lints", || {
+    report.step("python: tests", || {
+        let folder = workspace::target_dir().join("python/package");
         assemble(&folder)?;
-        Ok(Said::default())
+        let python = with_numpy()?;
+        tests(&python, "test_quick_*.py", Some(&folder))
+    });
+}
+
+/// The extension with its lints, by itself, and the quick tests.
+pub(super) fn alone(report: &mut Report) {
+    let built = report.step("python: extension with lints", || {
+        let mut cargo = own_cargo();
+        cargo.args(["build", "--package", PACKAGE]).args(CHECKED);
+        components::lint(&mut cargo)?;
+        Ok(command::run(&mut cargo)?.into())
     });
     if built {
-        report.step("python: tests", || {
-            let python = with_numpy()?;
-            tests(&python, "test_quick_*.py", Some(&folder))
-        });
-    } else {
-        report.skip("python: tests", "the extension was not built");
+        quick(report);
     }
 }
 
@@ -104,12 +110,8 @@ const QUICK: &str = "python: tests with numpy alone";
 const TYPES: &str = "python: types";
 const WHOLE: &str = "python: tests with the files' readers";
 
-/// Builds the extension as the native suite built what it is made of, and puts the package together.
+/// Puts the package together.
 fn assemble(folder: &Path) -> Result<()> {
-    let mut cargo = own_cargo();
-    cargo.args(["build", "--package", PACKAGE]).args(CHECKED);
-    components::lint(&mut cargo)?;
-    command::run(&mut cargo)?;
     let package = folder.join("fluoropose");
     let _ = fs::remove_dir_all(&package);
     fs::create_dir_all(&package)?;
