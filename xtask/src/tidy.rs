@@ -39,7 +39,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
 }
 
 /// The program that checks this workspace.
-pub(crate) fn program() -> Command {
+fn program() -> Command {
     let mut cargo = own_cargo();
     cargo
         .args([
