@@ -35,7 +35,8 @@ pub(crate) fn run(report: &mut Report) {
     });
     report.step("native: layers and cycles", || {
         // It was built with everything else.
-        let program = workspace::target_dir().join("release/tidy");
+        let name = format!("release/tidy{}", std::env::consts::EXE_SUFFIX);
+        let program = workspace::target_dir().join(name);
         quiet(Command::new(program).arg("--root").arg(workspace::root()))
     });
     report.step("native: tests", || {
