@@ -21,6 +21,8 @@ pub enum Why {
     GivenByPerson,
     /// Nothing speaks against the pose.
     Agrees,
+    /// The same of a frame that has no poses on both sides of it: the first and the last of a film, or one by itself.
+    AgreesAlone,
     /// This does.
     Distrusted(Distrust),
     /// Only this part of the outline would be in the frame.
@@ -37,6 +39,9 @@ impl fmt::Display for Why {
             Self::Agrees => {
                 f.write_str("the edges lie on the outline, and the frames beside it agree")
             }
+            Self::AgreesAlone => f.write_str(
+                "the edges lie on the outline; it has no frames on both sides to be compared with",
+            ),
             Self::Distrusted(distrust) => write!(f, "{}: {distrust}", distrust.word()),
             Self::Outside(known) => {
                 let percent = 100.0 * known;
@@ -74,7 +79,8 @@ impl Conclusion {
                 (Err(Missing::Outside), _) => (State::Untrackable, Why::Outside(looked.known)),
                 (Err(Missing::Hidden), _) => (State::Untrackable, Why::Hidden),
                 (Ok(_), Some(distrust)) => (State::Doubtful, Why::Distrusted(distrust)),
-                (Ok(_), None) => (State::Followed, Why::Agrees),
+                (Ok(_), None) if trust.is_between => (State::Followed, Why::Agrees),
+                (Ok(_), None) => (State::Followed, Why::AgreesAlone),
             },
         };
         Self {

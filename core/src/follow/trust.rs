@@ -180,6 +180,8 @@ pub struct Trust {
     pub distrust: Option<Distrust>,
     /// How bad it is: above 1 it is doubtful, and the worst have the most.
     pub badness: f64,
+    /// Whether there are poses in the frames on both sides, which it was compared with.
+    pub is_between: bool,
 }
 
 /// What is usual in a film.
@@ -270,7 +272,8 @@ fn judge(
         let [deg, _] = apart(other, &found.pose, middle);
         weigh(deg / limits.ways_deg, Distrust::Ways(deg));
     }
-    if let Some([deg, mm]) = jump(film, at, middle) {
+    let jump = jump(film, at, middle);
+    if let Some([deg, mm]) = jump {
         let most = |least: f64, usual: f64| least.max(limits.jump_times * usual);
         let jumps = [
             deg / most(limits.jump_deg, usual.jump[0]),
@@ -298,6 +301,7 @@ fn judge(
         weigh(off.abs() / limits.depth_mm, Distrust::Depths(off));
         weigh(mm.abs() / limits.joint_mm, Distrust::Joint(mm));
     }
+    worst.is_between = jump.is_some();
     worst
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use fluoropose::camera::Camera;
 use fluoropose::follow::{
-    Conclusion, Following, KnownFemur, State, Subject, elsewhere, frame_pose_at, mirrored_pose,
+    Conclusion, Following, KnownFemur, State, Subject, Why, elsewhere, frame_pose_at, mirrored_pose,
 };
 use fluoropose::image::frame::Frame;
 use fluoropose::image::mask::{MaskMut, words_needed};
@@ -303,6 +303,16 @@ fn assert_followed(film: &[Conclusion], truth: &[EulerPose], fixed: &[usize]) {
         let turn = geodesic_deg(&pose.rotation, &truth.rotation);
         assert!(turn < 2.0, "frame {frame}: {turn} {one:?}");
         assert_eq!(one.state == State::Fixed, fixed.contains(&frame));
+        let is_between = frame > 0 && frame + 1 < film.len();
+        let agrees = if is_between {
+            Why::Agrees
+        } else {
+            Why::AgreesAlone
+        };
+        assert!(
+            one.state != State::Followed || one.why == agrees,
+            "frame {frame}: {one:?}"
+        );
         assert!(one.state != State::Fixed || pose == truth, "frame {frame}");
     }
     // Where the film is not known, a turn may count as undetermined.
