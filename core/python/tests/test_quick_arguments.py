@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 
@@ -15,6 +17,22 @@ class Arguments(OnTheDemo):
         with self.assertRaises(kind) as caught:
             call()
         self.assertIn(word, str(caught.exception))
+
+    def test_a_folder_of_another_film_is_refused_and_stays_as_it_was(self) -> None:
+        frames = np.arange(2 * 64 * 64, dtype=np.uint16).reshape(2, 64, 64)
+        camera = fp.Camera(np.diag([3000.0, 3000.0, 1.0]), (64, 64))
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder)
+            (place / "frames").mkdir()
+            for name in ("journal.txt", "femur.jts", "study.toml", "calibration.txt", "frames/000001.png"):
+                (place / name).write_text(f"another film's {name}", encoding="utf-8")
+
+            def files() -> dict[str, bytes]:
+                return {str(file.relative_to(place)): file.read_bytes() for file in place.rglob("*") if file.is_file()}
+
+            before = files()
+            self.refused(ValueError, "anew=True", lambda: fp.track(frames, self.femur, None, camera, "left", out=place))
+            self.assertEqual(files(), before)
 
     def test_shapes_and_types_are_told_by_name(self) -> None:
         mask = np.zeros((1024, 1024), bool)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import filecmp
 import json
 import os
 import shutil
@@ -188,6 +189,41 @@ def follow(
     """Makes a study of what is given and follows its components, as the command does."""
     place = Path(folder)
     place.mkdir(parents=True, exist_ok=True)
+    begun = place / ".begun"
+    shutil.rmtree(begun, ignore_errors=True)
+    begun.mkdir()
+    try:
+        _write_study(frames, parts, camera, begun, side=side, fps=fps)
+        # What is there stays as it is where it is of something else.
+        if not anew and (place / "journal.txt").exists() and not _are_alike(begun, place):
+            raise ValueError(
+                f"out: {place} holds what was found with other frames, models or calibration: "
+                "name another folder, or say anew=True"
+            )
+        _replace(begun, place)
+    finally:
+        shutil.rmtree(begun, ignore_errors=True)
+    study = place / "study.toml"
+    files = []
+    for name, poses in (fixed or {}).items():
+        file = place / f"{name}.fixed.jts"
+        _native.write_poses(str(file), poses)
+        files.append((name, str(file)))
+    found = _native.track(
+        str(study),
+        str(place),
+        clicks=[(click.component, click.frame, float(click.column), float(click.row)) for click in clicks],
+        fixed=files,
+        bright=bright(metal),
+        interpolate=interpolate,
+        anew=anew,
+    )
+    return [_poses(one) for one in found]
+
+
+def _write_study(
+    frames: Frames, parts: Sequence[Part], camera: Camera, place: Path, *, side: str, fps: float | None
+) -> None:
     (place / "calibration.txt").write_text(camera.text, encoding="utf-8")
     pictures = _frames(frames, camera, place)
     lines = ['name = "film"', f'side = "{side}"', 'calibration = "calibration.txt"', f"frames = {_text(pictures)}"]
@@ -207,23 +243,34 @@ def follow(
             lines.append(f"nominal = [{part.nominal[0]!r}, {part.nominal[1]!r}]")
         if part.distance_mm is not None:
             lines.append(f"distance_mm = {part.distance_mm!r}")
-    study = place / "study.toml"
-    study.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    files = []
-    for name, poses in (fixed or {}).items():
-        file = place / f"{name}.fixed.jts"
-        _native.write_poses(str(file), poses)
-        files.append((name, str(file)))
-    found = _native.track(
-        str(study),
-        str(place),
-        clicks=[(click.component, click.frame, float(click.column), float(click.row)) for click in clicks],
-        fixed=files,
-        bright=bright(metal),
-        interpolate=interpolate,
-        anew=anew,
-    )
-    return [_poses(one) for one in found]
+    (place / "study.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def _are_alike(begun: Path, place: Path) -> bool:
+    """Whether a folder has the frames, models and calibration that another begins with. Side and rate may be stated anew."""
+    files = [file.relative_to(begun) for file in begun.rglob("*") if file.is_file()]
+    if (begun / "frames").exists() and len(list((begun / "frames").iterdir())) != len(
+        list((place / "frames").glob("*"))
+    ):
+        return False
+    return all((place / file).is_file() and _is_alike(begun / file, place / file) for file in files)
+
+
+def _is_alike(one: Path, other: Path) -> bool:
+    if one.name != "study.toml":
+        return filecmp.cmp(one, other, shallow=False)
+    stated = ("side = ", "frames_per_s = ")
+    texts = [file.read_text(encoding="utf-8").splitlines() for file in (one, other)]
+    lines = [[line for line in text if not line.startswith(stated)] for text in texts]
+    return lines[0] == lines[1]
+
+
+def _replace(begun: Path, place: Path) -> None:
+    for entry in begun.iterdir():
+        to = place / entry.name
+        if to.is_dir() and not to.is_symlink():
+            shutil.rmtree(to)
+        os.replace(entry, to)
 
 
 def _text(value: str) -> str:
@@ -243,8 +290,6 @@ def _frames(frames: Frames, camera: Camera, place: Path) -> str:
     if not isinstance(frames, Iterable):
         raise TypeError(f"frames must be a folder, an array or an iterable, not {type(frames).__name__}")
     to = place / "frames"
-    if to.exists():
-        shutil.rmtree(to)
     to.mkdir()
     size: tuple[int, int] | None = None
     number = 0
