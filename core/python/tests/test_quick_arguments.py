@@ -34,6 +34,10 @@ class Arguments(OnTheDemo):
             self.refused(ValueError, "anew=True", lambda: fp.track(frames, self.femur, None, camera, "left", out=place))
             self.assertEqual(files(), before)
 
+    def test_swapped_models_are_told_before_a_film_is_followed(self) -> None:
+        with self.assertWarnsRegex(UserWarning, "femur: .*swapped"), self.assertRaises(ValueError):
+            fp.track([], self.tibia, self.femur, self.camera, "left")
+
     def test_shapes_and_types_are_told_by_name(self) -> None:
         mask = np.zeros((1024, 1024), bool)
         frames = np.zeros((2, 64, 64), np.uint8)
@@ -60,6 +64,8 @@ class Arguments(OnTheDemo):
         refused(TypeError, "frames ", lambda: fp.track(5, one, two, self.camera, "left"))  # type: ignore[arg-type]
         refused(ValueError, "frames", lambda: fp.track([], one, two, self.camera, "left"))
         refused(FileNotFoundError, "frames", lambda: fp.track(["nowhere.png"], one, two, self.camera, "left"))
+        nowhere = fp.Click("femur", 0, float("nan"), 3.0)
+        refused(ValueError, "clicks", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[nowhere]))
         refused(ValueError, "side ", lambda: fp.track(frames, one, two, self.camera, "up"))
         refused(TypeError, "femur ", lambda: fp.track(frames, "f.stl", two, self.camera, "left"))  # type: ignore[arg-type]
         refused(ValueError, "fps ", lambda: fp.track(frames, one, two, self.camera, "left", 0.0))

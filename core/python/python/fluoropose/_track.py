@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import filecmp
 import json
+import math
 import os
 import shutil
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
@@ -59,6 +61,8 @@ class Track:
     fps: float | None
     version: str
     settings: Mapping[str, Any] = field(repr=False)
+    remarks: tuple[str, ...]
+    """What has to be known of the models: their units, or that they look swapped. Told as warnings too."""
     _models: Mapping[str, Part] = field(repr=False)
 
     def __len__(self) -> int:
@@ -122,12 +126,17 @@ def track(
         if model is not None:
             _checks.instance(model, Model, name)
             parts.append(Part(name, model, axes))
+    remarks = _remarks(parts)
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=2)
     if not parts:
         raise TypeError("femur or tibia must be given")
     if isinstance(interpolate, bool) or not isinstance(interpolate, int) or interpolate < 0:
         raise ValueError("interpolate must be a whole number of frames, 0 or more")
     for click in clicks:
         _checks.instance(click, Click, "clicks")
+        if not (math.isfinite(click.column) and math.isfinite(click.row)):
+            raise ValueError(f"clicks: {click} has a place that is no number")
     given = {name: rows(poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()}
     for name in [*given, *(click.component for click in clicks)]:
         if name not in [part.name for part in parts]:
@@ -168,8 +177,16 @@ def track(
             "metal": metal,
             "interpolate": interpolate,
         },
+        remarks=remarks,
         _models={part.name: part for part in parts},
     )
+
+
+def _remarks(parts: Sequence[Part]) -> tuple[str, ...]:
+    """What has to be known of the models: their units, or that they look swapped."""
+    told = [(part.name, part.model._handle.doubt(part.name)) for part in parts]
+    told += [(part.name, remark) for part in parts for remark in part.model.remarks]
+    return tuple(f"{name}: {remark}" for name, remark in told if remark is not None)
 
 
 def follow(
