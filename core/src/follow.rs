@@ -21,6 +21,8 @@ mod contrast;
 #[cfg(feature = "alloc")]
 mod crossing;
 mod elsewhere;
+#[cfg(test)]
+mod fake;
 #[cfg(feature = "alloc")]
 mod false_minimum;
 #[cfg(feature = "alloc")]

@@ -214,39 +214,16 @@ fn votes_for(looked: &Looked, there: &Cell) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::contrast::Contrast;
+    use crate::follow::fake::{looked, turned};
     use crate::follow::look::Missing;
-    use crate::math::{radians, rotation_by};
-    use crate::pose::{Pose, geodesic_deg};
-    use crate::refine::Fit;
+    use crate::pose::geodesic_deg;
     use core::ops::Range;
 
     const MIDDLE: Vector3 = [0.0; 3];
 
     /// A frame of a film that turns by 2 degrees from frame to frame.
     fn seen(frame: usize, off_deg: f64, misfit_px: f64) -> Looked {
-        let turn = radians(2.0 * frame as f64 + off_deg);
-        let found = FramePose {
-            pose: Pose {
-                rotation: rotation_by(&[0.0, turn, 0.0]),
-                translation: [0.0, 0.0, -1000.0],
-            },
-            covariance: None,
-            film_steps: [[0.0; 6]; 2],
-            fit: Fit::default(),
-            misfit_px,
-            contrast: Contrast {
-                step: 1.0,
-                strength: 1.0,
-                known: 1.0,
-            },
-        };
-        Looked {
-            found: Ok(found),
-            ordinary: true,
-            searched: false,
-            known: 1.0,
-        }
+        looked(Ok(turned(2.0 * frame as f64 + off_deg, misfit_px)))
     }
 
     /// Twenty frames; from `slid` on 4 degrees off and leaving more.
@@ -316,11 +293,7 @@ mod tests {
     fn a_way_that_loses_the_component_changes_nothing() {
         let cells = film(8..13);
         let mut crossing = Crossing::over(&cells, 7, true, &MIDDLE).expect("frames behind");
-        let nothing = Looked {
-            found: Err(Missing::Hidden),
-            ordinary: false,
-            ..seen(0, 0.0, 0.5)
-        };
+        let nothing = looked(Err(Missing::Hidden));
         while let Some(frame) = crossing.next() {
             crossing.saw(frame, nothing, &MIDDLE);
         }

@@ -60,37 +60,16 @@ pub fn leaves_less(other: &[Cell], before: &[Cell]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::contrast::Contrast;
-    use crate::follow::{FramePose, Looked, Rival};
-    use crate::math::{radians, rotation_by};
-    use crate::pose::Pose;
-    use crate::refine::Fit;
-
-    fn pose(turn_deg: f64, misfit_px: f64) -> FramePose {
-        FramePose {
-            pose: Pose {
-                rotation: rotation_by(&[radians(turn_deg), 0.0, 0.0]),
-                translation: [0.0, 0.0, -1000.0],
-            },
-            covariance: None,
-            film_steps: [[0.0; 6]; 2],
-            fit: Fit::default(),
-            misfit_px,
-            contrast: Contrast {
-                step: 50.0,
-                strength: 1.0,
-                known: 1.0,
-            },
-        }
-    }
+    use crate::follow::Rival;
+    use crate::follow::fake::{looked, turned};
 
     /// A film whose other minimum leaves so many times as much, seen in every second frame.
     fn film(ratios: &[f64]) -> Vec<SideSample> {
         let sample = |(k, &ratio): (usize, &f64)| SideSample {
             frame: 2 * k + 1,
-            own: pose(0.0, 0.6),
+            own: turned(0.0, 0.6),
             rival: Rival::Elsewhere,
-            other: Some(pose(8.0, 0.6 * ratio)),
+            other: Some(turned(8.0, 0.6 * ratio)),
             fixed: false,
         };
         ratios.iter().enumerate().map(sample).collect()
@@ -141,14 +120,7 @@ mod tests {
     #[test]
     fn a_way_is_kept_where_it_leaves_less_in_no_fewer_frames() {
         let way = |misfits: &[f64]| -> Vec<Cell> {
-            let cell = |&misfit_px: &f64| {
-                Cell::on_the_way(Looked {
-                    found: Ok(pose(0.0, misfit_px)),
-                    ordinary: true,
-                    searched: false,
-                    known: 1.0,
-                })
-            };
+            let cell = |&misfit_px: &f64| Cell::on_the_way(looked(Ok(turned(0.0, misfit_px))));
             misfits.iter().map(cell).collect()
         };
         let before = way(&[0.6, 0.7, 0.65]);

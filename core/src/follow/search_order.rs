@@ -52,10 +52,8 @@ pub fn run_to_search(cells: &[Cell], range: &Range<usize>) -> Option<Range<usize
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::look::{Looked, Missing};
-    use crate::follow::{Contrast, FramePose};
-    use crate::pose::Pose;
-    use crate::refine::Fit;
+    use crate::follow::fake::{looked, turned};
+    use crate::follow::look::Missing;
     use std::vec::Vec;
 
     #[test]
@@ -67,24 +65,7 @@ mod tests {
 
     #[test]
     fn runs_that_are_long_enough_are_searched() {
-        let found = Ok(FramePose {
-            pose: Pose::IDENTITY,
-            covariance: None,
-            film_steps: [[0.0; 6]; 2],
-            fit: Fit::default(),
-            misfit_px: 0.3,
-            contrast: Contrast {
-                step: 1.0,
-                strength: 1.0,
-                known: 1.0,
-            },
-        });
-        let looked = |found| Looked {
-            found,
-            ordinary: true,
-            searched: false,
-            known: 1.0,
-        };
+        let found = Ok(turned(0.0, 0.3));
         let cell = |frame| Cell::on_the_way(looked(frame));
         let cells: Vec<Cell> = (0..40)
             .map(|frame| match frame {

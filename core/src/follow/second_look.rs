@@ -121,9 +121,8 @@ impl SecondLook {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::{Contrast, Looked};
+    use crate::follow::fake::{looked, turned};
     use crate::pose::EulerPose;
-    use crate::refine::Fit;
 
     const MIDDLE: Vector3 = [0.0; 3];
 
@@ -138,26 +137,9 @@ mod tests {
         });
         let found = FramePose {
             pose,
-            covariance: None,
-            film_steps: [[0.0; 6]; 2],
-            fit: Fit {
-                met: 1.0,
-                known: 1.0,
-                ..Fit::default()
-            },
-            misfit_px,
-            contrast: Contrast {
-                step: 1.0,
-                strength: 1.0,
-                known: 1.0,
-            },
+            ..turned(0.0, misfit_px)
         };
-        Cell::on_the_way(Looked {
-            found: Ok(found),
-            ordinary: true,
-            searched: false,
-            known: 1.0,
-        })
+        Cell::on_the_way(looked(Ok(found)))
     }
 
     #[test]

@@ -157,29 +157,9 @@ pub fn nearer_rival(one: Option<SideMargin>, other: Option<SideMargin>) -> Optio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::follow::contrast::Contrast;
+    use crate::follow::fake::turned;
     use crate::follow::sides::choose_sides;
-    use crate::math::rotation_by;
-    use crate::refine::Fit;
     use std::vec::Vec;
-
-    fn pose(turn: f64, misfit_px: f64) -> FramePose {
-        FramePose {
-            pose: Pose {
-                rotation: rotation_by(&[0.0, turn, 0.0]),
-                translation: [0.0, 0.0, -1000.0],
-            },
-            covariance: None,
-            film_steps: [[0.0; 6]; 2],
-            fit: Fit::default(),
-            misfit_px,
-            contrast: Contrast {
-                step: 50.0,
-                strength: 1.0,
-                known: 1.0,
-            },
-        }
-    }
 
     /// A film that speaks for the other side in all frames but the one that a person gave.
     #[test]
@@ -187,10 +167,10 @@ mod tests {
         let samples: Vec<SideSample> = (0..6)
             .map(|frame| SideSample {
                 frame: 4 * frame,
-                own: pose(0.0, 0.8),
+                own: turned(0.0, 0.8),
                 // The given frame's mirror image fits best of all.
                 rival: Rival::Mirrored,
-                other: Some(pose(0.3, if frame == 0 { 0.1 } else { 0.3 })),
+                other: Some(turned(17.0, if frame == 0 { 0.1 } else { 0.3 })),
                 fixed: frame == 0,
             })
             .collect();

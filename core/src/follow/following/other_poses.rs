@@ -25,12 +25,9 @@ impl Following {
     /// seen last.
     pub(super) fn see_other_sides(&mut self) {
         let cells = &self.cells;
-        self.samples
-            .retain(|sample| cells[sample.frame].found() == Some(&sample.own));
-        let wanted = frames_for_sides(cells).filter(|frame| {
-            self.range.contains(frame) && !self.samples.iter().any(|one| one.frame == *frame)
-        });
-        self.tasks.extend(wanted.map(Task::BothSides));
+        let wanted = frames_for_sides(cells).filter(|frame| self.range.contains(frame));
+        let wanted = not_seen(wanted, cells, &mut self.samples);
+        self.tasks.extend(wanted.into_iter().map(Task::BothSides));
     }
 
     pub(super) fn see_both_sides(
@@ -74,13 +71,10 @@ impl Following {
     /// The frames that were seen from both sides are to be seen from elsewhere too, but those that were.
     pub(super) fn see_elsewhere(&mut self) {
         let cells = &self.cells;
-        self.elsewhere
-            .retain(|sample| cells[sample.frame].found() == Some(&sample.own));
         let frames = self.samples.iter().map(|sample| sample.frame);
-        let wanted = frames.filter(|frame| {
-            !cells[*frame].fixed && !self.elsewhere.iter().any(|one| one.frame == *frame)
-        });
-        self.tasks.extend(wanted.map(Task::Elsewhere));
+        let free = frames.filter(|&frame| !cells[frame].fixed);
+        let wanted = not_seen(free, cells, &mut self.elsewhere);
+        self.tasks.extend(wanted.into_iter().map(Task::Elsewhere));
     }
 
     pub(super) fn see_from_elsewhere(
@@ -154,4 +148,15 @@ impl Following {
         };
         elsewhere.into_iter().enumerate().map(margin).collect()
     }
+}
+
+/// Of some frames those that are to be seen: samples of a pose that is no more are dropped, the others stand.
+fn not_seen(
+    frames: impl Iterator<Item = usize>,
+    cells: &[Cell],
+    samples: &mut Vec<SideSample>,
+) -> Vec<usize> {
+    samples.retain(|sample| cells[sample.frame].found() == Some(&sample.own));
+    let is_new = |frame: &usize| !samples.iter().any(|one| one.frame == *frame);
+    frames.filter(is_new).collect()
 }
