@@ -19,14 +19,7 @@ pub(crate) const NOTHING: Six = [f64::NAN; 6];
 
 /// The row of a pose.
 pub(crate) fn six(pose: EulerPose) -> Six {
-    [
-        pose.x_mm,
-        pose.y_mm,
-        pose.z_mm,
-        pose.z_rot_deg,
-        pose.x_rot_deg,
-        pose.y_rot_deg,
-    ]
+    pose.into()
 }
 
 /// The row of standard deviations.
@@ -43,17 +36,8 @@ pub(crate) fn six_deviations(sd: Deviations) -> Six {
 
 /// The pose of a row.
 pub(crate) fn euler(row: &Six) -> Option<EulerPose> {
-    let &[x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg] = row;
-    row.iter()
-        .all(|number| number.is_finite())
-        .then_some(EulerPose {
-            x_mm,
-            y_mm,
-            z_mm,
-            z_rot_deg,
-            x_rot_deg,
-            y_rot_deg,
-        })
+    let is_known = row.iter().all(|number| number.is_finite());
+    is_known.then(|| EulerPose::from(*row))
 }
 
 /// Rows of an n x 6 array.

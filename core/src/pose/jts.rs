@@ -100,15 +100,7 @@ fn parse_row(text: &str) -> Option<Option<EulerPose>> {
     if all(|number| number.is_nan()) || all(|&number| number == 0.0) {
         return Some(None);
     }
-    let [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg] = numbers;
-    all(|number| number.is_finite()).then_some(Some(EulerPose {
-        x_mm,
-        y_mm,
-        z_mm,
-        z_rot_deg,
-        x_rot_deg,
-        y_rot_deg,
-    }))
+    all(|number| number.is_finite()).then(|| Some(EulerPose::from(numbers)))
 }
 
 /// Writes the two heading lines.

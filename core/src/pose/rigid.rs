@@ -178,6 +178,34 @@ impl Pose {
     }
 }
 
+impl From<[f64; 6]> for EulerPose {
+    /// In the order of a pose file: x, y, z (mm), then z, x and y rotation (degrees).
+    fn from([x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]: [f64; 6]) -> Self {
+        Self {
+            x_mm,
+            y_mm,
+            z_mm,
+            z_rot_deg,
+            x_rot_deg,
+            y_rot_deg,
+        }
+    }
+}
+
+impl From<EulerPose> for [f64; 6] {
+    /// In the order of a pose file.
+    fn from(pose: EulerPose) -> Self {
+        [
+            pose.x_mm,
+            pose.y_mm,
+            pose.z_mm,
+            pose.z_rot_deg,
+            pose.x_rot_deg,
+            pose.y_rot_deg,
+        ]
+    }
+}
+
 impl From<EulerPose> for Pose {
     fn from(euler: EulerPose) -> Self {
         Self {

@@ -8,14 +8,7 @@ pub type PoseNumbers = [f64; 6];
 
 /// The six numbers of a pose.
 pub fn to_numbers(pose: &EulerPose) -> PoseNumbers {
-    [
-        pose.x_mm,
-        pose.y_mm,
-        pose.z_mm,
-        pose.z_rot_deg,
-        pose.x_rot_deg,
-        pose.y_rot_deg,
-    ]
+    PoseNumbers::from(*pose)
 }
 
 /// The pose of six numbers.
@@ -23,19 +16,8 @@ pub fn to_numbers(pose: &EulerPose) -> PoseNumbers {
 /// # Errors
 /// A sentence where there are not six.
 pub fn from_numbers(numbers: &[f64]) -> Result<EulerPose, JsError> {
-    match *numbers {
-        [x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg]
-            if numbers.iter().all(|n| n.is_finite()) =>
-        {
-            Ok(EulerPose {
-                x_mm,
-                y_mm,
-                z_mm,
-                z_rot_deg,
-                x_rot_deg,
-                y_rot_deg,
-            })
-        }
+    match PoseNumbers::try_from(numbers) {
+        Ok(numbers) if numbers.iter().all(|n| n.is_finite()) => Ok(EulerPose::from(numbers)),
         _ => Err(JsError::new("A pose is six finite numbers")),
     }
 }

@@ -82,15 +82,8 @@ impl FromStr for SixNumbers {
     fn from_str(text: &str) -> Result<Self> {
         let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
         let wanted = || format!("'{text}' is not six numbers: x,y,z,z_rot,x_rot,y_rot");
-        match numbers.with_context(wanted)?.as_slice() {
-            &[x_mm, y_mm, z_mm, z_rot_deg, x_rot_deg, y_rot_deg] => Ok(Self(EulerPose {
-                x_mm,
-                y_mm,
-                z_mm,
-                z_rot_deg,
-                x_rot_deg,
-                y_rot_deg,
-            })),
+        match <[f64; 6]>::try_from(numbers.with_context(wanted)?) {
+            Ok(numbers) => Ok(Self(EulerPose::from(numbers))),
             _ => bail!(wanted()),
         }
     }

@@ -207,15 +207,7 @@ fn heading(columns: usize) -> String {
 }
 
 fn row_numbers(relative: &Pose, joint: &[f64]) -> impl Iterator<Item = f64> {
-    let pose = EulerPose::from(*relative);
-    let pose = [
-        pose.x_mm,
-        pose.y_mm,
-        pose.z_mm,
-        pose.z_rot_deg,
-        pose.x_rot_deg,
-        pose.y_rot_deg,
-    ];
+    let pose = <[f64; 6]>::from(EulerPose::from(*relative));
     pose.into_iter().chain(joint.iter().copied())
 }
 
