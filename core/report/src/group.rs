@@ -70,6 +70,12 @@ impl Group {
         films.map(value).collect()
     }
 
+    /// The mean over the films of one knee at one flexion, with their standard deviation and number.
+    #[must_use]
+    pub fn over_films(&self, knee: usize, number: usize, level_deg: f64) -> OverKnees {
+        over_knees(self.of_knee(knee, number, level_deg).chunks(1))
+    }
+
     /// A number of the group at one flexion: each knee first, then all. Nothing is extrapolated, so `n` may differ from step to step.
     #[must_use]
     pub fn at(&self, number: usize, level_deg: f64) -> OverKnees {

@@ -7,7 +7,8 @@ use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
 use fluoropose_report::{
-    Facts, Group, Input, JointFilm, JointRow, Knee, figure, group_figure, html, read, write,
+    Facts, Group, Input, JointFilm, JointRow, Knee, cohorts, figure, group_figure, html, read,
+    write,
 };
 
 /// Bent from 0 to 58 degrees in 2-degree steps about a centre at (-4, 12); frame 8 has no pose, frame 5 is doubtful.
@@ -138,6 +139,19 @@ fn a_group_is_the_mean_of_its_knees() {
     let picture = group_figure(&group);
     assert!(picture.contains("2 knees, 3 films") && picture.contains("two &lt;knees&gt;"));
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
+    // Beside another group: a row for each step of each knee, then of the group.
+    let rows = cohorts::table(std::slice::from_ref(&group));
+    let row = |begin: &str| rows.lines().find(|line| line.starts_with(begin));
+    assert_eq!(rows.lines().count(), 1 + 5 + 4 + 5);
+    let rotation = |begin: &str| -> Vec<&str> {
+        let fields = row(begin).unwrap().split(',');
+        fields.skip(3 + 3 * place::ROTATION).take(3).collect()
+    };
+    assert_eq!(rotation("\"two <knees>\",\"p1\",30,")[0], "3");
+    assert_eq!(rotation("\"two <knees>\",\"p2\",30,"), ["9", "NaN", "1"]);
+    assert_eq!(rotation("\"two <knees>\",\"\",50,"), ["3", "NaN", "1"]);
+    let drawn = cohorts::figure(&[group.clone(), group]);
+    assert!(drawn.contains("(n = 2)") && !drawn.contains("NaN"));
     let nothing = group_figure(&Group::new(String::new(), Vec::new()));
     assert!(nothing.contains("0 knees") && !nothing.contains("NaN"));
 }

@@ -22,7 +22,7 @@ use state::StudyState;
 pub use list::{Entry, read_list};
 pub use manifest::{Inputs, Manifest, Settings};
 pub use partition::Partition;
-pub use work::LEVELS;
+pub use work::JOINT;
 
 /// Which of a task's studies are worked on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

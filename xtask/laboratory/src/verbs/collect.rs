@@ -4,11 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use fluoropose_report::cohorts::{Group, Knee, figure, table};
-use fluoropose_report::levels::{self, Level};
+use fluoropose_report::cohorts::{figure, table};
+use fluoropose_report::{Group, JointFilm, Knee, read};
 
 use crate::files::{csv_fields, read_text, write_text};
-use crate::verbs::batch::{Entry, LEVELS, Manifest, read_list};
+use crate::verbs::batch::{Entry, JOINT, Manifest, read_list};
 
 /// Options of `collect`.
 #[derive(clap::Args)]
@@ -67,7 +67,7 @@ pub fn run(args: Args) -> Result<()> {
     write_text(&args.out.join("groups.svg"), &figure(&groups))?;
     write_text(&args.out.join("doubtful.csv"), &doubtful)?;
     for group in &groups {
-        println!("{}: {} knees", group.name, group.knees.len());
+        println!("{}: {} knees", group.name, group.knees().len());
     }
     println!("{} frames are not good", doubtful.lines().count() - 1);
     if !missing.is_empty() {
@@ -106,12 +106,12 @@ fn alike(done: &[Done<'_>]) -> Result<()> {
 
 /// In the order of names, so that the list's order does not matter.
 fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
-    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<Vec<Level>>>> = BTreeMap::new();
+    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<JointFilm>>> = BTreeMap::new();
     let mut whose: BTreeMap<&str, &str> = BTreeMap::new();
     let mut sorted: Vec<&Done<'_>> = done.iter().collect();
     sorted.sort_by_key(|one| &one.entry.name);
     for Done { entry, .. } in sorted {
-        let path = results.join(&entry.name).join(LEVELS);
+        let path = results.join(&entry.name).join(JOINT);
         if !path.is_file() {
             eprintln!("{}: no joint, because it has no two components", entry.name);
             continue;
@@ -120,14 +120,17 @@ fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
         if before.is_some_and(|before| before != entry.group) {
             bail!("the knee {} is in two groups", entry.knee);
         }
-        let levels =
-            levels::read(&read_text(&path)?).with_context(|| format!("in {}", path.display()))?;
+        let film =
+            read::film(&read_text(&path)?).with_context(|| format!("in {}", path.display()))?;
         let knees = films.entry(&entry.group).or_default();
-        knees.entry(&entry.knee).or_default().push(levels);
+        knees.entry(&entry.knee).or_default().push(film);
     }
-    let group = |(name, knees): (&str, BTreeMap<&str, Vec<Vec<Level>>>)| {
-        let knees = knees.iter().map(|(name, films)| Knee::new(name, films));
-        Group::new(name, knees.collect())
+    let group = |(name, knees): (&str, BTreeMap<&str, Vec<JointFilm>>)| {
+        let knee = |(name, films): (&str, Vec<JointFilm>)| Knee {
+            name: name.to_owned(),
+            films,
+        };
+        Group::new(name.to_owned(), knees.into_iter().map(knee).collect())
     };
     Ok(films.into_iter().map(group).collect())
 }

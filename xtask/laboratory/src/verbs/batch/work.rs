@@ -5,7 +5,6 @@ use std::path::Path;
 
 use anyhow::Result;
 use fluoropose::follow::State;
-use fluoropose_report::levels;
 
 use super::claim::Claim;
 use super::folders::{Failure, FailureKind, Folders};
@@ -16,8 +15,8 @@ use crate::progress::Stop;
 use crate::verbs::report::{self, report};
 use crate::verbs::track::{Request, Tracked, track};
 
-/// The study's numbers at steps of flexion.
-pub const LEVELS: &str = "by_flexion.csv";
+/// The study's joint, frame by frame.
+pub const JOINT: &str = "joint.csv";
 
 /// Works on a study that was claimed; its results are in their place then, or the failure is noted.
 ///
@@ -87,11 +86,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
             fps: settings.frames_per_s,
             cutoff: settings.cutoff_hz,
         };
-        let film = report(&entry.study, &of_study)?;
-        write_text(
-            &aside.join(LEVELS),
-            &levels::table(&levels::by_flexion(&film)),
-        )?;
+        report(&entry.study, &of_study)?;
     }
     // It says how far an unfinished run has come, in the order in which threads came there.
     std::fs::remove_file(aside.join("journal.txt"))?;
