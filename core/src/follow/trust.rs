@@ -268,23 +268,17 @@ fn judge(
         return Trust::default();
     }
     let mut worst = Trust::default();
-    let mut weigh = |badness: f64, distrust: Distrust| {
-        if badness > worst.badness {
-            worst.badness = badness;
-            worst.distrust = (badness > 1.0).then_some(distrust);
-        }
-    };
     if let Some(SideMargin { rival, margin }) = one.side_margin {
         let open = if margin < limits.side {
             2.0 - margin
         } else {
             0.0
         };
-        weigh(open, Distrust::Side(rival));
+        worst.weigh(open, Distrust::Side(rival));
     }
     if let Some(other) = &one.other_way {
         let [deg, _] = apart(other, &found.pose, middle);
-        weigh(deg / limits.ways_deg, Distrust::Ways(deg));
+        worst.weigh(deg / limits.ways_deg, Distrust::Ways(deg));
     }
     let jump = jump(film, at, middle);
     if let Some([deg, mm]) = jump {
@@ -293,30 +287,45 @@ fn judge(
             deg / most(limits.jump_deg, usual.jump[0]),
             mm / most(limits.jump_mm, usual.jump[1]),
         ];
-        weigh(jumps[0].max(jumps[1]), Distrust::Jump(deg, mm));
+        worst.weigh(jumps[0].max(jumps[1]), Distrust::Jump(deg, mm));
     }
-    let part = found.contrast.strength / usual.strength.max(f64::MIN_POSITIVE);
-    weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
-    let px = found.misfit_px;
-    let times = px / usual.misfit_px.max(limits.least_misfit_px);
-    let most = px / limits.most_misfit_px;
-    let apart = (times / limits.misfit).max(most);
-    weigh(apart, Distrust::Apart(px, usual.misfit_px));
-    let met = found.fit.met;
-    weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
-    let known = found.fit.known;
-    weigh(limits.known / known.max(0.01), Distrust::Cut(known));
-    if let Some(covariance) = &found.covariance {
-        let deg = covariance.rotation_deg();
-        weigh(deg / limits.sd_deg, Distrust::Undetermined(deg));
-    }
+    worst.weigh_fit(&found, limits, usual);
     if let Some(mm) = deeper(one, middle) {
         let off = mm - usual.depth_mm;
-        weigh(off.abs() / limits.depth_mm, Distrust::Depths(off));
-        weigh(mm.abs() / limits.joint_mm, Distrust::Joint(mm));
+        worst.weigh(off.abs() / limits.depth_mm, Distrust::Depths(off));
+        worst.weigh(mm.abs() / limits.joint_mm, Distrust::Joint(mm));
     }
     worst.is_between = jump.is_some();
     worst
+}
+
+impl Trust {
+    /// Takes the worse reason.
+    fn weigh(&mut self, badness: f64, distrust: Distrust) {
+        if badness > self.badness {
+            self.badness = badness;
+            self.distrust = (badness > 1.0).then_some(distrust);
+        }
+    }
+
+    /// What a frame by itself says of its pose.
+    fn weigh_fit(&mut self, found: &FramePose, limits: &TrustLimits, usual: &Usual) {
+        let part = found.contrast.strength / usual.strength.max(f64::MIN_POSITIVE);
+        self.weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
+        let px = found.misfit_px;
+        let times = px / usual.misfit_px.max(limits.least_misfit_px);
+        let most = px / limits.most_misfit_px;
+        let apart = (times / limits.misfit).max(most);
+        self.weigh(apart, Distrust::Apart(px, usual.misfit_px));
+        let met = found.fit.met;
+        self.weigh((1.0 - met) / (1.0 - limits.met), Distrust::Unmet(met));
+        let known = found.fit.known;
+        self.weigh(limits.known / known.max(0.01), Distrust::Cut(known));
+        if let Some(covariance) = &found.covariance {
+            let deg = covariance.rotation_deg();
+            self.weigh(deg / limits.sd_deg, Distrust::Undetermined(deg));
+        }
+    }
 }
 
 /// The median of some numbers; 0 without any.

@@ -70,6 +70,18 @@ fn print_row(row: &Row) {
     if let Some(limits) = &row.limits {
         print_limits(limits);
     }
+    print_decisions(row);
+    if let Some(film) = &row.film {
+        println!("{:>LEFT$} {film}", "film");
+    }
+    if let Some(start) = &row.from_reference {
+        let frames = format!("from the reference's start, {} frames", start.frames);
+        println!("{frames:>LEFT$} {}", numbers(&start.rms));
+        println!("{:>LEFT$} {}", "largest", numbers(&start.largest));
+    }
+}
+
+fn print_decisions(row: &Row) {
     if let Some(verdicts) = &row.verdicts {
         let Verdicts {
             good,
@@ -86,14 +98,6 @@ fn print_row(row: &Row) {
             format!(" (with the femoral poses of {source} known)")
         });
         println!("{:>LEFT$} {reasons}{known}", "chosen by");
-    }
-    if let Some(film) = &row.film {
-        println!("{:>LEFT$} {film}", "film");
-    }
-    if let Some(start) = &row.from_reference {
-        let frames = format!("from the reference's start, {} frames", start.frames);
-        println!("{frames:>LEFT$} {}", numbers(&start.rms));
-        println!("{:>LEFT$} {}", "largest", numbers(&start.largest));
     }
 }
 
