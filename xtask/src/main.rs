@@ -4,6 +4,7 @@
 mod bench;
 mod ci;
 mod clock;
+mod conformance;
 mod demo;
 mod firmware;
 mod laboratory;
@@ -42,6 +43,8 @@ enum Verb {
     Package(package::Args),
     /// Measure this machine at the core's work, or the page in headless Chromium
     Bench(bench::Args),
+    /// Read the image files that other readers ship, beside those readers
+    Conformance(conformance::Args),
     /// Check the layout of the sources: layers, cycles between files, words
     Tidy(tidy::Args),
     /// What continuous integration runs
@@ -100,6 +103,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Test(args) => test::run(args),
         Verb::Package(args) => package::run(args),
         Verb::Bench(args) => bench::run(args),
+        Verb::Conformance(args) => conformance::run(args),
         Verb::Tidy(args) => tidy::run(args),
         Verb::Ci(args) => ci::run(args),
         Verb::Models(args) => models::run(args),

@@ -44,7 +44,7 @@ impl<'a> FrameFile<'a> {
     ///
     /// # Errors
     /// [`DecodeError`] if the content is not a frame of a known format, is damaged, is of a kind that is not read
-    /// (JPEG-LS, video, ...), or larger than the [limits](crate::limits).
+    /// (JPEG XL, video, ...), or larger than the [limits](crate::limits).
     pub fn open(bytes: impl Into<Cow<'a, [u8]>>, name: &str) -> Result<Self, DecodeError> {
         let mut bytes = bytes.into();
         let kind = sniff(&bytes, name);

@@ -219,12 +219,20 @@ pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
 
 /// Decodes an image file.
 pub(crate) fn decode(bytes: &[u8]) -> Result<GreyFrame, Problem> {
-    decode_with(bytes, ComponentColours::Rgb, false)
+    decode_as(bytes, ComponentColours::Rgb, false)
 }
 
 /// Decodes the image of a DICOM file. `colour` says what three components are. Signed samples are moved up by half their
-/// range, or with `two_s_complement` returned as stored.
+/// range, or with `two_s_complement` returned as stored. Of a JP2 file, against the standard, the codestream alone counts.
 pub(crate) fn decode_with(
+    bytes: &[u8],
+    colour: ComponentColours,
+    two_s_complement: bool,
+) -> Result<GreyFrame, Problem> {
+    decode_as(codestream(bytes)?, colour, two_s_complement)
+}
+
+fn decode_as(
     bytes: &[u8],
     colour: ComponentColours,
     two_s_complement: bool,

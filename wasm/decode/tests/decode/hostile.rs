@@ -11,12 +11,13 @@ use tiff::encoder::colortype::{Gray8, Gray16, Gray32Float};
 use tiff::encoder::{Compression, DeflateLevel};
 
 use crate::samples::dicom::{
-    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_BASELINE, JPEG_LOSSLESS, RLE,
-    run_lengths,
+    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_BASELINE, JPEG_EXTENDED, JPEG_LOSSLESS,
+    JPEG_LS, RLE, run_lengths,
 };
 use crate::samples::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
 use crate::samples::{
-    big_tiff, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff, tiled_tiff,
+    big_tiff, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
+    tiled_tiff,
 };
 
 /// No small file may keep the reader longer than this, in any build.
@@ -153,6 +154,43 @@ fn dicoms() -> Vec<Sample> {
     ]
 }
 
+/// Images that other programs coded, and kinds of pixels beyond plain greys.
+fn rare_dicoms() -> Vec<Sample> {
+    let grey = |syntax, bits: [u16; 4], image: &[u8]| {
+        let (width, height) = foreign::GREY;
+        let file = Builder::image_with(syntax, width, height, 1, "MONOCHROME2", bits);
+        file.fragments(&[], &[image])
+    };
+    let (width, height) = foreign::COLOUR;
+    let colour = |image: &[u8]| {
+        let file = Builder::image_with(JPEG_LS, width, height, 1, "RGB", [8, 8, 7, 0]);
+        file.fragments(&[], &[image])
+    };
+    let mut palette = Builder::image_with(IMPLICIT, 2, 2, 1, "PALETTE COLOR", [8, 8, 7, 0]);
+    for colour in 0..3 {
+        palette.bytes(0x0028_1101 + colour, b"US", &[2, 0, 0, 0, 16, 0]);
+    }
+    for colour in 0..3 {
+        palette.bytes(0x0028_1201 + colour, b"OW", &[1, 2, 3, 4]);
+    }
+    let mut bare = Builder::image(EXPLICIT, 2, 2, 32, 1);
+    bare.bytes(0x7FE0_0010, b"OW", &[7; 16]);
+    vec![
+        sample("ls.dcm", grey(JPEG_LS, [8, 8, 7, 0], foreign::LS_8_NEAR_3)),
+        sample("ls-colour.dcm", colour(foreign::LS_COLOUR_SAMPLES)),
+        sample(
+            "extended.dcm",
+            grey(JPEG_EXTENDED, [16, 12, 11, 0], foreign::COSINES_12),
+        ),
+        sample("palette.dcm", palette.octets(&[0, 1, 1, 0])),
+        sample(
+            "bits.dcm",
+            Builder::image_with(EXPLICIT, 5, 3, 2, "MONOCHROME2", [1, 1, 0, 0]).octets(&[7; 4]),
+        ),
+        sample("bare.dcm", bare.into_data_set()),
+    ]
+}
+
 fn models() -> Vec<Sample> {
     let endless = |name, bytes| Sample {
         name,
@@ -179,6 +217,7 @@ static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
     images()
         .into_iter()
         .chain(dicoms())
+        .chain(rare_dicoms())
         .chain(models())
         .collect()
 });
