@@ -50,7 +50,11 @@ pub(crate) fn run(args: Args) -> Result<()> {
     let program = format!("decoded{}", std::env::consts::EXE_SUFFIX);
     let compared = Command::new(python)
         .arg(workspace::root().join("xtask/src/conformance/conformance.py"))
-        .arg(workspace::target_dir().join("release/examples").join(program))
+        .arg(
+            workspace::target_dir()
+                .join("release/examples")
+                .join(program),
+        )
         .arg(folder)
         .args(args.names)
         .status()?;

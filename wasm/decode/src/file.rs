@@ -34,7 +34,7 @@ enum Content {
     Png,
     Jpeg,
     Jpeg2000,
-    Tiff { pages: Vec<usize> },
+    Tiff { pages: Vec<tiff::Page> },
     Dicom(Box<Dicom>),
 }
 
@@ -102,7 +102,7 @@ impl<'a> FrameFile<'a> {
             Content::Png => png::decode(&self.bytes),
             Content::Jpeg => jpeg::decode(&self.bytes),
             Content::Jpeg2000 => jpeg2000::decode(&self.bytes),
-            Content::Tiff { pages } => tiff::decode(&self.bytes, pages[index]),
+            Content::Tiff { pages } => tiff::decode(&self.bytes, &pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
         }
     }

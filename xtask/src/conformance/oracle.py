@@ -85,11 +85,15 @@ def tiff_page(page):
     array = page.asarray()
     if page.photometric.name == "PALETTE":
         table = np.asarray(page.colormap)
+        table = table // 257 if np.all(table % 257 == 0) else table
         return luminance(np.moveaxis(table[:, array], 0, -1))
     if page.samplesperpixel > 1:
         array = np.moveaxis(array, 0, -1) if page.planarconfig == 2 else array
         if array.shape[-1] == 2:
             array = array[..., :1]
+        if array.dtype.kind == "f":
+            red, green, blue = (array[..., i].astype(np.float64) for i in range(3))
+            return stretched(0.299 * red + 0.587 * green + 0.114 * blue)
         return luminance(array)
     bits = page.bitspersample
     if array.dtype.kind == "f":
@@ -98,7 +102,8 @@ def tiff_page(page):
         array = array.astype(np.int64) + (1 << bits - 1) if bits <= 16 else array.astype(np.int64)
     array = array.astype(np.int64)
     if bits > 16:
-        return stretched(array.astype(np.float64))
+        fits = array.min() >= 0 and array.max() <= 65535
+        return array if fits else stretched(array.astype(np.float64))
     most = (1 << bits) - 1
     if page.photometric.name == "MINISWHITE":
         array = most - array

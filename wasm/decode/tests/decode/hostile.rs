@@ -17,7 +17,7 @@ use crate::samples::dicom::{
 use crate::samples::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
 use crate::samples::{
     big_tiff, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
-    tiled_tiff,
+    tiffs, tiled_tiff,
 };
 
 /// No small file may keep the reader longer than this, in any build.
@@ -154,6 +154,30 @@ fn dicoms() -> Vec<Sample> {
     ]
 }
 
+/// Pages by hand: palettes, planes, fax codes, JPEG.
+fn pages() -> Vec<Sample> {
+    let mut palette = tiffs::fields(4, 1, &[2], 3);
+    palette.push((320, 3, (0..12).collect()));
+    let mut planes = tiffs::fields(2, 2, &[16, 16, 16], 2);
+    planes.push((284, 3, vec![2]));
+    let mut fax = tiffs::fields(foreign::GREY.0.into(), foreign::GREY.1.into(), &[1], 1);
+    fax[3].2 = vec![4];
+    let mut coded = tiffs::fields(12, 9, &[8], 1);
+    coded[3].2 = vec![7];
+    let image = jpeg(12, 9, &pattern(12, 9), false);
+    let wide = tiffs::fields(1, 2, &[32], 1);
+    vec![
+        sample("palette.tif", tiffs::of_strips(&palette, &[&[0x1B]])),
+        sample(
+            "planes.tif",
+            tiffs::of_strips(&planes, &[&[1; 8], &[2; 8], &[3; 8]]),
+        ),
+        sample("fax.tif", tiffs::of_strips(&fax, &[foreign::FAX])),
+        sample("jpeg.tif", tiffs::of_strips(&coded, &[&image])),
+        sample("wide.tif", tiffs::of_strips(&wide, &[&[7; 8]])),
+    ]
+}
+
 /// Images that other programs coded, and kinds of pixels beyond plain greys.
 fn rare_dicoms() -> Vec<Sample> {
     let grey = |syntax, bits: [u16; 4], image: &[u8]| {
@@ -218,6 +242,7 @@ static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
         .into_iter()
         .chain(dicoms())
         .chain(rare_dicoms())
+        .chain(pages())
         .chain(models())
         .collect()
 });

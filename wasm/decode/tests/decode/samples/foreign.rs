@@ -107,3 +107,16 @@ pub(crate) const COSINES_12: &[u8] = b"\
     \xEB\xCE\x39\x9F\x92\x5C\x31\x2C\x2A\x93\x14\xD9\x71\xDD\x9B\x22\x55\x2E\x4F\x4E\x4A\xE1\x1C\x28\x01\x52\x62\
     \x9B\x2E\x3B\xB3\x64\x4A\xA5\xC9\xE9\xC9\x5C\x23\x84\xEC\x2A\xBA\x53\x65\xC7\xE1\x54\x13\x22\x55\x2F\xCB\xCE\
     \x69\xC9\x5B\x49\x71\xC7\xFF\xD9";
+
+/// Fax codes (group 4) of a disc in a picture of [`GREY`] pixels: white within, as [`disc`].
+pub(crate) const FAX: &[u8] = b"\x99\xD0\x83\xF4\xFF\xB5\xE1\x85\x18\x00\x80\x08";
+
+/// The picture of [`FAX`].
+pub(crate) fn disc() -> Vec<u8> {
+    let square = |a: i32, b: i32| (a - b) * (a - b);
+    let width = i32::from(GREY.0);
+    let inside = |i: i32| square(i % width, 9) + square(i / width, 5) < 20;
+    (0..width * i32::from(GREY.1))
+        .map(|i| if inside(i) { 255 } else { 0 })
+        .collect()
+}
