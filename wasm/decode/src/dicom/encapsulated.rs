@@ -1,5 +1,6 @@
 //! Compressed pixels: which fragments make a frame, and their decoding.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::attributes::Attributes;
@@ -59,9 +60,10 @@ pub(super) fn frames(
         return Ok(vec![fragments]);
     }
     let first = fragments.first().map_or(0, |fragment| fragment.start);
+    let stated: HashSet<u32> = offsets.iter().copied().collect();
     let begins = |fragment: &Range<usize>| {
         if offsets.len() == count {
-            return u32::try_from(fragment.start - first).is_ok_and(|at| offsets.contains(&at));
+            return u32::try_from(fragment.start - first).is_ok_and(|at| stated.contains(&at));
         }
         let content = &bytes[fragment.clone()];
         match coding {

@@ -68,10 +68,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<u16>, Problem> {
                 let scan = Scan {
                     frame,
                     factors: factors[frame.factors].as_ref().ok_or_else(missing)?,
-                    means: tables.lengths((table >> 4).into()).ok_or_else(missing)?,
-                    others: tables
-                        .coefficients((table & 0x0F).into())
-                        .ok_or_else(missing)?,
+                    means: tables.lengths((table >> 4).into())?,
+                    others: tables.coefficients((table & 0x0F).into())?,
                     restart,
                 };
                 return scan.pixels(&bytes[at..end]);
@@ -112,8 +110,8 @@ impl Frame {
 struct Scan<'a> {
     frame: Frame,
     factors: &'a Factors,
-    means: &'a Table,
-    others: &'a Table,
+    means: Table,
+    others: Table,
     restart: usize,
 }
 

@@ -71,7 +71,6 @@ impl<'a> Bits<'a> {
 }
 
 /// A code table: for each 16 bits, the length of the code that they begin with and its category.
-#[derive(Clone)]
 pub(super) struct Table(Vec<[u8; 2]>);
 
 impl Table {
@@ -112,9 +111,12 @@ impl Table {
     }
 }
 
-/// The code tables that stand, by class and number.
+/// The number of codes of each length, and the categories in order.
+type Codes = ([u8; 16], Vec<u8>);
+
+/// The code tables that stand, by class and number. They are made when a scan wants them: a file may define many more.
 #[derive(Clone, Default)]
-pub(super) struct Tables([[Option<Table>; 4]; 2]);
+pub(super) struct Tables([[Option<Codes>; 4]; 2]);
 
 impl Tables {
     /// Reads a segment of code tables.
@@ -126,20 +128,27 @@ impl Tables {
             let (categories, rest) = rest.split_at_checked(total).ok_or_else(odd)?;
             let class = self.0.get_mut(usize::from(head >> 4)).ok_or_else(odd)?;
             let slot = class.get_mut(usize::from(head & 0x0F)).ok_or_else(odd)?;
-            *slot = Some(Table::new(counts, categories)?);
+            *slot = Some((*counts, categories.to_vec()));
             body = rest;
         }
         Ok(())
     }
 
     /// The table of differences (of neighbours, or of the means of blocks) with this number.
-    pub(super) fn lengths(&self, number: usize) -> Option<&Table> {
-        self.0[0].get(number)?.as_ref()
+    pub(super) fn lengths(&self, number: usize) -> Result<Table, Problem> {
+        self.made(0, number)
     }
 
     /// The table of coefficients with this number.
-    pub(super) fn coefficients(&self, number: usize) -> Option<&Table> {
-        self.0[1].get(number)?.as_ref()
+    pub(super) fn coefficients(&self, number: usize) -> Result<Table, Problem> {
+        self.made(1, number)
+    }
+
+    fn made(&self, class: usize, number: usize) -> Result<Table, Problem> {
+        let codes = self.0[class].get(number).and_then(Option::as_ref);
+        let (counts, categories) =
+            codes.ok_or_else(|| cut("a scan names a code table that is not there"))?;
+        Table::new(counts, categories)
     }
 }
 

@@ -108,12 +108,9 @@ impl Decoder {
             interval if interval % self.width == 0 => interval / self.width,
             _ => return Err(cut("its restart interval is no number of whole rows")),
         };
-        let tables: Vec<&Table> = scan
-            .components
-            .iter()
-            .map(|&(_, table)| self.tables.lengths(table))
-            .collect::<Option<_>>()
-            .ok_or_else(|| cut("a scan names a code table that is not there"))?;
+        let tables = scan.components.iter();
+        let tables = tables.map(|&(_, table)| self.tables.lengths(table));
+        let tables: Vec<Table> = tables.collect::<Result<_, _>>()?;
         let mut planes = vec![vec![0u16; self.width * self.height]; count];
         let mut intervals = intervals(coded).into_iter();
         for first in (0..self.height).step_by(rows) {

@@ -50,7 +50,12 @@ struct Said {
     width: u64,
     height: u64,
     palette_as_grey: Option<(usize, Vec<u8>)>,
+    /// Bytes of values that lie outside of the directory.
+    elsewhere: u64,
 }
+
+/// Most times that the bytes of a file may be values of its directories: programs let pages share short texts.
+const MOST_SHARED: u64 = 8;
 
 /// Where numbers are and how wide.
 struct Walker<'a> {
@@ -112,9 +117,10 @@ impl Walker<'_> {
     }
 
     /// Checks that a field's values lie inside the file, and the sizes that it states.
-    fn check(&self, field: &Field, page: usize) -> Result<(), Problem> {
+    /// Gives how many bytes of values lie elsewhere.
+    fn check(&self, field: &Field, page: usize) -> Result<u64, Problem> {
         let Some(size) = size_of(field.kind) else {
-            return Ok(());
+            return Ok(0);
         };
         let outside = || {
             damaged(
@@ -132,11 +138,15 @@ impl Walker<'_> {
                 return Err(outside());
             }
         }
+        let elsewhere = match length > self.offset_bytes() as u64 {
+            true => length,
+            false => 0,
+        };
         let (Some(allowed), Some(value)) = (allowed(field.tag), self.single(field)?) else {
-            return Ok(());
+            return Ok(elsewhere);
         };
         match (allowed.0..=allowed.1).contains(&value) {
-            true => Ok(()),
+            true => Ok(elsewhere),
             false => Err(damaged(
                 page,
                 format!(
@@ -168,7 +178,7 @@ impl Walker<'_> {
         let mut said = Said::default();
         for _ in 0..count {
             let field = self.field(at)?;
-            self.check(&field, page)?;
+            said.elsewhere += self.check(&field, page)?;
             let value = self.single(&field)?.unwrap_or(0);
             match field.tag {
                 SUBFILE_TYPE => said.subfile_type = value,
@@ -232,13 +242,14 @@ pub(super) fn pages(bytes: &[u8]) -> Result<Vec<Page>, Problem> {
         wide: header.contains(&b'+'),
     };
     let mut next = walker.offset(walker.offset_bytes())?;
-    let (mut pages, mut walked) = (Vec::new(), 0);
+    let (mut pages, mut walked, mut elsewhere) = (Vec::new(), 0, 0);
     for number in 0..MAX_FRAMES {
         let at = usize::try_from(next).map_err(|_| short())?;
         let (said, after, length) = walker.directory(at, number)?;
         walked += length;
+        elsewhere += said.elsewhere;
         // Directories that share bytes could hold the square of a file's length.
-        if walked > bytes.len() {
+        if walked > bytes.len() || elsewhere > MOST_SHARED * bytes.len() as u64 {
             break;
         }
         if said.subfile_type & REDUCED_COPY == 0 {
@@ -257,6 +268,8 @@ pub(super) fn pages(bytes: &[u8]) -> Result<Vec<Page>, Problem> {
             };
         }
     }
-    let detail = format!("it has more than {MAX_FRAMES} pages, or they are linked in a circle");
+    let detail = format!(
+        "it has more than {MAX_FRAMES} pages, or they are linked in a circle or share what they hold"
+    );
     Err(Problem::damaged(FORMAT, detail))
 }

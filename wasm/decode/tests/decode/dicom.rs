@@ -13,7 +13,7 @@ use crate::samples::dicom::{BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT};
 const UNCOMPRESSED: [&str; 4] = [IMPLICIT, EXPLICIT, DEFLATED, BIG_ENDIAN];
 
 /// A sequence of items.
-fn nested(syntax: &str, tag: u32, stated: bool, items: &[Vec<u8>]) -> Vec<u8> {
+pub(crate) fn nested(syntax: &str, tag: u32, stated: bool, items: &[Vec<u8>]) -> Vec<u8> {
     let mut file = Builder::new(syntax);
     let length: usize = items.iter().map(|item| 8 + item.len()).sum();
     file.header(tag, b"SQ", if stated { length as u32 } else { u32::MAX });

@@ -24,9 +24,9 @@ use crate::samples::{
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A file that is read whole, and whether it says where it ends: then every shorter one must be refused.
-struct Sample {
-    name: &'static str,
-    bytes: Vec<u8>,
+pub(crate) struct Sample {
+    pub name: &'static str,
+    pub bytes: Vec<u8>,
     has_end: bool,
 }
 
@@ -237,7 +237,7 @@ fn models() -> Vec<Sample> {
     ]
 }
 
-static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
+pub(crate) static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
     images()
         .into_iter()
         .chain(dicoms())
@@ -248,7 +248,7 @@ static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
 });
 
 /// Reads a file in every way there is; whether it could be read as a whole.
-fn read_all(bytes: &[u8], name: &str) -> bool {
+pub(crate) fn read_all(bytes: &[u8], name: &str) -> bool {
     let begun = Instant::now();
     let _ = sniff(bytes, name);
     let model = decode_model(bytes, name);
