@@ -9,7 +9,7 @@ use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
 use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
-use fluoropose::mesh::anatomy::field_axes;
+use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
@@ -17,7 +17,7 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::morphology::widen;
 
-use crate::files::{Component, Film, MaskBuffer, Role, grey, read_model_of};
+use crate::files::{Component, Film, MaskBuffer, Role, grey, other_shape, read_model_of};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
@@ -100,6 +100,11 @@ impl<'s> Part<'s> {
         self.component.role()
     }
 
+    /// The component that its model has the shape of, where that is the other one.
+    pub(super) fn other_shape(&self) -> Option<KneeComponent> {
+        other_shape(self.model, self.role()?)
+    }
+
     /// What the film makes of the component, once that is known.
     pub(super) fn film(&self) -> Option<FilmModel> {
         self.film.get().copied()
@@ -126,6 +131,11 @@ impl<'s> Part<'s> {
         self.mesh.bounds().centre
     }
 
+    /// How far away the component is at a pose, mm.
+    pub(super) fn depth_of(&self, pose: &Pose) -> f64 {
+        -pose.transform(&self.middle())[2]
+    }
+
     pub(super) fn model(&self) -> Model<'s> {
         self.model.as_model()
     }
@@ -140,6 +150,17 @@ impl<'s> Part<'s> {
             (None, Calibration::CameraMatrix { .. }) => vec![FARTHER * usual, NEARER * usual],
             (None, _) => vec![usual],
         }
+    }
+
+    /// Those with their numbers, or the one that serves a part which is about so far away, mm.
+    pub(super) fn distances_near(&self, depth: Option<f64>) -> Vec<(usize, f64)> {
+        let mut all: Vec<(usize, f64)> = self.distances().into_iter().enumerate().collect();
+        if let Some(depth) = depth {
+            let off = |(_, distance): &(usize, f64)| (distance / depth).ln().abs();
+            all.sort_by(|one, other| off(one).total_cmp(&off(other)));
+            all.truncate(1);
+        }
+        all
     }
 
     /// The library for one of the distances, of all views or of those that the study asks for; built when it is first wanted.
