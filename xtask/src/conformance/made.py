@@ -142,7 +142,30 @@ def dicoms():
         yield f"lossless-{bits}.dcm", write(dicom([codecs.ljpeg_encode(array, bitspersample=bits)], JPEG + "70", **extra))
         yield f"j2k-{bits}.dcm", write(dicom([codecs.jpeg2k_encode(array, codecformat="j2k", reversible=True)], JPEG + "90", **extra))
         yield f"htj2k-{bits}.dcm", write(dicom([codecs.htj2k_encode(array, reversible=True)], JPEG + "201", **extra))
-        yield f"jxl-{bits}.dcm", write(dicom([codecs.jpegxl_encode(array, lossless=True)], JPEG + "110", **extra))
+    yield from blank_dicoms()
+
+
+def blank_dicoms():
+    """Frames before the exposure, of which a compressed image is some hundred bytes."""
+    import imagecodecs as codecs
+
+    for side in (512, 1024):
+        blank = np.zeros((side, side), np.uint16)
+        shape = {"Rows": side, "Columns": side}
+        yield f"blank-{side}-deflated.dcm", write(dicom(blank, DEFLATED, **shape))
+        yield f"blank-{side}-ls.dcm", write(dicom([codecs.jpegls_encode(blank)], JPEG + "80", **shape))
+        yield f"blank-{side}-lossless.dcm", write(dicom([codecs.ljpeg_encode(blank, bitspersample=16)], JPEG + "70", **shape))
+        yield f"blank-{side}-j2k.dcm", write(dicom([codecs.jpeg2k_encode(blank, codecformat="j2k", reversible=True)], JPEG + "90", **shape))
+        yield f"blank-{side}-baseline.dcm", write(dicom([codecs.jpeg8_encode(blank.astype(np.uint8))], JPEG + "50", bits=8, **shape))
+        yield f"blank-{side}-rle.dcm", compressed(dicom(blank, EXPLICIT, **shape), RLE)
+
+
+def compressed(data, syntax):
+    def to(path):
+        data.compress(syntax, generate_instance_uid=False)
+        write(data)(path)
+
+    return to
 
 
 def tiffs():
@@ -166,7 +189,8 @@ def tiffs():
             yield f"half-{kind}.tif", save((words / 65535).astype(np.float16), **layout)
         for compression in ("lzw", "deflate", "packbits", "zstd", "lzma", "jpeg", "jpegxl", "jpeg2000"):
             for array, bits in [(grey, 8), (words, 16)]:
-                if compression != "jpeg" or bits == 8:
+                missing = [("jpeg", 16, "<"), ("jpeg", 16, ">"), ("jpegxl", 16, ">")]
+                if (compression, bits, order) not in missing:
                     yield f"{compression}-{bits}-{name}.tif", save(array, compression=compression, byteorder=order)
         for compression in ("lzw", "deflate"):
             for array, bits in [(grey, 8), (words, 16), (picture(32), 32), (float32, "float"), (colours(), "rgb")]:

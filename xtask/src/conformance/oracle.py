@@ -2,6 +2,8 @@
 
 import numpy as np
 
+import random_images
+
 # Grey levels (of 256) that two right decoders of one lossy image may differ by at a pixel; more where colours were shared by pixels.
 LOSSY, LOSSY_COLOUR = 2, 4
 LOSSY_SYNTAXES = {"1.2.840.10008.1.2.4." + end for end in ("50", "51", "91", "112", "203")}
@@ -138,6 +140,11 @@ def picture(path):
         array = np.asarray(image.convert("RGB") if mode not in ("L", "RGB") else image)
         grey = luminance(array) if array.ndim == 3 else array.astype(np.int64)
         return [grey], LOSSY_COLOUR if array.ndim == 3 else LOSSY, f"{kind} {mode}"
+
+
+def random_image(path, kind):
+    array, tolerance = random_images.decoded(path, kind)
+    return [luminance(array) if array.ndim == 3 else np.atleast_2d(array).astype(np.int64)], tolerance, kind
 
 
 def png(path, image):

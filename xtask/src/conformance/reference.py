@@ -4,6 +4,7 @@ import glob
 import os
 
 import made
+import random_images
 
 
 def files(folder):
@@ -14,7 +15,8 @@ def files(folder):
     pictures = (".png", ".jpg", ".tif", ".tiff", ".jp2")
     for package, sub in [("skimage", "data"), ("scipy", "ndimage/tests"), ("imageio", "resources")]:
         out += shipped(package, sub, None, lambda path: path.lower().endswith(pictures))
-    return out + made.files(os.path.join(folder, "made"))
+    out += made.files(os.path.join(folder, "made"))
+    return out + list(random_images.files(os.path.join(folder, "random")))
 
 
 def shipped(package, sub, kind, wanted):
