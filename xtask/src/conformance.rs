@@ -1,11 +1,12 @@
 //! Verb `conformance`: the reader of frames beside those of the Python world, on the files that they ship.
 
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Result, bail};
 
-use crate::setup::python;
 use crate::setup::rust_target::own_cargo;
+use crate::setup::{command, python};
 use crate::workspace;
 
 /// The readers that ours is held against, and what they decode with.
@@ -21,6 +22,9 @@ const PACKAGES: [&str; 10] = [
     "tifffile[all]",
     "scikit-image",
 ];
+
+/// Where the programs in Python are.
+const PROGRAMS: &str = "xtask/src/conformance";
 
 /// Options of `conformance`.
 #[derive(clap::Args)]
@@ -39,27 +43,48 @@ pub(crate) struct Args {
 /// # Errors
 /// For what cannot be installed or built, and where a file is read wrong.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let python = python::environment("conformance", &PACKAGES)?;
+    let python = environment()?;
     let mut build = own_cargo();
     build.args(["build", "--release", "-p", "fluoropose-decode"]);
     if !build.args(["--example", "decoded"]).status()?.success() {
         bail!("the program that decodes could not be built");
     }
-    let folder = workspace::target_dir().join("conformance");
-    std::fs::create_dir_all(&folder)?;
     let program = format!("decoded{}", std::env::consts::EXE_SUFFIX);
     let compared = Command::new(python)
-        .arg(workspace::root().join("xtask/src/conformance/conformance.py"))
+        .arg(workspace::root().join(PROGRAMS).join("conformance.py"))
         .arg(
             workspace::target_dir()
                 .join("release/examples")
                 .join(program),
         )
-        .arg(folder)
+        .arg(folder()?)
         .args(args.names)
         .status()?;
     match compared.success() {
         true => Ok(()),
         false => bail!("files are read wrong, or could not be compared"),
     }
+}
+
+/// Paths of the files, a line each: those that are compared, and small models.
+///
+/// # Errors
+/// For what cannot be installed or made.
+pub(crate) fn seeds() -> Result<String> {
+    let mut listing = Command::new(environment()?);
+    listing
+        .arg(workspace::root().join(PROGRAMS).join("seeds.py"))
+        .arg(folder()?);
+    command::output(&mut listing)
+}
+
+fn environment() -> Result<PathBuf> {
+    Ok(python::environment("conformance", &PACKAGES)?)
+}
+
+/// Where made files are.
+fn folder() -> Result<PathBuf> {
+    let folder = workspace::target_dir().join("conformance");
+    std::fs::create_dir_all(&folder)?;
+    Ok(folder)
 }

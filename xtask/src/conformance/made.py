@@ -1,6 +1,7 @@
 """Files that encoders of the Python world make: what the shipped ones lack."""
 
 import os
+import sys
 
 import numpy as np
 
@@ -32,7 +33,7 @@ def files(folder):
             try:
                 write(path)
             except Exception as error:  # an encoder that is not there
-                print(f"not made: {name} ({type(error).__name__}: {error})")
+                print(f"not made: {name} ({type(error).__name__}: {error})", file=sys.stderr)
                 continue
             out.append((path, f"made/{name}", kind))
     return out
