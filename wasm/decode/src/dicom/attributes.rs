@@ -88,7 +88,7 @@ fn whole(values: Values<'_>, tag: u32, name: &str) -> Result<u16, Problem> {
 }
 
 fn whole_or_absent(values: Values<'_>, tag: u32, name: &str) -> Result<Option<u16>, Problem> {
-    let Some(value) = values.numbers(tag).and_then(|v| v.first().copied()) else {
+    let Some(value) = values.finite(tag) else {
         return Ok(None);
     };
     match value.fract() == 0.0 && (0.0..=65535.0).contains(&value) {

@@ -45,7 +45,7 @@ impl<'a> Values<'a> {
         Some((found, self.bytes.get(found.value.clone())?))
     }
 
-    /// All numbers of a value; none if one of them is no number.
+    /// All numbers of a value; NaN for each that is none.
     pub(super) fn numbers(&self, tag: u32) -> Option<Vec<f64>> {
         let (found, bytes) = self.element(tag)?;
         let big = found.big_endian;
@@ -66,8 +66,8 @@ impl<'a> Values<'a> {
             b"FD" => each(bytes, big).map(f64::from_le_bytes).collect(),
             _ => {
                 let text = std::str::from_utf8(bytes).ok()?;
-                let numbers = text.split('\\').map(|word| trimmed(word).parse().ok());
-                numbers.collect::<Option<_>>()?
+                let number = |word| trimmed(word).parse().unwrap_or(f64::NAN);
+                text.split('\\').map(number).collect()
             }
         })
     }

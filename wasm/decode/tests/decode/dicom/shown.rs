@@ -80,6 +80,15 @@ fn an_exact_linear_window_is_taken_as_it_is() {
     );
 }
 
+/// Some programs leave further values empty.
+#[test]
+fn of_several_windows_the_first_counts_alone() {
+    let file = with_window(Builder::image(EXPLICIT, 2, 1, 8, 1), "100.5\\", "81\\ ");
+    let window = only_frame(&file.octets(&[1, 2]), "a.dcm").window;
+    let (centre, width) = (100.0, 80.0);
+    assert_eq!(window, Some(Window { centre, width }));
+}
+
 #[test]
 fn a_window_of_no_width_is_none() {
     for (centre, width) in [("100", "0"), ("100", "-5"), ("nonsense", "10"), ("", "")] {
