@@ -159,8 +159,8 @@ pageTest('compressed DICOM', async (page, t) => {
   });
 
   await step(page, t, 'a coding that is not read is named, with what to do', async () => {
-    await choose(page, dicomOf({ ...JPEG_2000.file, syntax: '1.2.840.10008.1.2.4.80' }));
-    await panel.waitForWords(page, /JPEG-LS lossless pixels \(transfer syntax 1\.2\.840\.10008\.1\.2\.4\.80\), which is not read\. Export it/);
+    await choose(page, dicomOf({ ...JPEG_2000.file, syntax: '1.2.840.10008.1.2.4.110' }));
+    await panel.waitForWords(page, /JPEG XL lossless pixels \(transfer syntax 1\.2\.840\.10008\.1\.2\.4\.110\), which is not read\. Export it/);
   });
 });
 

@@ -4,8 +4,10 @@
 mod bench;
 mod ci;
 mod clock;
+mod conformance;
 mod demo;
 mod firmware;
+mod fuzz;
 mod laboratory;
 mod models;
 mod options;
@@ -42,6 +44,10 @@ enum Verb {
     Package(package::Args),
     /// Measure this machine at the core's work, or the page in headless Chromium
     Bench(bench::Args),
+    /// Read the image files that other readers ship, beside those readers
+    Conformance(conformance::Args),
+    /// Give changed files to every reader, until one panics or the time is over
+    Fuzz(fuzz::Args),
     /// Check the layout of the sources: layers, cycles between files, words
     Tidy(tidy::Args),
     /// What continuous integration runs
@@ -100,6 +106,8 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Test(args) => test::run(args),
         Verb::Package(args) => package::run(args),
         Verb::Bench(args) => bench::run(args),
+        Verb::Conformance(args) => conformance::run(args),
+        Verb::Fuzz(args) => fuzz::run(args),
         Verb::Tidy(args) => tidy::run(args),
         Verb::Ci(args) => ci::run(args),
         Verb::Models(args) => models::run(args),

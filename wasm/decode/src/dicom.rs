@@ -1,8 +1,9 @@
 //! DICOM: X-ray frames, one or several.
 //!
-//! Read: uncompressed little endian (implicit and explicit), big endian and deflated; RLE; JPEG baseline,
-//! extended (8 bits) and lossless; JPEG 2000 with and without loss. MONOCHROME1 and 2 of 8 to 16 bits, RGB and full YBR
-//! of 8 bits.
+//! Read: uncompressed little endian (implicit and explicit), big endian and deflated; RLE; JPEG baseline, extended (8 and
+//! 12 bits) and lossless; JPEG-LS and JPEG 2000 with and without loss. MONOCHROME1 and 2 of 1 and of 8 to 32 bits,
+//! palettes, RGB and full YBR of 8 and 16 bits. With and without preamble, and without the group that names the syntax
+//! where the content proves it ([`start`]).
 //!
 //! # What happens to pixel values
 //! * Stored values are kept: rescale slope and intercept are **not** applied to pixels. They are applied backwards
@@ -11,56 +12,70 @@
 //! * Signed pixels are moved up by half their range, the window with them.
 //! * MONOCHROME1 (high is dark) is inverted within its bits stored, the window with it; a negative rescale slope
 //!   inverts once more, since it is the rescaled value that is shown.
-//! * Bits above the stored ones (overlays, padding) are masked off; 8 or fewer bits stored give bytes.
+//! * Bits above the stored ones (overlays, padding) are masked off; 8 or fewer bits stored give bytes. Overlays of their
+//!   own, shutters and tables of meaningful values (modality LUT) are not applied; a note tells of the latter two.
+//! * Of more than 16 bits, the highest 16 that the values of the file's frames use are kept, the same in all frames.
 //!
 //! In enhanced multi-frame objects windows, rescaling and geometry stand in functional groups: a frame's own counts
 //! first, then what all frames share, then the top level.
 //!
 //! # Where the bytes are trusted
-//! [`structure`] walks the data set and checks each length against the bytes that are there. Only the few small
-//! elements of [`attributes`] reach the library, which reserves what a length field says; pixel data is read in
-//! place.
+//! [`structure`] walks the data set and checks each length against the bytes that are there. Values and pixels are read
+//! where they lie, so that nothing is reserved for what a length field says.
 
 // In the order of the data.
 mod problem;
 mod tags;
 
+mod element;
 mod syntax;
 
-mod element;
+mod start;
+
+mod values;
+
 mod functional;
 mod structure;
 
-mod attributes;
+mod palette;
 
-mod encapsulated;
+mod attributes;
+mod rate;
+
+mod shown;
+
+mod native;
 mod pixels;
 mod rle;
+
+mod encapsulated;
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::error::Problem;
 use crate::frame::GreyFrame;
-use attributes::Attributes;
+use attributes::{Attributes, Narrowing};
+use native::Native;
+use pixels::Stored;
 use problem::damaged;
-use structure::PixelData;
-use syntax::{Coding, Syntax};
+pub(crate) use start::is_dicom;
+use structure::{DataSet, PixelData};
+use syntax::Coding;
 
 /// A DICOM file whose structure and attributes have been checked; frames are decoded when asked for.
 pub(crate) struct Dicom {
     attributes: Attributes,
     /// Attributes of each frame, where functional groups state them.
     per_frame: Vec<Attributes>,
+    frames_per_s: Option<f64>,
     coding: Coding,
-    big_endian: bool,
     source: Source,
 }
 
 /// Where the frames' bytes are.
 enum Source {
-    /// All frames one after the other in this range.
-    Native { range: Range<usize>, words: bool },
+    Native(Native),
     /// A list of fragments for each frame.
     Encapsulated(Vec<Vec<Range<usize>>>),
 }
@@ -68,34 +83,30 @@ enum Source {
 impl Dicom {
     /// Checks a whole file. A deflated data set replaces `bytes` by what it grows to.
     pub(crate) fn open(bytes: &mut Cow<'_, [u8]>) -> Result<Self, Problem> {
-        let meta = structure::read_meta(bytes)?;
-        let syntax = Syntax::of(&meta.transfer_syntax)?;
-        let start = match syntax.deflated {
-            true => {
-                *bytes = Cow::Owned(structure::inflate(&bytes[meta.end..])?);
-                0
-            }
-            false => meta.end,
-        };
-        let data_set = structure::walk(bytes, start, &syntax)?;
-        let attributes = Attributes::read(&data_set.wanted, &syntax)?;
-        attributes.check(syntax.coding)?;
-        let per_frame = attributes.of_frames(&data_set.shared, &data_set.per_frame, &syntax)?;
-        let source = match data_set.pixels {
-            PixelData::Native { range, words } => {
-                Source::native(range, words, &attributes, syntax.coding)?
-            }
-            PixelData::Fragments { offsets, fragments } => Source::Encapsulated(
-                encapsulated::frames(bytes, &offsets, fragments, &attributes, syntax.coding)?,
-            ),
-        };
-        Ok(Self {
+        let mut start = start::of(bytes)?;
+        if start.syntax.deflated {
+            *bytes = Cow::Owned(structure::inflate(&bytes[start.at..])?);
+            start.at = 0;
+        }
+        let data_set = structure::walk(bytes, start.at, &start.syntax)?;
+        let coding = encapsulated::coding(bytes, &data_set.pixels, start.syntax.coding);
+        let attributes = Attributes::read(bytes, &data_set, coding)?;
+        attributes.check(coding)?;
+        let mut dicom = Self {
+            per_frame: attributes.of_frames(bytes, &data_set),
+            frames_per_s: rate::frames_per_s(bytes, &data_set),
+            source: Source::of(
+                bytes,
+                data_set,
+                &attributes,
+                coding,
+                start.syntax.big_endian,
+            )?,
             attributes,
-            per_frame,
-            coding: syntax.coding,
-            big_endian: syntax.big_endian,
-            source,
-        })
+            coding,
+        };
+        dicom.narrow(bytes)?;
+        Ok(dicom)
     }
 
     /// How many frames there are.
@@ -105,57 +116,95 @@ impl Dicom {
 
     /// Frames a second, where the file states them and they are even.
     pub(crate) fn frames_per_s(&self) -> Option<f64> {
-        self.attributes.frames_per_s
+        self.frames_per_s
     }
 
     /// Decodes frame `index`, below [`Self::count`]; `bytes` are those that [`Self::open`] left.
     pub(crate) fn frame(&self, bytes: &[u8], index: usize) -> Result<GreyFrame, Problem> {
         let attributes = self.per_frame.get(index).unwrap_or(&self.attributes);
-        match &self.source {
-            Source::Native { range, words } => {
-                let size = attributes.native_frame_bytes();
-                let start = range.start + index * size;
-                let stored = bytes.get(start..start + size).unwrap_or_default();
-                let ordered = native_order(stored, self.big_endian, *words, attributes);
-                pixels::frame_from_stored(&ordered, attributes)
-            }
-            Source::Encapsulated(frames) => {
-                let fragments = frames.get(index).map(Vec::as_slice).unwrap_or_default();
-                let coded = join(bytes, fragments);
+        match (&self.source, self.coding) {
+            (Source::Encapsulated(frames), Coding::Jpeg | Coding::Jpeg2000) => {
+                let coded = join(bytes, frames.get(index));
                 encapsulated::decode(&coded, attributes, self.coding)
             }
+            (Source::Encapsulated(_), _) => {
+                // Run lengths give interleaved samples whatever the file says of its planes.
+                let interleaved = Attributes {
+                    planar: false,
+                    ..attributes.clone()
+                };
+                pixels::frame_from_stored(&self.stored(bytes, index)?, &interleaved)
+            }
+            (Source::Native(_), _) => {
+                pixels::frame_from_stored(&self.stored(bytes, index)?, attributes)
+            }
         }
+    }
+
+    /// The samples of a frame that are uncompressed or in run lengths.
+    fn stored<'a>(&self, bytes: &'a [u8], index: usize) -> Result<Stored<'a>, Problem> {
+        let (bytes, skipped) = match &self.source {
+            Source::Native(native) => native.frame(bytes, index, &self.attributes),
+            Source::Encapsulated(frames) => {
+                let coded = join(bytes, frames.get(index));
+                (rle::decode_frame(&coded, &self.attributes)?.into(), 0)
+            }
+        };
+        Ok(Stored { bytes, skipped })
+    }
+
+    /// Chooses which bits of greys of more than 16 are handed out: those that the values of all frames use.
+    fn narrow(&mut self, bytes: &[u8]) -> Result<(), Problem> {
+        if self.attributes.bits_stored <= 16 {
+            return Ok(());
+        }
+        let (mut low, mut high) = (u32::MAX, 0);
+        for index in 0..self.count() {
+            let extent = pixels::extent(&self.stored(bytes, index)?, &self.attributes);
+            (low, high) = (low.min(extent.0), high.max(extent.1));
+        }
+        // Values without sign are kept as they are, as far as they fit.
+        let low = if self.attributes.signed { low } else { 0 };
+        let used = 32 - high.saturating_sub(low).leading_zeros();
+        let narrowing = Narrowing {
+            low,
+            shift: used.saturating_sub(16),
+        };
+        for attributes in self.per_frame.iter_mut().chain([&mut self.attributes]) {
+            attributes.narrowing = narrowing;
+            attributes.depth = used.clamp(1, 16) as u16;
+        }
+        Ok(())
     }
 }
 
 impl Source {
-    /// Uncompressed frames, if they are all there.
-    fn native(
-        range: Range<usize>,
-        words: bool,
+    fn of(
+        bytes: &[u8],
+        data_set: DataSet,
         attributes: &Attributes,
         coding: Coding,
+        big_endian: bool,
     ) -> Result<Self, Problem> {
-        if coding != Coding::Native {
-            return Err(damaged(
+        match data_set.pixels {
+            PixelData::Native { .. } if coding != Coding::Native => Err(damaged(
                 "it says its pixels are compressed and they are not",
-            ));
+            )),
+            PixelData::Native { range, words } => {
+                Native::new(range, words, big_endian, attributes).map(Self::Native)
+            }
+            PixelData::Fragments { offsets, fragments } => {
+                encapsulated::frames(bytes, &offsets, fragments, attributes, coding)
+                    .map(Self::Encapsulated)
+            }
         }
-        let needed = attributes.native_frame_bytes() as u64 * attributes.frames as u64;
-        let found = range.len() as u64;
-        if found < needed {
-            return Err(damaged(format!(
-                "its frames need {needed} bytes of pixels and it holds {found}"
-            )));
-        }
-        Ok(Self::Native { range, words })
     }
 }
 
 /// The bytes of some fragments, copied only if there are several.
-fn join<'a>(bytes: &'a [u8], fragments: &[Range<usize>]) -> Cow<'a, [u8]> {
+fn join<'a>(bytes: &'a [u8], fragments: Option<&Vec<Range<usize>>>) -> Cow<'a, [u8]> {
     let part = |range: &Range<usize>| bytes.get(range.clone()).unwrap_or_default();
-    match fragments {
+    match fragments.map(Vec::as_slice).unwrap_or_default() {
         [one] => Cow::Borrowed(part(one)),
         several => Cow::Owned(
             several
@@ -164,24 +213,4 @@ fn join<'a>(bytes: &'a [u8], fragments: &[Range<usize>]) -> Cow<'a, [u8]> {
                 .collect(),
         ),
     }
-}
-
-/// Uncompressed pixels in little endian order. Big endian files store words, also those that hold two 8-bit
-/// pixels.
-fn native_order<'a>(
-    stored: &'a [u8],
-    big_endian: bool,
-    words: bool,
-    attributes: &Attributes,
-) -> Cow<'a, [u8]> {
-    if !big_endian || (attributes.bits_allocated == 8 && !words) {
-        return Cow::Borrowed(stored);
-    }
-    let mut swapped = stored.to_vec();
-    swapped
-        .as_chunks_mut::<2>()
-        .0
-        .iter_mut()
-        .for_each(|w| w.reverse());
-    Cow::Owned(swapped)
 }

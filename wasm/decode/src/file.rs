@@ -34,7 +34,7 @@ enum Content {
     Png,
     Jpeg,
     Jpeg2000,
-    Tiff { pages: Vec<usize> },
+    Tiff { pages: Vec<tiff::Page> },
     Dicom(Box<Dicom>),
 }
 
@@ -44,7 +44,7 @@ impl<'a> FrameFile<'a> {
     ///
     /// # Errors
     /// [`DecodeError`] if the content is not a frame of a known format, is damaged, is of a kind that is not read
-    /// (JPEG-LS, video, ...), or larger than the [limits](crate::limits).
+    /// (JPEG XL, video, ...), or larger than the [limits](crate::limits).
     pub fn open(bytes: impl Into<Cow<'a, [u8]>>, name: &str) -> Result<Self, DecodeError> {
         let mut bytes = bytes.into();
         let kind = sniff(&bytes, name);
@@ -102,7 +102,7 @@ impl<'a> FrameFile<'a> {
             Content::Png => png::decode(&self.bytes),
             Content::Jpeg => jpeg::decode(&self.bytes),
             Content::Jpeg2000 => jpeg2000::decode(&self.bytes),
-            Content::Tiff { pages } => tiff::decode(&self.bytes, pages[index]),
+            Content::Tiff { pages } => tiff::decode(&self.bytes, &pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
         }
     }

@@ -2,6 +2,8 @@
 
 pub(crate) mod stl_form;
 
+use crate::dicom::is_dicom;
+
 /// Kinds of files that a page or a command may be given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -143,14 +145,15 @@ pub fn sniff_head(head: &[u8], length: usize, name: &str) -> Kind {
 }
 
 fn by_content(bytes: &[u8], length: usize) -> Option<Kind> {
+    // Before signatures: scanners and archives put a TIFF header in front of the mark.
+    if is_dicom(bytes, length) {
+        return Some(Kind::Dicom);
+    }
     let signed = SIGNATURES
         .iter()
         .find(|(signature, _)| bytes.starts_with(signature));
     if let Some((_, kind)) = signed {
         return Some(*kind);
-    }
-    if bytes.get(128..132) == Some(b"DICM") {
-        return Some(Kind::Dicom);
     }
     if is_video(bytes) {
         return Some(Kind::Video);

@@ -1,26 +1,31 @@
-//! TIFF: 1 to 16 bits grey, 8 and 16 bits colour, floating point; several pages.
+//! TIFF: grey and palettes of 1 to 64 bits, colour of 8 bits and more, whole numbers and floating point; several pages.
 //!
-//! Pages without compression, and with deflate, LZW and PackBits. White-is-zero pages are returned with black at 0. Signed
-//! pixels are moved up by half their range. Floating point pixels are mapped linearly from the page's own smallest and
-//! largest finite value to 0 and 65535 (NaN becomes 0), and the frame's notes say so. Thumbnails (reduced pages) are left
-//! out.
+//! Pages without compression, and with deflate, LZW, PackBits, fax codes and JPEG. White-is-zero pages are returned with
+//! black at 0. Signed pixels are moved up by half their range. Floating point pixels, and whole numbers that do not fit 16
+//! bits, are mapped linearly from the page's own smallest and largest finite value to 0 and 65535 (NaN becomes 0), and the
+//! frame's notes say so. Palettes become luminance. Thumbnails (reduced pages) are left out.
 
-mod directory;
 mod problem;
 
-use std::io::Cursor;
+mod directory;
+
+mod overlay;
+
+mod samples;
+
+mod jpeg_pages;
 
 use tiff::ColorType;
-use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use crate::error::Problem;
 use crate::frame::{GreyFrame, Pixels, can_hold, checked_area};
 use crate::limits::MAX_SIDE;
-use crate::luminance::{grey_from_u8, grey_from_u16};
-use problem::{FORMAT, damaged};
-
-const REMEDY: &str = "Save it as 8- or 16-bit grey";
+pub(crate) use directory::Page;
+use overlay::{Overlaid, Reader};
+use problem::{FORMAT, REMEDY, damaged, failed};
+use samples::Layout;
 
 /// Most bytes of one decoded page: colour of 16 bits with transparency.
 const MAX_PAGE_BYTES: usize = 8 * (MAX_SIDE as usize).pow(2);
@@ -28,54 +33,21 @@ const MAX_PAGE_BYTES: usize = 8 * (MAX_SIDE as usize).pow(2);
 /// Value of the PlanarConfiguration field: all of the first colour, then all of the second.
 const SEPARATE_PLANES: u16 = 2;
 
-/// Bit of the NewSubfileType field: a smaller copy of another page.
-const REDUCED_COPY: u32 = 1;
-
-type Reader<'a> = Decoder<Cursor<&'a [u8]>>;
-
-fn failed(page: usize, error: tiff::TiffError) -> Problem {
-    match error {
-        tiff::TiffError::UnsupportedError(what) => {
-            let what = format!("a rare variant on page {} ({what})", page + 1);
-            Problem::unsupported(FORMAT, what, REMEDY)
-        }
-        other => damaged(page, other),
-    }
-}
-
-fn open(bytes: &[u8]) -> Result<Reader<'_>, Problem> {
+fn open<'a>(bytes: &'a [u8], page: &Page) -> Result<Reader<'a>, Problem> {
     let mut limits = Limits::default();
     limits.decoding_buffer_size = MAX_PAGE_BYTES;
     limits.intermediate_buffer_size = MAX_PAGE_BYTES;
-    let decoder = Decoder::new(Cursor::new(bytes)).map_err(|e| failed(0, e))?;
+    let decoder = Decoder::new(Overlaid::new(bytes, page)).map_err(|e| failed(page.number, e))?;
     Ok(decoder.with_limits(limits))
 }
 
 /// The directories that hold frames, in the file's order; each has been checked for its size.
-pub(crate) fn pages(bytes: &[u8]) -> Result<Vec<usize>, Problem> {
-    directory::check(bytes)?;
-    let mut decoder = open(bytes)?;
-    let mut pages = Vec::new();
-    for index in 0.. {
-        let kind = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType);
-        let reduced = kind.map_err(|e| failed(index, e))?.unwrap_or(0) & REDUCED_COPY != 0;
-        if !reduced {
-            let (width, height) = decoder.dimensions().map_err(|e| failed(index, e))?;
-            checked_area(width.into(), height.into())?;
-            pages.push(index);
-        }
-        if !decoder.more_images() {
-            break;
-        }
-        decoder.next_image().map_err(|e| failed(index + 1, e))?;
-    }
-    match pages.is_empty() {
-        true => Err(Problem::damaged(FORMAT, "it has no full-size page")),
-        false => Ok(pages),
-    }
+pub(crate) fn pages(bytes: &[u8]) -> Result<Vec<Page>, Problem> {
+    directory::pages(bytes)
 }
 
-/// Whether every strip or tile lies inside the file: the decoder may otherwise pass over a missing end.
+/// Whether every strip or tile lies inside the file, because the decoder may otherwise pass over a missing end, and on
+/// bytes of its own, because a small file would otherwise take long.
 fn check_extents(decoder: &mut Reader<'_>, page: usize, file: usize) -> Result<(), Problem> {
     let pairs = [
         (Tag::StripOffsets, Tag::StripByteCounts),
@@ -98,38 +70,47 @@ fn check_extents(decoder: &mut Reader<'_>, page: usize, file: usize) -> Result<(
         if !offsets.iter().zip(&counts).all(fits) {
             return Err(damaged(page, "its pixels lie beyond the end of the file"));
         }
+        // Each lies in the file, so that the sum of fewer than it has bytes does not overflow.
+        if counts.iter().sum::<u64>() > file as u64 {
+            return Err(damaged(page, "its strips or tiles lie upon each other"));
+        }
     }
     Ok(())
 }
 
-/// Decodes the directory with this index (one of [`pages`]).
-pub(crate) fn decode(bytes: &[u8], page: usize) -> Result<GreyFrame, Problem> {
-    let mut decoder = open(bytes)?;
-    decoder.seek_to_image(page).map_err(|e| failed(page, e))?;
-    let (width, height) = decoder.dimensions().map_err(|e| failed(page, e))?;
+/// Decodes one of the [`pages`].
+pub(crate) fn decode(bytes: &[u8], page: &Page) -> Result<GreyFrame, Problem> {
+    let number = page.number;
+    let mut decoder = open(bytes, page)?;
+    let (width, height) = decoder.dimensions().map_err(|e| failed(number, e))?;
     let area = checked_area(width.into(), height.into())?;
-    let color = decoder.colortype().map_err(|e| failed(page, e))?;
+    let color = decoder.colortype().map_err(|e| failed(number, e))?;
     let bits = u64::from(color.bit_depth()) * u64::from(color.num_samples());
     if !can_hold(bytes.len(), area, bits) {
-        return Err(damaged(page, "the file is too short for its stated size"));
+        return Err(damaged(number, "the file is too short for its stated size"));
     }
-    let layout = channels(color)?;
-    check_extents(&mut decoder, page, bytes.len())?;
-    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
-    if color.num_samples() > 1 && planes.map_err(|e| failed(page, e))? == Some(SEPARATE_PLANES) {
-        let what = "colours stored one after the other";
-        return Err(Problem::unsupported(FORMAT, what, REMEDY));
-    }
-    let samples = decoder.read_image().map_err(|e| failed(page, e))?;
-
+    check_extents(&mut decoder, number, bytes.len())?;
     let mut notes = Vec::new();
-    let pixels = grey(samples, layout, width as usize, &mut notes)?;
+    let compression = decoder.find_tag_unsigned::<u16>(Tag::Compression);
+    let pixels = match compression.map_err(|e| failed(number, e))? {
+        Some(jpeg_pages::JPEG) => {
+            let size = (width as usize, height as usize);
+            jpeg_pages::grey(&mut decoder, bytes, number, size)?
+        }
+        _ if page.palette_as_grey.is_some() => {
+            of_palette(&mut decoder, number, color, width as usize)?
+        }
+        _ => {
+            let (samples, layout) = stored(&mut decoder, number, color, area)?;
+            samples::grey(samples, layout, width as usize, &mut notes)?
+        }
+    };
     if pixels.len() != area {
-        return Err(damaged(page, "its pixels do not fill its stated size"));
+        return Err(damaged(number, "its pixels do not fill its stated size"));
     }
     let mut frame = GreyFrame::plain(width, height, pixels);
     let orientation = decoder.find_tag_unsigned::<u32>(Tag::Orientation);
-    if let Some(orientation @ 2..=8) = orientation.map_err(|e| failed(page, e))? {
+    if let Some(orientation @ 2..=8) = orientation.map_err(|e| failed(number, e))? {
         notes.push(format!(
             "The file asks to be shown rotated or mirrored (orientation {orientation}); it is shown as stored."
         ));
@@ -138,101 +119,75 @@ pub(crate) fn decode(bytes: &[u8], page: usize) -> Result<GreyFrame, Problem> {
     Ok(frame)
 }
 
-/// How the samples of a page are stored.
-#[derive(Clone, Copy)]
-enum Layout {
-    /// Grey of 1, 2 or 4 bits, packed, each row beginning at a byte.
-    Packed(u8),
-    /// This number of whole samples for each pixel.
-    Channels(usize),
+/// The samples of a page, and how they are stored.
+fn stored(
+    decoder: &mut Reader<'_>,
+    page: usize,
+    color: ColorType,
+    area: usize,
+) -> Result<(DecodingResult, Layout), Problem> {
+    let layout = channels(color)?;
+    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
+    let separate = planes.map_err(|e| failed(page, e))? == Some(SEPARATE_PLANES);
+    match layout {
+        // The library ends the program at some of them.
+        Layout::Channels(2..) if separate && decoder.get_chunk_type() == ChunkType::Tile => {
+            let what = "colours stored one after the other in tiles";
+            Err(Problem::unsupported(FORMAT, what, REMEDY))
+        }
+        Layout::Channels(channels @ 2..) if separate => {
+            let mut samples = DecodingResult::U8(Vec::new());
+            decoder
+                .read_image_to_buffer(&mut samples)
+                .map_err(|e| failed(page, e))?;
+            Ok((samples, Layout::Planes(channels, area)))
+        }
+        _ => Ok((decoder.read_image().map_err(|e| failed(page, e))?, layout)),
+    }
+}
+
+/// Greys of a page of numbers of colours.
+fn of_palette(
+    decoder: &mut Reader<'_>,
+    page: usize,
+    color: ColorType,
+    width: usize,
+) -> Result<Pixels, Problem> {
+    let palette = decoder.find_tag_unsigned_vec::<u16>(Tag::ColorMap);
+    let palette = palette.map_err(|e| failed(page, e))?.unwrap_or_default();
+    let samples = decoder.read_image().map_err(|e| failed(page, e))?;
+    let numbers = match (color, samples) {
+        (ColorType::Gray(bits @ (1 | 2 | 4)), DecodingResult::U8(packed)) => {
+            Pixels::U8(samples::unpack(&packed, bits, width))
+        }
+        (ColorType::Gray(8), DecodingResult::U8(numbers)) => Pixels::U8(numbers),
+        (ColorType::Gray(16), DecodingResult::U16(numbers)) => Pixels::U16(numbers),
+        _ => {
+            return Err(Problem::unsupported(
+                FORMAT,
+                "a palette of a rare kind",
+                REMEDY,
+            ));
+        }
+    };
+    samples::colours(&numbers, &palette)
 }
 
 fn channels(color: ColorType) -> Result<Layout, Problem> {
     match color {
         ColorType::Gray(bits @ (1 | 2 | 4)) => Ok(Layout::Packed(bits)),
         ColorType::Gray(8 | 16 | 32 | 64) => Ok(Layout::Channels(1)),
-        ColorType::GrayA(8 | 16) => Ok(Layout::Channels(2)),
-        ColorType::RGB(8 | 16) => Ok(Layout::Channels(3)),
-        ColorType::RGBA(8 | 16) => Ok(Layout::Channels(4)),
+        ColorType::GrayA(8 | 16 | 32 | 64) => Ok(Layout::Channels(2)),
+        ColorType::RGB(8 | 16 | 32 | 64) => Ok(Layout::Channels(3)),
+        ColorType::RGBA(8 | 16 | 32 | 64) => Ok(Layout::Channels(4)),
+        // Grey and what is beside it, mostly transparency.
+        ColorType::Multiband {
+            bit_depth: 8 | 16 | 32 | 64,
+            num_samples: 2,
+        } => Ok(Layout::Channels(2)),
         other => {
             let what = format!("pixels of the kind {other:?}");
             Err(Problem::unsupported(FORMAT, what, REMEDY))
         }
     }
-}
-
-fn grey(
-    samples: DecodingResult,
-    layout: Layout,
-    width: usize,
-    notes: &mut Vec<String>,
-) -> Result<Pixels, Problem> {
-    let channels = match layout {
-        Layout::Packed(bits) => {
-            let DecodingResult::U8(packed) = samples else {
-                return Err(Problem::damaged(
-                    FORMAT,
-                    "its bits are packed in an unknown way",
-                ));
-            };
-            return Ok(Pixels::U8(unpack(&packed, bits, width)));
-        }
-        Layout::Channels(channels) => channels,
-    };
-    Ok(match samples {
-        DecodingResult::U8(s) => Pixels::U8(grey_from_u8(&s, channels)),
-        DecodingResult::U16(s) => Pixels::U16(grey_from_u16(s.into_iter(), channels)),
-        DecodingResult::I8(s) => {
-            notes.push("Signed pixels were moved up by 128.".to_owned());
-            let moved: Vec<u8> = s.iter().map(|v| v.cast_unsigned() ^ 0x80).collect();
-            Pixels::U8(grey_from_u8(&moved, channels))
-        }
-        DecodingResult::I16(s) => {
-            notes.push("Signed pixels were moved up by 32768.".to_owned());
-            let moved = s.into_iter().map(|v| v.cast_unsigned() ^ 0x8000);
-            Pixels::U16(grey_from_u16(moved, channels))
-        }
-        DecodingResult::F32(s) => floats(s.iter().map(|&v| f64::from(v)), notes),
-        DecodingResult::F64(s) => floats(s.iter().copied(), notes),
-        _ => {
-            let what = "whole numbers of more than 16 bits or half-precision pixels";
-            return Err(Problem::unsupported(FORMAT, what, REMEDY));
-        }
-    })
-}
-
-/// Grey of fewer than 8 bits, spread over 0 to 255.
-fn unpack(packed: &[u8], bits: u8, width: usize) -> Vec<u8> {
-    let each = 8 / usize::from(bits);
-    let most = (1u16 << bits) - 1;
-    let row = |row: &[u8]| -> Vec<u8> {
-        let value = |i: usize| {
-            let shift = 8 - usize::from(bits) * (i % each + 1);
-            (u16::from(row[i / each] >> shift) & most) * 255 / most
-        };
-        (0..width).map(|i| value(i) as u8).collect()
-    };
-    packed
-        .chunks_exact(width.div_ceil(each))
-        .flat_map(row)
-        .collect()
-}
-
-/// Maps smallest to largest finite value linearly onto 0 to 65535, and says so.
-fn floats(values: impl Iterator<Item = f64> + Clone, notes: &mut Vec<String>) -> Pixels {
-    let finite = values.clone().filter(|v| v.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-        (low.min(v), high.max(v))
-    });
-    let scale = match high > low {
-        // Halves first: the difference of two finite numbers may be infinite.
-        true => 65535.0 / 2.0 / (high / 2.0 - low / 2.0),
-        false => 0.0,
-    };
-    notes.push(format!(
-        "Floating point pixels from {low} to {high} were mapped linearly to 0 to 65535."
-    ));
-    // A float to integer cast saturates and takes NaN to 0.
-    let map = |v: f64| ((v - low) * scale).round() as u16;
-    Pixels::U16(values.map(map).collect())
 }

@@ -1,28 +1,33 @@
 //! The attributes of an image that decoding needs, with their checks.
 
-use dicom_object::{InMemDicomObject, Tag};
+use std::sync::Arc;
 
+use super::palette::Palette;
 use super::problem::{FORMAT, damaged};
-use super::syntax::{Coding, Syntax};
+use super::structure::DataSet;
+use super::syntax::Coding;
 use super::tags::{
-    BITS_ALLOCATED, BITS_STORED, CINE_RATE, COLUMNS, DETECTOR_SPACING, FRAME_TIME, FRAME_TIMES,
-    FRAMES, HIGH_BIT, INTERCEPT, MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR,
-    ROWS, SAMPLES_PER_PIXEL, SCANNED_SPACING, SIGNED, SLOPE, SOURCE_TO_DETECTOR,
-    SOURCE_TO_ISOCENTRE, SOURCE_TO_PATIENT, SPACING_CALIBRATION, WINDOW_CENTRE, WINDOW_FUNCTION,
+    BITS_ALLOCATED, BITS_STORED, COLUMNS, DETECTOR_SPACING, FRAMES, HIGH_BIT, INTERCEPT,
+    MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR, ROWS, SAMPLES_PER_PIXEL,
+    SCANNED_SPACING, SHUTTER, SIGNED, SLOPE, SOURCE_TO_DETECTOR, SOURCE_TO_ISOCENTRE,
+    SOURCE_TO_PATIENT, SPACING_CALIBRATION, TABLE_ENTRIES, WINDOW_CENTRE, WINDOW_FUNCTION,
     WINDOW_WIDTH,
 };
+use super::values::Values;
 use crate::error::Problem;
 use crate::frame::{Geometry, SpacingCalibration, checked_area};
 use crate::limits::MAX_FRAMES;
 use crate::luminance::ComponentColours;
 
 /// The meaning of the numbers of a pixel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Photometric {
     /// High is dark.
     Monochrome1,
     /// High is bright.
     Monochrome2,
+    /// The number of a colour.
+    Palette(Arc<Palette>),
     /// Red, green, blue.
     Rgb,
     /// Luminance first, then two colour differences.
@@ -31,6 +36,13 @@ pub(super) enum Photometric {
     YbrFull422,
     /// What a JPEG or JPEG 2000 image makes of its own colours.
     InsideJpeg,
+}
+
+/// How greys of more than 16 bits become what is handed out: `(value - low) >> shift`. Nothing for fewer bits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Narrowing {
+    pub low: u32,
+    pub shift: u32,
 }
 
 /// The window as the file states it, in rescaled units.
@@ -61,123 +73,83 @@ pub(super) struct Attributes {
     pub intercept: f64,
     pub window: Option<StatedWindow>,
     pub geometry: Geometry,
-    pub frames_per_s: Option<f64>,
+    /// The table that turns stored values into meaningful ones gives low ones for high ones; none without a table.
+    pub falling_table: Option<bool>,
+    /// Something is to be shown black outside of a shape.
+    pub has_shutter: bool,
+    pub narrowing: Narrowing,
+    /// Bits of the greys that are handed out.
+    pub depth: u16,
 }
 
-/// Typed access to the library's object.
-struct Values(InMemDicomObject);
+fn whole(values: Values<'_>, tag: u32, name: &str) -> Result<u16, Problem> {
+    whole_or_absent(values, tag, name)?
+        .ok_or_else(|| damaged(format!("it does not say its {name}")))
+}
 
-impl Values {
-    fn numbers(&self, tag: u32) -> Option<Vec<f64>> {
-        let element = self
-            .0
-            .element_opt(Tag((tag >> 16) as u16, tag as u16))
-            .ok()??;
-        element.to_multi_float64().ok()
-    }
-
-    fn finite(&self, tag: u32) -> Option<f64> {
-        let first = self.numbers(tag)?.first().copied();
-        first.filter(|v| v.is_finite())
-    }
-
-    /// A distance: finite and above zero.
-    fn positive(&self, tag: u32) -> Option<f64> {
-        self.finite(tag).filter(|&v| v > 0.0)
-    }
-
-    /// Two distances, both finite and above zero.
-    fn positive_pair(&self, tag: u32) -> Option<[f64; 2]> {
-        let pair: [f64; 2] = self.numbers(tag)?.try_into().ok()?;
-        pair.iter()
-            .all(|v| v.is_finite() && *v > 0.0)
-            .then_some(pair)
-    }
-
-    fn text(&self, tag: u32) -> Option<String> {
-        let element = self
-            .0
-            .element_opt(Tag((tag >> 16) as u16, tag as u16))
-            .ok()??;
-        let text = element.to_str().ok()?;
-        Some(
-            text.trim_matches(|c: char| c == '\0' || c.is_whitespace())
-                .to_owned(),
-        )
-    }
-
-    fn whole(&self, tag: u32, name: &str) -> Result<u16, Problem> {
-        self.whole_or_absent(tag, name)?
-            .ok_or_else(|| damaged(format!("it does not say its {name}")))
-    }
-
-    fn whole_or_absent(&self, tag: u32, name: &str) -> Result<Option<u16>, Problem> {
-        let Some(value) = self.numbers(tag).and_then(|v| v.first().copied()) else {
-            return Ok(None);
-        };
-        match value.fract() == 0.0 && (0.0..=65535.0).contains(&value) {
-            true => Ok(Some(value as u16)),
-            false => Err(damaged(format!("its {name} is {value}"))),
-        }
+fn whole_or_absent(values: Values<'_>, tag: u32, name: &str) -> Result<Option<u16>, Problem> {
+    let Some(value) = values.finite(tag) else {
+        return Ok(None);
+    };
+    match value.fract() == 0.0 && (0.0..=65535.0).contains(&value) {
+        true => Ok(Some(value as u16)),
+        false => Err(damaged(format!("its {name} is {value}"))),
     }
 }
 
 impl Attributes {
-    /// Reads the small elements that the walk kept.
-    pub(super) fn read(wanted: &[u8], syntax: &Syntax) -> Result<Self, Problem> {
-        let object = InMemDicomObject::read_dataset_with_ts(wanted, &syntax.of_elements())
-            .map_err(|e| damaged(format!("its attributes cannot be read ({e})")))?;
-        let values = Values(object);
-        let bits_stored = values.whole(BITS_STORED, "number of bits stored")?;
-        let high_bit = values.whole_or_absent(HIGH_BIT, "high bit")?;
-        let frames = values.whole_or_absent(FRAMES, "number of frames")?;
+    /// Reads the elements that the walk found.
+    pub(super) fn read(bytes: &[u8], data_set: &DataSet, coding: Coding) -> Result<Self, Problem> {
+        let found = &data_set.wanted;
+        let values = Values { bytes, found };
+        let bits_stored = whole(values, BITS_STORED, "number of bits stored")?;
+        let high_bit = whole_or_absent(values, HIGH_BIT, "high bit")?;
+        let frames = whole_or_absent(values, FRAMES, "number of frames")?;
+        let signed = whole_or_absent(values, SIGNED, "pixel representation")? == Some(1);
+        let table = Values {
+            bytes,
+            found: &data_set.modality_table,
+        };
         Ok(Self {
-            width: values.whole(COLUMNS, "number of columns")?.into(),
-            height: values.whole(ROWS, "number of rows")?.into(),
+            width: whole(values, COLUMNS, "number of columns")?.into(),
+            height: whole(values, ROWS, "number of rows")?.into(),
             frames: frames.unwrap_or(1).into(),
-            samples: values
-                .whole_or_absent(SAMPLES_PER_PIXEL, "samples per pixel")?
-                .unwrap_or(1),
-            photometric: photometric(&values, syntax.coding)?,
-            colour_inside: colour_inside(&values),
-            planar: values.whole_or_absent(PLANAR, "planar configuration")? == Some(1),
-            bits_allocated: values.whole(BITS_ALLOCATED, "number of bits allocated")?,
+            samples: whole_or_absent(values, SAMPLES_PER_PIXEL, "samples per pixel")?.unwrap_or(1),
+            photometric: photometric(values, coding, signed)?,
+            colour_inside: colour_inside(values),
+            planar: whole_or_absent(values, PLANAR, "planar configuration")? == Some(1),
+            bits_allocated: whole(values, BITS_ALLOCATED, "number of bits allocated")?,
             bits_stored,
             high_bit: high_bit.unwrap_or(bits_stored.saturating_sub(1)),
-            signed: values.whole_or_absent(SIGNED, "pixel representation")? == Some(1),
+            signed,
             slope: values.finite(SLOPE).filter(|&v| v != 0.0).unwrap_or(1.0),
             intercept: values.finite(INTERCEPT).unwrap_or(0.0),
-            window: window(&values),
-            geometry: geometry(&values),
-            frames_per_s: frames_per_s(&values),
+            window: window(values),
+            geometry: geometry(values),
+            falling_table: is_falling(table),
+            has_shutter: values.text(SHUTTER).is_some_and(|shape| !shape.is_empty()),
+            narrowing: Narrowing::default(),
+            depth: bits_stored.min(16),
         })
     }
 
     /// The attributes of each frame by its functional groups; empty where there are no groups.
-    pub(super) fn of_frames(
-        &self,
-        shared: &[u8],
-        per_frame: &[Vec<u8>],
-        syntax: &Syntax,
-    ) -> Result<Vec<Self>, Problem> {
-        let read = |wanted: &[u8]| {
-            InMemDicomObject::read_dataset_with_ts(wanted, &syntax.of_elements())
-                .map(Values)
-                .map_err(|e| damaged(format!("its functional groups cannot be read ({e})")))
-        };
+    pub(super) fn of_frames(&self, bytes: &[u8], data_set: &DataSet) -> Vec<Self> {
+        let (shared, per_frame) = (&data_set.shared, &data_set.per_frame);
         if per_frame.is_empty() && shared.is_empty() {
-            return Ok(Vec::new());
+            return Vec::new();
         }
-        let common = self.overridden(&read(shared)?);
+        let values = |found| Values { bytes, found };
+        let common = self.overridden(values(shared));
         let own = |frame: usize| match per_frame.get(frame) {
-            Some(wanted) if !wanted.is_empty() => Ok(common.overridden(&read(wanted)?)),
-            _ => Ok(common.clone()),
+            Some(found) if !found.is_empty() => common.overridden(values(found)),
+            _ => common.clone(),
         };
         (0..self.frames).map(own).collect()
     }
 
     /// These attributes where a functional group says nothing else.
-    fn overridden(&self, group: &Values) -> Self {
+    fn overridden(&self, group: Values<'_>) -> Self {
         let own = geometry(group);
         let known = &self.geometry;
         let rescaled = group.finite(SLOPE).filter(|&slope| slope != 0.0);
@@ -191,6 +163,7 @@ impl Attributes {
             window: window(group).or(self.window),
             geometry: Geometry {
                 detector_spacing_mm: own.detector_spacing_mm.or(known.detector_spacing_mm),
+                pixel_spacing_mm: own.pixel_spacing_mm.or(known.pixel_spacing_mm),
                 source_to_detector_mm: own.source_to_detector_mm.or(known.source_to_detector_mm),
                 source_to_patient_mm: own.source_to_patient_mm.or(known.source_to_patient_mm),
                 source_to_isocentre_mm: own.source_to_isocentre_mm.or(known.source_to_isocentre_mm),
@@ -210,17 +183,18 @@ impl Attributes {
             );
             return Err(damaged(detail));
         }
-        let colour = !matches!(
-            self.photometric,
-            Photometric::Monochrome1 | Photometric::Monochrome2
-        );
-        let depths: &[u16] = if colour { &[8] } else { &[8, 16] };
+        let samples = if self.is_colour() { 3 } else { 1 };
+        let grey = self.is_grey();
+        let exact = matches!(coding, Coding::Native | Coding::Rle);
+        let depths: &[u16] = match &self.photometric {
+            _ if grey && coding == Coding::Native => &[1, 8, 16, 32],
+            _ if grey && exact => &[8, 16, 32],
+            Photometric::YbrFull422 => &[8],
+            _ => &[8, 16],
+        };
         let bits = self.bits_allocated;
         if !depths.contains(&bits) {
-            let what = format!(
-                "{bits}-bit {} pixels",
-                if colour { "colour" } else { "grey" }
-            );
+            let what = format!("{bits}-bit {} pixels", if grey { "grey" } else { "colour" });
             return Err(Problem::unsupported(
                 FORMAT,
                 what,
@@ -235,7 +209,6 @@ impl Attributes {
                 self.bits_stored, self.high_bit
             )));
         }
-        let samples = if colour { 3 } else { 1 };
         if self.samples != samples && self.photometric != Photometric::InsideJpeg {
             return Err(damaged(format!(
                 "it states {} samples a pixel where {samples} are due",
@@ -250,21 +223,43 @@ impl Attributes {
         Ok(())
     }
 
-    /// Bytes of one uncompressed frame. At most 8192 x 8192 x 6, which fits 32 bits.
-    pub(super) fn native_frame_bytes(&self) -> usize {
+    /// Whether pixels are greys, and not colours or their numbers.
+    pub(super) fn is_grey(&self) -> bool {
+        matches!(
+            self.photometric,
+            Photometric::Monochrome1 | Photometric::Monochrome2
+        )
+    }
+
+    fn is_colour(&self) -> bool {
+        !self.is_grey() && !matches!(self.photometric, Photometric::Palette(_))
+    }
+
+    /// Whether a high stored value is shown dark.
+    pub(super) fn is_inverted(&self) -> bool {
+        let falling = self.falling_table.unwrap_or(self.slope < 0.0);
+        (self.photometric == Photometric::Monochrome1) != falling
+    }
+
+    /// Bits of one uncompressed frame. At most 8192 x 8192 x 48.
+    pub(super) fn native_frame_bits(&self) -> u64 {
         let samples = match self.photometric {
             Photometric::YbrFull422 => 2,
-            _ => usize::from(self.samples),
+            _ => self.samples,
         };
-        self.width as usize * self.height as usize * samples * usize::from(self.bits_allocated / 8)
+        u64::from(self.width)
+            * u64::from(self.height)
+            * u64::from(samples)
+            * u64::from(self.bits_allocated)
     }
 }
 
-fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> {
+fn photometric(values: Values<'_>, coding: Coding, signed: bool) -> Result<Photometric, Problem> {
     let stated = values.text(PHOTOMETRIC).unwrap_or_default();
-    Ok(match (stated.as_str(), coding) {
+    Ok(match (stated, coding) {
         ("MONOCHROME1", _) => Photometric::Monochrome1,
         ("MONOCHROME2", _) => Photometric::Monochrome2,
+        ("PALETTE COLOR", _) => Photometric::Palette(Arc::new(Palette::read(values, signed)?)),
         ("RGB", Coding::Jpeg | Coding::Jpeg2000) => Photometric::InsideJpeg,
         (other, Coding::Jpeg | Coding::Jpeg2000) if other.starts_with("YBR_") => {
             Photometric::InsideJpeg
@@ -286,7 +281,7 @@ fn photometric(values: &Values, coding: Coding) -> Result<Photometric, Problem> 
 }
 
 /// A JPEG 2000 image undoes its own transforms (YBR_RCT, YBR_ICT), but it does not know that YBR_FULL is stored in it.
-fn colour_inside(values: &Values) -> ComponentColours {
+fn colour_inside(values: Values<'_>) -> ComponentColours {
     match values
         .text(PHOTOMETRIC)
         .unwrap_or_default()
@@ -297,7 +292,7 @@ fn colour_inside(values: &Values) -> ComponentColours {
     }
 }
 
-fn window(values: &Values) -> Option<StatedWindow> {
+fn window(values: Values<'_>) -> Option<StatedWindow> {
     let function = values.text(WINDOW_FUNCTION).unwrap_or_default();
     Some(StatedWindow {
         centre: values.finite(WINDOW_CENTRE)?,
@@ -306,36 +301,13 @@ fn window(values: &Values) -> Option<StatedWindow> {
     })
 }
 
-/// Times between frames that differ by more than this part of their mean are no rate.
-const EVEN: f64 = 0.1;
-
-/// From what says most: the times of all frames, the time of each, the rate at which it was taken. A pulsed or variable rate is none.
-fn frames_per_s(values: &Values) -> Option<f64> {
-    let even = |times: Vec<f64>| {
-        // The first frame comes at no time after another.
-        let steps = times.get(1..).filter(|steps| !steps.is_empty())?;
-        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
-        let is_even = steps.iter().all(|step| (step - mean).abs() <= EVEN * mean);
-        Some(mean).filter(|mean| is_even && mean.is_finite() && *mean > 0.0)
-    };
-    let ms = match values.numbers(FRAME_TIMES) {
-        Some(times) if times.len() > 1 => Some(even(times)?),
-        _ => values.positive(FRAME_TIME),
-    };
-    let rate = ms.map(|ms| 1000.0 / ms);
-    // Times are stated in decimals, rates mostly are multiples of a half.
-    let whole = |rate: f64| {
-        let half = (2.0 * rate).round() / 2.0;
-        if (rate - half).abs() < 2e-4 * rate {
-            half
-        } else {
-            rate
-        }
-    };
-    rate.map(whole).or_else(|| values.positive(CINE_RATE))
+/// Whether a table gives a lower value for the last entry than for the first; none without a table.
+fn is_falling(table: Values<'_>) -> Option<bool> {
+    let entries = table.numbers(TABLE_ENTRIES)?;
+    Some(entries.last()? < entries.first()?)
 }
 
-fn geometry(values: &Values) -> Geometry {
+fn geometry(values: Values<'_>) -> Geometry {
     // All pairs are stated vertical first.
     let spacing = |tag| {
         values
@@ -346,7 +318,7 @@ fn geometry(values: &Values) -> Geometry {
     Geometry {
         detector_spacing_mm: spacing(DETECTOR_SPACING),
         pixel_spacing_mm: spacing(PIXEL_SPACING),
-        pixel_spacing_calibration: match calibration.as_str() {
+        pixel_spacing_calibration: match calibration {
             "GEOMETRY" => Some(SpacingCalibration::Geometry),
             "FIDUCIAL" => Some(SpacingCalibration::Fiducial),
             _ => None,

@@ -3,12 +3,7 @@
 use std::ops::Range;
 
 use super::problem::damaged;
-use super::tags::is_wanted;
 use crate::error::Problem;
-
-/// Elements longer than this are not copied for the library: of what is wanted the times of a film's frames are the longest, some eight
-/// bytes each.
-const MAX_WANTED_BYTES: u32 = 65_536;
 
 /// Deepest nesting of sequences.
 const MAX_DEPTH: usize = 32;
@@ -24,8 +19,6 @@ pub(super) const SEQUENCE_END: u32 = 0xFFFE_E0DD;
 pub(super) struct Element {
     pub tag: u32,
     pub representation: Option<[u8; 2]>,
-    /// Where the tag begins.
-    pub start: usize,
     /// Where the value begins.
     pub value: usize,
     pub length: u32,
@@ -102,7 +95,6 @@ impl Walker<'_> {
         Ok(Element {
             tag,
             representation,
-            start: at,
             value,
             length,
         })
@@ -164,19 +156,16 @@ impl Walker<'_> {
     }
 }
 
-/// The representations whose length takes two bytes. All others, also those the standard may yet invent, take four
-/// after two reserved ones (PS3.5 7.1.2).
-fn has_short_length(representation: [u8; 2]) -> bool {
-    const SHORT: [&[u8; 2]; 21] = [
-        b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN",
-        b"SH", b"SL", b"SS", b"ST", b"TM", b"UI", b"UL", b"US",
-    ];
-    SHORT.contains(&&representation)
-}
+/// All representations (PS3.5 6.2); of the first ones the length takes two bytes.
+pub(super) const REPRESENTATIONS: [&[u8; 2]; 34] = [
+    b"AE", b"AS", b"AT", b"CS", b"DA", b"DS", b"DT", b"FD", b"FL", b"IS", b"LO", b"LT", b"PN",
+    b"SH", b"SL", b"SS", b"ST", b"TM", b"UI", b"UL", b"US", b"OB", b"OD", b"OF", b"OL", b"OV",
+    b"OW", b"SQ", b"SV", b"UC", b"UN", b"UR", b"UT", b"UV",
+];
+const SHORT: usize = 21;
 
-/// Whether an element goes to the library: one of the attributes, with a representation whose values are small.
-pub(super) fn is_small_and_wanted(element: &Element) -> bool {
-    is_wanted(element.tag)
-        && element.length <= MAX_WANTED_BYTES
-        && element.representation.is_none_or(has_short_length)
+/// Of all other representations, also those the standard may yet invent, the length takes four bytes after two reserved
+/// ones (PS3.5 7.1.2).
+fn has_short_length(representation: [u8; 2]) -> bool {
+    REPRESENTATIONS[..SHORT].contains(&&representation)
 }

@@ -1,14 +1,35 @@
 //! Compressed pixels: which fragments make a frame, and their decoding.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::attributes::Attributes;
+use super::pixels;
 use super::problem::damaged;
+use super::structure::PixelData;
 use super::syntax::Coding;
-use super::{pixels, rle};
 use crate::error::Problem;
 use crate::frame::GreyFrame;
 use crate::{jpeg, jpeg2000};
+
+/// Begins a JPEG image.
+const JPEG: [u8; 3] = [0xFF, 0xD8, 0xFF];
+
+/// How pixels are coded: as the file says, or where it does not as its first fragment begins.
+pub(super) fn coding(bytes: &[u8], pixels: &PixelData, stated: Coding) -> Coding {
+    match pixels {
+        _ if stated != Coding::Unknown => stated,
+        PixelData::Native { .. } => Coding::Native,
+        PixelData::Fragments { fragments, .. } => {
+            let first = fragments.first().and_then(|range| bytes.get(range.clone()));
+            match first.unwrap_or_default() {
+                image if image.starts_with(&JPEG) => Coding::Jpeg,
+                image if image.starts_with(&jpeg2000::CODESTREAM) => Coding::Jpeg2000,
+                _ => Coding::Rle,
+            }
+        }
+    }
+}
 
 /// The fragments of each frame. These are, in this order:
 /// - one for each frame, where there are as many fragments as frames;
@@ -39,13 +60,14 @@ pub(super) fn frames(
         return Ok(vec![fragments]);
     }
     let first = fragments.first().map_or(0, |fragment| fragment.start);
+    let stated: HashSet<u32> = offsets.iter().copied().collect();
     let begins = |fragment: &Range<usize>| {
         if offsets.len() == count {
-            return u32::try_from(fragment.start - first).is_ok_and(|at| offsets.contains(&at));
+            return u32::try_from(fragment.start - first).is_ok_and(|at| stated.contains(&at));
         }
         let content = &bytes[fragment.clone()];
         match coding {
-            Coding::Jpeg => content.starts_with(&[0xFF, 0xD8]),
+            Coding::Jpeg => content.starts_with(&JPEG),
             Coding::Jpeg2000 => content.starts_with(&jpeg2000::CODESTREAM),
             _ => false,
         }
@@ -66,7 +88,7 @@ pub(super) fn frames(
     }
 }
 
-/// Decodes the joined fragments of one frame.
+/// Decodes the joined fragments of one frame, an image of its own.
 pub(super) fn decode(
     coded: &[u8],
     attributes: &Attributes,
@@ -74,26 +96,14 @@ pub(super) fn decode(
 ) -> Result<GreyFrame, Problem> {
     match coding {
         Coding::Jpeg => {
-            let image = jpeg::decode_with(coded, attributes.colour_inside)?;
+            let image = jpeg::decode_with(coded, Some(attributes.colour_inside))?;
             pixels::frame_from_jpeg(image, attributes)
         }
         Coding::Jpeg2000 => {
             let image = jpeg2000::decode_with(coded, attributes.colour_inside, attributes.signed)?;
             pixels::frame_from_jpeg(image, attributes)
         }
-        Coding::Rle => {
-            let area = attributes.width as usize * attributes.height as usize;
-            let bytes_per_sample = usize::from(attributes.bits_allocated / 8);
-            let samples = usize::from(attributes.samples);
-            let stored = rle::decode(coded, area, samples, bytes_per_sample)?;
-            // Run lengths give interleaved samples whatever the file says of its planes.
-            let interleaved = Attributes {
-                planar: false,
-                ..attributes.clone()
-            };
-            pixels::frame_from_stored(&stored, &interleaved)
-        }
-        Coding::Native => Err(damaged(
+        _ => Err(damaged(
             "its pixels are in fragments though it says they are not compressed",
         )),
     }

@@ -1,10 +1,9 @@
 //! Functional groups: where enhanced multi-frame objects keep what other objects have at their top level, once for all
 //! frames and once for each.
 
-use super::element::{
-    Element, ITEM, ITEM_END, SEQUENCE_END, UNDEFINED, Walker, is_small_and_wanted,
-};
+use super::element::{Element, ITEM, ITEM_END, SEQUENCE_END, UNDEFINED, Walker};
 use super::problem::damaged;
+use super::values::Found;
 use crate::error::Problem;
 use crate::limits::MAX_FRAMES;
 
@@ -13,27 +12,28 @@ pub(super) const SHARED: u32 = 0x5200_9229;
 /// The sequence with an item for each frame.
 pub(super) const PER_FRAME: u32 = 0x5200_9230;
 
-/// The groups that are looked into: window, rescaling, spacing at the detector, X-ray geometry. They are known by tag
-/// because implicit files do not say what is a sequence.
-const GROUPS: [u32; 4] = [0x0028_9132, 0x0028_9145, 0x0028_9443, 0x0018_9476];
+/// The groups that are looked into: window, rescaling, pixel spacing, spacing at the detector, X-ray geometry, times.
+/// They are known by tag because implicit files do not say what is a sequence.
+const GROUPS: [u32; 6] = [
+    0x0028_9132,
+    0x0028_9145,
+    0x0028_9110,
+    0x0028_9443,
+    0x0018_9476,
+    0x0020_9111,
+];
 
-/// The bytes of the wanted small elements of each item, one after the other, in the file's syntax.
-pub(super) fn items(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Vec<u8>>, Problem> {
+/// The wanted elements of each item's groups.
+pub(super) fn items(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Vec<Found>>, Problem> {
     let mut out = Vec::new();
     each_item(walker, sequence, |walker, item| {
         let mut wanted = Vec::new();
-        each_element(walker, item, |walker, element, _| {
+        each_element(walker, item, |walker, element| {
             match GROUPS.contains(&element.tag) {
-                true => each_item(walker, element, |walker, group| {
-                    each_element(walker, group, |walker, element, end| {
-                        if is_small_and_wanted(element) {
-                            wanted.extend_from_slice(
-                                walker.bytes.get(element.start..end).unwrap_or_default(),
-                            );
-                        }
-                        Ok(())
-                    })
-                }),
+                true => {
+                    wanted.extend(elements(walker, element)?);
+                    Ok(())
+                }
                 false => Ok(()),
             }
         })?;
@@ -46,6 +46,18 @@ pub(super) fn items(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Vec<u
         }
     })?;
     Ok(out)
+}
+
+/// The wanted elements of all items of a sequence.
+pub(super) fn elements(walker: &Walker<'_>, sequence: &Element) -> Result<Vec<Found>, Problem> {
+    let mut wanted = Vec::new();
+    each_item(walker, sequence, |walker, item| {
+        each_element(walker, item, |walker, element| {
+            wanted.extend(Found::of(walker, element));
+            Ok(())
+        })
+    })?;
+    Ok(wanted)
 }
 
 /// Calls `call` with each item of a sequence.
@@ -81,11 +93,11 @@ fn each_item(
     Ok(())
 }
 
-/// Calls `call` with each element of an item and the position where the element ends.
+/// Calls `call` with each element of an item.
 fn each_element(
     walker: &Walker<'_>,
     item: &Element,
-    mut call: impl FnMut(&Walker<'_>, &Element, usize) -> Result<(), Problem>,
+    mut call: impl FnMut(&Walker<'_>, &Element) -> Result<(), Problem>,
 ) -> Result<(), Problem> {
     let end = match item.length {
         UNDEFINED => None,
@@ -98,7 +110,7 @@ fn each_element(
             break;
         }
         at = walker.after(&element, 1)?;
-        call(walker, &element, at)?;
+        call(walker, &element)?;
     }
     Ok(())
 }

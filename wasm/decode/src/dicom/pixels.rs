@@ -1,73 +1,136 @@
 //! Grey pixels from stored samples.
 
-use super::attributes::{Attributes, Photometric};
-use super::problem::damaged;
-use crate::error::Problem;
-use crate::frame::{GreyFrame, Pixels, Window};
-use crate::luminance::luminance;
+use std::borrow::Cow;
 
-/// A frame of uncompressed, little endian samples.
+use super::attributes::{Attributes, Narrowing, Photometric};
+use super::native::{bits, long_words, words};
+use super::palette::Palette;
+use super::problem::damaged;
+use super::shown;
+use crate::error::Problem;
+use crate::frame::{GreyFrame, Pixels};
+use crate::luminance::{grey_from_u8, grey_from_u16, luminance};
+
+/// Little endian samples of a frame, and how many bits of the first byte are another frame's.
+pub(super) struct Stored<'a> {
+    pub bytes: Cow<'a, [u8]>,
+    pub skipped: u32,
+}
+
+/// A frame of uncompressed samples.
 pub(super) fn frame_from_stored(
-    stored: &[u8],
+    stored: &Stored<'_>,
     attributes: &Attributes,
 ) -> Result<GreyFrame, Problem> {
+    let bytes = stored.bytes.as_ref();
     let area = attributes.width as usize * attributes.height as usize;
-    let pixels = match attributes.photometric {
-        Photometric::Monochrome1 | Photometric::Monochrome2 => {
-            return monochrome(stored, attributes);
+    let pixels = match (&attributes.photometric, attributes.bits_allocated) {
+        (Photometric::Monochrome1 | Photometric::Monochrome2, 1) => {
+            greys(bits(bytes, stored.skipped, area), attributes)
         }
-        Photometric::Rgb if attributes.planar => planar_rgb(stored, area),
-        Photometric::Rgb | Photometric::InsideJpeg => crate::luminance::grey_from_u8(stored, 3),
-        Photometric::YbrFull if attributes.planar => stored.iter().copied().take(area).collect(),
-        Photometric::YbrFull => stored.iter().copied().step_by(3).collect(),
-        Photometric::YbrFull422 => {
-            let quads = stored.as_chunks::<4>().0.iter();
-            quads
-                .flat_map(|&[first, second, ..]| [first, second])
-                .collect()
+        (Photometric::Monochrome1 | Photometric::Monochrome2, 8) => {
+            greys(bytes.iter().map(|&byte| byte.into()), attributes)
         }
-    };
-    finish(Pixels::U8(pixels), attributes)
-}
-
-/// Colour planes one after the other.
-fn planar_rgb(stored: &[u8], area: usize) -> Vec<u8> {
-    let (red, rest) = stored.split_at(area.min(stored.len()));
-    let (green, blue) = rest.split_at(area.min(rest.len()));
-    let channels = red.iter().zip(green).zip(blue);
-    channels
-        .map(|((&r, &g), &b)| luminance(r.into(), g.into(), b.into()) as u8)
-        .collect()
-}
-
-fn monochrome(stored: &[u8], attributes: &Attributes) -> Result<GreyFrame, Problem> {
-    let pixels = match attributes.bits_allocated {
-        8 => stored_to_grey(stored.iter().map(|&v| v.into()), attributes),
-        _ => {
-            let words = stored.as_chunks::<2>().0.iter().copied();
-            stored_to_grey(words.map(u16::from_le_bytes), attributes)
+        (Photometric::Monochrome1 | Photometric::Monochrome2, 16) => {
+            greys(words(bytes), attributes)
         }
+        (Photometric::Monochrome1 | Photometric::Monochrome2, _) => {
+            greys(long_words(bytes), attributes)
+        }
+        (Photometric::Palette(palette), 8) => {
+            colours(bytes.iter().map(|&byte| byte.into()), palette, attributes)
+        }
+        (Photometric::Palette(palette), _) => colours(words(bytes), palette, attributes),
+        (Photometric::YbrFull422, _) => {
+            let quads = bytes.as_chunks::<4>().0.iter();
+            Pixels::U8(
+                quads
+                    .flat_map(|&[first, second, ..]| [first, second])
+                    .collect(),
+            )
+        }
+        (_, 8) => Pixels::U8(luminances_of_8_bits(bytes, area, attributes)),
+        _ => Pixels::U16(luminances_of_16_bits(bytes, area, attributes)),
     };
     finish(pixels, attributes)
 }
 
-/// Takes the stored bits out of each sample and makes them unsigned, and high where the file shows them bright.
-fn stored_to_grey(samples: impl Iterator<Item = u16>, attributes: &Attributes) -> Pixels {
+fn luminances_of_8_bits(stored: &[u8], area: usize, attributes: &Attributes) -> Vec<u8> {
+    match (&attributes.photometric, attributes.planar) {
+        (Photometric::YbrFull, true) => stored.iter().copied().take(area).collect(),
+        (Photometric::YbrFull, false) => stored.iter().copied().step_by(3).collect(),
+        (_, true) => {
+            let (red, rest) = stored.split_at(area.min(stored.len()));
+            let (green, blue) = rest.split_at(area.min(rest.len()));
+            let channels = red.iter().zip(green).zip(blue);
+            channels
+                .map(|((&r, &g), &b)| luminance(r.into(), g.into(), b.into()) as u8)
+                .collect()
+        }
+        (_, false) => grey_from_u8(stored, 3),
+    }
+}
+
+fn luminances_of_16_bits(stored: &[u8], area: usize, attributes: &Attributes) -> Vec<u16> {
+    let samples = || words(stored).map(|word| word as u16);
+    match (&attributes.photometric, attributes.planar) {
+        (Photometric::YbrFull, true) => samples().take(area).collect(),
+        (Photometric::YbrFull, false) => samples().step_by(3).collect(),
+        (_, true) => {
+            let channels = samples()
+                .zip(samples().skip(area))
+                .zip(samples().skip(2 * area));
+            channels.map(|((r, g), b)| luminance(r, g, b)).collect()
+        }
+        (_, false) => grey_from_u16(samples(), 3),
+    }
+}
+
+/// The stored bits of a sample; two's complement becomes offset binary.
+fn stored_bits(sample: u32, attributes: &Attributes) -> u32 {
     let shift = attributes.high_bit + 1 - attributes.bits_stored;
-    let most = u16::MAX >> (16 - attributes.bits_stored);
-    // Two's complement to offset binary, and inversion, are both an exclusive or.
+    let most = u32::MAX >> (32 - attributes.bits_stored);
     let sign = if attributes.signed { most / 2 + 1 } else { 0 };
-    let inversion = if is_inverted(attributes) { most } else { 0 };
-    let grey = samples.map(|v| ((v >> shift) & most) ^ sign ^ inversion);
-    match attributes.bits_stored {
+    ((sample >> shift) & most) ^ sign
+}
+
+/// Takes the stored bits out of each sample and makes them unsigned, and high where the file shows them bright.
+fn greys(samples: impl Iterator<Item = u32>, attributes: &Attributes) -> Pixels {
+    let most = u16::MAX >> (16 - attributes.depth);
+    let inversion = if attributes.is_inverted() { most } else { 0 };
+    let Narrowing { low, shift } = attributes.narrowing;
+    let grey = samples.map(|sample| {
+        let value = stored_bits(sample, attributes).saturating_sub(low) >> shift;
+        value as u16 ^ inversion
+    });
+    match attributes.depth {
         ..=8 => Pixels::U8(grey.map(|v| v as u8).collect()),
         _ => Pixels::U16(grey.collect()),
     }
 }
 
-/// Whether a high stored value is shown dark.
-fn is_inverted(attributes: &Attributes) -> bool {
-    (attributes.photometric == Photometric::Monochrome1) != (attributes.slope < 0.0)
+/// The luminance of each colour whose number is stored.
+fn colours(
+    samples: impl Iterator<Item = u32>,
+    palette: &Palette,
+    attributes: &Attributes,
+) -> Pixels {
+    let below = match attributes.signed {
+        true => 1 << (attributes.bits_stored - 1),
+        false => 0,
+    };
+    let numbers = samples.map(|sample| stored_bits(sample, attributes).cast_signed() - below);
+    let grey = numbers.map(|number| palette.luminance(number));
+    match palette.bits {
+        8 => Pixels::U8(grey.map(|v| v as u8).collect()),
+        _ => Pixels::U16(grey.collect()),
+    }
+}
+
+/// Least and greatest stored value of a frame of more than 16 bits, as offset binary.
+pub(super) fn extent(stored: &Stored<'_>, attributes: &Attributes) -> (u32, u32) {
+    let values = long_words(&stored.bytes).map(|sample| stored_bits(sample, attributes));
+    values.fold((u32::MAX, 0), |(low, high), v| (low.min(v), high.max(v)))
 }
 
 /// The frame of a decoded JPEG or JPEG 2000 image, whose pixels are stored values of one byte or of two.
@@ -81,14 +144,16 @@ pub(super) fn frame_from_jpeg(
             attributes.width, attributes.height, image.width, image.height
         )));
     }
-    if attributes.photometric == Photometric::InsideJpeg {
-        return finish(image.pixels, attributes);
-    }
-    let grey = match image.pixels {
-        Pixels::U8(values) => stored_to_grey(values.iter().map(|&v| v.into()), attributes),
-        Pixels::U16(values) => stored_to_grey(values.into_iter(), attributes),
+    let from = |samples: &mut dyn Iterator<Item = u32>| match &attributes.photometric {
+        Photometric::Palette(palette) => colours(samples, palette, attributes),
+        _ => greys(samples, attributes),
     };
-    finish(grey, attributes)
+    let pixels = match image.pixels {
+        pixels if attributes.photometric == Photometric::InsideJpeg => pixels,
+        Pixels::U8(values) => from(&mut values.into_iter().map(u32::from)),
+        Pixels::U16(values) => from(&mut values.into_iter().map(u32::from)),
+    };
+    finish(pixels, attributes)
 }
 
 fn finish(pixels: Pixels, attributes: &Attributes) -> Result<GreyFrame, Problem> {
@@ -97,49 +162,10 @@ fn finish(pixels: Pixels, attributes: &Attributes) -> Result<GreyFrame, Problem>
     }
     let mut frame = GreyFrame::plain(attributes.width, attributes.height, pixels);
     frame.geometry = attributes.geometry;
-    if matches!(
-        attributes.photometric,
-        Photometric::Monochrome1 | Photometric::Monochrome2
-    ) {
-        frame.bits = attributes.bits_stored as u8;
-        frame.window = window(attributes);
-        frame.notes = notes(attributes);
+    if attributes.is_grey() {
+        frame.bits = attributes.depth as u8;
+        frame.window = shown::window(attributes);
+        frame.notes = shown::notes(attributes);
     }
     Ok(frame)
-}
-
-/// The stated window in units of the pixels handed out: rescale undone, sign offset and inversion done.
-fn window(attributes: &Attributes) -> Option<Window> {
-    let stated = attributes.window?;
-    let (centre, width) = match stated.half_unit {
-        true => (stated.centre - 0.5, stated.width - 1.0),
-        false => (stated.centre, stated.width),
-    };
-    let most = f64::from(u16::MAX >> (16 - attributes.bits_stored));
-    let mut centre = (centre - attributes.intercept) / attributes.slope;
-    if attributes.signed {
-        centre += (most + 1.0) / 2.0;
-    }
-    if is_inverted(attributes) {
-        centre = most - centre;
-    }
-    let width = (width / attributes.slope.abs()).max(1.0);
-    (centre.is_finite() && width.is_finite()).then_some(Window { centre, width })
-}
-
-fn notes(attributes: &Attributes) -> Vec<String> {
-    let mut notes = Vec::new();
-    if is_inverted(attributes) {
-        notes.push("Inverted so that bright is high (the file stores bright as low).".to_owned());
-    }
-    if attributes.signed {
-        notes.push("Signed pixels were moved up by half their range.".to_owned());
-    }
-    if (attributes.slope, attributes.intercept) != (1.0, 0.0) {
-        notes.push(format!(
-            "Pixels are as stored; the file's rescale (slope {}, intercept {}) is applied to the window alone.",
-            attributes.slope, attributes.intercept
-        ));
-    }
-    notes
 }

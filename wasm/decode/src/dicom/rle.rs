@@ -4,6 +4,7 @@
 //! past short segments and headers (a panic, which ends a WASM module), so the format is read here, with every access
 //! checked.
 
+use super::attributes::Attributes;
 use super::problem::damaged;
 use crate::error::Problem;
 
@@ -14,9 +15,14 @@ const MAX_SEGMENTS: usize = 15;
 const MAX_EXPANSION: usize = 64;
 
 /// Decodes one frame into interleaved little endian samples.
-///
+pub(super) fn decode_frame(coded: &[u8], attributes: &Attributes) -> Result<Vec<u8>, Problem> {
+    let area = attributes.width as usize * attributes.height as usize;
+    let bytes_per_sample = usize::from(attributes.bits_allocated / 8);
+    decode(coded, area, attributes.samples.into(), bytes_per_sample)
+}
+
 /// `area` pixels of `samples` samples of `bytes_per_sample` bytes; the result has exactly their product.
-pub(super) fn decode(
+fn decode(
     coded: &[u8],
     area: usize,
     samples: usize,

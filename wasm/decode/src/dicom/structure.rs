@@ -1,38 +1,31 @@
-//! The structure of a DICOM file: its transfer syntax, the bytes of the wanted elements, and where its pixels are.
+//! The structure of a data set: where the values of the wanted elements and the pixels are.
 
 use std::io::Read;
 use std::ops::Range;
 
 use flate2::read::DeflateDecoder;
 
-use super::element::{Element, ITEM, SEQUENCE_END, UNDEFINED, Walker, is_small_and_wanted};
+use super::element::{Element, ITEM, SEQUENCE_END, UNDEFINED, Walker};
 use super::functional;
 use super::problem::{FORMAT, damaged};
 use super::syntax::{Coding, Syntax};
+use super::tags::MODALITY_TABLE;
+use super::values::Found;
 use crate::error::Problem;
 use crate::limits::MAX_INFLATED_BYTES;
 
-/// Length of the preamble before `DICM`.
-const PREAMBLE: usize = 128;
-
 const PIXEL_DATA: u32 = 0x7FE0_0010;
-
-/// The part of the file before the data set.
-pub(super) struct Meta {
-    /// Identifier of the transfer syntax.
-    pub transfer_syntax: String,
-    /// Where the data set begins.
-    pub end: usize,
-}
 
 /// What the walk found.
 pub(super) struct DataSet {
-    /// The bytes of the wanted small elements, one after the other, in the file's syntax.
-    pub wanted: Vec<u8>,
-    /// The same of what all frames share in their functional groups; empty where there are none.
-    pub shared: Vec<u8>,
-    /// The same of each frame's own functional groups; none where there are none.
-    pub per_frame: Vec<Vec<u8>>,
+    /// The wanted elements.
+    pub wanted: Vec<Found>,
+    /// Those of what all frames share in their functional groups; empty where there are none.
+    pub shared: Vec<Found>,
+    /// Those of each frame's own functional groups; none where there are none.
+    pub per_frame: Vec<Vec<Found>>,
+    /// Those of the table that turns stored values into meaningful ones; empty where there is none.
+    pub modality_table: Vec<Found>,
     /// Where the pixels are.
     pub pixels: PixelData,
 }
@@ -46,33 +39,6 @@ pub(super) enum PixelData {
         offsets: Vec<u32>,
         fragments: Vec<Range<usize>>,
     },
-}
-
-/// Reads the group of elements (always explicit little endian) that names the transfer syntax.
-pub(super) fn read_meta(bytes: &[u8]) -> Result<Meta, Problem> {
-    if bytes.get(PREAMBLE..PREAMBLE + 4) != Some(b"DICM") {
-        return Err(damaged("the mark DICM is missing at byte 128"));
-    }
-    let walker = Walker {
-        bytes,
-        explicit: true,
-        big_endian: false,
-    };
-    let (mut at, mut transfer_syntax) = (PREAMBLE + 4, None);
-    while at < bytes.len() && walker.u16(at)? == 0x0002 {
-        let element = walker.element(at)?;
-        let value = element.range(bytes)?;
-        at = value.end;
-        if element.tag == 0x0002_0010 {
-            let text = String::from_utf8_lossy(&bytes[value]);
-            let padding = |c: char| c == '\0' || c.is_whitespace();
-            transfer_syntax = Some(text.trim_matches(padding).to_owned());
-        }
-    }
-    Ok(Meta {
-        transfer_syntax: transfer_syntax.ok_or_else(|| damaged("it names no transfer syntax"))?,
-        end: at,
-    })
 }
 
 /// Inflates a deflated data set, up to [`MAX_INFLATED_BYTES`].
@@ -90,34 +56,28 @@ pub(super) fn inflate(bytes: &[u8]) -> Result<Vec<u8>, Problem> {
 
 /// Walks the data set that begins at `start` up to its pixels.
 pub(super) fn walk(bytes: &[u8], start: usize, syntax: &Syntax) -> Result<DataSet, Problem> {
-    let walker = Walker {
-        bytes,
-        explicit: syntax.explicit,
-        big_endian: syntax.big_endian,
-    };
+    let walker = syntax.walker(bytes);
     let (mut at, mut wanted) = (start, Vec::new());
-    let (mut shared, mut per_frame) = (Vec::new(), Vec::new());
+    let (mut shared, mut per_frame, mut modality_table) = (Vec::new(), Vec::new(), Vec::new());
     while at < bytes.len() {
         let element = walker.element(at)?;
-        if element.tag == PIXEL_DATA {
-            let pixels = pixel_data(&walker, &element, syntax.coding)?;
-            return Ok(DataSet {
-                wanted,
-                shared,
-                per_frame,
-                pixels,
-            });
-        }
         match element.tag {
+            PIXEL_DATA => {
+                let pixels = pixel_data(&walker, &element, syntax.coding)?;
+                return Ok(DataSet {
+                    wanted,
+                    shared,
+                    per_frame,
+                    modality_table,
+                    pixels,
+                });
+            }
             functional::SHARED => shared = functional::items(&walker, &element)?.concat(),
             functional::PER_FRAME => per_frame = functional::items(&walker, &element)?,
-            _ => {}
+            MODALITY_TABLE => modality_table = functional::elements(&walker, &element)?,
+            _ => wanted.extend(Found::of(&walker, &element)),
         }
-        let end = walker.after(&element, 0)?;
-        if is_small_and_wanted(&element) {
-            wanted.extend_from_slice(&bytes[at..end]);
-        }
-        at = end;
+        at = walker.after(&element, 0)?;
     }
     Err(Problem::unsupported(
         FORMAT,

@@ -1,7 +1,6 @@
 //! Transfer syntaxes: how the data set and the pixels are written.
 
-use dicom_transfer_syntax_registry::{TransferSyntax, entries};
-
+use super::element::Walker;
 use super::problem::FORMAT;
 use crate::error::Problem;
 
@@ -12,10 +11,12 @@ pub(super) enum Coding {
     Native,
     /// Run lengths.
     Rle,
-    /// JPEG with loss, or lossless: the image itself tells which.
+    /// JPEG with loss, lossless, or JPEG-LS: the image itself tells which.
     Jpeg,
     /// JPEG 2000 with loss, or lossless.
     Jpeg2000,
+    /// The file does not say it: as they are, or what the first fragment begins like.
+    Unknown,
 }
 
 /// How the data set is written.
@@ -32,70 +33,82 @@ pub(super) struct Syntax {
 }
 
 impl Syntax {
+    /// Elements without their representations, numbers with the low byte first.
+    pub(super) const IMPLICIT: Self = Self {
+        explicit: false,
+        ..Self::EXPLICIT
+    };
+    /// Elements with their representations, numbers with the low byte first.
+    pub(super) const EXPLICIT: Self = Self {
+        explicit: true,
+        big_endian: false,
+        deflated: false,
+        coding: Coding::Native,
+    };
+    /// Elements with their representations, numbers with the high byte first.
+    pub(super) const BIG_ENDIAN: Self = Self {
+        big_endian: true,
+        ..Self::EXPLICIT
+    };
+
     /// What a transfer syntax identifier stands for.
     pub(super) fn of(uid: &str) -> Result<Self, Problem> {
-        let explicit_little = Self {
-            explicit: true,
-            big_endian: false,
-            deflated: false,
-            coding: Coding::Native,
+        let compressed = |coding| Self {
+            coding,
+            ..Self::EXPLICIT
         };
         Ok(match uid {
-            "1.2.840.10008.1.2" => Self {
-                explicit: false,
-                ..explicit_little
-            },
-            "1.2.840.10008.1.2.1" => explicit_little,
+            "1.2.840.10008.1.2" => Self::IMPLICIT,
+            "1.2.840.10008.1.2.1" => Self::EXPLICIT,
             "1.2.840.10008.1.2.1.99" => Self {
                 deflated: true,
-                ..explicit_little
+                ..Self::EXPLICIT
             },
-            "1.2.840.10008.1.2.2" => Self {
-                big_endian: true,
-                ..explicit_little
-            },
-            "1.2.840.10008.1.2.5" => Self {
-                coding: Coding::Rle,
-                ..explicit_little
-            },
+            "1.2.840.10008.1.2.2" => Self::BIG_ENDIAN,
+            "1.2.840.10008.1.2.5" => compressed(Coding::Rle),
             "1.2.840.10008.1.2.4.50"
             | "1.2.840.10008.1.2.4.51"
             | "1.2.840.10008.1.2.4.57"
-            | "1.2.840.10008.1.2.4.70" => Self {
-                coding: Coding::Jpeg,
-                ..explicit_little
-            },
-            "1.2.840.10008.1.2.4.90" | "1.2.840.10008.1.2.4.91" => Self {
-                coding: Coding::Jpeg2000,
-                ..explicit_little
-            },
+            | "1.2.840.10008.1.2.4.70"
+            | "1.2.840.10008.1.2.4.80"
+            | "1.2.840.10008.1.2.4.81" => compressed(Coding::Jpeg),
+            "1.2.840.10008.1.2.4.90" | "1.2.840.10008.1.2.4.91" => compressed(Coding::Jpeg2000),
             other => return Err(refused(other)),
         })
     }
 
-    /// The library's name for the way elements are written.
-    pub(super) fn of_elements(&self) -> TransferSyntax {
-        match (self.explicit, self.big_endian) {
-            (_, true) => entries::EXPLICIT_VR_BIG_ENDIAN.erased(),
-            (true, _) => entries::EXPLICIT_VR_LITTLE_ENDIAN.erased(),
-            (false, _) => entries::IMPLICIT_VR_LITTLE_ENDIAN.erased(),
+    /// The same where nothing says how pixels are written.
+    pub(super) fn of_unknown_pixels(self) -> Self {
+        Self {
+            coding: Coding::Unknown,
+            ..self
+        }
+    }
+
+    /// Reads elements in this syntax.
+    pub(super) fn walker<'a>(&self, bytes: &'a [u8]) -> Walker<'a> {
+        Walker {
+            bytes,
+            explicit: self.explicit,
+            big_endian: self.big_endian,
         }
     }
 }
 
 /// Where a person gets the same frames in a form that is read.
 const REMEDY: &str = "Export it from the viewer or archive uncompressed (Explicit VR Little Endian), or as lossless \
-                      JPEG, JPEG 2000 or RLE; gdcmconv --raw converts files, too";
+                      JPEG, JPEG-LS, JPEG 2000 or RLE; gdcmconv --raw converts files, too";
+/// The same for high-throughput JPEG 2000, which gdcmconv does not know either.
+const HIGH_THROUGHPUT_REMEDY: &str = "Export it from the viewer or archive uncompressed (Explicit VR Little Endian), or as lossless \
+                                      JPEG, JPEG-LS, JPEG 2000 or RLE; pydicom's decompress with pylibjpeg-openjpeg converts files, too";
 const VIDEO_REMEDY: &str =
     "Export its frames uncompressed, or as an MP4 or WebM video, which the page opens itself";
 
 /// Names of the syntaxes of encapsulated pixels that are not read, by the end of their identifiers.
-const NOT_READ: [(&str, &str); 16] = [
+const NOT_READ: [(&str, &str); 14] = [
     ("52", "hierarchical JPEG pixels"),
     ("53", "spectral selection JPEG pixels"),
     ("55", "full progression JPEG pixels"),
-    ("80", "JPEG-LS lossless pixels"),
-    ("81", "JPEG-LS near-lossless pixels"),
     (
         "92",
         "JPEG 2000 pixels of several components (part 2, lossless)",
@@ -128,7 +141,11 @@ fn refused(uid: &str) -> Problem {
     let name = NOT_READ.iter().find(|(known, _)| end == Some(known));
     if let Some((_, name)) = name {
         let what = format!("{name} (transfer syntax {shown})");
-        return Problem::unsupported(FORMAT, what, REMEDY);
+        let remedy = match name.starts_with("high-throughput") {
+            true => HIGH_THROUGHPUT_REMEDY,
+            false => REMEDY,
+        };
+        return Problem::unsupported(FORMAT, what, remedy);
     }
     let is_video = end.is_some_and(|rest| rest.len() == 3 && rest.starts_with("10"));
     match is_video {

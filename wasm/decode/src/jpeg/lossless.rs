@@ -4,16 +4,12 @@
 //! restart mark and applies the point transform to predictions twice, so this coding is decoded here. The markers have been
 //! walked before.
 
-use std::ops::Range;
-
+use super::huffman::{Bits, Table, Tables, intervals};
 use super::markers::{
-    END_OF_IMAGE, FORMAT, REMEDY, START_OF_IMAGE, START_OF_SCAN, cut, end_of_scan, frame_header,
-    segment, starts_frame,
+    END_OF_IMAGE, FORMAT, Process, REMEDY, RESTART_INTERVAL, START_OF_IMAGE, START_OF_SCAN, TABLES,
+    cut, end_of_scan, frame_header, restart_interval, segment, starts_frame,
 };
 use crate::error::Problem;
-
-const TABLES: u8 = 0xC4;
-const RESTART_INTERVAL: u8 = 0xDD;
 
 /// Samples of each component, one plane after the other.
 pub(super) struct Planes {
@@ -27,7 +23,7 @@ struct Decoder {
     precision: u32,
     /// Identifiers of the components in the order of the frame header.
     components: Vec<u8>,
-    tables: [Option<Table>; 4],
+    tables: Tables,
     restart: usize,
     planes: Vec<Vec<u16>>,
 }
@@ -36,7 +32,7 @@ struct Decoder {
 pub(super) fn decode(bytes: &[u8]) -> Result<Planes, Problem> {
     let early = || cut("it ends before the end-of-image mark");
     let mut decoder: Option<Decoder> = None;
-    let mut tables = [const { None }; 4];
+    let mut tables = Tables::default();
     let (mut at, mut restart) = (2, 0);
     debug_assert!(bytes.starts_with(&[0xFF, START_OF_IMAGE]));
     loop {
@@ -51,15 +47,10 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Planes, Problem> {
         let body = segment(bytes, at + 2).ok_or_else(early)?;
         at += 4 + body.len();
         match marker {
-            TABLES => read_tables(body, &mut tables)?,
-            RESTART_INTERVAL => {
-                let &[high, low] = body else {
-                    return Err(cut("its restart interval is not one"));
-                };
-                restart = usize::from(u16::from_be_bytes([high, low]));
-            }
+            TABLES => tables.read(body)?,
+            RESTART_INTERVAL => restart = restart_interval(body)?,
             START_OF_SCAN => {
-                let end = end_of_scan(bytes, at).ok_or_else(early)?;
+                let end = end_of_scan(bytes, at, Process::Lossless).ok_or_else(early)?;
                 let decoder = decoder
                     .as_mut()
                     .ok_or_else(|| cut("a scan comes before the frame header"))?;
@@ -102,7 +93,7 @@ impl Decoder {
             height: header.height.into(),
             precision: header.precision.into(),
             components: specifications.iter().map(|[id, ..]| *id).collect(),
-            tables: [const { None }; 4],
+            tables: Tables::default(),
             restart: 0,
             planes: vec![Vec::new(); specifications.len()],
         })
@@ -117,12 +108,9 @@ impl Decoder {
             interval if interval % self.width == 0 => interval / self.width,
             _ => return Err(cut("its restart interval is no number of whole rows")),
         };
-        let tables: Vec<&Table> = scan
-            .components
-            .iter()
-            .map(|&(_, table)| self.tables[table].as_ref())
-            .collect::<Option<_>>()
-            .ok_or_else(|| cut("a scan names a code table that is not there"))?;
+        let tables = scan.components.iter();
+        let tables = tables.map(|&(_, table)| self.tables.lengths(table));
+        let tables: Vec<Table> = tables.collect::<Result<_, _>>()?;
         let mut planes = vec![vec![0u16; self.width * self.height]; count];
         let mut intervals = intervals(coded).into_iter();
         for first in (0..self.height).step_by(rows) {
@@ -248,140 +236,4 @@ impl Scan {
         // Modulo 2^16, as the standard has it.
         value as u16
     }
-}
-
-/// The stretches of a scan between restart marks.
-fn intervals(coded: &[u8]) -> Vec<Range<usize>> {
-    let mut out = Vec::new();
-    let (mut start, mut at) = (0, 0);
-    while at < coded.len() {
-        let restart = coded[at] == 0xFF
-            && coded
-                .get(at + 1)
-                .is_some_and(|next| (0xD0..=0xD7).contains(next));
-        if restart {
-            out.push(start..at);
-            start = at + 2;
-        }
-        at += if restart { 2 } else { 1 };
-    }
-    out.push(start..coded.len());
-    out
-}
-
-/// Bits of coded bytes, the zero after each 0xFF left out.
-struct Bits<'a> {
-    coded: &'a [u8],
-    at: usize,
-    held: u64,
-    count: u32,
-}
-
-impl<'a> Bits<'a> {
-    fn new(coded: &'a [u8]) -> Self {
-        Self {
-            coded,
-            at: 0,
-            held: 0,
-            count: 0,
-        }
-    }
-
-    fn fill(&mut self) {
-        while self.count <= 48 {
-            let Some(&byte) = self.coded.get(self.at) else {
-                return;
-            };
-            self.at += if byte == 0xFF { 2 } else { 1 };
-            self.held = self.held << 8 | u64::from(byte);
-            self.count += 8;
-        }
-    }
-
-    /// The next 16 bits without taking them; ones beyond the end.
-    fn peek(&mut self) -> usize {
-        if self.count < 16 {
-            self.fill();
-        }
-        let bits = match self.count {
-            0..16 => self.held << (16 - self.count) | ((1 << (16 - self.count)) - 1),
-            more => self.held >> (more - 16),
-        };
-        (bits & 0xFFFF) as usize
-    }
-
-    fn take(&mut self, length: u32) -> Result<u32, Problem> {
-        if self.count < length {
-            self.fill();
-        }
-        if self.count < length {
-            return Err(cut("its pixels end too early"));
-        }
-        self.count -= length;
-        let value = self.held >> self.count & ((1 << length) - 1);
-        Ok(value as u32)
-    }
-}
-
-/// A code table: for each 16 bits, the length of the code that they begin with and its category.
-#[derive(Clone)]
-struct Table(Vec<[u8; 2]>);
-
-impl Table {
-    /// From the number of codes of each length and the categories in order.
-    fn new(counts: &[u8; 16], categories: &[u8]) -> Result<Self, Problem> {
-        let mut lookup = Vec::with_capacity(1 << 16);
-        let mut categories = categories.iter();
-        for (length, &count) in (1u8..).zip(counts) {
-            for category in categories.by_ref().take(count.into()) {
-                lookup.resize(lookup.len() + (1 << (16 - length)), [length, *category]);
-                if lookup.len() > 1 << 16 {
-                    return Err(cut("a code table holds more codes than there can be"));
-                }
-            }
-        }
-        lookup.resize(1 << 16, [0, 0]);
-        Ok(Self(lookup))
-    }
-
-    /// The next difference, modulo 2^16.
-    fn difference(&self, bits: &mut Bits<'_>) -> Result<u16, Problem> {
-        let [length, category] = self.0[bits.peek()];
-        if length == 0 || category > 16 {
-            return Err(cut("there are pixels in a code that is in no table"));
-        }
-        bits.take(length.into())?;
-        let category = u32::from(category);
-        match category {
-            0 => Ok(0),
-            16 => Ok(1 << 15),
-            _ => {
-                let value = bits.take(category)?;
-                // The lower half stands for the negative differences.
-                let below = if value >> (category - 1) == 0 {
-                    (1 << category) - 1
-                } else {
-                    0
-                };
-                Ok(value.wrapping_sub(below) as u16)
-            }
-        }
-    }
-}
-
-/// Reads a segment of code tables.
-fn read_tables(mut body: &[u8], tables: &mut [Option<Table>; 4]) -> Result<(), Problem> {
-    let odd = || cut("a code table is cut short");
-    while let Some((&head, rest)) = body.split_first() {
-        let (counts, rest) = rest.split_first_chunk::<16>().ok_or_else(odd)?;
-        let total = counts.iter().map(|&count| usize::from(count)).sum();
-        let (categories, rest) = rest.split_at_checked(total).ok_or_else(odd)?;
-        // Tables of the other class are for other processes.
-        if head >> 4 == 0 {
-            let slot = tables.get_mut(usize::from(head & 0x0F)).ok_or_else(odd)?;
-            *slot = Some(Table::new(counts, categories)?);
-        }
-        body = rest;
-    }
-    Ok(())
 }

@@ -5,11 +5,15 @@
 
 use super::problem::{FORMAT, damaged};
 use crate::error::Problem;
+use crate::frame::checked_area;
 use crate::limits::{MAX_FRAMES, MAX_SIDE};
+
+const SUBFILE_TYPE: u16 = 254;
 
 const IMAGE_WIDTH: u16 = 256;
 const IMAGE_LENGTH: u16 = 257;
 const BITS_PER_SAMPLE: u16 = 258;
+const PHOTOMETRIC: u16 = 262;
 const SAMPLES_PER_PIXEL: u16 = 277;
 const ROWS_PER_STRIP: u16 = 278;
 const TILE_WIDTH: u16 = 322;
@@ -20,6 +24,38 @@ const MAX_TILE: u64 = MAX_SIDE as u64;
 
 /// Most samples of a pixel: colour, transparency and a few more that are left out.
 const MAX_SAMPLES: u64 = 8;
+
+/// Bit of the subfile type: a smaller copy of another page.
+const REDUCED_COPY: u64 = 1;
+
+/// Photometric interpretations.
+const GREY: u16 = 1;
+const PALETTE: u64 = 3;
+
+/// A directory that holds a frame.
+#[derive(Debug)]
+pub(crate) struct Page {
+    /// Its place in the file's order, counted from 0.
+    pub number: usize,
+    /// Where the file says which page is the first, and what it says where this one is.
+    pub as_first: (usize, Vec<u8>),
+    /// Where a page of numbers of colours says that it is one, and what it says where they are greys.
+    pub palette_as_grey: Option<(usize, Vec<u8>)>,
+}
+
+/// What the fields of a directory say, as far as it is wanted here.
+#[derive(Default)]
+struct Said {
+    subfile_type: u64,
+    width: u64,
+    height: u64,
+    palette_as_grey: Option<(usize, Vec<u8>)>,
+    /// Bytes of values that lie outside of the directory.
+    elsewhere: u64,
+}
+
+/// Most times that the bytes of a file may be values of its directories: programs let pages share short texts.
+const MOST_SHARED: u64 = 8;
 
 /// Where numbers are and how wide.
 struct Walker<'a> {
@@ -81,9 +117,10 @@ impl Walker<'_> {
     }
 
     /// Checks that a field's values lie inside the file, and the sizes that it states.
-    fn check(&self, field: &Field, page: usize) -> Result<(), Problem> {
+    /// Gives how many bytes of values lie elsewhere.
+    fn check(&self, field: &Field, page: usize) -> Result<u64, Problem> {
         let Some(size) = size_of(field.kind) else {
-            return Ok(());
+            return Ok(0);
         };
         let outside = || {
             damaged(
@@ -101,11 +138,15 @@ impl Walker<'_> {
                 return Err(outside());
             }
         }
+        let elsewhere = match length > self.offset_bytes() as u64 {
+            true => length,
+            false => 0,
+        };
         let (Some(allowed), Some(value)) = (allowed(field.tag), self.single(field)?) else {
-            return Ok(());
+            return Ok(elsewhere);
         };
         match (allowed.0..=allowed.1).contains(&value) {
-            true => Ok(()),
+            true => Ok(elsewhere),
             false => Err(damaged(
                 page,
                 format!(
@@ -127,18 +168,43 @@ impl Walker<'_> {
         })
     }
 
-    /// Checks the directory at `at`; gives the offset of the next, 0 for none.
-    fn directory(&self, at: usize, page: usize) -> Result<u64, Problem> {
+    /// Checks the directory at `at`; gives what it says, the offset of the next, 0 for none, and its own bytes.
+    fn directory(&self, at: usize, page: usize) -> Result<(Said, u64, usize), Problem> {
+        let start = at;
         let (count, mut at) = match self.wide {
             true => (self.offset(at)?, at + 8),
             false => (self.u16(at)?.into(), at + 2),
         };
+        let mut said = Said::default();
         for _ in 0..count {
             let field = self.field(at)?;
-            self.check(&field, page)?;
+            said.elsewhere += self.check(&field, page)?;
+            let value = self.single(&field)?.unwrap_or(0);
+            match field.tag {
+                SUBFILE_TYPE => said.subfile_type = value,
+                IMAGE_WIDTH => said.width = value,
+                IMAGE_LENGTH => said.height = value,
+                PHOTOMETRIC if (value, field.kind) == (PALETTE, 3) => {
+                    let grey = match self.big_endian {
+                        true => GREY.to_be_bytes(),
+                        false => GREY.to_le_bytes(),
+                    };
+                    said.palette_as_grey = Some((field.at, grey.to_vec()));
+                }
+                _ => {}
+            }
             at = field.at + self.offset_bytes();
         }
-        self.offset(at)
+        Ok((said, self.offset(at)?, at - start))
+    }
+
+    /// What the file's beginning would say if the directory at `at` were its first.
+    fn as_first(&self, at: u64) -> (usize, Vec<u8>) {
+        let mut offset = at.to_le_bytes()[..self.offset_bytes()].to_vec();
+        if self.big_endian {
+            offset.reverse();
+        }
+        (self.offset_bytes(), offset)
     }
 }
 
@@ -166,8 +232,8 @@ fn allowed(tag: u16) -> Option<(u64, u64)> {
     }
 }
 
-/// Checks every directory of a file.
-pub(super) fn check(bytes: &[u8]) -> Result<(), Problem> {
+/// Checks every directory of a file; gives those that hold frames, in the file's order.
+pub(super) fn pages(bytes: &[u8]) -> Result<Vec<Page>, Problem> {
     let short = || Problem::damaged(FORMAT, "it is shorter than its header");
     let header: &[u8; 4] = bytes.first_chunk().ok_or_else(short)?;
     let walker = Walker {
@@ -176,13 +242,34 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), Problem> {
         wide: header.contains(&b'+'),
     };
     let mut next = walker.offset(walker.offset_bytes())?;
-    for page in 0..MAX_FRAMES {
+    let (mut pages, mut walked, mut elsewhere) = (Vec::new(), 0, 0);
+    for number in 0..MAX_FRAMES {
         let at = usize::try_from(next).map_err(|_| short())?;
-        next = walker.directory(at, page)?;
+        let (said, after, length) = walker.directory(at, number)?;
+        walked += length;
+        elsewhere += said.elsewhere;
+        // Directories that share bytes could hold the square of a file's length.
+        if walked > bytes.len() || elsewhere > MOST_SHARED * bytes.len() as u64 {
+            break;
+        }
+        if said.subfile_type & REDUCED_COPY == 0 {
+            checked_area(said.width, said.height)?;
+            pages.push(Page {
+                number,
+                as_first: walker.as_first(next),
+                palette_as_grey: said.palette_as_grey,
+            });
+        }
+        next = after;
         if next == 0 {
-            return Ok(());
+            return match pages.is_empty() {
+                true => Err(Problem::damaged(FORMAT, "it has no full-size page")),
+                false => Ok(pages),
+            };
         }
     }
-    let detail = format!("it has more than {MAX_FRAMES} pages, or they are linked in a circle");
+    let detail = format!(
+        "it has more than {MAX_FRAMES} pages, or they are linked in a circle or share what they hold"
+    );
     Err(Problem::damaged(FORMAT, detail))
 }

@@ -11,21 +11,22 @@ use tiff::encoder::colortype::{Gray8, Gray16, Gray32Float};
 use tiff::encoder::{Compression, DeflateLevel};
 
 use crate::samples::dicom::{
-    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_BASELINE, JPEG_LOSSLESS, RLE,
-    run_lengths,
+    BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT, JPEG_BASELINE, JPEG_EXTENDED, JPEG_LOSSLESS,
+    JPEG_LS, RLE, run_lengths,
 };
 use crate::samples::models::{obj, ply_ascii, ply_big_double, ply_little, stl_ascii, stl_binary};
 use crate::samples::{
-    big_tiff, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff, tiled_tiff,
+    big_tiff, foreign, jpeg, jpeg_of, jpeg2000, lossless, pattern, png, predicted_tiff, tiff,
+    tiffs, tiled_tiff,
 };
 
 /// No small file may keep the reader longer than this, in any build.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A file that is read whole, and whether it says where it ends: then every shorter one must be refused.
-struct Sample {
-    name: &'static str,
-    bytes: Vec<u8>,
+pub(crate) struct Sample {
+    pub name: &'static str,
+    pub bytes: Vec<u8>,
     has_end: bool,
 }
 
@@ -153,6 +154,67 @@ fn dicoms() -> Vec<Sample> {
     ]
 }
 
+/// Pages by hand: palettes, planes, fax codes, JPEG.
+fn pages() -> Vec<Sample> {
+    let mut palette = tiffs::fields(4, 1, &[2], 3);
+    palette.push((320, 3, (0..12).collect()));
+    let mut planes = tiffs::fields(2, 2, &[16, 16, 16], 2);
+    planes.push((284, 3, vec![2]));
+    let mut fax = tiffs::fields(foreign::GREY.0.into(), foreign::GREY.1.into(), &[1], 1);
+    fax[3].2 = vec![4];
+    let mut coded = tiffs::fields(12, 9, &[8], 1);
+    coded[3].2 = vec![7];
+    let image = jpeg(12, 9, &pattern(12, 9), false);
+    let wide = tiffs::fields(1, 2, &[32], 1);
+    vec![
+        sample("palette.tif", tiffs::of_strips(&palette, &[&[0x1B]])),
+        sample(
+            "planes.tif",
+            tiffs::of_strips(&planes, &[&[1; 8], &[2; 8], &[3; 8]]),
+        ),
+        sample("fax.tif", tiffs::of_strips(&fax, &[foreign::FAX])),
+        sample("jpeg.tif", tiffs::of_strips(&coded, &[&image])),
+        sample("wide.tif", tiffs::of_strips(&wide, &[&[7; 8]])),
+    ]
+}
+
+/// Images that other programs coded, and kinds of pixels beyond plain greys.
+fn rare_dicoms() -> Vec<Sample> {
+    let grey = |syntax, bits: [u16; 4], image: &[u8]| {
+        let (width, height) = foreign::GREY;
+        let file = Builder::image_with(syntax, width, height, 1, "MONOCHROME2", bits);
+        file.fragments(&[], &[image])
+    };
+    let (width, height) = foreign::COLOUR;
+    let colour = |image: &[u8]| {
+        let file = Builder::image_with(JPEG_LS, width, height, 1, "RGB", [8, 8, 7, 0]);
+        file.fragments(&[], &[image])
+    };
+    let mut palette = Builder::image_with(IMPLICIT, 2, 2, 1, "PALETTE COLOR", [8, 8, 7, 0]);
+    for colour in 0..3 {
+        palette.bytes(0x0028_1101 + colour, b"US", &[2, 0, 0, 0, 16, 0]);
+    }
+    for colour in 0..3 {
+        palette.bytes(0x0028_1201 + colour, b"OW", &[1, 2, 3, 4]);
+    }
+    let mut bare = Builder::image(EXPLICIT, 2, 2, 32, 1);
+    bare.bytes(0x7FE0_0010, b"OW", &[7; 16]);
+    vec![
+        sample("ls.dcm", grey(JPEG_LS, [8, 8, 7, 0], foreign::LS_8_NEAR_3)),
+        sample("ls-colour.dcm", colour(foreign::LS_COLOUR_SAMPLES)),
+        sample(
+            "extended.dcm",
+            grey(JPEG_EXTENDED, [16, 12, 11, 0], foreign::COSINES_12),
+        ),
+        sample("palette.dcm", palette.octets(&[0, 1, 1, 0])),
+        sample(
+            "bits.dcm",
+            Builder::image_with(EXPLICIT, 5, 3, 2, "MONOCHROME2", [1, 1, 0, 0]).octets(&[7; 4]),
+        ),
+        sample("bare.dcm", bare.into_data_set()),
+    ]
+}
+
 fn models() -> Vec<Sample> {
     let endless = |name, bytes| Sample {
         name,
@@ -175,16 +237,18 @@ fn models() -> Vec<Sample> {
     ]
 }
 
-static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
+pub(crate) static SAMPLES: LazyLock<Vec<Sample>> = LazyLock::new(|| {
     images()
         .into_iter()
         .chain(dicoms())
+        .chain(rare_dicoms())
+        .chain(pages())
         .chain(models())
         .collect()
 });
 
 /// Reads a file in every way there is; whether it could be read as a whole.
-fn read_all(bytes: &[u8], name: &str) -> bool {
+pub(crate) fn read_all(bytes: &[u8], name: &str) -> bool {
     let begun = Instant::now();
     let _ = sniff(bytes, name);
     let model = decode_model(bytes, name);

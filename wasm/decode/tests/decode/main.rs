@@ -16,3 +16,4 @@ mod samples;
 mod sniffing;
 mod study;
 mod tiff;
+mod work;

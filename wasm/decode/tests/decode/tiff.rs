@@ -7,8 +7,8 @@ use tiff::tags::Tag;
 use fluoropose_decode::{FrameFile, Problem, decode_frames};
 
 use crate::samples::{
-    big_tiff, bytes_of, grey_fields, only_frame, pattern, predicted_tiff, raw_tiff, tiff,
-    tiled_tiff, words_of,
+    big_tiff, bytes_of, foreign, grey_fields, jpeg, only_frame, pattern, predicted_tiff, raw_tiff,
+    tiff, tiffs, tiled_tiff, words_of,
 };
 
 /// One uncompressed page.
@@ -206,22 +206,167 @@ fn a_page_that_asks_to_be_turned_says_so() {
 
 #[test]
 fn what_is_not_read_is_refused_in_words() {
-    let palette = raw_tiff(&grey_fields(2, 1, 8, 3), &[1, 2]);
-    let error = decode_frames(&palette, "a.tif").unwrap_err();
-    assert!(
-        matches!(error.problem, Problem::Unsupported { .. }),
-        "{error}"
-    );
-    let planar = planar_tiff();
-    let error = decode_frames(&planar, "a.tif").unwrap_err();
-    assert!(error.to_string().contains("one after the other"), "{error}");
     let mut fax = grey_fields(2, 1, 1, 1);
-    fax[3].2 = 4;
+    fax[3].2 = 3;
     let error = decode_frames(&raw_tiff(&fax, &[1, 2]), "a.tif").unwrap_err();
     assert!(
         matches!(error.problem, Problem::Unsupported { .. }),
         "{error}"
     );
+    let mut tiles: Vec<_> = tiffs::fields(16, 16, &[8, 8, 8], 2);
+    tiles.extend([(284, 3, vec![2]), (322, 3, vec![16]), (323, 3, vec![16])]);
+    let mut file = tiffs::of_strips(&tiles, &[&[1; 256], &[2; 256], &[3; 256]]);
+    // Strips become tiles by their tags alone.
+    for (strip, tile) in [(273u16, 324u16), (279, 325)] {
+        let field = strip.to_le_bytes();
+        let at = file
+            .windows(4)
+            .rposition(|w| w == [field[0], field[1], 4, 0])
+            .unwrap();
+        file[at..at + 2].copy_from_slice(&tile.to_le_bytes());
+    }
+    let error = decode_frames(&file, "a.tif").unwrap_err();
+    assert!(
+        error.to_string().contains("one after the other in tiles"),
+        "{error}"
+    );
+}
+
+/// Entries of 8 bits, once or twice in 16, give 8 bits, and others 16; the page's numbers have any depth.
+#[test]
+fn palettes_become_luminance() {
+    let palette = |entries: [u32; 12], bits: u32, strip: &[u8]| {
+        let mut map = vec![0; 3 << bits];
+        for (colour, entries) in entries.as_chunks::<4>().0.iter().enumerate() {
+            map[colour << bits..][..entries.len().min(1 << bits)]
+                .copy_from_slice(&entries[..entries.len().min(1 << bits)]);
+        }
+        let mut fields = tiffs::fields(4, 1, &[bits], 3);
+        fields.push((320, 3, map));
+        only_frame(&tiffs::of_strips(&fields, &[strip]), "a.tif")
+    };
+    let few = [0, 255, 0, 9, 0, 0, 0, 9, 0, 0, 255, 9];
+    let due = [0, 76, 29, 9];
+    assert_eq!(bytes_of(&palette(few, 8, &[0, 1, 2, 3])), due);
+    assert_eq!(bytes_of(&palette(few, 4, &[0x01, 0x23])), due);
+    assert_eq!(bytes_of(&palette(few, 2, &[0b0001_1011])), due);
+    assert_eq!(
+        bytes_of(&palette(few.map(|v| v * 257), 8, &[3, 2, 1, 0])),
+        [9, 29, 76, 0]
+    );
+    let wide = [0, 65535, 0, 900, 0, 0, 0, 900, 0, 0, 65535, 900];
+    assert_eq!(
+        words_of(&palette(wide, 8, &[0, 1, 2, 3])),
+        [0, 19595, 7471, 900]
+    );
+}
+
+#[test]
+fn a_number_beyond_the_palette_is_refused() {
+    let mut fields = tiffs::fields(2, 1, &[8], 3);
+    fields.push((320, 3, vec![0; 6]));
+    let error = decode_frames(&tiffs::of_strips(&fields, &[&[1, 2]]), "a.tif").unwrap_err();
+    assert!(error.to_string().contains("not in the palette"), "{error}");
+}
+
+#[test]
+fn colours_that_are_stored_one_after_the_other_become_luminance() {
+    let mut fields = tiffs::fields(2, 1, &[8, 8, 8], 2);
+    fields.push((284, 3, vec![2]));
+    let file = tiffs::of_strips(&fields, &[&[255, 9], &[0, 9], &[0, 9]]);
+    assert_eq!(bytes_of(&only_frame(&file, "a.tif")), [76, 9]);
+}
+
+/// What is beside grey is transparency and left out.
+#[test]
+fn grey_may_have_another_channel() {
+    let mut fields = tiffs::fields(2, 1, &[8, 8], 1);
+    fields.push((338, 3, vec![2]));
+    let file = tiffs::of_strips(&fields, &[&[7, 200, 8, 100]]);
+    assert_eq!(bytes_of(&only_frame(&file, "a.tif")), [7, 8]);
+}
+
+#[test]
+fn wide_whole_numbers_stay_where_they_fit_and_are_mapped_where_not() {
+    let read = |values: [u32; 3]| {
+        let strip = values.map(u32::to_le_bytes);
+        let file = tiffs::of_strips(&tiffs::fields(3, 1, &[32], 1), &[strip.as_flattened()]);
+        only_frame(&file, "a.tif")
+    };
+    let fits = read([0, 65535, 7]);
+    assert_eq!((words_of(&fits), fits.notes.len()), (&[0, 65535, 7][..], 0));
+    let wide = read([100_000, 300_000, 200_000]);
+    assert_eq!(words_of(&wide), [0, 65535, 32768]);
+    assert!(
+        wide.notes[0].contains("from 100000 to 300000"),
+        "{:?}",
+        wide.notes
+    );
+}
+
+#[test]
+fn colours_of_floating_point_become_luminance() {
+    let values = [1.0f32, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0].map(f32::to_le_bytes);
+    let mut fields = tiffs::fields(3, 1, &[32, 32, 32], 2);
+    fields.push((339, 3, vec![3, 3, 3]));
+    let file = tiffs::of_strips(&fields, &[values.as_flattened()]);
+    assert_eq!(words_of(&only_frame(&file, "a.tif")), [19595, 0, 65535]);
+}
+
+#[test]
+fn fax_codes_are_read() {
+    let mut fields = tiffs::fields(foreign::GREY.0.into(), foreign::GREY.1.into(), &[1], 1);
+    fields[3].2 = vec![4];
+    let file = tiffs::of_strips(&fields, &[foreign::FAX]);
+    assert_eq!(bytes_of(&only_frame(&file, "mask.tif")), foreign::disc());
+}
+
+/// Each strip is an image of its own; tables that they share stand apart.
+#[test]
+fn strips_of_jpeg_are_read() {
+    let images = [40, 200].map(|level| jpeg(16, 8, &[level; 128], false));
+    // Everything between the marks that begin the image and its frame: tables, and a word of who wrote it.
+    let frame = images[0]
+        .windows(2)
+        .position(|pair| pair == [0xFF, 0xC0])
+        .unwrap();
+    let tables = [&images[0][..frame], &[0xFF, 0xD9]].concat();
+    let bare: Vec<Vec<u8>> = images
+        .iter()
+        .map(|image| [&image[..2], &image[frame..]].concat())
+        .collect();
+    let mut fields = tiffs::fields(16, 14, &[8], 1);
+    fields[3].2 = vec![7];
+    fields[6].2 = vec![8];
+    fields.push((347, 7, tables.iter().map(|&byte| byte.into()).collect()));
+    let file = tiffs::of_strips(&fields, &[&bare[0], &bare[1]]);
+    let decoded = only_frame(&file, "a.tif");
+    let (first, second) = bytes_of(&decoded).split_at(128);
+    assert!(first.iter().all(|pixel| pixel.abs_diff(40) <= 1));
+    assert!(second.iter().all(|pixel| pixel.abs_diff(200) <= 1));
+}
+
+/// A small file could otherwise be decoded again and again.
+#[test]
+fn strips_that_lie_upon_each_other_are_refused() {
+    let mut fields = tiffs::fields(100, 4, &[8], 1);
+    fields[6].2 = vec![1];
+    let strip = [7; 100];
+    let mut file = tiffs::of_strips(&fields, &[&strip[..]; 4]);
+    let offsets: Vec<u8> = (0..4).flat_map(|_| 8u32.to_le_bytes()).collect();
+    let listed: Vec<u8> = (0..4u32)
+        .flat_map(|strip| (8 + 100 * strip).to_le_bytes())
+        .collect();
+    let at = file.windows(16).position(|w| w == listed).unwrap();
+    file[at..at + 16].copy_from_slice(&offsets);
+    // All of the page's strips together still fit the file; of a larger part of it they do not.
+    assert!(decode_frames(&file, "a.tif").is_ok());
+    let mut counts: Vec<u8> = (0..4).flat_map(|_| 100u32.to_le_bytes()).collect();
+    let at = file.windows(16).position(|w| w == counts).unwrap();
+    counts = (0..4).flat_map(|_| 300u32.to_le_bytes()).collect();
+    file[at..at + 16].copy_from_slice(&counts);
+    let error = decode_frames(&file, "a.tif").unwrap_err();
+    assert!(error.to_string().contains("upon each other"), "{error}");
 }
 
 #[test]
@@ -236,30 +381,4 @@ fn pixels_beyond_the_end_are_noticed() {
         error.to_string().contains("beyond the end of the file"),
         "{error}"
     );
-}
-
-/// Two pixels of three colours, a strip each: the lists of strips lie after the directory.
-fn planar_tiff() -> Vec<u8> {
-    let fields: [(u16, u16, u32, u32); 9] = [
-        (256, 3, 1, 2),
-        (257, 3, 1, 1),
-        (258, 3, 1, 8),
-        (262, 3, 1, 2),
-        (273, 4, 3, 128),
-        (277, 3, 1, 3),
-        (278, 3, 1, 1),
-        (279, 4, 3, 140),
-        (284, 3, 1, 2),
-    ];
-    let mut file = b"II*\0\x08\0\0\0\x09\0".to_vec();
-    for (tag, kind, count, value) in fields {
-        file.extend([tag.to_le_bytes(), kind.to_le_bytes()].as_flattened());
-        file.extend([count.to_le_bytes(), value.to_le_bytes()].as_flattened());
-    }
-    file.resize(128, 0);
-    for number in [152u32, 154, 156, 2, 2, 2] {
-        file.extend(number.to_le_bytes());
-    }
-    file.extend([1, 2, 3, 4, 5, 6]);
-    file
 }

@@ -6,6 +6,8 @@ pub(crate) const DEFLATED: &str = "1.2.840.10008.1.2.1.99";
 pub(crate) const BIG_ENDIAN: &str = "1.2.840.10008.1.2.2";
 pub(crate) const RLE: &str = "1.2.840.10008.1.2.5";
 pub(crate) const JPEG_BASELINE: &str = "1.2.840.10008.1.2.4.50";
+pub(crate) const JPEG_EXTENDED: &str = "1.2.840.10008.1.2.4.51";
+pub(crate) const JPEG_LS: &str = "1.2.840.10008.1.2.4.80";
 pub(crate) const JPEG_LOSSLESS: &str = "1.2.840.10008.1.2.4.70";
 pub(crate) const JPEG_2000: &str = "1.2.840.10008.1.2.4.90";
 
@@ -44,10 +46,9 @@ impl Builder {
         photometric: &str,
         [allocated, stored, high, signed]: [u16; 4],
     ) -> Self {
-        let samples = if photometric.starts_with("MONO") {
-            1
-        } else {
-            3
+        let samples = match photometric {
+            "MONOCHROME1" | "MONOCHROME2" | "PALETTE COLOR" => 1,
+            _ => 3,
         };
         let mut file = Self::new(syntax);
         file.short(0x0028_0002, samples);
@@ -145,6 +146,13 @@ impl Builder {
         self.finish()
     }
 
+    /// 32-bit pixels.
+    pub(crate) fn long_words(mut self, pixels: &[u32]) -> Vec<u8> {
+        let stored: Vec<u8> = pixels.iter().flat_map(|&p| self.u32(p)).collect();
+        self.bytes(0x7FE0_0010, b"OW", &stored);
+        self.finish()
+    }
+
     /// 8-bit pixels.
     pub(crate) fn octets(mut self, pixels: &[u8]) -> Vec<u8> {
         self.bytes(0x7FE0_0010, b"OB", pixels);
@@ -153,6 +161,12 @@ impl Builder {
 
     /// Compressed pixels with a basic offset table.
     pub(crate) fn fragments(mut self, offsets: &[u32], fragments: &[&[u8]]) -> Vec<u8> {
+        self.push_fragments(offsets, fragments);
+        self.finish()
+    }
+
+    /// The element of compressed pixels.
+    pub(crate) fn push_fragments(&mut self, offsets: &[u32], fragments: &[&[u8]]) {
         self.header(0x7FE0_0010, b"OB", u32::MAX);
         let table: Vec<u8> = offsets.iter().flat_map(|o| o.to_le_bytes()).collect();
         for fragment in [table.as_slice()].iter().chain(fragments) {
@@ -162,7 +176,6 @@ impl Builder {
             self.data_set.extend(&[0u8][..padding]);
         }
         self.item(0xFFFE_E0DD, 0);
-        self.finish()
     }
 
     /// The whole file.
@@ -170,6 +183,11 @@ impl Builder {
         let mut meta = Self::new(EXPLICIT);
         meta.bytes(0x0002_0001, b"OB", &[0, 1]);
         meta.text(0x0002_0010, b"UI", &self.syntax.replace(' ', "\0"));
+        self.finish_after(meta)
+    }
+
+    /// The whole file with another group of elements before the data set than the one that names the syntax.
+    pub(crate) fn finish_after(self, meta: Self) -> Vec<u8> {
         let mut file = vec![0; 128];
         file.extend(b"DICM");
         let mut group = Self::new(EXPLICIT);

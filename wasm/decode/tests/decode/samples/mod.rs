@@ -1,9 +1,11 @@
 //! Small files made in code, by encoders that are not part of what is tested, or by hand.
 
 pub(crate) mod dicom;
+pub(crate) mod foreign;
 pub(crate) mod jpeg2000;
 pub(crate) mod lossless;
 pub(crate) mod models;
+pub(crate) mod tiffs;
 
 use std::io::Cursor;
 

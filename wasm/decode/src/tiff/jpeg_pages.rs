@@ -1,0 +1,108 @@
+//! Pages whose strips or tiles are JPEG images.
+
+use tiff::tags::Tag;
+
+use super::overlay::Reader;
+use super::problem::{FORMAT, REMEDY, damaged, failed};
+use crate::error::Problem;
+use crate::frame::{GreyFrame, Pixels};
+use crate::jpeg;
+use crate::luminance::ComponentColours;
+
+/// Value of the Compression field.
+pub(super) const JPEG: u16 = 7;
+/// Value of the field that says what colours are: luminance first.
+const LUMINANCE_FIRST: u16 = 6;
+
+/// Most bytes of tables that all images share: there are no more of them than fit.
+const MAX_TABLES: usize = 16_384;
+
+/// Length of the marks that begin and end an image.
+const MARK: usize = 2;
+
+/// Greys of a page of 8 bits of so many pixels; the places of its strips or tiles have been checked.
+pub(super) fn grey(
+    decoder: &mut Reader<'_>,
+    bytes: &[u8],
+    page: usize,
+    (width, height): (usize, usize),
+) -> Result<Pixels, Problem> {
+    let list = |decoder: &mut Reader<'_>, tags: [Tag; 2]| {
+        let values = tags.map(|tag| {
+            decoder
+                .find_tag_unsigned_vec::<u64>(tag)
+                .map_err(|e| failed(page, e))
+        });
+        let [first, second] = values;
+        Ok(first?.or(second?).unwrap_or_default())
+    };
+    let offsets = list(decoder, [Tag::TileOffsets, Tag::StripOffsets])?;
+    let counts = list(decoder, [Tag::TileByteCounts, Tag::StripByteCounts])?;
+    let tables = decoder
+        .find_tag(Tag::JPEGTables)
+        .map_err(|e| failed(page, e))?;
+    let tables = match tables {
+        Some(value) => value.into_u8_vec().map_err(|e| failed(page, e))?,
+        None => Vec::new(),
+    };
+    if tables.len() > MAX_TABLES {
+        return Err(damaged(page, "its JPEG tables are longer than any can be"));
+    }
+    let photometric = decoder.find_tag_unsigned::<u16>(Tag::PhotometricInterpretation);
+    let colour = match photometric.map_err(|e| failed(page, e))? {
+        Some(LUMINANCE_FIRST) => ComponentColours::LuminanceFirst,
+        _ => ComponentColours::Rgb,
+    };
+    let (across, down) = decoder.chunk_dimensions();
+    let (across, down) = (across.max(1) as usize, down.max(1) as usize);
+    let mut pixels = vec![0; width * height];
+    let per_row = width.div_ceil(across);
+    if offsets.len() < per_row * height.div_ceil(down) {
+        return Err(damaged(page, "not all of its strips or tiles are there"));
+    }
+    for (index, (&offset, &count)) in offsets.iter().zip(&counts).enumerate() {
+        let coded = bytes
+            .get(offset as usize..(offset + count) as usize)
+            .unwrap_or_default();
+        let image = jpeg::decode_with(&with_tables(&tables, coded), Some(colour))?;
+        place(
+            &image,
+            &mut pixels,
+            width,
+            (index % per_row * across, index / per_row * down),
+        )?;
+    }
+    Ok(Pixels::U8(pixels))
+}
+
+/// The tables that all images of a page share, put into one after its first mark.
+fn with_tables(tables: &[u8], coded: &[u8]) -> Vec<u8> {
+    let inner = tables
+        .get(MARK..tables.len().saturating_sub(MARK))
+        .unwrap_or_default();
+    let (start, rest) = coded.split_at(coded.len().min(MARK));
+    [start, inner, rest].concat()
+}
+
+/// Copies what of an image lies inside the page.
+fn place(
+    image: &GreyFrame,
+    pixels: &mut [u8],
+    width: usize,
+    (left, top): (usize, usize),
+) -> Result<(), Problem> {
+    let Pixels::U8(source) = &image.pixels else {
+        return Err(Problem::unsupported(
+            FORMAT,
+            "JPEG pixels of more than 8 bits",
+            REMEDY,
+        ));
+    };
+    let rows = source.chunks_exact(image.width as usize);
+    for (row, line) in pixels.chunks_exact_mut(width).skip(top).zip(rows) {
+        for (pixel, value) in row.iter_mut().skip(left).zip(line) {
+            *pixel = *value;
+        }
+    }
+    Ok(())
+}
