@@ -2,7 +2,6 @@
 
 use fluoropose::joint::course::{FLEXION_STEP_DEG, Phase};
 use fluoropose::joint::group::{OverKnees, over_knees};
-use fluoropose::joint::numbers::place;
 
 use crate::film::JointFilm;
 
@@ -56,8 +55,9 @@ impl Group {
         let all = self.films().into_iter().flat_map(JointFilm::levels);
         let steps = all.map(|level| (level / FLEXION_STEP_DEG).round() as i64);
         let steps: std::collections::BTreeSet<i64> = steps.collect();
-        let all = steps.into_iter().map(|step| step as f64 * FLEXION_STEP_DEG);
-        all.filter(|&level| self.at(place::FLEXION, level).n > 0)
+        steps
+            .into_iter()
+            .map(|step| step as f64 * FLEXION_STEP_DEG)
             .collect()
     }
 
