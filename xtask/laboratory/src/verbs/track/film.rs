@@ -17,11 +17,13 @@ use super::journal::Journal;
 use super::judge::judge;
 use super::metal::begun;
 use super::part::{Part, read_models};
-use super::request::Request;
+use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::{Margins, settle};
 use super::table::{HEADING, Row, covariance_table};
-use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
+use crate::files::{
+    Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
+};
 use crate::finding::Stated;
 
 /// A component of a film that was followed.
@@ -58,9 +60,12 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let calibration = read_calibration(&study.calibration)?;
     let frames = study.frames.as_deref();
     let film = Film::read(frames.context("the study has no key 'frames'")?)?;
-    let (width, height) = film.size();
-    let camera = calibration.camera(width, height)?;
-    let models = read_models(&study.components)?;
+    request.check(&film)?;
+    let (camera, doubts) = camera_of_frames(&calibration, film.size())?;
+    for doubt in doubts {
+        (request.listener)(Told::Remark(doubt));
+    }
+    let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
     let mut inputs = Sha256::new();
@@ -90,7 +95,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         request,
         film: &film,
         journal: Journal::open(&journal, &digest, request.anew, request.stop.clone())?,
-        saying: std::sync::Mutex::default(),
+        parts: models.len(),
+        seen: std::sync::Mutex::default(),
     };
     let components = || study.components.iter().zip(&models).enumerate();
     let parts = |polarity| -> Result<Vec<Part<'_>>> {
@@ -185,5 +191,6 @@ fn finish(
         }
     }
     write_text(&out.join("track.csv"), &text)?;
+    run.say_done();
     Ok(tracked)
 }
