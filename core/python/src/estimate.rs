@@ -23,7 +23,7 @@ use crate::camera::Calibration;
 use crate::failure::python_error;
 use crate::model::{Model, Opened, Views, role_of};
 use crate::pixels::{GreyArray, masks_of};
-use crate::poses::{NOTHING, Six, euler, rows_of, six};
+use crate::poses::{NOTHING, poses_of, six};
 use crate::worker::beside;
 
 /// The other component as Python hands it over: which one this is, the other's poses, its model.
@@ -142,10 +142,9 @@ struct OtherComponent {
 
 impl OtherComponent {
     fn of(py: Python<'_>, (role, poses, model): Other<'_>) -> PyResult<Self> {
-        let pose = |row: &Six| euler(row).map(Pose::from);
         Ok(Self {
             role: role_of(&role)?,
-            poses: rows_of(&poses).iter().map(pose).collect(),
+            poses: poses_of(&poses),
             model: model.map(|model| model.borrow(py).model.clone()),
         })
     }

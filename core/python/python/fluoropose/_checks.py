@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+import sys
+import warnings
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 PathLike = str | os.PathLike[str]
+
+
+def warn(remarks: Iterable[str]) -> None:
+    """Warns of what has to be known, where the caller of this package stands."""
+    level = 2
+    frame = sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "fluoropose":
+        frame = frame.f_back
+        level += 1
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=level)
 
 
 def is_path(value: object) -> bool:

@@ -42,8 +42,19 @@ class Model:
         """Reads STL, OBJ or PLY, mm."""
         name = _checks.path(path, "path")
         model = object.__new__(cls)
-        model._set(_native.Model.read(name), name)
+        try:
+            native = _native.Model.read(name)
+        except ValueError as error:
+            raise ValueError(f"path: {name}: {error}") from error
+        model._set(native, name)
         return model
+
+    def seen(self, name: str, role: str | None) -> list[str]:
+        """What has to be known of it as an argument and a component: its units and faults, or that it has the other one's shape; warned of."""
+        doubt = None if role is None else self._handle.doubt(role)
+        told = [f"{name}: {remark}" for remark in (*self.remarks, doubt) if remark is not None]
+        _checks.warn(told)
+        return told
 
     def _set(self, native: _native.Model, path: str | None) -> None:
         values = (("path", path), ("digest", native.digest()), ("remarks", tuple(native.remarks())), ("_handle", native))

@@ -100,5 +100,8 @@ def rows(value: ArrayLike | Poses | Pose | _checks.PathLike, name: str) -> NDArr
     if isinstance(value, Pose):
         return np.array([value.numbers])
     if isinstance(value, str) or hasattr(value, "__fspath__"):
-        return _native.read_poses(_checks.path(value, name))
+        try:
+            return _native.read_poses(_checks.path(value, name))
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from error
     return _checks.numbers(value, (None, 6), name)
