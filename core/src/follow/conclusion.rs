@@ -91,6 +91,15 @@ impl Conclusion {
         }
     }
 
+    /// Makes a pose that was to be trusted doubtful, for a reason that lies beyond the frame. One that a person gave stays.
+    pub fn distrust(&mut self, distrust: Distrust) {
+        if matches!(self.state, State::Followed | State::Interpolated) {
+            self.state = State::Doubtful;
+            self.why = Why::Distrusted(distrust);
+            self.badness = self.badness.max(2.0);
+        }
+    }
+
     /// Whether the pose is to be trusted.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
@@ -141,5 +150,39 @@ pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
             }
         }
         at = end;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::anatomy::KneeComponent;
+
+    #[test]
+    fn what_a_person_gave_and_what_is_not_there_cannot_become_doubtful() {
+        let shape = Distrust::Shape(KneeComponent::Femur);
+        let after = |state, why| {
+            let mut one = Conclusion {
+                state,
+                pose: None,
+                why,
+                badness: 0.5,
+            };
+            one.distrust(shape);
+            (one.state, one.why)
+        };
+        let agrees = Why::Agrees;
+        let doubtful = (State::Doubtful, Why::Distrusted(shape));
+        assert_eq!(after(State::Followed, agrees), doubtful);
+        assert_eq!(after(State::Interpolated, Why::Hidden), doubtful);
+        let known = Why::Distrusted(Distrust::Unmet(0.5));
+        assert_eq!(after(State::Doubtful, known), (State::Doubtful, known));
+        let given = Why::GivenByPerson;
+        assert_eq!(after(State::Fixed, given), (State::Fixed, given));
+        let outside = Why::Outside(0.1);
+        assert_eq!(
+            after(State::Untrackable, outside),
+            (State::Untrackable, outside)
+        );
     }
 }

@@ -8,6 +8,7 @@ use super::side_samples::SideMargin;
 use super::sides::Rival;
 use super::trail::apart;
 use crate::math::Vector3;
+use crate::mesh::anatomy::KneeComponent;
 use crate::pose::Pose;
 
 /// What is known of a component in one frame when a film is judged.
@@ -101,6 +102,8 @@ pub enum Distrust {
     Depths(f64),
     /// The same against what a joint allows.
     Joint(f64),
+    /// The model has the shape of this component, which is the other one.
+    Shape(KneeComponent),
 }
 
 impl Distrust {
@@ -116,6 +119,7 @@ impl Distrust {
             Self::Cut(_) => "cut off",
             Self::Undetermined(_) => "undetermined",
             Self::Depths(_) | Self::Joint(_) => "depths",
+            Self::Shape(_) => "shape",
         }
     }
 }
@@ -169,6 +173,16 @@ impl fmt::Display for Distrust {
                 f,
                 "it lies {mm:.0} mm behind the other component along the view, which no joint does"
             ),
+            Self::Shape(shape) => {
+                let is = match shape {
+                    KneeComponent::Femur => "femoral component",
+                    KneeComponent::Tibia => "tibial tray",
+                };
+                write!(
+                    f,
+                    "its model has the shape of a {is}, were the models swapped?"
+                )
+            }
         }
     }
 }

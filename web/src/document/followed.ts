@@ -39,6 +39,13 @@ export function isFollowed(result: Result | null): boolean {
   return isFromFilm(result) && (result?.kind !== 'posed' || result.chosen === 0);
 }
 
+/** Did an outline take the place of a pose that following found? Nobody who clicked beside something else would see it. */
+export function gaveWay(before: Doc, after: Doc, { frameId, component }: Place): boolean {
+  const { outline, result } = cellOf(before, frameId, component);
+  const wasFollowed = outline === null && result?.kind === 'posed' && isFromFilm(result);
+  return wasFollowed && cellOf(after, frameId, component).outline !== null;
+}
+
 /** Was it found by following that has not come to its end? */
 export function isSoFar(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'film' && result.origin.startsWith(SO_FAR);

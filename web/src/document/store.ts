@@ -3,6 +3,7 @@ import type { Viewport } from '../geometry/viewport';
 import { type TracingOptions, USUAL_OPTIONS } from '../terms/tracing';
 import type { ToolName } from '../terms/tool';
 import type { Command, Place } from './command';
+import { gaveWay } from './followed';
 import * as history from './history';
 import type { Measuring } from './measuring';
 import type { Proposal } from './proposal';
@@ -11,6 +12,7 @@ import { DEFAULT_JOINT, type JointView } from '../terms/joint';
 import { DEFAULT_HAND, DEFAULT_SEEING, type HandSettings, type Seeing } from '../terms/seeing';
 import { type Cell, cellKey, cellOf, type Doc, EMPTY_DOC, type FrameEntry } from './types';
 import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
 
 /** Everything the page shows: the document with its history, and what is not worth undoing. */
 export interface State {
@@ -188,7 +190,7 @@ export class Store {
   // --- Document -----------------------------------------------------------------------------------------------
 
   perform(command: Command): void {
-    this.#toHistory(history.perform(this.#state.history, command));
+    this.#work(history.perform(this.#state.history, command));
   }
 
   preview(command: Command): void {
@@ -197,7 +199,7 @@ export class Store {
 
   /** Ends a gesture with its last command. */
   commit(command: Command): void {
-    this.#toHistory(history.commitPreview(history.preview(this.#state.history, command), command));
+    this.#work(history.commitPreview(history.preview(this.#state.history, command), command));
   }
 
   cancelPreview(): void {
@@ -288,6 +290,14 @@ export class Store {
 
   setLibrary(component: ComponentName, library: LibraryState): void {
     this.show({ libraries: { ...this.ui.libraries, [component]: library } });
+  }
+
+  /** Takes in what a person did. */
+  #work(next: history.History): void {
+    const before = this.#state.history.gestureStart ?? this.doc;
+    this.#toHistory(next);
+    const place = history.nextUndo(next)?.place;
+    if (place && gaveWay(before, next.present, place)) this.say('info', texts.follow.gaveWay);
   }
 
   #show(place: Place | null): void {

@@ -1,6 +1,7 @@
 import { oneClickOutline } from './one_click_result';
 import type { Place } from '../document/command';
 import { CONSTANTS, filmNumbers } from '../document/film';
+import { gaveWay } from '../document/followed';
 import { cellKey, cellOf, type FrameEntry } from '../document/types';
 import { framePoint, type FramePoint, pointsFrom } from '../geometry/points';
 import { Aborted, type Bridge } from '../workers/bridge';
@@ -120,10 +121,12 @@ export class OneClick {
     const laidBy = answer.match ? 'click' : 'tool';
     const outlines = answer.outlines.map((numbers) => ({ points: pointsFrom(numbers), closed: true, unknownSides: [], laidBy }) as const);
     const onFrame = { film: (answer.corrected && film?.slice(0, CONSTANTS)) || null };
+    const before = store.doc;
     store.perform(oneClickOutline(place, outlines, { ...answer, onFrame }, key));
     store.show({ selectedPoint: null });
+    const followed = gaveWay(before, store.doc, place) ? ` ${texts.follow.gaveWay}` : '';
     // What was refused stands in the cell and the bottom line as long as it does.
-    if (answer.match?.refusal == null) store.say('info', answer.sentence);
+    if (answer.match?.refusal == null) store.say('info', answer.sentence + followed);
   }
 }
 

@@ -17,8 +17,8 @@ pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{
-    owned, read_model, read_model_and_remarks, read_model_and_remarks_of, read_model_of,
-    shape_doubt,
+    other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
+    read_model_of, shape_doubt,
 };
 pub use poses::{read_poses, write_poses};
 pub use role::Role;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::mesh::anatomy::component_by_shape;
+use fluoropose::mesh::anatomy::{KneeComponent, component_by_shape};
 use fluoropose_decode::decode_model;
 use fluoropose_phantom::implant::Triangles;
 
@@ -69,17 +69,22 @@ pub fn read_model_and_remarks_of(
     Ok((owned, remarks))
 }
 
+/// The component that a model has the shape of, where that is the other one.
+pub fn other_shape(model: &OwnedModel, role: Role) -> Option<KneeComponent> {
+    component_by_shape(model.as_model().mesh()).filter(|shape| *shape != role.component())
+}
+
 /// What is doubtful of a model as that of a component: its shape is the other one's. A sentence without its full stop.
 pub fn shape_doubt(model: &OwnedModel, role: Role) -> Option<String> {
-    let shape = component_by_shape(model.as_model().mesh())?;
+    other_shape(model, role)?;
     let words = |role: Role| match role {
         Role::Femur => "femoral component",
         Role::Tibia => "tibial tray",
     };
-    (shape != role.component()).then(|| {
-        let (is, of) = (words(role.other()), words(role));
-        format!("this is given as the {of} but has the shape of a {is}: were the models swapped?")
-    })
+    let (is, of) = (words(role.other()), words(role));
+    Some(format!(
+        "this is given as the {of} but has the shape of a {is}: were the models swapped?"
+    ))
 }
 
 #[cfg(test)]

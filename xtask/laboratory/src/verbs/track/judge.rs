@@ -1,6 +1,6 @@
 //! The state of every frame, at the end.
 
-use fluoropose::follow::{Cell, Conclusion, conclude, fill_gaps};
+use fluoropose::follow::{Cell, Conclusion, Distrust, conclude, fill_gaps};
 
 use super::part::Part;
 use super::sides::Margins;
@@ -15,5 +15,10 @@ pub(super) fn judge(
 ) -> Vec<Conclusion> {
     let mut film = conclude(cells, margins, depths, &part.middle());
     fill_gaps(&mut film, interpolate, &part.middle());
+    // Right or not, they are not those of the component whose name they bear.
+    if let Some(shape) = part.other_shape() {
+        let all = film.iter_mut();
+        all.for_each(|one| one.distrust(Distrust::Shape(shape)));
+    }
     film
 }

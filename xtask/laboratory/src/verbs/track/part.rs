@@ -9,7 +9,7 @@ use fluoropose::film::FilmModel;
 use fluoropose::follow::Subject;
 use fluoropose::image::mask::Mask;
 use fluoropose::math::Vector3;
-use fluoropose::mesh::anatomy::field_axes;
+use fluoropose::mesh::anatomy::{KneeComponent, field_axes};
 use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
 use fluoropose::mesh::{Model, OwnedModel};
 use fluoropose::pose::Pose;
@@ -18,7 +18,9 @@ use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::morphology::widen;
 
 use super::request::{Listener, Told};
-use crate::files::{Component, Film, MaskBuffer, Role, grey, read_model_and_remarks_of};
+use crate::files::{
+    Component, Film, MaskBuffer, Role, grey, other_shape, read_model_and_remarks_of,
+};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
@@ -106,6 +108,11 @@ impl<'s> Part<'s> {
 
     pub(super) fn role(&self) -> Option<Role> {
         self.component.role()
+    }
+
+    /// The component that its model has the shape of, where that is the other one.
+    pub(super) fn other_shape(&self) -> Option<KneeComponent> {
+        other_shape(self.model, self.role()?)
     }
 
     /// What the film makes of the component, once that is known.
