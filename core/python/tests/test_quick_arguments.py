@@ -45,11 +45,13 @@ class Arguments(OnTheDemo):
             fp.track([], self.tibia, self.femur, self.camera, "left")
 
     def test_models_of_the_other_component_are_told_with_the_pose(self) -> None:
-        mask = np.zeros((1024, 1024), bool)
+        mask = fp.read_frames(DEMO / "masks/tibia")[0]
         with self.assertWarnsRegex(UserWarning, "model: .*swapped") as caught:
             found = fp.estimate(mask, self.tibia, self.camera, role="femur")
         self.assertEqual(caught.filename, __file__)
         self.assertIn("swapped", found.remarks[0])
+        self.assertEqual((found.status, found.because), ("doubtful", found.remarks[0].removeprefix("model: ")))
+        mask = np.zeros((1024, 1024), bool)
         with self.assertWarnsRegex(UserWarning, "beside_model: .*swapped"):
             fp.estimate(mask, self.tibia, self.camera, role="tibia", beside=np.zeros((1, 6)), beside_model=self.tibia)
         with warnings.catch_warnings():

@@ -148,7 +148,8 @@ def estimate_all(
     `method` is library, refined (the model's outline brought onto the mask's; the default) or image (onto the edges of `frames`; the
     default where they are given). A `library` that the command wrote is read; otherwise one is built and kept with the model: of all
     views, or about the `nominal` one (degrees about x and y), at `distance_mm`. `metal` is dark or bright where the frames do not tell it.
-    `role` (femur or tibia) with the other component's poses `beside` tells mirrored poses apart.
+    `role` (femur or tibia) with the other component's poses `beside` tells mirrored poses apart; of a model that has the other
+    component's shape all poses are doubtful.
     """
     _checks.instance(model, Model, "model")
     _checks.instance(camera, Camera, "camera")
@@ -184,6 +185,7 @@ def estimate_all(
         bright=bright(metal),
         edge_offset=bool(edge_offset),
         other=other,
+        doubt=None if role is None else model._handle.doubt(role),
     )
     settings = {
         "method": chosen,

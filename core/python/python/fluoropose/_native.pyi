@@ -90,6 +90,7 @@ def estimate(
     bright: bool | None,
     edge_offset: bool,
     other: tuple[str, NDArray[np.float64], Model | None] | None,
+    doubt: str | None,
 ) -> list[Answer]: ...
 def track(
     study: str,
