@@ -6,7 +6,7 @@ use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
-use fluoropose_report::levels::by_flexion;
+use fluoropose_report::levels::{FilmLevels, by_flexion};
 use fluoropose_report::{
     Facts, Group, Input, JointFilm, JointRow, Knee, cohorts, figure, group_figure, html, read,
     write,
@@ -109,7 +109,7 @@ fn a_group_is_the_mean_of_its_knees() {
         for joint in film.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
             joint.numbers[place::ROTATION] = by;
         }
-        film
+        FilmLevels::of(&film)
     };
     let knee = |name: &str, films| Knee {
         name: name.to_owned(),

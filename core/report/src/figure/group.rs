@@ -55,7 +55,7 @@ fn counts(group: &Group) -> String {
     format!(
         "{} knees, {} films",
         group.knees().len(),
-        group.films().len()
+        group.films().count()
     )
 }
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use fluoropose_report::cohorts::{figure, table};
-use fluoropose_report::{Group, JointFilm, Knee, read};
+use fluoropose_report::levels::FilmLevels;
+use fluoropose_report::{Group, Knee, read};
 
 use crate::files::{csv_fields, read_text, write_text};
 use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
@@ -116,7 +117,7 @@ fn alike(done: &[Done<'_>]) -> Result<()> {
 
 /// In the order of names, so that the list's order does not matter.
 fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
-    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<JointFilm>>> = BTreeMap::new();
+    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<FilmLevels>>> = BTreeMap::new();
     let mut whose: BTreeMap<&str, &str> = BTreeMap::new();
     let mut sorted: Vec<&Done<'_>> = done.iter().collect();
     sorted.sort_by_key(|one| &one.entry.name);
@@ -133,10 +134,12 @@ fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
         let film =
             read::film(&read_text(&path)?).with_context(|| format!("in {}", path.display()))?;
         let knees = films.entry(&entry.group).or_default();
-        knees.entry(&entry.knee).or_default().push(film);
+        let own = knees.entry(&entry.knee).or_default();
+        // Films themselves would fill the memory by the thousand.
+        own.push(FilmLevels::of(&film));
     }
-    let group = |(name, knees): (&str, BTreeMap<&str, Vec<JointFilm>>)| {
-        let knee = |(name, films): (&str, Vec<JointFilm>)| Knee {
+    let group = |(name, knees): (&str, BTreeMap<&str, Vec<FilmLevels>>)| {
+        let knee = |(name, films): (&str, Vec<FilmLevels>)| Knee {
             name: name.to_owned(),
             films,
         };
