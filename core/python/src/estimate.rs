@@ -89,8 +89,9 @@ pub(crate) fn estimate<'py>(
     let found = beside(py, &stop, move || {
         let opened = match library {
             Some(path) => {
-                let opened = Opened::of(read(&path)?, work.model.clone(), camera);
-                Arc::new(opened.with_context(|| path.display().to_string())?)
+                let opened =
+                    read(&path).and_then(|bytes| Opened::of(bytes, work.model.clone(), camera));
+                Arc::new(opened.with_context(|| format!("library: {}", path.display()))?)
             }
             None => build()?,
         };

@@ -74,7 +74,7 @@ class Arguments(OnTheDemo):
             self.assertRegex(camera.remarks[0], words)
         for numbers, words in (
             ((3200, -3200, 511.5, 511.5), "K or size: .*vertical focal length is -3200"),
-            ((0.9, 0.9, 0.5, 0.5), "focal length is 0.9"),
+            ((3.2, 3.2, 0.5, 0.5), "focal length is 3.2; it must be at least a tenth"),
             ((3200, 3200, 2e5, 511.5), "principal point"),
         ):
             with self.assertRaisesRegex(ValueError, words):
@@ -117,7 +117,9 @@ class Arguments(OnTheDemo):
         late = fp.Click("tibia", 2, 5, 6)
         told(lambda: fp.track(frames, one, two, camera, "left", clicks=[late]), "clicks[0]: there is no such frame, the film has 2")
         early = fp.Click("tibia", -1, 5, 6)
-        told(lambda: fp.track(frames, one, two, camera, "left", clicks=[early]), "clicks: ")
+        told(lambda: fp.track(frames, one, two, camera, "left", clicks=[early]), "clicks[0]: frame is -1")
+        told(lambda: fp.track(DEMO, one, two, camera, "left"), "frames: calibration.txt: ")
+        told(lambda: fp.estimate(frames[0], one, camera, library=binary), "library: ", str(binary))
         told(lambda: fp.estimate(None, one, camera, frame=frames[0], click=(640, 5)), "click: column 640, row 5", "48 columns and 64 rows")
         told(lambda: fp.Camera.from_intcalib(binary), "source: ", str(binary))
         told(lambda: fp.Model.from_file(binary), "path: ", str(binary))
@@ -160,6 +162,11 @@ class Arguments(OnTheDemo):
         refused(TypeError, "progress ", lambda: fp.track(frames, one, two, self.camera, "left", progress=1))  # type: ignore[arg-type]
         refused(ValueError, "K ", lambda: fp.Camera(np.eye(4), (64, 64)))
         refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), 64))  # type: ignore[arg-type]
+        refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), (64.5, 64)))  # type: ignore[arg-type]
+        refused(TypeError, "clicks[0]: frame ", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[fp.Click("femur", 0.5, 1, 1)]))  # type: ignore[arg-type]
+        refused(TypeError, "clicks[0]: column", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[fp.Click("femur", 0, "x", 1)]))  # type: ignore[arg-type]
+        refused(FileNotFoundError, "fixed['femur']: ", lambda: fp.track(frames, one, two, self.camera, "left", fixed={"femur": "nowhere"}))
+        refused(OSError, "out: ", lambda: fp.track(frames, one, two, self.camera, "left", out=DEMO / "femur.stl"))
         refused(ValueError, "source", lambda: fp.Camera.from_mayacam(DEMO / "calibration.txt"))
         refused(FileNotFoundError, "nowhere", lambda: fp.Model.from_file("nowhere.stl"))
         refused(ValueError, "faces ", lambda: fp.Model(np.zeros((3, 3)), [[0, 1, 3]]))

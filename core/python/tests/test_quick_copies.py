@@ -39,6 +39,7 @@ class Copies(OnTheDemo):
         assert film.femur is not None and other.femur is not None
         np.testing.assert_array_equal(other.femur.pose, film.femur.pose)
         self.assertEqual(other.femur.because, film.femur.because)
+        self.assertEqual(repr(other.femur), "Poses('femur', 2 frames: 2 fixed)")
         joints = [one.kinematics(cutoff_hz=3.0) for one in (film, other)]
         joints.append(pickle.loads(pickle.dumps(joints[0])))
         texts = []

@@ -31,15 +31,14 @@ class Camera:
     def __init__(self, K: ArrayLike, size: tuple[int, int]) -> None:
         matrix = _checks.numbers(K, (3, 3), "K")
         try:
-            width, height = (int(side) for side in size)
+            columns, rows_ = size
         except (TypeError, ValueError) as error:
             raise TypeError("size must be (columns, rows)") from error
+        width, height = _checks.whole(columns, "size"), _checks.whole(rows_, "size")
         rows = "\n".join(",".join(repr(float(number)) for number in row) for row in matrix)
         text = f"image size\n{width},{height}\n\ncamera matrix\n{rows}\n"
-        try:
+        with _checks.argument("K or size"):
             calibration = Calibration(text)
-        except ValueError as error:
-            raise ValueError(f"K or size: {error}") from error
         self._set(calibration, matrix.tolist(), (width, height))
 
     @classmethod
@@ -59,11 +58,11 @@ class Camera:
     def _read(cls, source: _checks.PathLike) -> Camera:
         name = _checks.path(source, "source")
         try:
-            calibration = Calibration(Path(name).read_text(encoding="utf-8-sig"))
+            text = Path(name).read_text(encoding="utf-8-sig")
         except UnicodeDecodeError as error:
             raise ValueError(f"source: {name} is no text, as calibrations are") from error
-        except ValueError as error:
-            raise ValueError(f"source: in {name}: {error}") from error
+        with _checks.argument(f"source: {name}"):
+            calibration = Calibration(text)
         camera = object.__new__(cls)
         size = calibration.size()
         matrix = None

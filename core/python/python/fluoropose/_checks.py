@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -23,6 +25,23 @@ def warn(remarks: Iterable[str]) -> None:
         level += 1
     for remark in remarks:
         warnings.warn(remark, stacklevel=level)
+
+
+@contextmanager
+def argument(name: str) -> Iterator[None]:
+    """What goes wrong inside is told with the argument's name."""
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        raise type(error)(f"{name}: {error}") from error
+
+
+def whole(value: object, name: str) -> int:
+    """A whole number."""
+    try:
+        return operator.index(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise TypeError(f"{name} must be a whole number, not {type(value).__name__}") from error
 
 
 def is_path(value: object) -> bool:

@@ -30,7 +30,5 @@ def read_frames(path: _checks.PathLike) -> NDArray[Any]:
 
 
 def _decoded(file: Path) -> list[NDArray[Any]]:
-    try:
+    with _checks.argument(f"path: {file}"):
         return _native.read_frames(str(file))
-    except ValueError as error:
-        raise ValueError(f"path: {file}: {error}") from error

@@ -31,22 +31,16 @@ class Model:
             raise ValueError(f"faces must have the shape (any, 3), not {corners.shape}")
         if corners.size and (corners.min() < 0 or corners.max() >= len(places)):
             raise ValueError(f"faces name a vertex that is not there: there are {len(places)}")
-        try:
-            native = _native.Model(places.astype(np.float32), corners.astype(np.uint32))
-        except ValueError as error:
-            raise ValueError(f"vertices or faces: {error}") from error
-        self._set(native, None)
+        with _checks.argument("vertices or faces"):
+            self._set(_native.Model(places.astype(np.float32), corners.astype(np.uint32)), None)
 
     @classmethod
     def from_file(cls, path: _checks.PathLike) -> Model:
         """Reads STL, OBJ or PLY, mm."""
         name = _checks.path(path, "path")
         model = object.__new__(cls)
-        try:
-            native = _native.Model.read(name)
-        except ValueError as error:
-            raise ValueError(f"path: {name}: {error}") from error
-        model._set(native, name)
+        with _checks.argument(f"path: {name}"):
+            model._set(_native.Model.read(name), name)
         return model
 
     def seen(self, name: str, role: str | None) -> list[str]:

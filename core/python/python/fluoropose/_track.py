@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import filecmp
 import json
-import math
 import os
 import shutil
 import tempfile
@@ -139,12 +138,11 @@ def track(
     told = [remark for part in parts for remark in part.model.seen(part.name, part.name)]
     if isinstance(interpolate, bool) or not isinstance(interpolate, int) or interpolate < 0:
         raise ValueError("interpolate must be a whole number of frames, 0 or more")
-    for click in clicks:
-        _checks.instance(click, Click, "clicks")
-        if not (math.isfinite(click.column) and math.isfinite(click.row)):
-            raise ValueError(f"clicks: {click} has a place that is no number")
-        if click.frame < 0:
-            raise ValueError(f"clicks: {click} is in no frame; they are counted from 0")
+    for number, click in enumerate(clicks):
+        _checks.instance(click, Click, f"clicks[{number}]")
+        _checks.numbers([click.column, click.row], (2,), f"clicks[{number}]: column and row")
+        if _checks.whole(click.frame, f"clicks[{number}]: frame") < 0:
+            raise ValueError(f"clicks[{number}]: frame is {click.frame}; frames are counted from 0")
     given = {name: rows(poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()}
     for name in [*given, *(click.component for click in clicks)]:
         if name not in [part.name for part in parts]:
@@ -216,7 +214,8 @@ def follow(
     """Makes a study of what is given and follows its components, as the command does, which tells `hear` what has to be known. Clicks
     stand by what they are called."""
     place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
+    with _checks.argument("out"):
+        place.mkdir(parents=True, exist_ok=True)
     begun = place / ".begun"
     shutil.rmtree(begun, ignore_errors=True)
     begun.mkdir()

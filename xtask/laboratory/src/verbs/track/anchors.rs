@@ -111,12 +111,11 @@ pub(super) fn begin_beside(
                     from,
                     pose,
                 };
+                let (name, other) = (part.name(), other.name());
+                let place = format!("beside the {other} in frame {}", frame + 1);
+                run.say(format!("{name}: looked for {place}"));
                 if let Some(found) = searched(run, part, *frame, Some(seen))? {
-                    let (name, other) = (part.name(), other.name());
-                    run.say(format!(
-                        "{name}: found beside the {other} in frame {}",
-                        frame + 1
-                    ));
+                    run.say(format!("{name}: found {place}"));
                     return Ok(vec![Anchor {
                         frame: *frame,
                         found,

@@ -59,7 +59,8 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     }
     let calibration = read_calibration(&study.calibration)?;
     let frames = study.frames.as_deref();
-    let film = Film::read(frames.context("the study has no key 'frames'")?)?;
+    let frames = frames.context("the study has no key 'frames'")?;
+    let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
     let (camera, doubts) = camera_of_frames(&calibration, film.size())?;
     for doubt in doubts {
