@@ -63,6 +63,8 @@ pub struct SideStep {
 
 /// Both sides are one where they are nearer to each other than this, degrees: a trail may go over there.
 const ONE_DEG: f64 = 4.0;
+/// Below this they are the same pose, of which a frame cannot tell two.
+const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.
 const GO_OVER: [f64; 2] = [0.5, 4.0];
 /// So many times the misfit tells by itself which of two minima is the right one, where they are no mirror images.
@@ -75,9 +77,19 @@ pub(super) const MOST: f64 = 2.0;
 impl SideEvidence {
     /// What the frame says for the pose on the trail, and against it where it is negative.
     fn for_own(&self) -> f64 {
-        if self.meet() {
-            return 0.0;
+        self.told() * self.for_own_of_two()
+    }
+
+    /// How far both are two poses of which a frame can tell, 0 to 1: two sides of a mirror become one slowly.
+    fn told(&self) -> f64 {
+        match self.rival {
+            Rival::Mirrored => ((self.apart_deg - SAME_DEG) / (ONE_DEG - SAME_DEG)).clamp(0.0, 1.0),
+            Rival::Elsewhere => 1.0,
         }
+    }
+
+    /// The same of two that are far apart.
+    fn for_own_of_two(&self) -> f64 {
         let ratio = self.mirrored.misfit_px / self.own.misfit_px;
         let decisive = match self.rival {
             Rival::Mirrored => DECISIVE_RATIO,
@@ -201,6 +213,14 @@ mod tests {
         let sides: Vec<Side> = chosen(&film).iter().map(|step| step.0).collect();
         assert_eq!(sides[..4], [Side::Own; 4]);
         assert_eq!(sides[5..], [Side::Mirrored; 4]);
+    }
+
+    #[test]
+    fn sides_that_are_nearly_one_are_told_apart_by_what_is_left_of_the_difference() {
+        let film = |apart_deg: f64| [seen(0, 1.4, None, 12.0), seen(8, 1.4, None, apart_deg)];
+        let margin = |apart_deg: f64| chosen(&film(apart_deg))[1].1;
+        assert!(margin(1.9) < margin(3.0) && margin(3.0) < margin(3.9));
+        assert!(margin(1.9) < 1.0 && margin(3.9) > 1.0);
     }
 
     #[test]

@@ -5,8 +5,9 @@ use fluoropose::camera::Camera;
 use fluoropose::finder::Component;
 use fluoropose::follow::{FramePose, From, Subject, refined_on_frame};
 use fluoropose::image::contour::Point;
-use fluoropose::math::{Vector3, sqrt};
+use fluoropose::math::{Vector3, norm, sqrt, subtract};
 use fluoropose::memory::TooLittleMemory;
+use fluoropose::pose::{Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, RefineMemory};
 use heapless::Vec;
 
@@ -52,8 +53,11 @@ const LEAST_KNOWN: f64 = 0.7;
 const WORTH: f64 = 0.2;
 const AGAIN: f64 = 0.575;
 const AROUND: f64 = 0.655;
-/// Better ones are not looked for beyond this score.
+/// Better ones are not looked for beyond this score, nor where clicks at two places lead to one pose: so near to each other,
+/// degrees, and parts of its distance.
 const ENOUGH: f64 = 0.55;
+const ONE_DEG: f64 = 1.0;
+const ONE_PART: f64 = 0.01;
 
 /// Where a component was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +78,8 @@ pub struct WholeFrame {
     at: usize,
     click: Option<OneClick>,
     found: Option<Discovery>,
+    /// Whether clicks at two places led there.
+    agreed: bool,
 }
 
 impl WholeFrame {
@@ -97,6 +103,7 @@ impl WholeFrame {
             at: 0,
             click: None,
             found: None,
+            agreed: false,
         };
         search.places.retain(|place| {
             beside.is_none_or(|middle| distance_mm(place, &middle, camera) <= ACROSS_MM)
@@ -159,7 +166,7 @@ impl WholeFrame {
         self.at += 1;
         self.click = None;
         let is_enough = |found: &Discovery| found.pose.score() >= ENOUGH;
-        if !self.found.as_ref().is_some_and(is_enough) {
+        if !self.agreed && !self.found.as_ref().is_some_and(is_enough) {
             self.begin(subject.camera, component);
         }
         Ok(self.click.is_some())
@@ -202,11 +209,20 @@ impl WholeFrame {
         ) else {
             return;
         };
+        self.agreed = self
+            .found
+            .is_some_and(|found| are_one(&found.pose.pose, &pose.pose));
         let is_better = |found: &Discovery| pose.score() > found.pose.score();
         if self.found.as_ref().is_none_or(is_better) {
             self.found = Some(Discovery { place, pose });
         }
     }
+}
+
+fn are_one(one: &Pose, other: &Pose) -> bool {
+    let off = norm(&subtract(&one.translation, &other.translation));
+    geodesic_deg(&one.rotation, &other.rotation) <= ONE_DEG
+        && off <= ONE_PART * norm(&other.translation)
 }
 
 fn demands(beside: Option<Vector3>) -> &'static Demands {

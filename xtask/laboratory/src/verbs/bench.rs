@@ -1,6 +1,7 @@
 //! Verb `bench`: this machine at the core's work, beside what a user would otherwise take.
 
 mod catalogue;
+mod films;
 mod native;
 mod peers;
 mod row;
@@ -22,7 +23,7 @@ pub struct Args {
     /// Implants of the catalogue among which one is to be identified; building it takes about a second for each
     #[arg(long, value_name = "N", default_value_t = 500)]
     implants: usize,
-    /// Folder of real studies (left8, film70), whose masks and models are measured too
+    /// Folder of real studies (left8, film70), whose masks, models and films are measured too
     #[arg(long, value_name = "DIR")]
     studies: Option<PathBuf>,
     /// With --studies: those rows alone
@@ -48,6 +49,7 @@ pub fn run(args: Args) -> Result<()> {
     }
     if let Some(studies) = &args.studies {
         rows.extend(studies::measure(studies)?);
+        rows.extend(films::measure(studies, &args.work)?);
     }
     print_rows(&rows);
     write_json(args.json.as_deref(), &serde_json::json!({ "rows": rows }))

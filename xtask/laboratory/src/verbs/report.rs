@@ -81,6 +81,17 @@ pub fn report(file: &Path, args: &Args) -> Result<JointFilm> {
     Ok(film)
 }
 
+/// What is told of a study's joint that no knee has, by the poses in a folder; nothing where the study does not have one joint.
+pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
+    let film = || -> Result<JointFilm> {
+        let study = Study::read(file)?;
+        let sources = Sources::read(file, &study, Some(poses))?;
+        let knee = Knee::new(&study.name, side(&study)?, &sources)?;
+        knee.film(&sources, &Filtering::new(None, None)?)
+    };
+    film().map_or_else(|_| Vec::new(), |film| film.impossibilities())
+}
+
 fn side(study: &Study) -> Result<Side> {
     let side = study.side;
     let side = side.context("the study does not say which knee it is: key side")?;

@@ -22,6 +22,7 @@ use anyhow::Result;
 
 use crate::options::Shown;
 use crate::progress::Stop;
+use crate::verbs::report::impossible;
 
 pub use film::{Tracked, track};
 pub use request::{Click, Fixed, FixedPoses, Listener, Request, Told};
@@ -89,6 +90,9 @@ pub fn run(args: Args) -> Result<()> {
     let tracked = track(&request)?;
     for part in &tracked {
         println!("{part}");
+    }
+    for told in impossible(&request.study, &request.out) {
+        println!("{told}");
     }
     Ok(())
 }

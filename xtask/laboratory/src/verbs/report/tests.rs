@@ -43,6 +43,15 @@ fn poses() -> [Vec<Option<EulerPose>>; 2] {
     both
 }
 
+fn write_poses(folder: &Path, name: &str, poses: &[Option<EulerPose>]) {
+    let mut text = String::new();
+    jts::write_heading(&mut text).unwrap();
+    for pose in poses {
+        jts::write_row(&mut text, pose.as_ref()).unwrap();
+    }
+    std::fs::write(folder.join(format!("{name}.jts")), text).unwrap();
+}
+
 fn write_study(folder: &Path) {
     let parameters = Parameters {
         side: implant::Side::Left,
@@ -52,12 +61,7 @@ fn write_study(folder: &Path) {
         stl::write_file(&mesh.unwrap(), &folder.join(format!("{name}.stl"))).unwrap();
     }
     for (name, poses) in ["femur", "tibia"].into_iter().zip(poses()) {
-        let mut text = String::new();
-        jts::write_heading(&mut text).unwrap();
-        for pose in &poses {
-            jts::write_row(&mut text, pose.as_ref()).unwrap();
-        }
-        std::fs::write(folder.join(format!("{name}.jts")), text).unwrap();
+        write_poses(folder, name, &poses);
         // A tenth of a degree, and 0.1 mm but for depth.
         let mut table = String::from("frame,c11\n");
         for frame in 1..=FRAMES {
@@ -130,7 +134,23 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     check_group(&folder, column);
     read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
+    check_impossible(&folder);
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// A tray upside down is told, a joint is not, nor anything of a study without one.
+fn check_impossible(folder: &Path) {
+    let study = folder.join("study.toml");
+    assert!(impossible(&study, folder).is_empty());
+    let [_, mut tibia] = poses();
+    let over = pose([0.0; 3], [170.0, 0.0, 0.0]);
+    for row in &mut tibia {
+        *row = row.map(|row| EulerPose::from(Pose::from(row).compose(&over)));
+    }
+    write_poses(folder, "tibia", &tibia);
+    assert!(!impossible(&study, folder).is_empty());
+    std::fs::remove_file(folder.join("tibia.jts")).unwrap();
+    assert!(impossible(&study, folder).is_empty());
 }
 
 /// A program that shares no code with this one reads all files, where the machine has a Python.

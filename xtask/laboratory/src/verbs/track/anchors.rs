@@ -76,13 +76,18 @@ fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Resul
 }
 
 /// A frame that a component is followed from, where it is found in it.
-pub(super) fn found_in(run: &Run<'_>, part: &Part<'_>, frame: usize) -> Result<Option<Anchor>> {
+pub(super) fn found_in(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    frame: usize,
+    depth: Option<f64>,
+) -> Result<Option<Anchor>> {
     run.say(format!(
         "{}: looked for in frame {}",
         part.name(),
         frame + 1
     ));
-    let found = searched(run, part, frame, None)?;
+    let found = searched(run, part, frame, depth, None)?;
     if found.is_some() {
         run.say(format!("{}: found in frame {}", part.name(), frame + 1));
     }
@@ -111,10 +116,11 @@ pub(super) fn begin_beside(
                     from,
                     pose,
                 };
+                let depth = Some(other.depth_of(pose));
                 let (name, other) = (part.name(), other.name());
                 let place = format!("beside the {other} in frame {}", frame + 1);
                 run.say(format!("{name}: looked for {place}"));
-                if let Some(found) = searched(run, part, *frame, Some(seen))? {
+                if let Some(found) = searched(run, part, *frame, depth, Some(seen))? {
                     run.say(format!("{name}: found {place}"));
                     return Ok(vec![Anchor {
                         frame: *frame,
@@ -159,15 +165,16 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
 
 /// Looks for a component in runs of frames in which it was not found, and follows it from where it is.
 pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> {
-    if cells.iter().all(|cell| cell.found().is_none()) {
+    let Some(known) = cells.iter().find_map(Cell::found) else {
         // It was searched in vain.
         return Ok(());
-    }
+    };
+    let depth = Some(part.depth_of(&known.pose));
     let mut from = 0;
     while let Some(gap) = run_to_search(cells, &(from..cells.len())) {
         from = gap.end;
         for frame in frames_to_search(&gap) {
-            let Some(found) = searched(run, part, frame, None)? else {
+            let Some(found) = searched(run, part, frame, depth, None)? else {
                 continue;
             };
             let anchor = Anchor {

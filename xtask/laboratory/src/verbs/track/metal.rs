@@ -78,14 +78,25 @@ impl<'s> Search<'s> {
     fn alone(&mut self, run: &Run<'_>, frame: usize) -> Result<bool> {
         if !self.seen.contains(&frame) {
             self.seen.push(frame);
+            let depth = self.depth();
             let both = self.parts.par_iter().zip(&mut self.anchors);
             both.filter(|(_, anchors)| anchors.is_empty())
                 .try_for_each(|(part, anchors)| -> Result<()> {
-                    anchors.extend(found_in(run, part, frame)?);
+                    anchors.extend(found_in(run, part, frame, depth)?);
                     Ok(())
                 })?;
         }
         Ok(self.is_whole())
+    }
+
+    /// How far away a component is that is known, mm: the others of its joint are there too.
+    fn depth(&self) -> Option<f64> {
+        let known = self.parts.iter().zip(&self.anchors);
+        let mut depths = known.filter_map(|(part, anchors)| {
+            let anchor = anchors.first()?;
+            Some(part.depth_of(&anchor.found.pose))
+        });
+        depths.next()
     }
 
     /// Looks for what is missing beside what was found; whether all is found then.

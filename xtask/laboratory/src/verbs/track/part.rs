@@ -141,6 +141,11 @@ impl<'s> Part<'s> {
         self.mesh.bounds().centre
     }
 
+    /// How far away the component is at a pose, mm.
+    pub(super) fn depth_of(&self, pose: &Pose) -> f64 {
+        -pose.transform(&self.middle())[2]
+    }
+
     pub(super) fn model(&self) -> Model<'s> {
         self.model.as_model()
     }
@@ -155,6 +160,17 @@ impl<'s> Part<'s> {
             (None, Calibration::CameraMatrix { .. }) => vec![FARTHER * usual, NEARER * usual],
             (None, _) => vec![usual],
         }
+    }
+
+    /// Those with their numbers, or the one that serves a part which is about so far away, mm.
+    pub(super) fn distances_near(&self, depth: Option<f64>) -> Vec<(usize, f64)> {
+        let mut all: Vec<(usize, f64)> = self.distances().into_iter().enumerate().collect();
+        if let Some(depth) = depth {
+            let off = |(_, distance): &(usize, f64)| (distance / depth).ln().abs();
+            all.sort_by(|one, other| off(one).total_cmp(&off(other)));
+            all.truncate(1);
+        }
+        all
     }
 
     /// The library for one of the distances, of all views or of those that the study asks for; built when it is first wanted.

@@ -51,10 +51,12 @@ pub(super) struct Beside<'b, 's> {
 }
 
 /// The pose of a component in a frame that nobody clicked into, perhaps beside another that is known; `None` where none is good.
+/// `depth` is about how far away it is, mm, where that is known of other frames or of the other component.
 pub(super) fn searched(
     run: &Run<'_>,
     part: &Part<'_>,
     frame: usize,
+    depth: Option<f64>,
     beside: Option<Beside<'_, '_>>,
 ) -> Result<Option<FramePose>> {
     let known = beside.map_or(String::new(), |beside| {
@@ -68,17 +70,18 @@ pub(super) fn searched(
         };
         let unknown = unknown.as_ref().map(MaskBuffer::mask);
         let middle = beside.map(|beside| beside.pose.transform(&beside.part.middle()));
-        let mut found: Option<FramePose> = None;
-        for (number, distance) in part.distances().into_iter().enumerate() {
+        for (number, distance) in part.distances_near(depth) {
             let mut clicker =
                 Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
-            let one =
+            let found =
                 part.see_beside(run.film, frame, unknown.as_ref(), |subject, image, _| {
                     clicker.search(subject, image, middle)
                 })??;
-            found = found.or(one.map(|one| one.pose));
+            if let Some(found) = found {
+                return Ok(Some(found.pose));
+            }
         }
-        Ok(found)
+        Ok(None)
     })
 }
 
