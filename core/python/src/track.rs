@@ -76,16 +76,7 @@ pub(crate) fn track<'py>(
         listener: listener(&untold),
         stop: stop.clone(),
     };
-    let hear = |_: Python<'_>| {
-        let news = std::mem::take(&mut *untold.lock().unwrap_or_else(PoisonError::into_inner));
-        for sentence in news.remarks {
-            remark.call1((sentence,))?;
-        }
-        if let (Some(progress), Some(step)) = (&progress, news.step) {
-            progress.call1(step)?;
-        }
-        Ok(())
-    };
+    let hear = |_: Python<'_>| hear(&untold, &remark, progress.as_ref());
     let found = beside_telling(py, &stop, hear, move || {
         let tracked = fluoropose_laboratory::verbs::track::track(&request)?;
         let covariances = tracked.iter().map(|part| of(&out, &part.component));
@@ -98,6 +89,22 @@ pub(crate) fn track<'py>(
         parts.append(component(py, part, covariances)?)?;
     }
     Ok(parts)
+}
+
+/// Calls Python with what a run has told since.
+fn hear(
+    untold: &Mutex<Untold>,
+    remark: &Bound<'_, PyAny>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<()> {
+    let news = std::mem::take(&mut *untold.lock().unwrap_or_else(PoisonError::into_inner));
+    for sentence in news.remarks {
+        remark.call1((sentence,))?;
+    }
+    if let (Some(progress), Some(step)) = (progress, news.step) {
+        progress.call1(step)?;
+    }
+    Ok(())
 }
 
 /// Notes what a run tells.

@@ -5,6 +5,7 @@ use std::fs;
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
+use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
 use rayon::prelude::*;
@@ -69,28 +70,9 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
-    let mut inputs = Sha256::new();
-    inputs.update(film.digest());
-    inputs.update(read(&study.calibration)?);
-    for (model, component) in models.iter().zip(&study.components) {
-        inputs.update(model.as_model().digest());
-        inputs.update(format!(
-            "{:?}{:?}",
-            component.nominal, component.distance_mm
-        ));
-    }
-    inputs.update([match request.polarity {
-        Some(Polarity::DarkImplant) => 0,
-        Some(Polarity::BrightImplant) => 1,
-        None => 2,
-    }]);
     let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
     let stated = Stated::of(study.film, &attenuations);
-    if study.film.is_some() {
-        inputs.update(format!("{stated:?}"));
-    }
-    let digest: [u8; 32] = inputs.finalize().into();
-    let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let digest = digest(request, &study, &film, &models, &stated)?;
     let journal = request.out.join("journal.txt");
     let run = Run {
         request,
@@ -115,6 +97,36 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         .collect::<Result<_>>()?;
     let margins = on_the_right_sides(&run, &parts, &mut films)?;
     finish(&run, &parts, &films, &margins)
+}
+
+/// Tells what all steps of a run depend on from all else, hexadecimal.
+fn digest(
+    request: &Request,
+    study: &Study,
+    film: &Film,
+    models: &[OwnedModel],
+    stated: &Stated,
+) -> Result<String> {
+    let mut inputs = Sha256::new();
+    inputs.update(film.digest());
+    inputs.update(read(&study.calibration)?);
+    for (model, component) in models.iter().zip(&study.components) {
+        inputs.update(model.as_model().digest());
+        inputs.update(format!(
+            "{:?}{:?}",
+            component.nominal, component.distance_mm
+        ));
+    }
+    inputs.update([match request.polarity {
+        Some(Polarity::DarkImplant) => 0,
+        Some(Polarity::BrightImplant) => 1,
+        None => 2,
+    }]);
+    if study.film.is_some() {
+        inputs.update(format!("{stated:?}"));
+    }
+    let digest: [u8; 32] = inputs.finalize().into();
+    Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// A component followed by itself.
