@@ -10,6 +10,7 @@ import unittest
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -45,7 +46,9 @@ class Cells(OnTheDemo):
     @classmethod
     def setUpClass(cls) -> None:
         super().setUpClass()
-        os.environ.update(FLUOROPOSE_DEMO=str(DEMO.absolute()), MPLBACKEND="Agg")
+        environment = patch.dict(os.environ, FLUOROPOSE_DEMO=str(DEMO.absolute()), MPLBACKEND="Agg")
+        environment.start()
+        cls.addClassCleanup(environment.stop)
         cls.addClassCleanup(os.chdir, os.getcwd())
         os.chdir(cls.folder)
 
