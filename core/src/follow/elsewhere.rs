@@ -13,6 +13,7 @@ use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, sin_cos};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{ImageTarget, RefineMemory};
+use crate::shortlist::keep;
 
 /// Starts are turned by so many degrees about axes in the image plane, to so many sides.
 const TURN_DEG: f64 = 9.0;
@@ -21,6 +22,8 @@ const SIDES: usize = 6;
 const SAME_DEG: f64 = 2.0;
 /// Least strength of the edges, in that of the pose on the trail.
 const LEAST_STRENGTH: f64 = 0.85;
+/// So many of the poses that starts lead to on the first look are looked at closely.
+const REFINED: usize = 2;
 /// Poses that are known or were found.
 const SEEN: usize = SIDES + 2;
 
@@ -33,26 +36,13 @@ pub fn elsewhere(
     (own, mirrored): (&FramePose, Option<&FramePose>),
     memory: &mut RefineMemory<'_>,
 ) -> Option<FramePose> {
-    let middle = subject.model.bounds().centre;
-    let mut seen: Vec<Pose, SEEN> = core::iter::once(own)
-        .chain(mirrored)
-        .map(|known| known.pose)
-        .collect();
+    let known = || core::iter::once(own).chain(mirrored);
     let mut best: Option<FramePose> = None;
-    for start in starts(&own.pose, &middle) {
-        let Ok(near) = probed(subject, image, &start, memory) else {
-            continue;
-        };
-        if seen.iter().any(|one| are_one(one, &near)) {
-            continue;
-        }
-        // There is room for each.
-        let _ = seen.push(near);
+    for near in near_elsewhere(subject, image, known().map(|known| &known.pose), memory) {
         let Ok(found) = refined_on_frame(subject, image, (&near, From::Near), memory) else {
             continue;
         };
-        let known = core::iter::once(own).chain(mirrored);
-        let back = known.into_iter().any(|one| are_one(&one.pose, &found.pose));
+        let back = known().any(|one| are_one(&one.pose, &found.pose));
         let strong = found.contrast.strength >= LEAST_STRENGTH * own.contrast.strength;
         let less = best.is_none_or(|best| found.misfit_px < best.misfit_px);
         if strong && less && !back {
@@ -60,6 +50,31 @@ pub fn elsewhere(
         }
     }
     best
+}
+
+/// Where starts beside the first of the known poses come on the first look, apart from all of them: those that leave least there.
+fn near_elsewhere<'p>(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    known: impl Iterator<Item = &'p Pose>,
+    memory: &mut RefineMemory<'_>,
+) -> Vec<Pose, REFINED> {
+    let middle = subject.model.bounds().centre;
+    let mut seen: Vec<Pose, SEEN> = known.copied().collect();
+    let mut least: Vec<(f64, Pose), REFINED> = Vec::new();
+    let own = seen.first().copied();
+    for start in own.iter().flat_map(|own| starts(own, &middle)) {
+        let Ok(near) = probed(subject, image, &start, memory) else {
+            continue;
+        };
+        if seen.iter().any(|one| are_one(one, &near.pose)) {
+            continue;
+        }
+        // There is room for each.
+        let _ = seen.push(near.pose);
+        keep(&mut least, (near.loss, near.pose), |one| one.0);
+    }
+    least.into_iter().map(|(_, pose)| pose).collect()
 }
 
 fn are_one(one: &Pose, other: &Pose) -> bool {

@@ -70,7 +70,7 @@ pub fn refined_on_frame(
         (Some(_), From::Near) => correct(model, &views, &begun(start), options, memory)?,
         (Some(_), From::Far) => {
             let near = probed(subject, image, start, memory)?;
-            correct(model, &views, &begun(&near), options, memory)?
+            correct(model, &views, &begun(&near.pose), options, memory)?
         }
     };
     let assessment = assess(subject.model, &views, &refined, memory)?;
@@ -84,7 +84,7 @@ pub fn refined_on_frame(
     })
 }
 
-/// Where refinement comes from a start on the first look, over edges as they seem to be.
+/// Where refinement comes from a start on the first look, over edges as they seem to be, with what remains there.
 ///
 /// # Errors
 /// Those of [`refine`].
@@ -93,13 +93,13 @@ pub(super) fn probed(
     image: &ImageTarget<'_>,
     start: &Pose,
     memory: &mut RefineMemory<'_>,
-) -> Result<Pose, RefineError> {
+) -> Result<Refined, RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
     let probe = RefineOptions {
         effort: Effort::Probe,
         ..subject.options
     };
-    Ok(refine(subject.model, &views, start, probe, memory)?.pose)
+    refine(subject.model, &views, start, probe, memory)
 }
 
 /// A pose from which the last stage of refinement begins.
