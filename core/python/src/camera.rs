@@ -1,6 +1,7 @@
 //! Calibrations.
 
 use fluoropose::camera::calibration;
+use fluoropose_laboratory::files::camera_of_frames;
 use pyo3::prelude::*;
 
 use crate::failure::python_error;
@@ -31,6 +32,22 @@ impl Calibration {
             calibration::Calibration::CameraMatrix { size, .. } => Some(size),
             _ => None,
         }
+    }
+
+    /// What is unusual of the camera for frames of a size, a sentence each: most often the calibration is wrong then.
+    fn doubts(&self, width: usize, height: usize) -> PyResult<Vec<String>> {
+        let camera = camera_of_frames(&self.read, (width, height));
+        Ok(camera.map_err(python_error)?.1)
+    }
+
+    /// What a copy in another process is made from.
+    fn __getnewargs__(&self) -> (String,) {
+        (self.text(),)
+    }
+
+    /// Nothing changes it.
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     /// Focal lengths and principal point for frames of a size, pixels; a pixel's centre is its index + 0.5.

@@ -23,15 +23,15 @@ use crate::camera::Calibration;
 use crate::failure::python_error;
 use crate::model::{Model, Opened, Views, role_of};
 use crate::pixels::{GreyArray, masks_of};
-use crate::poses::{NOTHING, Six, euler, rows_of, six};
+use crate::poses::{NOTHING, poses_of, six};
 use crate::worker::beside;
 
 /// The other component as Python hands it over: which one this is, the other's poses, its model.
 type Other<'py> = (String, PyReadonlyArray2<'py, f64>, Option<Py<Model>>);
 
-/// Finds the pose in each mask, all of them chosen together; a dictionary for each.
+/// Finds the pose in each mask, all of them chosen together; a dictionary for each. None is good where there is a `doubt` of the model.
 #[pyfunction]
-#[pyo3(signature = (model, calibration, masks, *, unknown, frames, method, library, nominal, distance_mm, bright, edge_offset, other))]
+#[pyo3(signature = (model, calibration, masks, *, unknown, frames, method, library, nominal, distance_mm, bright, edge_offset, other, doubt))]
 #[allow(clippy::too_many_arguments, reason = "Python names each of them")]
 pub(crate) fn estimate<'py>(
     py: Python<'py>,
@@ -47,6 +47,7 @@ pub(crate) fn estimate<'py>(
     bright: Option<bool>,
     edge_offset: bool,
     other: Option<Other<'py>>,
+    doubt: Option<String>,
 ) -> PyResult<Bound<'py, PyList>> {
     let &[_, height, width] = masks.shape() else {
         return Err(PyValueError::new_err("masks have three dimensions"));
@@ -80,6 +81,7 @@ pub(crate) fn estimate<'py>(
         other: other
             .map(|other| OtherComponent::of(py, other))
             .transpose()?,
+        doubt,
         stop: Stop::default(),
     };
     let build = model.library(camera, views);
@@ -87,8 +89,9 @@ pub(crate) fn estimate<'py>(
     let found = beside(py, &stop, move || {
         let opened = match library {
             Some(path) => {
-                let opened = Opened::of(read(&path)?, work.model.clone(), camera);
-                Arc::new(opened.with_context(|| path.display().to_string())?)
+                let opened =
+                    read(&path).and_then(|bytes| Opened::of(bytes, work.model.clone(), camera));
+                Arc::new(opened.with_context(|| format!("library: {}", path.display()))?)
             }
             None => build()?,
         };
@@ -118,6 +121,7 @@ struct Work {
     method: Method,
     edges: EdgeOptions,
     other: Option<OtherComponent>,
+    doubt: Option<String>,
     stop: Stop,
 }
 
@@ -128,6 +132,7 @@ impl Work {
             method: self.method,
             edges: self.edges,
             beside: self.other.as_ref().map(OtherComponent::beside),
+            doubt: self.doubt.clone(),
             stop: self.stop.clone(),
         };
         posing.run(source.disturbed(&DisturbanceOptions::default())?)
@@ -142,10 +147,9 @@ struct OtherComponent {
 
 impl OtherComponent {
     fn of(py: Python<'_>, (role, poses, model): Other<'_>) -> PyResult<Self> {
-        let pose = |row: &Six| euler(row).map(Pose::from);
         Ok(Self {
             role: role_of(&role)?,
-            poses: rows_of(&poses).iter().map(pose).collect(),
+            poses: poses_of(&poses),
             model: model.map(|model| model.borrow(py).model.clone()),
         })
     }

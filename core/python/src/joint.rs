@@ -6,19 +6,19 @@ use std::sync::Arc;
 use fluoropose::Side;
 use fluoropose::joint::COLUMNS;
 use fluoropose::mesh::OwnedModel;
-use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_laboratory::verbs::report::knee::{Filtering, Knee};
 use fluoropose_laboratory::verbs::report::sources::{Body, Sources, Uncertain};
 use fluoropose_report::levels::by_flexion;
 use fluoropose_report::{JointFilm, figure, write};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::failure::python_error;
 use crate::model::Model;
-use crate::poses::{Six, euler, rows_of};
+use crate::poses::poses_of;
 
 /// A component: its model, poses (n x 6), what is uncertain of them (n x 48 or nothing: the covariance, and what a step of each of the
 /// film's constants does) and stated axes.
@@ -30,27 +30,26 @@ type Component<'py> = (
 );
 
 /// A joint in all frames of a film.
-#[pyclass(frozen, module = "fluoropose._native")]
-pub(crate) struct Joint {
+struct Joint {
     film: JointFilm,
     axes: [String; 2],
     remarks: Vec<String>,
 }
 
-/// The joint of two components.
+/// The joint of two components: all that is made of it.
 #[pyfunction]
 #[pyo3(signature = (femur, tibia, *, side, name, fps, cutoff, doubts))]
 #[allow(clippy::too_many_arguments, reason = "Python names each of them")]
-pub(crate) fn joint(
-    py: Python<'_>,
-    femur: Component<'_>,
-    tibia: Component<'_>,
+pub(crate) fn joint<'py>(
+    py: Python<'py>,
+    femur: Component<'py>,
+    tibia: Component<'py>,
     side: &str,
     name: &str,
     fps: Option<f64>,
     cutoff: Option<f64>,
     doubts: BTreeMap<usize, String>,
-) -> PyResult<Joint> {
+) -> PyResult<Bound<'py, PyDict>> {
     let side = match side {
         "left" => Side::Left,
         "right" => Side::Right,
@@ -77,12 +76,11 @@ pub(crate) fn joint(
             axes: [knee.femur_axes.to_string(), knee.tibia_axes.to_string()],
         })
     });
-    joint.map_err(python_error)
+    joint.map_err(python_error)?.answer(py)
 }
 
 fn body(py: Python<'_>, name: &str, (model, poses, uncertain, axes): Component<'_>) -> Body {
     let model: Arc<OwnedModel> = model.borrow(py).model.clone();
-    let pose = |row: &Six| euler(row).map(Pose::from);
     let mut known = BTreeMap::new();
     if let Some(uncertain) = uncertain {
         let numbers: Vec<f64> = uncertain.as_array().iter().copied().collect();
@@ -105,61 +103,54 @@ fn body(py: Python<'_>, name: &str, (model, poses, uncertain, axes): Component<'
         name: name.to_owned(),
         stated_axes: axes,
         model: (*model).clone(),
-        poses: rows_of(&poses).iter().map(pose).collect(),
+        poses: poses_of(&poses),
         uncertain: known,
     }
 }
 
-#[pymethods]
 impl Joint {
-    /// Names of the numbers.
-    #[staticmethod]
-    fn names() -> Vec<&'static str> {
-        COLUMNS.iter().map(|column| column.name).collect()
+    fn answer<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let film = &self.film;
+        let answer = PyDict::new(py);
+        let names: Vec<&str> = COLUMNS.iter().map(|column| column.name).collect();
+        let units: Vec<&str> = COLUMNS.iter().map(|column| column.unit).collect();
+        answer.set_item("names", names)?;
+        answer.set_item("units", units)?;
+        answer.set_item("values", self.table(py, |number| film.values(number))?)?;
+        answer.set_item("sd", self.table(py, |number| film.deviations(number))?)?;
+        answer.set_item("filtered", self.table(py, |number| self.filtered(number))?)?;
+        let doubts: Vec<Option<&str>> = film.rows.iter().map(|row| row.doubt.as_deref()).collect();
+        answer.set_item("doubt", doubts)?;
+        answer.set_item("by_flexion", self.by_flexion(py)?)?;
+        let cycles = (0..COLUMNS.len()).flat_map(|number| film.cycle(number));
+        let cycles: Vec<f64> = cycles.collect();
+        let points = cycles.len() / COLUMNS.len();
+        let cycles = cycles.into_pyarray(py).reshape([COLUMNS.len(), points])?;
+        answer.set_item("cycles", cycles)?;
+        answer.set_item("csv", write::table(film))?;
+        // It needs times.
+        answer.set_item(
+            "mot",
+            film.frames_per_s
+                .map(|_| write::mot(film))
+                .transpose()
+                .map_err(python_error)?,
+        )?;
+        answer.set_item("svg", figure(film))?;
+        answer.set_item("axes", &self.axes)?;
+        answer.set_item("remarks", &self.remarks)?;
+        Ok(answer)
     }
 
-    /// Their units.
-    #[staticmethod]
-    fn units() -> Vec<&'static str> {
-        COLUMNS.iter().map(|column| column.unit).collect()
-    }
-
-    /// All numbers, a row a frame.
-    fn values<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.table(py, |number| self.film.values(number))
-    }
-
-    /// One standard deviation of each.
-    fn deviations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.table(py, |number| self.film.deviations(number))
-    }
-
-    /// The numbers of the filtered poses.
-    fn filtered<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let of = |number: usize| {
-            let rows = self.film.rows.iter();
-            rows.map(|row| row.filtered.map_or(f64::NAN, |numbers| numbers[number]))
-                .collect()
-        };
-        self.table(py, of)
-    }
-
-    /// Why each frame is doubtful.
-    fn doubts(&self) -> Vec<Option<String>> {
-        self.film.rows.iter().map(|row| row.doubt.clone()).collect()
+    /// A number of the filtered poses in each frame.
+    fn filtered(&self, number: usize) -> Vec<f64> {
+        let rows = self.film.rows.iter();
+        rows.map(|row| row.filtered.map_or(f64::NAN, |numbers| numbers[number]))
+            .collect()
     }
 
     /// Flexions, and at each of them mean, standard deviation and number of phases of each number.
-    #[allow(clippy::type_complexity, reason = "four arrays")]
-    fn by_flexion<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(
-        Bound<'py, PyArray1<f64>>,
-        Bound<'py, PyArray2<f64>>,
-        Bound<'py, PyArray2<f64>>,
-        Bound<'py, PyArray2<u64>>,
-    )> {
+    fn by_flexion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let levels = by_flexion(&self.film);
         let shape = [levels.len(), COLUMNS.len()];
         let steps = || levels.iter().flat_map(|level| &level.steps);
@@ -167,46 +158,14 @@ impl Joint {
         let deviations: Vec<f64> = steps().map(|step| step.deviation).collect();
         let counts: Vec<u64> = steps().map(|step| step.n as u64).collect();
         let flexions: Vec<f64> = levels.iter().map(|level| level.flexion_deg).collect();
-        Ok((
-            flexions.into_pyarray(py),
-            means.into_pyarray(py).reshape(shape)?,
-            deviations.into_pyarray(py).reshape(shape)?,
-            counts.into_pyarray(py).reshape(shape)?,
-        ))
+        let answer = PyDict::new(py);
+        answer.set_item("flexion_deg", flexions.into_pyarray(py))?;
+        answer.set_item("mean", means.into_pyarray(py).reshape(shape)?)?;
+        answer.set_item("sd", deviations.into_pyarray(py).reshape(shape)?)?;
+        answer.set_item("n", counts.into_pyarray(py).reshape(shape)?)?;
+        Ok(answer)
     }
 
-    /// One number over the film at 0 to 100 percent.
-    fn cycle<'py>(&self, py: Python<'py>, number: usize) -> Bound<'py, PyArray1<f64>> {
-        self.film.cycle(number).into_pyarray(py)
-    }
-
-    /// joint.csv.
-    fn csv(&self) -> String {
-        write::table(&self.film)
-    }
-
-    /// joint.mot.
-    fn mot(&self) -> PyResult<String> {
-        write::mot(&self.film).map_err(python_error)
-    }
-
-    /// The published figure.
-    fn svg(&self) -> String {
-        figure(&self.film)
-    }
-
-    /// Which of the femoral and of the tibial file's axes is which.
-    fn axes(&self) -> Vec<String> {
-        self.axes.to_vec()
-    }
-
-    /// What a reader has to know of these data.
-    fn remarks(&self) -> Vec<String> {
-        self.remarks.clone()
-    }
-}
-
-impl Joint {
     /// A column for each number.
     fn table<'py>(
         &self,

@@ -29,7 +29,7 @@ mod _native {
     #[pymodule_export]
     use crate::estimate::estimate;
     #[pymodule_export]
-    use crate::joint::{Joint, joint};
+    use crate::joint::joint;
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
@@ -41,7 +41,6 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        fluoropose_laboratory::progress::without_bars();
         module.add("VERSION", env!("CARGO_PKG_VERSION"))
     }
 }

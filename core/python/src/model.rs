@@ -120,11 +120,13 @@ impl Model {
         Ok(Self::of(model, remarks))
     }
 
-    /// A model of vertices (mm, n x 3) and triangles (n x 3 vertex numbers).
+    /// A model of vertices (mm, n x 3) and triangles (n x 3 vertex numbers). `remarks` is what a file told of it.
     #[new]
+    #[pyo3(signature = (vertices, triangles, remarks=None))]
     fn new(
         vertices: PyReadonlyArray2<'_, f32>,
         triangles: PyReadonlyArray2<'_, u32>,
+        remarks: Option<Vec<String>>,
     ) -> PyResult<Self> {
         let (vertices, triangles) = (vertices.as_array(), triangles.as_array());
         let model = OwnedModel::new(
@@ -132,8 +134,26 @@ impl Model {
             triangles.iter().copied().collect(),
         );
         let model = model.map_err(python_error)?;
-        let remarks = model.remarks();
+        let remarks = remarks.unwrap_or_else(|| model.remarks());
         Ok(Self::of(model, remarks))
+    }
+
+    /// What a copy in another process is made from; it builds libraries of its own.
+    #[allow(clippy::type_complexity, reason = "the arguments of `new`")]
+    fn __getnewargs__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(
+        Bound<'py, PyArray2<f32>>,
+        Bound<'py, PyArray2<u32>>,
+        Vec<String>,
+    )> {
+        Ok((self.vertices(py)?, self.triangles(py)?, self.remarks()))
+    }
+
+    /// Nothing changes it, and its libraries are kept.
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     /// Vertices, mm.

@@ -46,6 +46,12 @@ pub(crate) fn rows_of(rows: &PyReadonlyArray2<'_, f64>) -> Vec<Six> {
     numbers.as_chunks().0.to_vec()
 }
 
+/// The poses of an n x 6 array.
+pub(crate) fn poses_of(rows: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Pose>> {
+    let pose = |row: &Six| euler(row).map(Pose::from);
+    rows_of(rows).iter().map(pose).collect()
+}
+
 /// An n x 6 array of rows.
 pub(crate) fn array_of(py: Python<'_>, rows: Vec<Six>) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let count = rows.len();
@@ -55,12 +61,12 @@ pub(crate) fn array_of(py: Python<'_>, rows: Vec<Six>) -> PyResult<Bound<'_, PyA
 /// Reads a pose file; the numbers are those of the file, to the last bit.
 #[pyfunction]
 pub(crate) fn read_poses(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let read = || -> anyhow::Result<Vec<Six>> {
-        let text = files::read_text(&path)?;
-        let rows = jts::read(&text)?.map(|row| Ok(row?.map_or(NOTHING, six)));
-        rows.collect()
-    };
-    let rows = read().with_context(|| format!("in {}", path.display()));
+    let text = files::read_text(&path).map_err(python_error)?;
+    let rows = jts::read(&text).and_then(|rows| {
+        rows.map(|row| Ok(row?.map_or(NOTHING, six)))
+            .collect::<Result<Vec<Six>, _>>()
+    });
+    let rows = rows.with_context(|| format!("in {}", path.display()));
     array_of(py, rows.map_err(python_error)?)
 }
 

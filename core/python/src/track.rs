@@ -2,61 +2,82 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::Result;
 use fluoropose::refine::Polarity;
 use fluoropose_laboratory::files::read_text;
 use fluoropose_laboratory::progress::Stop;
 use fluoropose_laboratory::verbs::report::sources::{Uncertain, covariances};
-use fluoropose_laboratory::verbs::track::{Click, FixedPoses, Request, Row, Tracked};
+use fluoropose_laboratory::verbs::track::{Click, Fixed, Listener, Request, Row, Told, Tracked};
+use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-use crate::poses::{NOTHING, array_of, six, six_deviations};
-use crate::worker::beside;
+use crate::poses::{NOTHING, array_of, poses_of, six, six_deviations};
+use crate::worker::beside_telling;
 
-/// A click: component, frame from 0, column and row.
-type ClickGiven = (String, usize, f64, f64);
+/// A click: component, frame from 0, column and row; what it is called.
+type ClickGiven = (String, usize, f64, f64, String);
 
-/// Follows the components of a study; a dictionary for each, in the study's order.
+/// Fixed poses: component, rows; what they are called.
+type FixedGiven<'py> = (String, PyReadonlyArray2<'py, f64>, String);
+
+/// What a run told and nobody has heard yet.
+#[derive(Default)]
+struct Untold {
+    remarks: Vec<String>,
+    /// The newest step alone.
+    step: Option<(usize, usize, String)>,
+}
+
+/// Follows the components of a study; a dictionary for each, in the study's order. `remark` is called with every sentence that has to
+/// be known, and `progress` now and then with what is done, of how much, and in words.
 #[pyfunction]
-#[pyo3(signature = (study, out, *, clicks, fixed, bright, interpolate, anew))]
+#[pyo3(signature = (study, out, *, clicks, fixed, bright, interpolate, anew, remark, progress))]
 #[allow(clippy::too_many_arguments, reason = "Python names each of them")]
 pub(crate) fn track<'py>(
     py: Python<'py>,
     study: PathBuf,
     out: PathBuf,
     clicks: Vec<ClickGiven>,
-    fixed: Vec<(String, PathBuf)>,
+    fixed: Vec<FixedGiven<'py>>,
     bright: Option<bool>,
     interpolate: usize,
     anew: bool,
+    remark: Bound<'py, PyAny>,
+    progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyList>> {
     let stop = Stop::default();
-    let click = |(component, frame, column, row)| Click {
+    let click = |(component, frame, column, row, called)| Click {
         component,
         frame,
         place: [column, row],
+        called,
     };
+    let fixed = fixed.iter().map(|(component, rows, called)| Fixed {
+        component: component.clone(),
+        poses: poses_of(rows),
+        called: called.clone(),
+    });
     let polarity = |bright| match bright {
         true => Polarity::BrightImplant,
         false => Polarity::DarkImplant,
     };
+    let untold = Arc::new(Mutex::new(Untold::default()));
     let request = Request {
         study,
         out: out.clone(),
         clicks: clicks.into_iter().map(click).collect(),
-        fixed: fixed
-            .into_iter()
-            .map(|(component, file)| FixedPoses { component, file })
-            .collect(),
+        fixed: fixed.collect(),
         polarity: bright.map(polarity),
         interpolate,
         anew,
-        quiet: true,
+        listener: listener(&untold),
         stop: stop.clone(),
     };
-    let found = beside(py, &stop, move || {
+    let hear = |_: Python<'_>| hear(&untold, &remark, progress.as_ref());
+    let found = beside_telling(py, &stop, hear, move || {
         let tracked = fluoropose_laboratory::verbs::track::track(&request)?;
         let covariances = tracked.iter().map(|part| of(&out, &part.component));
         let covariances = covariances.collect::<Result<Vec<_>>>()?;
@@ -68,6 +89,34 @@ pub(crate) fn track<'py>(
         parts.append(component(py, part, covariances)?)?;
     }
     Ok(parts)
+}
+
+/// Calls Python with what a run has told since.
+fn hear(
+    untold: &Mutex<Untold>,
+    remark: &Bound<'_, PyAny>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<()> {
+    let news = std::mem::take(&mut *untold.lock().unwrap_or_else(PoisonError::into_inner));
+    for sentence in news.remarks {
+        remark.call1((sentence,))?;
+    }
+    if let (Some(progress), Some(step)) = (progress, news.step) {
+        progress.call1(step)?;
+    }
+    Ok(())
+}
+
+/// Notes what a run tells.
+fn listener(untold: &Arc<Mutex<Untold>>) -> Listener {
+    let untold = untold.clone();
+    Arc::new(move |told| {
+        let mut untold = untold.lock().unwrap_or_else(PoisonError::into_inner);
+        match told {
+            Told::Remark(remark) => untold.remarks.push(remark),
+            Told::Step { what, done, of } => untold.step = Some((done, of, what)),
+        }
+    })
 }
 
 /// The covariances that were written of a component.

@@ -17,7 +17,10 @@ def poses(masks: NDArray[np.bool_], model: fp.Model, camera: fp.Camera) -> list[
 
 def film(frames: Iterator[NDArray[np.uint16]], femur: fp.Model, tibia: fp.Model) -> NDArray[np.float64]:
     camera = fp.Camera([[3000.0, 0.0, 511.5], [0.0, 3000.0, 511.5], [0.0, 0.0, 1.0]], (1024, 1024))
-    tracked = fp.track(frames, femur, tibia, camera, "left", 15.0, fixed={"femur": "femur.jts"})
+    tracked = fp.track(frames, femur, tibia, camera, "left", 15.0, fixed={"femur": "femur.jts"}, progress=print)
+    told: tuple[str, ...] = camera.remarks + tracked.remarks
+    if told:
+        raise SystemExit(told[0])
     poses: fp.Poses | None = tracked.femur
     if poses is None:
         raise SystemExit

@@ -24,6 +24,12 @@ def run(*words: object) -> str:
     return done.stdout
 
 
+def skip(case: unittest.TestCase, why: str) -> None:
+    """Leaves a test out, visibly."""
+    print(f"SKIPPED: {case.id()}: {why}")
+    case.skipTest(why)
+
+
 class OnTheDemo(unittest.TestCase):
     """What all tests on the synthetic study share."""
 

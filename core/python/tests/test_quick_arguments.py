@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,11 @@ import numpy as np
 
 import fluoropose as fp
 from study import DEMO, OnTheDemo
+
+
+def fixed_two() -> np.ndarray:
+    """Two frames without a pose."""
+    return np.full((2, 6), np.nan)
 
 
 class Arguments(OnTheDemo):
@@ -20,7 +26,7 @@ class Arguments(OnTheDemo):
 
     def test_a_folder_of_another_film_is_refused_and_stays_as_it_was(self) -> None:
         frames = np.arange(2 * 64 * 64, dtype=np.uint16).reshape(2, 64, 64)
-        camera = fp.Camera(np.diag([3000.0, 3000.0, 1.0]), (64, 64))
+        camera = fp.Camera([[200, 0, 31.5], [0, 200, 31.5], [0, 0, 1]], (64, 64))
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             (place / "frames").mkdir()
@@ -38,11 +44,93 @@ class Arguments(OnTheDemo):
         with self.assertWarnsRegex(UserWarning, "femur: .*swapped"), self.assertRaises(ValueError):
             fp.track([], self.tibia, self.femur, self.camera, "left")
 
+    def test_models_of_the_other_component_are_told_with_the_pose(self) -> None:
+        mask = fp.read_frames(DEMO / "masks/tibia")[0]
+        with self.assertWarnsRegex(UserWarning, "model: .*swapped") as caught:
+            found = fp.estimate(mask, self.tibia, self.camera, role="femur")
+        self.assertEqual(caught.filename, __file__)
+        self.assertIn("swapped", found.remarks[0])
+        self.assertEqual((found.status, found.because), ("doubtful", found.remarks[0].removeprefix("model: ")))
+        mask = np.zeros((1024, 1024), bool)
+        with self.assertWarnsRegex(UserWarning, "beside_model: .*swapped"):
+            fp.estimate(mask, self.tibia, self.camera, role="tibia", beside=np.zeros((1, 6)), beside_model=self.tibia)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(fp.estimate(mask, self.tibia, self.camera, role="tibia").remarks, ())
+
+    def test_a_camera_that_does_not_fit_its_frames_is_told(self) -> None:
+        def matrix(fx: float, fy: float, cx: float, cy: float) -> list[list[float]]:
+            return [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]
+
+        size = (1024, 1024)
+        for numbers, words in (
+            ((3200, 3200, 0, -1.5), "principal point, column 0.5"),
+            ((3200, 3200, 256, 256), "principal point"),
+            ((1198, 1198, 511.5, 511.5), "not mm"),
+            ((3200, 2900, 511.5, 511.5), "not square"),
+        ):
+            with self.assertWarnsRegex(UserWarning, words):
+                camera = fp.Camera(matrix(*numbers), size)
+            self.assertRegex(camera.remarks[0], words)
+        for numbers, words in (
+            ((3200, -3200, 511.5, 511.5), "K or size: .*vertical focal length is -3200"),
+            ((3.2, 3.2, 0.5, 0.5), "focal length is 3.2; it must be at least a tenth"),
+            ((3200, 3200, 2e5, 511.5), "principal point"),
+        ):
+            with self.assertRaisesRegex(ValueError, words):
+                fp.Camera(matrix(*numbers), size)
+        for skewed in ([[3200, 1, 511], [0, 3200, 511], [0, 0, 1]], np.transpose(matrix(3200, 3200, 511, 511))):
+            with self.assertRaisesRegex(ValueError, "K or size: .*fx,0,cx"):
+                fp.Camera(skewed, size)
+        # A file that names no size is seen with its frames.
+        with self.assertWarnsRegex(UserWarning, "camera: .*focal length, 3217.2 pixels, is 12.5"):
+            found = fp.estimate(np.zeros((256, 256), bool), self.femur, self.camera)
+        self.assertEqual(len(found.remarks), 1)
+        frames = np.zeros((2, 256, 256), np.uint8)
+        fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
+        with self.assertWarnsRegex(UserWarning, "camera: .*is 12.5") as caught:
+            film = fp.track(frames, self.femur, None, self.camera, "left", fixed=fixed)
+        self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
+
+    def test_messages_name_the_argument_and_no_file_that_nobody_gave(self) -> None:
+        frames = np.zeros((2, 64, 48), np.uint8)
+        camera = fp.Camera([[150, 0, 24], [0, 150, 32], [0, 0, 1]], (48, 64))
+        binary = self.folder / "binary"
+        binary.write_bytes(bytes(range(128, 256)) * 8)
+        three = {"femur": np.full((3, 6), np.nan)}
+        one, two = self.femur, self.tibia
+
+        def told(call: Callable[[], object], *words: str) -> None:
+            with self.assertRaises(ValueError) as caught:
+                call()
+            for word in words:
+                self.assertIn(word, str(caught.exception))
+            self.assertNotIn("fluoropose-", str(caught.exception).replace("fluoropose-test-", ""))
+
+        told(lambda: fp.track(frames, one, None, camera, "left", fixed=three), "fixed['femur']: there are 3 rows, but the film has 2 frames")
+        told(lambda: fp.track(frames, one, None, camera, "left", fixed={"femur": binary}), "fixed['femur']", str(binary))
+        for column, row in ((49, 5), (5, 65), (-1, 5), (5, float("inf"))):
+            click = fp.Click("femur", 0, column, row)
+            told(lambda click=click: fp.track(frames, one, two, camera, "left", clicks=[click]), "clicks")  # type: ignore[misc]
+        far = fp.Click("tibia", 1, 5, 640)
+        told(lambda: fp.track(frames, one, two, camera, "left", clicks=[far]), "clicks[0]: column 5, row 640", "48 columns and 64 rows")
+        late = fp.Click("tibia", 2, 5, 6)
+        told(lambda: fp.track(frames, one, two, camera, "left", clicks=[late]), "clicks[0]: there is no such frame, the film has 2")
+        early = fp.Click("tibia", -1, 5, 6)
+        told(lambda: fp.track(frames, one, two, camera, "left", clicks=[early]), "clicks[0]: frame is -1")
+        told(lambda: fp.track(DEMO, one, two, camera, "left"), "frames: calibration.txt: ")
+        told(lambda: fp.estimate(frames[0], one, camera, library=binary), "library: ", str(binary))
+        told(lambda: fp.estimate(None, one, camera, frame=frames[0], click=(640, 5)), "click: column 640, row 5", "48 columns and 64 rows")
+        told(lambda: fp.Camera.from_intcalib(binary), "source: ", str(binary))
+        told(lambda: fp.Model.from_file(binary), "path: ", str(binary))
+        told(lambda: fp.kinematics(binary, fixed_two(), femur_model=one, tibia_model=two, side="left"), "femur: ", str(binary))
+        told(lambda: fp.read_frames(binary), str(binary))
+
     def test_shapes_and_types_are_told_by_name(self) -> None:
         mask = np.zeros((1024, 1024), bool)
         frames = np.zeros((2, 64, 64), np.uint8)
         poses = np.zeros((2, 6))
-        small = fp.Camera(np.diag([3000.0, 3000.0, 1.0]), (64, 64))
+        small = fp.Camera([[200, 0, 31.5], [0, 200, 31.5], [0, 0, 1]], (64, 64))
         one, two = self.femur, self.tibia
         refused = self.refused
         refused(TypeError, "mask ", lambda: fp.estimate(mask.astype(float), one, self.camera))
@@ -71,9 +159,14 @@ class Arguments(OnTheDemo):
         refused(ValueError, "fps ", lambda: fp.track(frames, one, two, self.camera, "left", 0.0))
         refused(ValueError, "fixed['tibia']", lambda: fp.track(frames, one, two, self.camera, "left", fixed={"tibia": [1, 2]}))
         refused(ValueError, "'patella'", lambda: fp.track(frames, one, two, self.camera, "left", fixed={"patella": poses}))
-        refused(ValueError, "3 rows", lambda: fp.track(frames, one, None, self.camera, "left", fixed={"femur": np.full((3, 6), np.nan)}))
+        refused(TypeError, "progress ", lambda: fp.track(frames, one, two, self.camera, "left", progress=1))  # type: ignore[arg-type]
         refused(ValueError, "K ", lambda: fp.Camera(np.eye(4), (64, 64)))
         refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), 64))  # type: ignore[arg-type]
+        refused(TypeError, "size ", lambda: fp.Camera(np.eye(3), (64.5, 64)))  # type: ignore[arg-type]
+        refused(TypeError, "clicks[0]: frame ", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[fp.Click("femur", 0.5, 1, 1)]))  # type: ignore[arg-type]
+        refused(TypeError, "clicks[0]: column", lambda: fp.track(frames, one, two, self.camera, "left", clicks=[fp.Click("femur", 0, "x", 1)]))  # type: ignore[arg-type]
+        refused(FileNotFoundError, "fixed['femur']: ", lambda: fp.track(frames, one, two, self.camera, "left", fixed={"femur": "nowhere"}))
+        refused(OSError, "out: ", lambda: fp.track(frames, one, two, self.camera, "left", out=DEMO / "femur.stl"))
         refused(ValueError, "source", lambda: fp.Camera.from_mayacam(DEMO / "calibration.txt"))
         refused(FileNotFoundError, "nowhere", lambda: fp.Model.from_file("nowhere.stl"))
         refused(ValueError, "faces ", lambda: fp.Model(np.zeros((3, 3)), [[0, 1, 3]]))

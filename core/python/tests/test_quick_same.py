@@ -63,6 +63,7 @@ class SameNumbers(OnTheDemo):
         np.testing.assert_array_equal(joint.cycle("flexion_deg"), [float(number) for number in cycle.split(",")])
         steps = joint.by_flexion
         np.testing.assert_allclose(steps["flexion_deg"], steps.flexion_deg, atol=1e-9)
+        self.assertTrue((steps.n[:, joint.names.index("flexion_deg")] > 0).all())
         alone = fp.kinematics(
             out / "femur.jts", ours.tibia.pose, femur_model=self.femur, tibia_model=self.tibia, side="left"
         )

@@ -15,6 +15,33 @@ from study import DEMO, OnTheDemo
 
 
 class Threads(OnTheDemo):
+    def test_progress_is_told_and_may_end_the_work(self) -> None:
+        steps: list[tuple[int, int, str]] = []
+        fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
+        fixed["femur"][1] = np.nan
+        fp.track(
+            DEMO / "frames",
+            self.femur,
+            None,
+            self.camera,
+            "left",
+            fixed=fixed,
+            progress=lambda done, of, what: steps.append((done, of, what)),
+        )
+        self.assertEqual(steps[-1], (2, 2, "done"))
+        self.assertEqual(sorted(steps, key=lambda step: step[0]), steps)
+        self.assertTrue(all(of == 2 and what for _, of, what in steps))
+        called: list[float] = []
+
+        def enough(done: int, of: int, what: str) -> None:
+            called.append(time.monotonic())
+            raise LookupError(f"{what}: enough")
+
+        with self.assertRaisesRegex(LookupError, r"looked for in frame \d: enough"):
+            fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", progress=enough)
+        self.assertEqual(len(called), 1)
+        self.assertLess(time.monotonic() - called[0], 1.0)
+
     @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
     def test_ctrl_c_ends_a_film_and_a_stack_of_masks(self) -> None:
         # A program that was started in the background would not hear it.

@@ -17,15 +17,9 @@ from typing import Any
 import numpy as np
 
 import fluoropose as fp
-from study import DEMO, STUDIES, OnTheDemo, run
+from study import DEMO, STUDIES, OnTheDemo, run, skip
 
 HERE = Path(__file__).parent
-
-
-def skip(case: unittest.TestCase, why: str) -> None:
-    """Leaves a test out, visibly."""
-    print(f"SKIPPED: {case.id()}: {why}")
-    case.skipTest(why)
 
 
 class Readme(OnTheDemo):

@@ -13,7 +13,7 @@ use crate::film::JointFilm;
 use crate::svg::{Anchor, Drawing, Plot};
 pub use group::group_figure;
 
-use course::{Course, LATERAL, MEDIAL, PLAIN, doubtful_point};
+use course::{Course, Ink, LATERAL, MEDIAL, PLAIN, Panel, doubtful_point};
 
 /// Size in its own units, and its width in print: two columns of a journal.
 const SIZE: [f64; 2] = [720.0, 664.0];
@@ -22,45 +22,51 @@ const WIDTH_MM: f64 = 180.0;
 const LEFT: [f64; 2] = [64.0, 340.0];
 const RIGHT: [f64; 2] = [432.0, 706.0];
 
+/// The label of all panels.
+const FLEXION: &str = "Flexion (\u{b0})";
+
 /// The figure of a film as SVG.
 #[must_use]
 pub fn figure(film: &JointFilm) -> String {
     let mut drawing = Drawing::default();
     let course = Course::of(film);
-    let (left, right) = (LEFT, RIGHT);
-    let label = "Flexion (\u{b0})";
-
-    letter(&mut drawing, "a", left[0], 26.0);
-    let condyles = [(place::MEDIAL_AP, MEDIAL), (place::LATERAL_AP, LATERAL)];
-    let axis = "AP position (mm, anterior +)";
-    course.panel(&mut drawing, left, [270.0, 40.0], &condyles, [label, axis]);
-    legend(&mut drawing, [left[0] + 14.0, 27.0]);
-    doubts(&mut drawing, film, [right[0] + 14.0, 27.0]);
-
-    letter(&mut drawing, "b", right[0], 26.0);
-    let rotation = [(place::ROTATION, PLAIN)];
-    let axis = "Tibial rotation (\u{b0}, internal +)";
-    course.panel(&mut drawing, right, [270.0, 40.0], &rotation, [label, axis]);
-
-    letter(&mut drawing, "c", left[0], 346.0);
-    tray::draw(&mut drawing, film, &course, [left[0] - 30.0, 358.0]);
-
-    letter(&mut drawing, "d", right[0], 346.0);
-    let abduction = [(place::ABDUCTION, PLAIN)];
-    let axis = "Abduction (\u{b0})";
-    course.panel(&mut drawing, right, [464.0, 360.0], &abduction, ["", axis]);
-    let lift_off = [(place::LIFT_OFF, PLAIN)];
-    let axis = "Lift-off (mm)";
-    let plot = course.panel(
-        &mut drawing,
-        right,
-        [606.0, 496.0],
-        &lift_off,
-        [label, axis],
-    );
-    thresholds(&mut drawing, &plot);
-
+    against_flexion(&mut drawing, |drawing, panel| course.panel(drawing, panel));
+    doubts(&mut drawing, film, [RIGHT[0] + 14.0, 27.0]);
+    letter(&mut drawing, "c", LEFT[0], 346.0);
+    tray::draw(&mut drawing, film, &course, [LEFT[0] - 30.0, 358.0]);
     drawing.finish(SIZE, WIDTH_MM, &format!("Joint motion of {}", film.name))
+}
+
+/// The panels a, b and d, which a film and a group have alike.
+fn against_flexion(drawing: &mut Drawing, mut draw: impl FnMut(&mut Drawing, &Panel<'_>) -> Plot) {
+    let mut panel = |drawing: &mut Drawing, across, up, numbers: &[(usize, Ink)], labels| {
+        let panel = Panel {
+            across,
+            up,
+            numbers,
+            labels,
+        };
+        draw(drawing, &panel)
+    };
+    letter(drawing, "a", LEFT[0], 26.0);
+    let condyles = [(place::MEDIAL_AP, MEDIAL), (place::LATERAL_AP, LATERAL)];
+    let labels = [FLEXION, "AP position (mm, anterior +)"];
+    panel(drawing, LEFT, [270.0, 40.0], &condyles, labels);
+    legend(drawing, [LEFT[0] + 14.0, 27.0]);
+
+    letter(drawing, "b", RIGHT[0], 26.0);
+    let rotation = [(place::ROTATION, PLAIN)];
+    let labels = [FLEXION, "Tibial rotation (\u{b0}, internal +)"];
+    panel(drawing, RIGHT, [270.0, 40.0], &rotation, labels);
+
+    letter(drawing, "d", RIGHT[0], 346.0);
+    let abduction = [(place::ABDUCTION, PLAIN)];
+    let labels = ["", "Abduction (\u{b0})"];
+    panel(drawing, RIGHT, [464.0, 360.0], &abduction, labels);
+    let lift_off = [(place::LIFT_OFF, PLAIN)];
+    let labels = [FLEXION, "Lift-off (mm)"];
+    let plot = panel(drawing, RIGHT, [606.0, 496.0], &lift_off, labels);
+    thresholds(drawing, &plot);
 }
 
 fn letter(drawing: &mut Drawing, letter: &str, x: f64, y: f64) {

@@ -202,10 +202,14 @@ impl JointFilm {
         phases(&flexion, REVERSAL_DEG, &mut room).map_or(Vec::new(), <[Phase]>::to_vec)
     }
 
-    /// The flexions at which numbers are published.
+    /// The flexions at which numbers are published: steps that a phase passes. A film that jumps over some has no rows for them.
     #[must_use]
     pub fn levels(&self) -> Vec<f64> {
-        levels(&self.trusted(self.values(place::FLEXION)), FLEXION_STEP_DEG).collect()
+        let phases = self.phases();
+        let passed = |&level: &f64| self.at(place::FLEXION, &phases, level).n > 0;
+        levels(&self.trusted(self.values(place::FLEXION)), FLEXION_STEP_DEG)
+            .filter(passed)
+            .collect()
     }
 
     /// A number at one flexion.

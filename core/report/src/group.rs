@@ -1,10 +1,9 @@
 //! Several knees together.
 
-use fluoropose::joint::course::{FLEXION_STEP_DEG, Phase};
+use fluoropose::joint::course::FLEXION_STEP_DEG;
 use fluoropose::joint::group::{OverKnees, over_knees};
-use fluoropose::joint::numbers::place;
 
-use crate::film::JointFilm;
+use crate::levels::FilmLevels;
 
 /// A knee with its films: the same implant in the same person.
 #[derive(Clone, Debug)]
@@ -12,7 +11,7 @@ pub struct Knee {
     /// What it is called.
     pub name: String,
     /// Its films.
-    pub films: Vec<JointFilm>,
+    pub films: Vec<FilmLevels>,
 }
 
 /// Knees that are published together.
@@ -21,21 +20,13 @@ pub struct Group {
     /// What it is called.
     pub name: String,
     knees: Vec<Knee>,
-    /// Of each film of each knee.
-    phases: Vec<Vec<Vec<Phase>>>,
 }
 
 impl Group {
     /// Of knees with their films.
     #[must_use]
     pub fn new(name: String, knees: Vec<Knee>) -> Self {
-        let phases = |knee: &Knee| knee.films.iter().map(JointFilm::phases).collect();
-        let phases = knees.iter().map(phases).collect();
-        Self {
-            name,
-            knees,
-            phases,
-        }
+        Self { name, knees }
     }
 
     /// The knees.
@@ -45,29 +36,27 @@ impl Group {
     }
 
     /// The films, knee by knee.
-    #[must_use]
-    pub fn films(&self) -> Vec<&JointFilm> {
-        self.knees.iter().flat_map(|knee| &knee.films).collect()
+    pub fn films(&self) -> impl Iterator<Item = &FilmLevels> {
+        self.knees.iter().flat_map(|knee| &knee.films)
     }
 
     /// The flexions that any film passes within a phase, degrees.
     #[must_use]
     pub fn levels(&self) -> Vec<f64> {
-        let all = self.films().into_iter().flat_map(JointFilm::levels);
-        let steps = all.map(|level| (level / FLEXION_STEP_DEG).round() as i64);
+        let all = self.films().flat_map(|film| &film.levels);
+        let steps = all.map(|level| (level.flexion_deg / FLEXION_STEP_DEG).round() as i64);
         let steps: std::collections::BTreeSet<i64> = steps.collect();
-        let all = steps.into_iter().map(|step| step as f64 * FLEXION_STEP_DEG);
-        all.filter(|&level| self.at(place::FLEXION, level).n > 0)
+        steps
+            .into_iter()
+            .map(|step| step as f64 * FLEXION_STEP_DEG)
             .collect()
     }
 
     /// A number of one knee at one flexion: that of each of its films, which is the mean over the film's phases.
     #[must_use]
     pub fn of_knee(&self, knee: usize, number: usize, level_deg: f64) -> Vec<f64> {
-        let films = self.knees[knee].films.iter().zip(&self.phases[knee]);
-        let value =
-            |(film, phases): (&JointFilm, &Vec<Phase>)| film.at(number, phases, level_deg).mean;
-        films.map(value).collect()
+        let films = self.knees[knee].films.iter();
+        films.map(|film| film.mean(number, level_deg)).collect()
     }
 
     /// The mean over the films of one knee at one flexion, with their standard deviation and number.

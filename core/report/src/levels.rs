@@ -13,6 +13,33 @@ pub struct Level {
     pub steps: [Step; NUMBERS],
 }
 
+/// A film's numbers at the steps of its flexion: all that groups are made from, and little beside the film.
+#[derive(Clone, Debug)]
+pub struct FilmLevels {
+    /// What the study is called.
+    pub name: String,
+    /// Step by step.
+    pub levels: Vec<Level>,
+}
+
+impl FilmLevels {
+    /// Those of a film.
+    #[must_use]
+    pub fn of(film: &JointFilm) -> Self {
+        Self {
+            name: film.name.clone(),
+            levels: by_flexion(film),
+        }
+    }
+
+    /// A number at one step; NaN where no phase passes it.
+    pub(crate) fn mean(&self, number: usize, level_deg: f64) -> f64 {
+        let mut levels = self.levels.iter();
+        let found = levels.find(|level| level.flexion_deg == level_deg);
+        found.map_or(f64::NAN, |level| level.steps[number].mean)
+    }
+}
+
 /// The numbers of a film at each step of its flexion, from the phases that pass it, without doubtful frames.
 #[must_use]
 pub fn by_flexion(film: &JointFilm) -> Vec<Level> {

@@ -6,6 +6,7 @@ use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::shared::ERRORS;
 use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg, jts};
+use fluoropose_report::levels::{FilmLevels, by_flexion};
 use fluoropose_report::{
     Facts, Group, Input, JointFilm, JointRow, Knee, cohorts, figure, group_figure, html, read,
     write,
@@ -108,7 +109,7 @@ fn a_group_is_the_mean_of_its_knees() {
         for joint in film.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
             joint.numbers[place::ROTATION] = by;
         }
-        film
+        FilmLevels::of(&film)
     };
     let knee = |name: &str, films| Knee {
         name: name.to_owned(),
@@ -296,7 +297,10 @@ fn doubtful_frames_are_shown_and_count_for_nothing() {
     joint.numbers[place::FLEXION] = -17.0;
     let (clean, pivot) = (film(12.0).pivot().unwrap(), spoilt.pivot().unwrap());
     assert_eq!((clean.n, pivot), (28, clean));
-    assert_eq!(spoilt.levels()[0], 0.0);
+    // At 10 degrees there is but a doubtful frame, and no row.
+    assert_eq!(spoilt.levels(), [0.0, 20.0, 30.0, 40.0, 50.0]);
+    let steps = by_flexion(&spoilt);
+    assert!(steps.len() == 5 && steps.iter().all(|level| level.steps[place::FLEXION].n > 0));
     let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
     assert_eq!(at(&spoilt), at(&film(12.0)));
     assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));

@@ -252,8 +252,25 @@ fn parse_matrix<'a>(
         centre: [k[0][2], k[1][2]],
         laboratory,
     };
-    calibration.camera(size.0, size.1)?;
+    let camera = calibration.camera(size.0, size.1)?;
+    in_pixels(&camera)?;
     Ok(calibration)
+}
+
+/// Refuses a matrix that is not in pixels but in parts of the frame, or in metres: no source shines on all that is before it.
+fn in_pixels(camera: &Camera) -> Result<(), CameraError> {
+    const LEAST: f64 = 0.1;
+    let ([fx, fy], [width, height]) = (camera.focal(), [camera.width(), camera.height()]);
+    for (name, value, side) in [
+        ("horizontal focal length", fx, width),
+        ("vertical focal length", fy, height),
+    ] {
+        if value < LEAST * side as f64 {
+            let rule = "at least a tenth of the frame's side, in pixels";
+            return Err(CameraError::Value { name, value, rule });
+        }
+    }
+    Ok(())
 }
 
 /// Width and height, which are whole numbers.
@@ -403,6 +420,12 @@ mod tests {
         assert!(parse(&MATRIX.replace("1024,768", "1024.0,768")).is_ok());
         assert!(parse(&MATRIX.replace("0,3180", "2,3180")).is_err());
         assert!(parse(&MATRIX.replace("3200", "nan")).is_err());
+        let parts = parse(&MATRIX.replace("3200", "3.1").replace("3180", "3.1"))
+            .expect_err("not in pixels");
+        assert!(
+            parts.contains("is 3.1; it must be at least a tenth"),
+            "{parts}"
+        );
         assert!(parse(&MATRIX.replace("0,-1,0", "0,1,0")).is_err());
     }
 

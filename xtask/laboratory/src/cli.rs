@@ -105,6 +105,7 @@ fn known_as(name: &str) -> clap::Command {
 fn verb(verb: Verb) -> Result<u8> {
     match verb {
         Verb::Batch(args) => return verbs::batch::run(args),
+        Verb::Collect(args) => return verbs::collect::run(args),
         Verb::Library(args) => verbs::library::run(args),
         Verb::Pose(args) => verbs::pose::run(args),
         Verb::Biplane(args) => verbs::biplane::run(args),
@@ -118,7 +119,6 @@ fn verb(verb: Verb) -> Result<u8> {
         Verb::Undistort(args) => verbs::undistort::run(args),
         Verb::Kinematics(args) => verbs::kinematics::run(args),
         Verb::Report(args) => verbs::report::run(args),
-        Verb::Collect(args) => verbs::collect::run(args),
         Verb::Bench(args) => verbs::bench::run(args),
     }?;
     Ok(0)

@@ -11,13 +11,14 @@ mod role;
 mod study;
 mod text;
 
-pub use calibration::{camera_for, read_calibration};
+pub use calibration::{camera_for, camera_of_frames, read_calibration};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};
 pub use mask::{MaskBuffer, read_mask};
 pub use model::{
-    other_shape, owned, read_model, read_model_and_remarks, read_model_of, shape_doubt,
+    other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
+    read_model_of, shape_doubt,
 };
 pub use poses::{read_poses, write_poses};
 pub use role::Role;

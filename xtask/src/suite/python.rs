@@ -104,6 +104,40 @@ pub(crate) fn run(report: &mut Report) {
         Ok(Said::default())
     });
     report.step(WHOLE, || tests(&python, "test_*.py", None));
+    report.step("the command by cargo install", || {
+        installed_command(&python)
+    });
+}
+
+/// The command alone, without Python: its libraries are those of the wheel's command, byte for byte.
+fn installed_command(python: &Path) -> Result<Said> {
+    let root = workspace::target_dir().join("python/installed");
+    let mut cargo = own_cargo();
+    cargo.args(["install", "--locked", "--force", "--quiet", "--path"]);
+    cargo.arg(workspace::root().join("xtask/laboratory"));
+    cargo.arg("--root").arg(&root);
+    cargo.arg("--target-dir").arg(workspace::target_dir());
+    command::run(&mut cargo)?;
+    let alone = root
+        .join("bin")
+        .join(format!("fluoropose{}", std::env::consts::EXE_SUFFIX));
+    let study = workspace::target_dir().join("python/study");
+    let library = |program: &Path| -> Result<Vec<u8>> {
+        let out = root.join("femur.library");
+        let mut verb = Command::new(program);
+        verb.arg("library")
+            .arg("--model")
+            .arg(study.join("femur.stl"));
+        verb.arg("--calibration").arg(study.join("calibration.txt"));
+        command::output(verb.arg("--out").arg(&out))?;
+        Ok(fs::read(&out)?)
+    };
+    let of_wheel = python::beside(python, "fluoropose");
+    ensure!(
+        library(&alone)? == library(&of_wheel)?,
+        "the installed command makes another library than the wheel's"
+    );
+    Ok(Said::default())
 }
 
 const QUICK: &str = "python: tests with numpy alone";

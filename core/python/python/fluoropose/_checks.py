@@ -2,14 +2,46 @@
 
 from __future__ import annotations
 
+import operator
 import os
-from collections.abc import Sequence
+import sys
+import warnings
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 PathLike = str | os.PathLike[str]
+
+
+def warn(remarks: Iterable[str]) -> None:
+    """Warns of what has to be known, where the caller of this package stands."""
+    level = 2
+    frame = sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "fluoropose":
+        frame = frame.f_back
+        level += 1
+    for remark in remarks:
+        warnings.warn(remark, stacklevel=level)
+
+
+@contextmanager
+def argument(name: str) -> Iterator[None]:
+    """What goes wrong inside is told with the argument's name."""
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        raise type(error)(f"{name}: {error}") from error
+
+
+def whole(value: object, name: str) -> int:
+    """A whole number."""
+    try:
+        return operator.index(value)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise TypeError(f"{name} must be a whole number, not {type(value).__name__}") from error
 
 
 def is_path(value: object) -> bool:

@@ -54,6 +54,9 @@ class Estimate:
     """Pixels of the mask that were left out as specks."""
     film: str | None = field(repr=False)
     """What the frames tell of their film, with the method image."""
+    remarks: tuple[str, ...]
+    """What has to be known of the model and the camera: units, a shape that is the other component's, a calibration that does not fit the
+    frames. Told as warnings too."""
     version: str
     settings: Mapping[str, Any] = field(repr=False)
 
@@ -145,7 +148,8 @@ def estimate_all(
     `method` is library, refined (the model's outline brought onto the mask's; the default) or image (onto the edges of `frames`; the
     default where they are given). A `library` that the command wrote is read; otherwise one is built and kept with the model: of all
     views, or about the `nominal` one (degrees about x and y), at `distance_mm`. `metal` is dark or bright where the frames do not tell it.
-    `role` (femur or tibia) with the other component's poses `beside` tells mirrored poses apart.
+    `role` (femur or tibia) with the other component's poses `beside` tells mirrored poses apart; of a model that has the other
+    component's shape all poses are doubtful.
     """
     _checks.instance(model, Model, "model")
     _checks.instance(camera, Camera, "camera")
@@ -165,6 +169,9 @@ def estimate_all(
     if chosen == "image" and grey is None:
         raise ValueError("frames must be given for the method image")
     other = _other(role, beside, beside_model, count)
+    remarks = (*camera.seen(width, height), *model.seen("model", role))
+    if beside_model is not None:
+        remarks += tuple(beside_model.seen("beside_model", "tibia" if role == "femur" else "femur"))
     answers = _native.estimate(
         model._handle,
         camera._calibration,
@@ -178,6 +185,7 @@ def estimate_all(
         bright=bright(metal),
         edge_offset=bool(edge_offset),
         other=other,
+        doubt=None if role is None else model._handle.doubt(role),
     )
     settings = {
         "method": chosen,
@@ -190,7 +198,7 @@ def estimate_all(
         "model": model.digest,
         "camera": camera.text,
     }
-    return tuple(_answer(answer, settings) for answer in answers)
+    return tuple(_answer(answer, remarks, settings) for answer in answers)
 
 
 def bright(metal: str | None) -> bool | None:
@@ -233,7 +241,7 @@ def _number(value: float | None) -> float:
     return float("nan") if value is None else value
 
 
-def _answer(answer: _native.Answer, settings: Mapping[str, Any]) -> Estimate:
+def _answer(answer: _native.Answer, remarks: tuple[str, ...], settings: Mapping[str, Any]) -> Estimate:
     covariance = answer["covariance"]
     return Estimate(
         pose=Pose(*answer["pose"]),
@@ -247,6 +255,7 @@ def _answer(answer: _native.Answer, settings: Mapping[str, Any]) -> Estimate:
         rivals=tuple(Rival(Pose(*pose), misfit) for pose, misfit in answer["rivals"]),
         specks=answer["specks"],
         film=answer["film"],
+        remarks=remarks,
         version=VERSION,
         settings=settings,
     )
@@ -273,8 +282,9 @@ def _on_frame(
     camera.check(grey.shape[1], grey.shape[0], "frame")
     part = Part(role or "implant", model, None, _pair(nominal, "nominal"), _checks.positive(distance_mm, "distance_mm"))
     place = None if click is None else _pair(click, "click")
-    clicks = () if place is None else (Click(part.name, 0, place[0], place[1]),)
-    with tempfile.TemporaryDirectory(prefix="fluoropose-") as folder:
+    clicks = {} if place is None else {"click": Click(part.name, 0, place[0], place[1])}
+    remarks = (*camera.seen(grey.shape[1], grey.shape[0]), *model.seen("model", role))
+    with tempfile.TemporaryDirectory(prefix="fluoropose-", ignore_cleanup_errors=True) as folder:
         found = follow([grey], [part], camera, folder, clicks=clicks, metal=metal)[0]
     settings = {
         "click": place,
@@ -297,6 +307,7 @@ def _on_frame(
         rivals=(),
         specks=0,
         film=None,
+        remarks=remarks,
         version=VERSION,
         settings=settings,
     )

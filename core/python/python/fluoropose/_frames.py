@@ -21,9 +21,14 @@ def read_frames(path: _checks.PathLike) -> NDArray[Any]:
     files = [place]
     if place.is_dir():
         files = sorted(file for file in place.iterdir() if file.is_file() and not file.name.startswith("."))
-    frames = [frame for file in files for frame in _native.read_frames(str(file))]
+    frames = [frame for file in files for frame in _decoded(file)]
     if not frames:
         raise ValueError(f"path: {place} holds no frames")
     if any(frame.shape != frames[0].shape for frame in frames):
         raise ValueError(f"path: the frames of {place} differ in size")
     return np.stack(frames)
+
+
+def _decoded(file: Path) -> list[NDArray[Any]]:
+    with _checks.argument(f"path: {file}"):
+        return _native.read_frames(str(file))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +17,10 @@ from ._poses import Poses, rows
 
 @dataclass(frozen=True, eq=False)
 class ByFlexion:
-    """Numbers at steps of 10 degrees of flexion, each the mean over the phases that pass it; doubtful frames are in none."""
+    """Numbers at steps of 10 degrees of flexion, each the mean over the phases that pass it; doubtful frames are in none.
+
+    Steps that no phase passes have no row: a film whose flexion jumps over some, by more than 45 degrees or in doubtful frames, has none there.
+    """
 
     flexion_deg: NDArray[np.float64]
     names: tuple[str, ...]
@@ -55,7 +58,10 @@ class Kinematics:
     """Which of the femoral and of the tibial file's axes point anteriorly, superiorly and to the right, and who says so."""
     remarks: tuple[str, ...]
     version: str
-    _joint: _native.Joint = field(repr=False)
+    by_flexion: ByFlexion = field(repr=False)
+    """The numbers at steps of flexion."""
+    _cycles: NDArray[np.float64] = field(repr=False)
+    _files: Mapping[str, str | None] = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -64,29 +70,27 @@ class Kinematics:
         """One number in every frame."""
         return self.values[:, _place(self.names, name)]
 
-    @cached_property
-    def by_flexion(self) -> ByFlexion:
-        """The numbers at steps of flexion."""
-        flexion, mean, sd, n = self._joint.by_flexion()
-        return ByFlexion(flexion, self.names, mean, sd, n)
-
     def cycle(self, name: str) -> NDArray[np.float64]:
         """A number from the first to the last frame that has it, at 0 to 100 percent (101,): a row for spm1d."""
-        return self._joint.cycle(_place(self.names, name))
+        return np.array(self._cycles[_place(self.names, name)])
 
     def to_csv(self, path: _checks.PathLike) -> None:
         """Writes joint.csv; lines that begin with # are its heading."""
-        _write(path, self._joint.csv())
+        self._write(path, "csv")
 
     def to_mot(self, path: _checks.PathLike) -> None:
         """Writes OpenSim's `.mot`; it needs `fps`."""
-        if self.fps is None:
-            raise ValueError("fps must be known for a .mot: time is its first column")
-        _write(path, self._joint.mot())
+        self._write(path, "mot")
 
     def to_svg(self, path: _checks.PathLike) -> None:
         """Writes the published figure."""
-        _write(path, self._joint.svg())
+        self._write(path, "svg")
+
+    def _write(self, path: _checks.PathLike, kind: str) -> None:
+        text = self._files[kind]
+        if text is None:
+            raise ValueError("fps must be known for a .mot: time is its first column")
+        Path(_checks.path(path, "path")).write_text(text, encoding="utf-8", newline="\n")
 
 
 def kinematics(
@@ -125,22 +129,25 @@ def kinematics(
         cutoff=cutoff_hz,
         doubts=_doubts(femur, tibia),
     )
-    axes = joint.axes()
+    steps = joint["by_flexion"]
+    names = tuple(joint["names"])
     return Kinematics(
         name=name,
         side=side,
         fps=fps,
         cutoff_hz=cutoff_hz,
-        names=tuple(joint.names()),
-        units=tuple(joint.units()),
-        values=joint.values(),
-        sd=joint.deviations(),
-        filtered=None if cutoff_hz is None else joint.filtered(),
-        doubt=tuple(joint.doubts()),
-        axes=(axes[0], axes[1]),
-        remarks=tuple(joint.remarks()),
+        names=names,
+        units=tuple(joint["units"]),
+        values=joint["values"],
+        sd=joint["sd"],
+        filtered=None if cutoff_hz is None else joint["filtered"],
+        doubt=tuple(joint["doubt"]),
+        axes=(joint["axes"][0], joint["axes"][1]),
+        remarks=tuple(joint["remarks"]),
         version=VERSION,
-        _joint=joint,
+        by_flexion=ByFlexion(steps["flexion_deg"], names, steps["mean"], steps["sd"], steps["n"]),
+        _cycles=joint["cycles"],
+        _files={"csv": joint["csv"], "mot": joint["mot"], "svg": joint["svg"]},
     )
 
 
@@ -148,10 +155,6 @@ def _place(names: tuple[str, ...], name: str) -> int:
     if name not in names:
         raise KeyError(f"{name!r} is none of {', '.join(names)}")
     return names.index(name)
-
-
-def _write(path: _checks.PathLike, text: str) -> None:
-    Path(_checks.path(path, "path")).write_text(text, encoding="utf-8", newline="\n")
 
 
 def _covariances(poses: object) -> NDArray[np.float64] | None:

@@ -31,19 +31,24 @@ class Model:
             raise ValueError(f"faces must have the shape (any, 3), not {corners.shape}")
         if corners.size and (corners.min() < 0 or corners.max() >= len(places)):
             raise ValueError(f"faces name a vertex that is not there: there are {len(places)}")
-        try:
-            native = _native.Model(places.astype(np.float32), corners.astype(np.uint32))
-        except ValueError as error:
-            raise ValueError(f"vertices or faces: {error}") from error
-        self._set(native, None)
+        with _checks.argument("vertices or faces"):
+            self._set(_native.Model(places.astype(np.float32), corners.astype(np.uint32)), None)
 
     @classmethod
     def from_file(cls, path: _checks.PathLike) -> Model:
         """Reads STL, OBJ or PLY, mm."""
         name = _checks.path(path, "path")
         model = object.__new__(cls)
-        model._set(_native.Model.read(name), name)
+        with _checks.argument(f"path: {name}"):
+            model._set(_native.Model.read(name), name)
         return model
+
+    def seen(self, name: str, role: str | None) -> list[str]:
+        """What has to be known of it as an argument and a component: its units and faults, or that it has the other one's shape; warned of."""
+        doubt = None if role is None else self._handle.doubt(role)
+        told = [f"{name}: {remark}" for remark in (*self.remarks, doubt) if remark is not None]
+        _checks.warn(told)
+        return told
 
     def _set(self, native: _native.Model, path: str | None) -> None:
         values = (("path", path), ("digest", native.digest()), ("remarks", tuple(native.remarks())), ("_handle", native))

@@ -1,5 +1,6 @@
 """What the extension has; the package's own modules are the way to it."""
 
+from collections.abc import Callable
 from typing import Any, TypedDict
 
 import numpy as np
@@ -12,9 +13,12 @@ class Calibration:
     def text(self) -> str: ...
     def size(self) -> tuple[int, int] | None: ...
     def camera(self, width: int, height: int) -> tuple[float, float, float, float]: ...
+    def doubts(self, width: int, height: int) -> list[str]: ...
 
 class Model:
-    def __new__(cls, vertices: NDArray[np.float32], triangles: NDArray[np.uint32]) -> Model: ...
+    def __new__(
+        cls, vertices: NDArray[np.float32], triangles: NDArray[np.uint32], remarks: list[str] | None = None
+    ) -> Model: ...
     @staticmethod
     def read(path: str) -> Model: ...
     def vertices(self) -> NDArray[np.float32]: ...
@@ -50,24 +54,26 @@ class Followed(TypedDict):
     misfit_px: list[float | None]
     badness: list[float]
 
-class Joint:
-    @staticmethod
-    def names() -> list[str]: ...
-    @staticmethod
-    def units() -> list[str]: ...
-    def values(self) -> NDArray[np.float64]: ...
-    def deviations(self) -> NDArray[np.float64]: ...
-    def filtered(self) -> NDArray[np.float64]: ...
-    def doubts(self) -> list[str | None]: ...
-    def by_flexion(
-        self,
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint64]]: ...
-    def cycle(self, number: int) -> NDArray[np.float64]: ...
-    def csv(self) -> str: ...
-    def mot(self) -> str: ...
-    def svg(self) -> str: ...
-    def axes(self) -> list[str]: ...
-    def remarks(self) -> list[str]: ...
+class ByFlexion(TypedDict):
+    flexion_deg: NDArray[np.float64]
+    mean: NDArray[np.float64]
+    sd: NDArray[np.float64]
+    n: NDArray[np.uint64]
+
+class Joint(TypedDict):
+    names: list[str]
+    units: list[str]
+    values: NDArray[np.float64]
+    sd: NDArray[np.float64]
+    filtered: NDArray[np.float64]
+    doubt: list[str | None]
+    by_flexion: ByFlexion
+    cycles: NDArray[np.float64]
+    csv: str
+    mot: str | None
+    svg: str
+    axes: list[str]
+    remarks: list[str]
 
 def command(words: list[str]) -> int: ...
 def estimate(
@@ -84,16 +90,19 @@ def estimate(
     bright: bool | None,
     edge_offset: bool,
     other: tuple[str, NDArray[np.float64], Model | None] | None,
+    doubt: str | None,
 ) -> list[Answer]: ...
 def track(
     study: str,
     out: str,
     *,
-    clicks: list[tuple[str, int, float, float]],
-    fixed: list[tuple[str, str]],
+    clicks: list[tuple[str, int, float, float, str]],
+    fixed: list[tuple[str, NDArray[np.float64], str]],
     bright: bool | None,
     interpolate: int,
     anew: bool,
+    remark: Callable[[str], object],
+    progress: Callable[[int, int, str], object] | None,
 ) -> list[Followed]: ...
 def joint(
     femur: tuple[Model, NDArray[np.float64], NDArray[np.float64] | None, str | None],

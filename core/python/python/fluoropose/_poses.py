@@ -69,6 +69,11 @@ class Poses:
     badness: NDArray[np.float64] = field(repr=False)
     """How bad it is: above 1 it is doubtful."""
 
+    def __repr__(self) -> str:
+        """Short: how many frames are of each state."""
+        states = ", ".join(f"{self.state.count(state)} {state}" for state in dict.fromkeys(self.state))
+        return f"Poses({self.name!r}, {len(self)} frames: {states})"
+
     def __len__(self) -> int:
         return len(self.pose)
 
@@ -100,5 +105,6 @@ def rows(value: ArrayLike | Poses | Pose | _checks.PathLike, name: str) -> NDArr
     if isinstance(value, Pose):
         return np.array([value.numbers])
     if isinstance(value, str) or hasattr(value, "__fspath__"):
-        return _native.read_poses(_checks.path(value, name))
+        with _checks.argument(name):
+            return _native.read_poses(_checks.path(value, name))
     return _checks.numbers(value, (None, 6), name)

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import filecmp
 import json
-import math
 import os
 import shutil
 import tempfile
-import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
@@ -28,6 +26,9 @@ from ._poses import Pose, Poses, rows
 
 Frames = _checks.PathLike | NDArray[Any] | Iterable[Any]
 """A folder, an array (frames, rows, columns), or an iterable of paths or of arrays (rows, columns)."""
+
+Progress = Callable[[int, int, str], object]
+"""Called with how many frames of components were looked at, of how many, and what was just done."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,8 @@ class Track:
     version: str
     settings: Mapping[str, Any] = field(repr=False)
     remarks: tuple[str, ...]
-    """What has to be known of the models: their units, or that they look swapped. Told as warnings too."""
+    """What has to be known of models and camera: units, models that look swapped, a calibration that does not fit the frames. Told as
+    warnings too."""
     _models: Mapping[str, Part] = field(repr=False)
 
     def __len__(self) -> int:
@@ -111,12 +113,15 @@ def track(
     interpolate: int = 0,
     out: _checks.PathLike | None = None,
     anew: bool = False,
+    progress: Progress | None = None,
 ) -> Track:
     """Follows both components of a knee through a film.
 
     `frames` are a folder, an array (frames, rows, columns) of 8 or 16 bits, or an iterable of paths or of arrays, of which one at a
     time is in memory. `fixed` poses (a row a frame, NaN where there is none, by femur and tibia) never change. `out` keeps the film as
     a study that the command `fluoropose track` reads too, with what was done after every frame: a call that was broken off goes on there.
+    `progress` (as `print`) is called on the caller's thread, some times a second, with how many frames of components were looked at, of
+    how many, and what was just done, in the command's words; an exception from it ends the work as Ctrl-C does.
     """
     _checks.instance(camera, Camera, "camera")
     _checks.choice(side, ("left", "right"), "side")
@@ -126,21 +131,27 @@ def track(
         if model is not None:
             _checks.instance(model, Model, name)
             parts.append(Part(name, model, axes))
-    remarks = _remarks(parts)
-    for remark in remarks:
-        warnings.warn(remark, stacklevel=2)
     if not parts:
         raise TypeError("femur or tibia must be given")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be callable, not {type(progress).__name__}")
+    told = [remark for part in parts for remark in part.model.seen(part.name, part.name)]
     if isinstance(interpolate, bool) or not isinstance(interpolate, int) or interpolate < 0:
         raise ValueError("interpolate must be a whole number of frames, 0 or more")
-    for click in clicks:
-        _checks.instance(click, Click, "clicks")
-        if not (math.isfinite(click.column) and math.isfinite(click.row)):
-            raise ValueError(f"clicks: {click} has a place that is no number")
+    for number, click in enumerate(clicks):
+        _checks.instance(click, Click, f"clicks[{number}]")
+        _checks.numbers([click.column, click.row], (2,), f"clicks[{number}]: column and row")
+        if _checks.whole(click.frame, f"clicks[{number}]: frame") < 0:
+            raise ValueError(f"clicks[{number}]: frame is {click.frame}; frames are counted from 0")
     given = {name: rows(poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()}
     for name in [*given, *(click.component for click in clicks)]:
         if name not in [part.name for part in parts]:
             raise ValueError(f"fixed or clicks: there is no component {name!r}")
+
+    def hear(remark: str) -> None:
+        if remark not in told:
+            told.append(remark)
+            _checks.warn([remark] if remark not in camera.remarks else [])
 
     def run(folder: str) -> list[Poses]:
         return follow(
@@ -151,10 +162,12 @@ def track(
             side=side,
             fps=fps,
             fixed=given,
-            clicks=clicks,
+            clicks={f"clicks[{number}]": click for number, click in enumerate(clicks)},
             metal=metal,
             interpolate=interpolate,
             anew=anew,
+            hear=hear,
+            progress=progress,
         )
 
     if out is None:
@@ -177,16 +190,9 @@ def track(
             "metal": metal,
             "interpolate": interpolate,
         },
-        remarks=remarks,
+        remarks=tuple(told),
         _models={part.name: part for part in parts},
     )
-
-
-def _remarks(parts: Sequence[Part]) -> tuple[str, ...]:
-    """What has to be known of the models: their units, or that they look swapped."""
-    told = [(part.name, part.model._handle.doubt(part.name)) for part in parts]
-    told += [(part.name, remark) for part in parts for remark in part.model.remarks]
-    return tuple(f"{name}: {remark}" for name, remark in told if remark is not None)
 
 
 def follow(
@@ -198,14 +204,18 @@ def follow(
     side: str = "left",
     fps: float | None = None,
     fixed: Mapping[str, NDArray[np.float64]] | None = None,
-    clicks: Sequence[Click] = (),
+    clicks: Mapping[str, Click] | None = None,
     metal: str | None = None,
     interpolate: int = 0,
     anew: bool = False,
+    hear: Callable[[str], object] = lambda _: None,
+    progress: Progress | None = None,
 ) -> list[Poses]:
-    """Makes a study of what is given and follows its components, as the command does."""
+    """Makes a study of what is given and follows its components, as the command does, which tells `hear` what has to be known. Clicks
+    stand by what they are called."""
     place = Path(folder)
-    place.mkdir(parents=True, exist_ok=True)
+    with _checks.argument("out"):
+        place.mkdir(parents=True, exist_ok=True)
     begun = place / ".begun"
     shutil.rmtree(begun, ignore_errors=True)
     begun.mkdir()
@@ -220,20 +230,22 @@ def follow(
         _replace(begun, place)
     finally:
         shutil.rmtree(begun, ignore_errors=True)
-    study = place / "study.toml"
-    files = []
     for name, poses in (fixed or {}).items():
-        file = place / f"{name}.fixed.jts"
-        _native.write_poses(str(file), poses)
-        files.append((name, str(file)))
+        # For the command, with --fixed.
+        _native.write_poses(str(place / f"{name}.fixed.jts"), poses)
     found = _native.track(
-        str(study),
+        str(place / "study.toml"),
         str(place),
-        clicks=[(click.component, click.frame, float(click.column), float(click.row)) for click in clicks],
-        fixed=files,
+        clicks=[
+            (click.component, click.frame, float(click.column), float(click.row), called)
+            for called, click in (clicks or {}).items()
+        ],
+        fixed=[(name, poses, f"fixed[{name!r}]") for name, poses in (fixed or {}).items()],
         bright=bright(metal),
         interpolate=interpolate,
         anew=anew,
+        remark=hear,
+        progress=progress,
     )
     return [_poses(one) for one in found]
 
@@ -247,12 +259,9 @@ def _write_study(
     if fps is not None:
         lines.append(f"frames_per_s = {fps!r}")
     for part in parts:
-        model = part.model.path
-        if model is None:
-            model = f"{part.name}.ply"
-            part.model._handle.write(str(place / model))
-        else:
-            model = os.path.abspath(model)
+        # As it is in memory, whatever has become of its file since.
+        model = f"{part.name}.ply"
+        part.model._handle.write(str(place / model))
         lines += ["[[component]]", f"name = {_text(part.name)}", f"model = {_text(model)}"]
         if part.axes is not None:
             lines.append(f"axes = {_text(part.axes)}")

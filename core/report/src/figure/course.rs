@@ -48,6 +48,26 @@ impl Ink {
         )
     }
 
+    /// A mark at a flexion, with a bar of one standard deviation to either side where that is known.
+    pub(super) fn step(
+        &self,
+        drawing: &mut Drawing,
+        plot: &Plot,
+        [flexion, mean, deviation]: [f64; 3],
+        title: &str,
+    ) {
+        let [x, y] = plot.place(flexion, mean);
+        if deviation.is_finite() {
+            let ends = [-1.0, 1.0].map(|sign| plot.y.at(mean + sign * deviation));
+            let bar = format!("stroke=\"{}\" stroke-width=\"1\"", self.colour);
+            drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
+            for end in ends {
+                drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
+            }
+        }
+        self.mark(drawing, [x, y], 3.6, title);
+    }
+
     /// A mark on a place.
     pub(super) fn mark(&self, drawing: &mut Drawing, at: [f64; 2], size: f64, title: &str) {
         let fill = format!("fill=\"{}\"", self.colour);
@@ -68,6 +88,19 @@ pub(super) fn doubtful_point(drawing: &mut Drawing, at: [f64; 2], ink: Ink, titl
     drawing.point(at, 2.2, &dress, title);
 }
 
+/// Some numbers against flexion, and where they are drawn.
+#[derive(Clone, Copy)]
+pub(super) struct Panel<'p> {
+    /// From the left to the right.
+    pub(super) across: [f64; 2],
+    /// From the bottom to the top.
+    pub(super) up: [f64; 2],
+    /// What is drawn.
+    pub(super) numbers: &'p [(usize, Ink)],
+    /// Below and beside it.
+    pub(super) labels: [&'p str; 2],
+}
+
 /// A film against its flexion.
 pub(super) struct Course<'f> {
     pub(super) film: &'f JointFilm,
@@ -86,15 +119,14 @@ impl<'f> Course<'f> {
         }
     }
 
-    /// Some numbers against flexion, between `[left, right]` and `[bottom, top]`.
-    pub(super) fn panel(
-        &self,
-        drawing: &mut Drawing,
-        [left, right]: [f64; 2],
-        [bottom, top]: [f64; 2],
-        numbers: &[(usize, Ink)],
-        labels: [&str; 2],
-    ) -> Plot {
+    /// Draws a panel.
+    pub(super) fn panel(&self, drawing: &mut Drawing, panel: &Panel<'_>) -> Plot {
+        let Panel {
+            across: [left, right],
+            up: [bottom, top],
+            numbers,
+            labels,
+        } = *panel;
         let reach = numbers.iter().flat_map(|&(number, _)| {
             let deviations = self.film.deviations(number).into_iter();
             let values = self.film.possible(self.film.values(number));
@@ -202,21 +234,8 @@ impl<'f> Course<'f> {
             if step.n == 0 {
                 continue;
             }
-            let [x, y] = plot.place(level, step.mean);
-            if step.deviation.is_finite() {
-                let ends = [-1.0, 1.0].map(|sign| plot.y.at(step.mean + sign * step.deviation));
-                let bar = format!("stroke=\"{}\" stroke-width=\"1\"", ink.colour);
-                drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
-                for end in ends {
-                    drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
-                }
-            }
-            ink.mark(
-                drawing,
-                [x, y],
-                3.6,
-                &format!("{level}\u{b0}: {:.2}", step.mean),
-            );
+            let title = format!("{level}\u{b0}: {:.2}", step.mean);
+            ink.step(drawing, plot, [level, step.mean, step.deviation], &title);
         }
         drawing.close();
     }

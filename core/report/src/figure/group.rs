@@ -3,8 +3,8 @@
 use fluoropose::joint::group::OverKnees;
 use fluoropose::joint::numbers::place;
 
-use super::course::{Ink, LATERAL, MEDIAL, PLAIN};
-use super::{LEFT, RIGHT, SIZE, WIDTH_MM, legend, letter, thresholds};
+use super::course::{Ink, Panel};
+use super::{FLEXION, LEFT, RIGHT, SIZE, WIDTH_MM, against_flexion, letter};
 use crate::group::Group;
 use crate::svg::{Anchor, Drawing, Plot, Scale};
 
@@ -17,37 +17,11 @@ pub fn group_figure(group: &Group) -> String {
         group,
         levels: group.levels(),
     };
-    let label = "Flexion (\u{b0})";
-    letter(&mut drawing, "a", LEFT[0], 26.0);
-    let condyles = [(place::MEDIAL_AP, MEDIAL), (place::LATERAL_AP, LATERAL)];
-    let axis = "AP position (mm, anterior +)";
-    course.panel(&mut drawing, LEFT, [270.0, 40.0], &condyles, [label, axis]);
-    legend(&mut drawing, [LEFT[0] + 14.0, 27.0]);
-
-    letter(&mut drawing, "b", RIGHT[0], 26.0);
-    let rotation = [(place::ROTATION, PLAIN)];
-    let axis = "Tibial rotation (\u{b0}, internal +)";
-    course.panel(&mut drawing, RIGHT, [270.0, 40.0], &rotation, [label, axis]);
+    against_flexion(&mut drawing, |drawing, panel| course.panel(drawing, panel));
     let words = counts(group);
     drawing.words([RIGHT[1], 27.0], Anchor::End, 11.0, words);
-
     letter(&mut drawing, "c", LEFT[0], 346.0);
-    course.counts(&mut drawing, [606.0, 360.0], label);
-
-    letter(&mut drawing, "d", RIGHT[0], 346.0);
-    let abduction = [(place::ABDUCTION, PLAIN)];
-    let axis = "Abduction (\u{b0})";
-    course.panel(&mut drawing, RIGHT, [464.0, 360.0], &abduction, ["", axis]);
-    let lift_off = [(place::LIFT_OFF, PLAIN)];
-    let axis = "Lift-off (mm)";
-    let plot = course.panel(
-        &mut drawing,
-        RIGHT,
-        [606.0, 496.0],
-        &lift_off,
-        [label, axis],
-    );
-    thresholds(&mut drawing, &plot);
+    course.counts(&mut drawing, [606.0, 360.0]);
     drawing.finish(SIZE, WIDTH_MM, &format!("Joint motion of {}", group.name))
 }
 
@@ -55,7 +29,7 @@ fn counts(group: &Group) -> String {
     format!(
         "{} knees, {} films",
         group.knees().len(),
-        group.films().len()
+        group.films().count()
     )
 }
 
@@ -65,14 +39,13 @@ struct Course<'g> {
 }
 
 impl Course<'_> {
-    fn panel(
-        &self,
-        drawing: &mut Drawing,
-        [left, right]: [f64; 2],
-        [bottom, top]: [f64; 2],
-        numbers: &[(usize, Ink)],
-        labels: [&str; 2],
-    ) -> Plot {
+    fn panel(&self, drawing: &mut Drawing, panel: &Panel<'_>) -> Plot {
+        let Panel {
+            across: [left, right],
+            up: [bottom, top],
+            numbers,
+            labels,
+        } = *panel;
         let means: Vec<Vec<OverKnees>> = numbers
             .iter()
             .map(|&(number, _)| {
@@ -141,37 +114,24 @@ impl Course<'_> {
         let mean = |one: &OverKnees| if one.n > 1 { one.mean } else { f64::NAN };
         let points: Vec<[f64; 2]> = points.map(|(&x, one)| plot.place(x, mean(one))).collect();
         lines(drawing, &points, &ink.stroke(1.6));
-        let bar = format!("stroke=\"{}\" stroke-width=\"1\"", ink.colour);
-        for (&[x, y], one) in points.iter().zip(means) {
-            if !y.is_finite() {
-                continue;
+        for (&level, one) in self.levels.iter().zip(means) {
+            if one.n > 1 {
+                let title = format!("{:.2}, n = {}", one.mean, one.n);
+                ink.step(drawing, plot, [level, one.mean, one.deviation], &title);
             }
-            if one.deviation.is_finite() {
-                let ends = [-1.0, 1.0].map(|sign| plot.y.at(one.mean + sign * one.deviation));
-                drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
-                for end in ends {
-                    drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
-                }
-            }
-            ink.mark(
-                drawing,
-                [x, y],
-                3.6,
-                &format!("{:.2}, n = {}", one.mean, one.n),
-            );
         }
         drawing.close();
     }
 
     /// How many knees each step has.
-    fn counts(&self, drawing: &mut Drawing, [bottom, top]: [f64; 2], label: &str) {
+    fn counts(&self, drawing: &mut Drawing, [bottom, top]: [f64; 2]) {
         let n = |level: f64| self.group.at(place::FLEXION, level).n as f64;
         let counts: Vec<f64> = self.levels.iter().map(|&level| n(level)).collect();
         let plot = Plot {
             x: Scale::over(self.levels.iter().copied(), 7.0, LEFT[0], LEFT[1]),
             y: Scale::over(counts.iter().copied().chain([0.0]), 5.0, bottom, top),
         };
-        plot.axes(drawing, [label, "Knees"], true);
+        plot.axes(drawing, [FLEXION, "Knees"], true);
         for (&level, &count) in self.levels.iter().zip(&counts) {
             let [x, y] = plot.place(level, count);
             drawing.line(&[[x, bottom], [x, y]], "stroke=\"#777\" stroke-width=\"5\"");

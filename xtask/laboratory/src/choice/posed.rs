@@ -25,6 +25,8 @@ pub struct Posing<'p> {
     pub edges: EdgeOptions,
     /// The other component, where its poses are known.
     pub beside: Option<Beside<'p>>,
+    /// What is doubtful of the model as the component that it is given as, a sentence: all poses are doubtful then.
+    pub doubt: Option<String>,
     /// A wish to stop before the end.
     pub stop: Stop,
 }
@@ -48,6 +50,7 @@ pub struct Posed {
     /// What the frames tell of their film, in words, for the method image.
     pub film: Option<String>,
     middle: Vector3,
+    doubt: Option<String>,
 }
 
 impl Posing<'_> {
@@ -85,6 +88,7 @@ impl Posing<'_> {
             found,
             film,
             middle: self.finder.model().bounds().centre,
+            doubt: self.doubt.clone(),
         })
     }
 
@@ -129,7 +133,11 @@ impl Posed {
 
     /// The table of the sequence.
     pub fn report(&self) -> Vec<FrameReport> {
-        report(&self.found, &self.decisions, &self.middle)
+        let mut rows = report(&self.found, &self.decisions, &self.middle);
+        if let Some(doubt) = &self.doubt {
+            rows.iter_mut().for_each(|row| row.distrust(doubt));
+        }
+        rows
     }
 }
 

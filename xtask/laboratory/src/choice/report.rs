@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Result, bail};
-use fluoropose::finder::Candidate;
+use fluoropose::finder::{Candidate, Verdict};
 use fluoropose::math::Vector3;
 use fluoropose::pose::{EulerPose, Pose};
 use serde::Serialize;
@@ -139,6 +139,14 @@ impl FrameReport {
         }
     }
 
+    /// Makes a pose that was to be trusted doubtful, for a reason that lies beyond the frame.
+    pub(super) fn distrust(&mut self, because: &str) {
+        if self.verdict == Verdict::Good.word() {
+            self.verdict = "doubtful";
+            self.because = because.to_owned();
+        }
+    }
+
     fn cells(&self) -> Vec<String> {
         let number =
             |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
@@ -163,7 +171,7 @@ impl FrameReport {
 }
 
 /// Why a frame has its verdict, in a sentence.
-pub fn why(found: &FrameFound, decision: Option<&Decision>) -> String {
+fn why(found: &FrameFound, decision: Option<&Decision>) -> String {
     match (decision, &found.failure) {
         (Some(decision), _) => decision.verdict.to_string(),
         (None, Some(failure)) => failure.clone(),

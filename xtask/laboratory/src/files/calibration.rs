@@ -17,6 +17,19 @@ pub fn read_calibration(path: &Path) -> Result<Calibration> {
     Calibration::parse(&read_text(path)?).with_context(|| format!("in {}", path.display()))
 }
 
+/// The camera of frames of a size, and what is unusual of it, a sentence each: most often the calibration is wrong then.
+///
+/// # Errors
+/// Those of [`Calibration::camera`].
+pub fn camera_of_frames(
+    calibration: &Calibration,
+    (width, height): (usize, usize),
+) -> Result<(Camera, Vec<String>)> {
+    let camera = calibration.camera(width, height)?;
+    let doubts = camera.doubts().map(|doubt| format!("camera: {doubt}"));
+    Ok((camera, doubts.collect()))
+}
+
 /// The camera of a calibration for frames of a size; a camera matrix has its own.
 ///
 /// # Errors

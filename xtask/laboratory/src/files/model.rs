@@ -28,11 +28,7 @@ pub fn owned(made: Triangles) -> Result<OwnedModel> {
 /// # Errors
 /// Names the file and what is wrong with it.
 pub fn read_model(path: &Path) -> Result<OwnedModel> {
-    let (owned, remarks) = read_model_and_remarks(path)?;
-    for remark in remarks {
-        eprintln!("{}: {remark}", path.display());
-    }
-    Ok(owned)
+    read_model_of(path, None)
 }
 
 /// The same with what there is to say of the file, a sentence each.
@@ -53,11 +49,24 @@ pub fn read_model_and_remarks(path: &Path) -> Result<(OwnedModel, Vec<String>)> 
 /// # Errors
 /// Those of [`read_model`].
 pub fn read_model_of(path: &Path, role: Option<Role>) -> Result<OwnedModel> {
-    let owned = read_model(path)?;
-    if let Some(doubt) = role.and_then(|role| shape_doubt(&owned, role)) {
-        eprintln!("{}: {doubt}", path.display());
+    let (owned, remarks) = read_model_and_remarks_of(path, role)?;
+    for remark in remarks {
+        eprintln!("{}: {remark}", path.display());
     }
     Ok(owned)
+}
+
+/// The same with what there is to say, a sentence each.
+///
+/// # Errors
+/// Those of [`read_model`].
+pub fn read_model_and_remarks_of(
+    path: &Path,
+    role: Option<Role>,
+) -> Result<(OwnedModel, Vec<String>)> {
+    let (owned, mut remarks) = read_model_and_remarks(path)?;
+    remarks.extend(role.and_then(|role| shape_doubt(&owned, role)));
+    Ok((owned, remarks))
 }
 
 /// The component that a model has the shape of, where that is the other one.

@@ -19,7 +19,8 @@ pub fn read(path: &Path) -> Result<Vec<u8>> {
 /// # Errors
 /// Names the file.
 pub fn read_text(path: &Path) -> Result<String> {
-    fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
+    let text = String::from_utf8(read(path)?).ok();
+    text.with_context(|| format!("{} is no text", path.display()))
 }
 
 /// The name of a file without its folder.

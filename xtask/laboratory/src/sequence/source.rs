@@ -9,7 +9,7 @@ use fluoropose_decode::GreyFrame;
 use rayon::prelude::*;
 
 use super::seen::Seen;
-use crate::files::{Frames, MaskBuffer, files_in, grey, read_mask};
+use crate::files::{Frames, MaskBuffer, camera_of_frames, files_in, grey, read_mask};
 use crate::noise::{DisturbanceOptions, Disturbed};
 
 /// Masks, and what belongs to them, that are in memory; as many of each.
@@ -73,10 +73,14 @@ impl Source {
             check_size(path, mask, size)?;
         }
         let count = masks.len();
+        let (camera, doubts) = camera_of_frames(calibration, size)?;
+        for doubt in doubts {
+            eprintln!("{doubt}");
+        }
         let unknown = folders.unknown.map(|path| read_unknown(path, count, size));
         let frames = folders.frames.map(|path| Frames::read(path, count, size));
         Ok(Self {
-            camera: calibration.camera(size.0, size.1)?,
+            camera,
             unknown: unknown.transpose()?,
             frames: frames.transpose()?,
             masks,

@@ -9,7 +9,7 @@ mod state;
 mod work;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Result;
@@ -17,7 +17,7 @@ use anyhow::Result;
 use claim::Claim;
 use folders::Folders;
 use manifest::Look;
-use state::StudyState;
+use state::{StudyState, results};
 
 pub use list::{Entry, read_list};
 pub use manifest::{Inputs, Manifest, Settings};
@@ -42,7 +42,8 @@ Each study is tracked and reported as `track` and `report` do it, into DIR/NAME,
 results, version and settings. Results are written aside and renamed, so what has a manifest is whole. What is done is not done again, unless \
 inputs, version or settings have changed; a study that was broken off goes on where it was.\n\n\
 Tasks may share a folder: each study is claimed by one. A claim whose task is gone is taken over, at once where the process is known to be gone, \
-else after --stale seconds without a heartbeat.\n\n\
+else after --stale seconds without a heartbeat. --status tells of each study whether it is done, doubtful (done, some frames doubtful), outdated \
+(of another version or other settings), claimed, abandoned (its task is gone: the next one takes it over), failed, crashed or unfinished.\n\n\
 Exit codes, the highest that a study of the part gives: 0 all done; 3 done, some frames doubtful; 4 a study's input is bad; 5 a study broke the \
 program off; 6 a study is not done, because another task works on it or it was left out; 1 and 2 for what is wrong with the command itself.\n\n\
 Examples:\n  cargo xtask batch studies.csv --out results --partition slice:1/4\n  cargo xtask batch studies.csv --out results --status"
@@ -82,6 +83,11 @@ pub struct Args {
     rehearse: bool,
 }
 
+/// Why a study of a folder of results failed, if it did.
+pub fn failure_of(results: &Path, name: &str) -> Option<String> {
+    Some(Folders::at(results).failure(name)?.because)
+}
+
 /// Runs the verb; the code to exit with.
 ///
 /// # Errors
@@ -101,9 +107,12 @@ pub fn run(args: Args) -> Result<u8> {
         own.iter().try_for_each(|entry| args.one(entry, &folders))?;
     }
     let settings = args.settings();
-    let states = own
-        .iter()
-        .map(|entry| Ok((*entry, StudyState::of(entry, &settings, &folders)?)));
+    let states = own.iter().map(|entry| {
+        Ok((
+            *entry,
+            StudyState::of(entry, &settings, &folders, args.stale())?,
+        ))
+    });
     let states = states.collect::<Result<Vec<_>>>()?;
     print(&states, args.status);
     Ok(states
@@ -114,6 +123,10 @@ pub fn run(args: Args) -> Result<u8> {
 }
 
 impl Args {
+    fn stale(&self) -> Duration {
+        Duration::from_secs(self.stale)
+    }
+
     fn settings(&self) -> Settings {
         Settings {
             frames_per_s: self.fps,
@@ -136,12 +149,7 @@ impl Args {
         {
             return Ok(());
         }
-        let Some(claim) = Claim::take(
-            &folders.claims(),
-            &entry.name,
-            Duration::from_secs(self.stale),
-        )?
-        else {
+        let Some(claim) = Claim::take(&folders.claims(), &entry.name, self.stale())? else {
             return Ok(());
         };
         // Whoever had the claim before may have just ended.
@@ -159,7 +167,7 @@ impl Args {
     }
 
     fn is_done(&self, entry: &Entry, settings: &Settings, folders: &Folders) -> Result<bool> {
-        let StudyState::Done(manifest) = StudyState::of(entry, settings, folders)? else {
+        let Some(Ok(manifest)) = results(entry, settings, folders)? else {
             return Ok(false);
         };
         let look = if self.verify {

@@ -5,17 +5,20 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use fluoropose_report::cohorts::{figure, table};
-use fluoropose_report::{Group, JointFilm, Knee, read};
+use fluoropose_report::levels::FilmLevels;
+use fluoropose_report::{Group, Knee, read};
 
 use crate::files::{csv_fields, read_text, write_text};
-use crate::verbs::batch::{Entry, JOINT, Manifest, read_list};
+use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 
 /// Options of `collect`.
 #[derive(clap::Args)]
 #[command(
     after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and \
 each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, and doubtful.csv (every frame \
-that is not good, with its reason). Doubtful frames are in none of the means. Studies without results are told.\n\n\
+that is not good, with its reason). Doubtful frames are in none of the means.\n\n\
+Exit codes: 0 all studies of the list are in it; 6 some have no results (not done, or failed: which, and why, is told), and what the others give is \
+written; 1 and 2 nothing is written.\n\n\
 Example:\n  cargo xtask collect studies.csv --results results --out group"
 )]
 pub struct Args {
@@ -38,11 +41,14 @@ struct Done<'e> {
     manifest: Manifest,
 }
 
-/// Runs the verb.
+/// What the command exits with where studies are missing, as `batch` does.
+const MISSING: u8 = 6;
+
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
 /// For files that cannot be read or written, results of different versions or settings, and no results.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let entries = read_list(&args.list)?;
     let (mut done, mut missing) = (Vec::new(), Vec::new());
     for entry in &entries {
@@ -70,14 +76,19 @@ pub fn run(args: Args) -> Result<()> {
         println!("{}: {} knees", group.name, group.knees().len());
     }
     println!("{} frames are not good", doubtful.lines().count() - 1);
-    if !missing.is_empty() {
-        println!(
-            "{} studies have no results: {}",
-            missing.len(),
-            missing.join(", ")
-        );
+    if missing.is_empty() {
+        return Ok(0);
     }
-    Ok(())
+    println!(
+        "{} of {} studies have no results",
+        missing.len(),
+        entries.len()
+    );
+    for name in missing {
+        let why = failure_of(&args.results, name);
+        println!("{name}: {}", why.as_deref().unwrap_or("not done"));
+    }
+    Ok(MISSING)
 }
 
 /// Refuses what was not made by one program in one way.
@@ -106,7 +117,7 @@ fn alike(done: &[Done<'_>]) -> Result<()> {
 
 /// In the order of names, so that the list's order does not matter.
 fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
-    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<JointFilm>>> = BTreeMap::new();
+    let mut films: BTreeMap<&str, BTreeMap<&str, Vec<FilmLevels>>> = BTreeMap::new();
     let mut whose: BTreeMap<&str, &str> = BTreeMap::new();
     let mut sorted: Vec<&Done<'_>> = done.iter().collect();
     sorted.sort_by_key(|one| &one.entry.name);
@@ -123,10 +134,12 @@ fn groups(done: &[Done<'_>], results: &Path) -> Result<Vec<Group>> {
         let film =
             read::film(&read_text(&path)?).with_context(|| format!("in {}", path.display()))?;
         let knees = films.entry(&entry.group).or_default();
-        knees.entry(&entry.knee).or_default().push(film);
+        let own = knees.entry(&entry.knee).or_default();
+        // Films themselves would fill the memory by the thousand.
+        own.push(FilmLevels::of(&film));
     }
-    let group = |(name, knees): (&str, BTreeMap<&str, Vec<JointFilm>>)| {
-        let knee = |(name, films): (&str, Vec<JointFilm>)| Knee {
+    let group = |(name, knees): (&str, BTreeMap<&str, Vec<FilmLevels>>)| {
+        let knee = |(name, films): (&str, Vec<FilmLevels>)| Knee {
             name: name.to_owned(),
             films,
         };

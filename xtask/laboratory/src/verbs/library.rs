@@ -7,7 +7,7 @@ use fluoropose::image::mask::WORD_BITS;
 use fluoropose::library::Library;
 use fluoropose_phantom::picture::write_grey;
 
-use crate::files::{read_calibration, read_model};
+use crate::files::{camera_for, read_calibration, read_model};
 
 use crate::finding::{ViewOptions, build_library};
 
@@ -67,12 +67,7 @@ pub struct Args {
 pub fn run(args: Args) -> Result<()> {
     let model = read_model(&args.model)?;
     let calibration = read_calibration(&args.calibration)?;
-    let Pair([width, height]) = args.frame;
-    let (width, height) = match calibration {
-        fluoropose::camera::calibration::Calibration::CameraMatrix { size, .. } => size,
-        _ => (width as usize, height as usize),
-    };
-    let camera = calibration.camera(width, height)?;
+    let camera = camera_for(&calibration, args.frame)?;
     let distance = args.views.distance_for(&calibration);
     if let (Some(Purpose::Firmware), Some(Bytes(flash))) = (args.purpose, args.flash) {
         let order = Order {

@@ -9,10 +9,12 @@ use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 
-use crate::choice::report::{self, Numbers, check_path, why, write_report};
+use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report};
 use crate::choice::{Beside, Decision, Posing, Reasons};
 
-use crate::files::{Role, name_of, read, read_calibration, read_model_of, read_poses, write_poses};
+use crate::files::{
+    Role, name_of, read, read_calibration, read_model_of, read_poses, shape_doubt, write_poses,
+};
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
 
@@ -109,6 +111,7 @@ pub fn run(args: Args) -> Result<()> {
         method: args.method,
         edges: args.edges,
         beside: other.as_ref().map(Other::beside),
+        doubt: args.role.and_then(|role| shape_doubt(&model, role)),
         stop: Stop::default(),
     };
     let sequence = source.disturbed(&args.disturbance)?;
@@ -118,8 +121,9 @@ pub fn run(args: Args) -> Result<()> {
     }
     let middle = mesh.bounds().centre;
     let decisions = &posed.decisions;
-    for (frame, decision) in posed.found.iter().zip(decisions) {
-        describe(frame, decision.as_ref(), &middle);
+    let rows = posed.report();
+    for ((frame, decision), row) in posed.found.iter().zip(decisions).zip(&rows) {
+        describe(frame, decision.as_ref(), row, &middle);
     }
     let poses = posed.poses();
     let missing = poses.iter().filter(|pose| pose.is_none()).count();
@@ -131,7 +135,7 @@ pub fn run(args: Args) -> Result<()> {
         eprintln!("{missing} of {} masks have no pose", decisions.len());
     }
     if let Some(path) = &args.report {
-        write_report(path, &posed.report())?;
+        write_report(path, &rows)?;
     }
     let rows = poses.into_iter().map(|pose| pose.map(EulerPose::from));
     write_poses(&args.out, &rows.collect::<Vec<_>>())
@@ -177,11 +181,11 @@ impl Other {
 }
 
 /// Prints a frame's pose, why it was chosen, and the rivals that fit nearly as well.
-fn describe(frame: &FrameFound, decision: Option<&Decision>, middle: &Vector3) {
+fn describe(frame: &FrameFound, decision: Option<&Decision>, row: &FrameReport, middle: &Vector3) {
     println!("{}", name_of(&frame.file));
     let posed = decision.filter(|decision| decision.pose().is_some());
     let Some(decision) = posed else {
-        println!("  no pose: {}", why(frame, decision));
+        println!("  no pose: {}", row.because);
         return;
     };
     line(&decision.chosen, middle, "");
@@ -194,7 +198,7 @@ fn describe(frame: &FrameFound, decision: Option<&Decision>, middle: &Vector3) {
         line(rival, middle, "  (rival)");
     }
     println!("  chosen by: {decision}");
-    println!("  {}: {}", decision.verdict.word(), decision.verdict);
+    println!("  {}: {}", row.verdict, row.because);
 }
 
 fn line(candidate: &Candidate, middle: &Vector3, note: &str) {

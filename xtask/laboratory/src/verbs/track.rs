@@ -16,6 +16,7 @@ mod sides;
 mod table;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use anyhow::Result;
 
@@ -24,7 +25,7 @@ use crate::progress::Stop;
 use crate::verbs::report::impossible;
 
 pub use film::{Tracked, track};
-pub use request::{Click, FixedPoses, Request};
+pub use request::{Click, Fixed, FixedPoses, Listener, Request, Told};
 pub use table::Row;
 
 /// Options of `track`.
@@ -73,11 +74,17 @@ pub fn run(args: Args) -> Result<()> {
         study: args.study,
         out: args.out,
         clicks: args.click,
-        fixed: args.fixed,
+        fixed: args
+            .fixed
+            .iter()
+            .map(FixedPoses::read)
+            .collect::<Result<_>>()?,
         polarity: args.shown.stated(),
         interpolate: args.interpolate,
         anew: args.anew,
-        quiet: false,
+        listener: Arc::new(|told| match told {
+            Told::Remark(what) | Told::Step { what, .. } => eprintln!("{what}"),
+        }),
         stop: Stop::default(),
     };
     let tracked = track(&request)?;

@@ -66,6 +66,41 @@ impl Claimant {
     }
 }
 
+/// What became of a task whose study the next one takes over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// It is known to be gone.
+    Gone,
+    /// Its heart has not beaten for so long.
+    Silent(Duration),
+}
+
+/// A claim as another task finds it.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// Whose it is.
+    pub(super) claimant: Claimant,
+    /// Whether it is over.
+    pub(super) end: Option<End>,
+}
+
+impl Held {
+    /// The claim on a study, if there is one.
+    pub(super) fn on(folder: &Path, name: &str, stale: Duration) -> Option<Self> {
+        Self::at(&folder.join(name), &Claimant::own(), stale)
+    }
+
+    fn at(path: &Path, own: &Claimant, stale: Duration) -> Option<Self> {
+        let claimant = holder(path)?;
+        let silent = || held_for(path).filter(|age| *age >= stale).map(End::Silent);
+        let end = match claimant.is_gone(own) {
+            true => Some(End::Gone),
+            false => silent(),
+        };
+        Some(Self { claimant, end })
+    }
+}
+
 /// A study that is this task's for as long as this value lives.
 pub(super) struct Claim {
     path: PathBuf,
@@ -85,7 +120,7 @@ impl Claim {
             if make(&path, &own)? {
                 return Ok(Some(Self::beating(path, own, stale)));
             }
-            let Some(other) = holder(&path) else {
+            let Some(other) = Held::at(&path, &own, stale) else {
                 // It is being written, or was just given back.
                 thread::sleep(Duration::from_millis(50));
                 if held_for(&path).is_some_and(|age| age < stale) {
@@ -94,11 +129,10 @@ impl Claim {
                 take_away(&path, None)?;
                 continue;
             };
-            let is_stale = other.is_gone(&own) || held_for(&path).is_some_and(|age| age >= stale);
-            if !is_stale {
+            if other.end.is_none() {
                 return Ok(None);
             }
-            take_away(&path, Some(&other))?;
+            take_away(&path, Some(&other.claimant))?;
         }
         Ok(None)
     }
@@ -141,7 +175,7 @@ impl Drop for Claim {
 }
 
 /// Who has a study now.
-pub(super) fn holder(path: &Path) -> Option<Claimant> {
+fn holder(path: &Path) -> Option<Claimant> {
     serde_json::from_str(&read_text(path).ok()?).ok()
 }
 
@@ -250,7 +284,13 @@ mod tests {
         let path = folder.join("a");
         foreign(&path, Duration::from_secs(60));
         assert!(Claim::take(&folder, "a", LONG).unwrap().is_none());
+        assert_eq!(Held::on(&folder, "a", LONG).unwrap().end, None);
         foreign(&path, 2 * LONG);
+        let end = Held::on(&folder, "a", LONG).unwrap().end;
+        assert!(
+            matches!(end, Some(End::Silent(ago)) if ago >= LONG),
+            "{end:?}"
+        );
         let takers = (0..8).map(|_| {
             let folder = folder.clone();
             thread::spawn(move || Claim::take(&folder, "a", LONG).unwrap())
@@ -276,6 +316,9 @@ mod tests {
             ..Claimant::own()
         };
         fs::write(folder.join("a"), serde_json::to_vec(&gone).unwrap()).unwrap();
+        let held = Held::on(&folder, "a", LONG).unwrap();
+        let is_told = held.end == Some(End::Gone);
+        assert_eq!(is_told, Path::new("/proc/self").exists());
         let taken = Claim::take(&folder, "a", LONG).unwrap();
         assert_eq!(taken.is_some(), Path::new("/proc/self").exists());
         drop(taken);

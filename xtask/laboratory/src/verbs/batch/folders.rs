@@ -33,12 +33,18 @@ pub(super) enum FailureKind {
 }
 
 impl Folders {
+    /// Those of a batch that was begun.
+    #[must_use]
+    pub(super) fn at(out: &Path) -> Self {
+        Self(out.to_owned())
+    }
+
     /// Makes what is missing.
     ///
     /// # Errors
     /// Names the folder.
     pub(super) fn make(out: &Path) -> Result<Self> {
-        let folders = Self(out.to_owned());
+        let folders = Self::at(out);
         for folder in [
             folders.claims(),
             folders.0.join(".aside"),

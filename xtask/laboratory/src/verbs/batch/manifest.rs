@@ -101,11 +101,14 @@ impl Inputs {
                 all.iter().map(|byte| format!("{byte:02x}")).collect(),
             );
         }
-        let click = |click: &crate::verbs::track::Click| format!("{click:?}");
         Ok(Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             settings: settings.clone(),
-            clicks: entry.clicks.iter().map(click).collect(),
+            clicks: entry
+                .clicks
+                .iter()
+                .map(|click| click.called.clone())
+                .collect(),
             frames: (files.len(), files.iter().map(length).sum()),
             sha256,
         })

@@ -1,10 +1,11 @@
 //! How far the studies of a batch are.
 
 use std::fmt;
+use std::time::Duration;
 
 use anyhow::Result;
 
-use super::claim::{Claimant, holder};
+use super::claim::{End, Held};
 use super::folders::{Failure, FailureKind, Folders};
 use super::list::Entry;
 use super::manifest::{Manifest, Settings};
@@ -16,31 +17,54 @@ pub(super) enum StudyState {
     Done(Manifest),
     /// Its results are of another version or of other settings.
     Outdated,
-    /// A task works on it.
-    Claimed(Claimant),
+    /// A task works on it, or did.
+    Claimed(Held),
     /// It has no results, and why.
     Failed(Failure),
     /// Nothing was done, or not all.
     Unfinished,
 }
 
+/// The results of a study where they are whole: of this version and these settings, or of others.
+///
+/// # Errors
+/// For a manifest that cannot be understood.
+pub(super) fn results(
+    entry: &Entry,
+    settings: &Settings,
+    folders: &Folders,
+) -> Result<Option<Result<Manifest, Outdated>>> {
+    let manifest = Manifest::read(&folders.results(&entry.name))?;
+    let judged = |manifest: Manifest| {
+        let of_this = manifest.inputs.version == env!("CARGO_PKG_VERSION");
+        match of_this && manifest.inputs.settings == *settings {
+            true => Ok(manifest),
+            false => Err(Outdated),
+        }
+    };
+    Ok(manifest.map(judged))
+}
+
+/// Results of another version or of other settings.
+pub(super) struct Outdated;
+
 impl StudyState {
-    /// Looks a study up.
+    /// Looks a study up; claims are over after `stale` without a heartbeat.
     ///
     /// # Errors
     /// For a manifest that cannot be understood.
-    pub(super) fn of(entry: &Entry, settings: &Settings, folders: &Folders) -> Result<Self> {
-        let manifest = Manifest::read(&folders.results(&entry.name))?;
-        let own = |manifest: &Manifest| {
-            manifest.inputs.version == env!("CARGO_PKG_VERSION")
-                && manifest.inputs.settings == *settings
+    pub(super) fn of(
+        entry: &Entry,
+        settings: &Settings,
+        folders: &Folders,
+        stale: Duration,
+    ) -> Result<Self> {
+        let outdated = match results(entry, settings, folders)? {
+            Some(Ok(manifest)) => return Ok(Self::Done(manifest)),
+            other => other.is_some(),
         };
-        let outdated = manifest.as_ref().is_some_and(|manifest| !own(manifest));
-        if let Some(manifest) = manifest.filter(|manifest| own(manifest)) {
-            return Ok(Self::Done(manifest));
-        }
-        if let Some(claimant) = holder(&folders.claims().join(&entry.name)) {
-            return Ok(Self::Claimed(claimant));
+        if let Some(held) = Held::on(&folders.claims(), &entry.name, stale) {
+            return Ok(Self::Claimed(held));
         }
         if let Some(failure) = folders.failure(&entry.name) {
             return Ok(Self::Failed(failure));
@@ -59,7 +83,8 @@ impl StudyState {
             Self::Done(manifest) if manifest.doubtful > 0 => "doubtful",
             Self::Done(_) => "done",
             Self::Outdated => "outdated",
-            Self::Claimed(_) => "claimed",
+            Self::Claimed(Held { end: None, .. }) => "claimed",
+            Self::Claimed(_) => "abandoned",
             Self::Failed(failure) if failure.kind == FailureKind::Crash => "crashed",
             Self::Failed(_) => "failed",
             Self::Unfinished => "unfinished",
@@ -91,10 +116,17 @@ impl fmt::Display for StudyState {
             Self::Outdated => {
                 f.write_str("the results are of another version or of other settings")
             }
-            Self::Claimed(claimant) => {
+            Self::Claimed(Held { claimant, end }) => {
                 write!(f, "by process {} on {}", claimant.process, claimant.host)?;
-                match &claimant.task {
-                    Some(task) => write!(f, ", task {task}"),
+                if let Some(task) = &claimant.task {
+                    write!(f, ", task {task}")?;
+                }
+                let next = "the next task takes it over and goes on where it was";
+                match end {
+                    Some(End::Gone) => write!(f, ", which is gone: {next}"),
+                    Some(End::Silent(ago)) => {
+                        write!(f, ", silent for {} s: {next}", ago.as_secs())
+                    }
                     None => Ok(()),
                 }
             }

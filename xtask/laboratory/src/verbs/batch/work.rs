@@ -2,6 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::Result;
 use fluoropose::follow::State;
@@ -13,7 +14,7 @@ use super::manifest::{Inputs, Look, Manifest, Settings};
 use crate::files::{Role, Study, write_text};
 use crate::progress::Stop;
 use crate::verbs::report::{self, report};
-use crate::verbs::track::{Request, Tracked, track};
+use crate::verbs::track::{FixedPoses, Request, Told, Tracked, track};
 
 /// The study's joint, frame by frame.
 pub const JOINT: &str = "joint.csv";
@@ -64,15 +65,24 @@ fn whole(entry: &Entry, settings: &Settings, folders: &Folders, claim: &Claim) -
 
 /// Number of frames, and of doubtful ones.
 fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usize)> {
+    let name = entry.name.clone();
     let tracked = track(&Request {
         study: entry.study.clone(),
         out: aside.to_owned(),
         clicks: entry.clicks.clone(),
-        fixed: entry.fixed.clone(),
+        fixed: entry
+            .fixed
+            .iter()
+            .map(FixedPoses::read)
+            .collect::<Result<_>>()?,
         polarity: None,
         interpolate: settings.interpolate,
         anew: false,
-        quiet: true,
+        listener: Arc::new(move |told| {
+            if let Told::Remark(remark) = told {
+                eprintln!("{name}: {remark}");
+            }
+        }),
         stop: Stop::default(),
     })?;
     let study = Study::read(&entry.study)?;

@@ -1,13 +1,14 @@
 //! Films followed, both components on all cores.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::{Context, Result};
 
 use super::row::{Row, timed};
-use crate::files::{Study, read_poses, write_poses};
+use crate::files::{Component, Study, read_poses};
 use crate::progress::{Stop, announce};
-use crate::verbs::track::{FixedPoses, Request, Tracked, track};
+use crate::verbs::track::{Fixed, Request, Tracked, track};
 
 const STUDIES: [&str; 2] = ["left8", "film70"];
 
@@ -17,7 +18,7 @@ pub(super) fn measure(studies: &Path, work: &Path) -> Result<Vec<Row>> {
     for name in STUDIES {
         let study = studies.join(name).join("study.toml");
         let folder = work.join("followed").join(name);
-        let known = known_in_the_middle(&study, &folder)?;
+        let known = known_in_the_middle(&study)?;
         for (fixed, from) in [(Vec::new(), "nothing"), (known, "one frame")] {
             announce(&format!("{name}, followed from {from}"));
             let request = Request {
@@ -28,7 +29,7 @@ pub(super) fn measure(studies: &Path, work: &Path) -> Result<Vec<Row>> {
                 polarity: None,
                 interpolate: 0,
                 anew: true,
-                quiet: true,
+                listener: Arc::new(|_| ()),
                 stop: Stop::default(),
             };
             let (ms, tracked) = timed(|| track(&request));
@@ -48,23 +49,19 @@ fn frames_of(component: &Tracked) -> usize {
 }
 
 /// The reference poses of a film's middle frame, as a person would have fixed them.
-fn known_in_the_middle(study: &Path, folder: &Path) -> Result<Vec<FixedPoses>> {
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+fn known_in_the_middle(study: &Path) -> Result<Vec<Fixed>> {
     let study = Study::read(study)?;
-    let one = |component: &crate::files::Component| -> Result<FixedPoses> {
+    let one = |component: &Component| -> Result<Fixed> {
         let reference = component.reference.as_ref().context("no reference")?;
         let mut poses = read_poses(reference)?;
         let middle = poses.len() / 2;
         for (frame, pose) in poses.iter_mut().enumerate() {
             *pose = pose.filter(|_| frame == middle);
         }
-        let file = folder.join(format!("{}.jts", component.name));
-        let rows: Vec<_> = poses.into_iter().map(|pose| pose.map(Into::into)).collect();
-        write_poses(&file, &rows)?;
-        Ok(FixedPoses {
+        Ok(Fixed {
             component: component.name.clone(),
-            file,
+            poses,
+            called: reference.display().to_string(),
         })
     };
     study.components.iter().map(one).collect()

@@ -1,6 +1,6 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use fluoropose::follow::{
     Anchor, Cell, FramePose, frame_pose_at, frames_to_search, run_to_search, settled,
 };
@@ -10,13 +10,12 @@ use super::follow::{beside, follow, mark};
 use super::part::Part;
 use super::run::Run;
 use super::search::{Beside, clicked, searched};
-use crate::files::read_poses;
 
 /// Frames that are searched beside another component's anchor lie so far from it at most.
 const FAR: usize = 6;
 
 /// The frames whose pose a person fixed.
-pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<(usize, Pose)>> {
+pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Vec<(usize, Pose)> {
     let mut fixed_poses = Vec::new();
     for fixed in run
         .request
@@ -24,24 +23,16 @@ pub(super) fn fixed_poses(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<(usize, 
         .iter()
         .filter(|one| one.component == part.name())
     {
-        let poses = read_poses(&fixed.file)?;
-        ensure!(
-            poses.len() == run.film.count(),
-            "{} has {} rows but the film {} frames",
-            fixed.file.display(),
-            poses.len(),
-            run.film.count()
-        );
-        let poses = poses.into_iter().enumerate();
-        fixed_poses.extend(poses.filter_map(|(frame, pose)| Some((frame, pose?))));
+        let poses = fixed.poses.iter().enumerate();
+        fixed_poses.extend(poses.filter_map(|(frame, pose)| Some((frame, (*pose)?))));
     }
-    Ok(fixed_poses)
+    fixed_poses
 }
 
 /// The frames that a person gave: fixed poses, and what clicks lead to. In the order of frames.
 pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
     let mut anchors = Vec::new();
-    for (frame, pose) in fixed_poses(run, part)? {
+    for (frame, pose) in fixed_poses(run, part) {
         anchors.push(of_person(run, part, frame, &pose)?);
     }
     for click in run
@@ -50,12 +41,6 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
         .iter()
         .filter(|one| one.component == part.name())
     {
-        ensure!(
-            click.frame < run.film.count(),
-            "a click into frame {} of a film of {} frames",
-            click.frame + 1,
-            run.film.count()
-        );
         if anchors
             .iter()
             .any(|anchor: &Anchor| anchor.frame == click.frame)
@@ -68,7 +53,7 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
                 found,
                 fixed: false,
             }),
-            None => run.say(&format!(
+            None => run.say(format!(
                 "{}: the click into frame {} leads to no pose",
                 part.name(),
                 click.frame + 1
@@ -97,9 +82,14 @@ pub(super) fn found_in(
     frame: usize,
     depth: Option<f64>,
 ) -> Result<Option<Anchor>> {
+    run.say(format!(
+        "{}: looked for in frame {}",
+        part.name(),
+        frame + 1
+    ));
     let found = searched(run, part, frame, depth, None)?;
     if found.is_some() {
-        run.say(&format!("{}: found in frame {}", part.name(), frame + 1));
+        run.say(format!("{}: found in frame {}", part.name(), frame + 1));
     }
     let fixed = false;
     Ok(found.map(|found| Anchor {
@@ -127,12 +117,11 @@ pub(super) fn begin_beside(
                     pose,
                 };
                 let depth = Some(other.depth_of(pose));
+                let (name, other) = (part.name(), other.name());
+                let place = format!("beside the {other} in frame {}", frame + 1);
+                run.say(format!("{name}: looked for {place}"));
                 if let Some(found) = searched(run, part, *frame, depth, Some(seen))? {
-                    let (name, other) = (part.name(), other.name());
-                    run.say(&format!(
-                        "{name}: found beside the {other} in frame {}",
-                        frame + 1
-                    ));
+                    run.say(format!("{name}: found {place}"));
                     return Ok(vec![Anchor {
                         frame: *frame,
                         found,
@@ -142,7 +131,7 @@ pub(super) fn begin_beside(
             }
         }
     }
-    run.say(&format!(
+    run.say(format!(
         "{}: no frame that was searched has edges all along its outline from any side; click into it, or fix a pose",
         part.name()
     ));

@@ -29,7 +29,7 @@ pub(super) fn learn_film(
     let given = match stated {
         Stated::Part(given) => *given,
         Stated::Whole(constants, models) => {
-            run.say(&format!("film: {constants}"));
+            run.say(format!("film: {constants}"));
             for (part, film) in parts.iter().zip(models) {
                 if let Some(film) = film {
                     part.set_film(*film);
@@ -56,7 +56,7 @@ pub(super) fn learn_film(
         }
         let found = pool.estimate(given);
         if let Some(found) = &found {
-            run.say(&format!("film: {found}"));
+            run.say(format!("film: {found}"));
         }
         let models = |number: usize| found.as_ref().map(|found| found.model(number));
         let films: Option<Vec<_>> = (0..parts.len()).map(models).collect();

@@ -5,6 +5,7 @@ use std::fs;
 
 use anyhow::{Context, Result, ensure};
 use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
+use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
 use rayon::prelude::*;
@@ -17,11 +18,13 @@ use super::journal::Journal;
 use super::judge::judge;
 use super::metal::begun;
 use super::part::{Part, read_models};
-use super::request::Request;
+use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::{Margins, settle};
 use super::table::{HEADING, Row, covariance_table};
-use crate::files::{Film, Role, Study, read, read_calibration, write_poses, write_text};
+use crate::files::{
+    Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
+};
 use crate::finding::Stated;
 
 /// A component of a film that was followed.
@@ -57,40 +60,26 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     }
     let calibration = read_calibration(&study.calibration)?;
     let frames = study.frames.as_deref();
-    let film = Film::read(frames.context("the study has no key 'frames'")?)?;
-    let (width, height) = film.size();
-    let camera = calibration.camera(width, height)?;
-    let models = read_models(&study.components)?;
+    let frames = frames.context("the study has no key 'frames'")?;
+    let film = Film::read(frames).context("frames")?;
+    request.check(&film)?;
+    let (camera, doubts) = camera_of_frames(&calibration, film.size())?;
+    for doubt in doubts {
+        (request.listener)(Told::Remark(doubt));
+    }
+    let models = read_models(&study.components, &request.listener)?;
     fs::create_dir_all(&request.out)
         .with_context(|| format!("cannot make the folder {}", request.out.display()))?;
-    let mut inputs = Sha256::new();
-    inputs.update(film.digest());
-    inputs.update(read(&study.calibration)?);
-    for (model, component) in models.iter().zip(&study.components) {
-        inputs.update(model.as_model().digest());
-        inputs.update(format!(
-            "{:?}{:?}",
-            component.nominal, component.distance_mm
-        ));
-    }
-    inputs.update([match request.polarity {
-        Some(Polarity::DarkImplant) => 0,
-        Some(Polarity::BrightImplant) => 1,
-        None => 2,
-    }]);
     let attenuations: Vec<_> = study.components.iter().map(|one| one.attenuation).collect();
     let stated = Stated::of(study.film, &attenuations);
-    if study.film.is_some() {
-        inputs.update(format!("{stated:?}"));
-    }
-    let digest: [u8; 32] = inputs.finalize().into();
-    let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    let digest = digest(request, &study, &film, &models, &stated)?;
     let journal = request.out.join("journal.txt");
     let run = Run {
         request,
         film: &film,
         journal: Journal::open(&journal, &digest, request.anew, request.stop.clone())?,
-        saying: std::sync::Mutex::default(),
+        parts: models.len(),
+        seen: std::sync::Mutex::default(),
     };
     let components = || study.components.iter().zip(&models).enumerate();
     let parts = |polarity| -> Result<Vec<Part<'_>>> {
@@ -108,6 +97,36 @@ pub fn track(request: &Request) -> Result<Vec<Tracked>> {
         .collect::<Result<_>>()?;
     let margins = on_the_right_sides(&run, &parts, &mut films)?;
     finish(&run, &parts, &films, &margins)
+}
+
+/// Tells what all steps of a run depend on from all else, hexadecimal.
+fn digest(
+    request: &Request,
+    study: &Study,
+    film: &Film,
+    models: &[OwnedModel],
+    stated: &Stated,
+) -> Result<String> {
+    let mut inputs = Sha256::new();
+    inputs.update(film.digest());
+    inputs.update(read(&study.calibration)?);
+    for (model, component) in models.iter().zip(&study.components) {
+        inputs.update(model.as_model().digest());
+        inputs.update(format!(
+            "{:?}{:?}",
+            component.nominal, component.distance_mm
+        ));
+    }
+    inputs.update([match request.polarity {
+        Some(Polarity::DarkImplant) => 0,
+        Some(Polarity::BrightImplant) => 1,
+        None => 2,
+    }]);
+    if study.film.is_some() {
+        inputs.update(format!("{stated:?}"));
+    }
+    let digest: [u8; 32] = inputs.finalize().into();
+    Ok(digest.iter().map(|byte| format!("{byte:02x}")).collect())
 }
 
 /// A component followed by itself.
@@ -185,5 +204,6 @@ fn finish(
         }
     }
     write_text(&out.join("track.csv"), &text)?;
+    run.say_done();
     Ok(tracked)
 }

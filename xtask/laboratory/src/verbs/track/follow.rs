@@ -33,6 +33,7 @@ pub(super) fn follow(
 ) -> Result<()> {
     for anchor in anchors {
         cells[anchor.frame] = Cell::from(anchor);
+        run.count(part, anchor.frame);
     }
     let (Some(first), Some(last)) = (anchors.first(), anchors.last()) else {
         return Ok(());

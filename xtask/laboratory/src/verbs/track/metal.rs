@@ -138,13 +138,11 @@ fn score(anchors: &[Vec<Anchor>]) -> f64 {
 fn told_by_what_is_given(run: &Run<'_>, parts: &[Part<'_>]) -> Result<Option<Polarity>> {
     let mut votes = Vec::new();
     for click in &run.request.clicks {
-        // Whether there is such a frame is told where the click is used.
-        if let Ok(decoded) = run.film.frame(click.frame) {
-            votes.push(polarity_near(&*grey(&decoded)?, click.place));
-        }
+        let decoded = run.film.frame(click.frame)?;
+        votes.push(polarity_near(&*grey(&decoded)?, click.place));
     }
     for part in parts {
-        for (frame, pose) in fixed_poses(run, part)?.into_iter().take(VOTES) {
+        for (frame, pose) in fixed_poses(run, part).into_iter().take(VOTES) {
             let told = part.see(run.film, frame, |subject, image, memory| {
                 polarity_at(subject.model, subject.camera, &pose, image.frame, memory)
             })?;

@@ -17,7 +17,10 @@ use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, RefineMemory};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tracing::morphology::widen;
 
-use crate::files::{Component, Film, MaskBuffer, Role, grey, other_shape, read_model_of};
+use super::request::{Listener, Told};
+use crate::files::{
+    Component, Film, MaskBuffer, Role, grey, other_shape, read_model_and_remarks_of,
+};
 use crate::finding::{Built, ViewOptions, axes_of, build_library};
 use crate::options::Pair;
 
@@ -46,15 +49,22 @@ pub(super) struct Part<'s> {
     buffers: Mutex<Vec<RefineBuffers>>,
 }
 
-/// Reads the models of components.
+/// Reads the models of components; what there is to say of them is handed on.
 ///
 /// # Errors
 /// Names the file.
-pub(super) fn read_models(components: &[Component]) -> Result<Vec<OwnedModel>> {
-    components
-        .iter()
-        .map(|one| read_model_of(&one.model, one.role()))
-        .collect()
+pub(super) fn read_models(
+    components: &[Component],
+    listener: &Listener,
+) -> Result<Vec<OwnedModel>> {
+    let read = |one: &Component| {
+        let (model, remarks) = read_model_and_remarks_of(&one.model, one.role())?;
+        for remark in remarks {
+            listener(Told::Remark(format!("{}: {remark}", one.name)));
+        }
+        Ok(model)
+    };
+    components.iter().map(read).collect()
 }
 
 impl<'s> Part<'s> {

@@ -2,12 +2,33 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use anyhow::{Context, Result, ensure};
+use fluoropose::pose::Pose;
 use fluoropose::refine::Polarity;
 
+use crate::files::{Film, read_poses};
 use crate::options::Pair;
 use crate::progress::Stop;
+
+/// What a run tells while it goes on.
+pub enum Told {
+    /// What has to be known of what was given, a sentence.
+    Remark(String),
+    /// What was just done or is begun.
+    Step {
+        /// In a few words; frames are counted from 1.
+        what: String,
+        /// So many frames of components have been looked at,
+        done: usize,
+        /// of so many.
+        of: usize,
+    },
+}
+
+/// Who hears it, on whatever thread it comes.
+pub type Listener = Arc<dyn Fn(Told) + Send + Sync>;
 
 /// What is asked of `track`.
 pub struct Request {
@@ -18,15 +39,15 @@ pub struct Request {
     /// Clicks into components.
     pub clicks: Vec<Click>,
     /// Poses that a person fixed.
-    pub fixed: Vec<FixedPoses>,
+    pub fixed: Vec<Fixed>,
     /// Whether implants are darker or brighter than what surrounds them; the film tells it where it is not said.
     pub polarity: Option<Polarity>,
     /// Longest gap that is filled, frames.
     pub interpolate: usize,
     /// Whether what was done before is left out.
     pub anew: bool,
-    /// Whether nothing is said of the progress.
-    pub quiet: bool,
+    /// Who hears what the run tells.
+    pub listener: Listener,
     /// A wish to stop before the end: what was done is kept.
     pub stop: Stop,
 }
@@ -36,6 +57,37 @@ impl Request {
     pub(super) fn components(&self) -> impl Iterator<Item = &str> {
         let clicks = self.clicks.iter().map(|one| one.component.as_str());
         clicks.chain(self.fixed.iter().map(|one| one.component.as_str()))
+    }
+
+    /// Refuses clicks that are not on the film, and fixed poses of another one.
+    pub(super) fn check(&self, film: &Film) -> Result<()> {
+        let count = film.count();
+        for fixed in &self.fixed {
+            let (called, rows) = (&fixed.called, fixed.poses.len());
+            ensure!(
+                rows == count,
+                "{called}: there are {rows} rows, but the film has {count} frames"
+            );
+        }
+        let (width, height) = film.size();
+        for Click {
+            called,
+            frame,
+            place: [column, row],
+            ..
+        } in &self.clicks
+        {
+            ensure!(
+                *frame < count,
+                "{called}: there is no such frame, the film has {count}"
+            );
+            let is_within = |place: f64, side: usize| (0.0..=side as f64).contains(&place);
+            ensure!(
+                is_within(*column, width) && is_within(*row, height),
+                "{called}: column {column}, row {row} is not on the frame, which has {width} columns and {height} rows"
+            );
+        }
+        Ok(())
     }
 }
 
@@ -48,6 +100,8 @@ pub struct Click {
     pub frame: usize,
     /// Column and row, pixels.
     pub place: [f64; 2],
+    /// What it is called in messages.
+    pub called: String,
 }
 
 impl FromStr for Click {
@@ -66,8 +120,20 @@ impl FromStr for Click {
             component: component.to_owned(),
             frame: number - 1,
             place,
+            called: format!("click {text}"),
         })
     }
+}
+
+/// Poses of a component that a person fixed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fixed {
+    /// The component's name.
+    pub component: String,
+    /// A row a frame; `None` where nothing is fixed.
+    pub poses: Vec<Option<Pose>>,
+    /// What they are called in messages.
+    pub called: String,
 }
 
 /// Poses of a component that a person fixed, `COMPONENT=FILE`.
@@ -77,6 +143,20 @@ pub struct FixedPoses {
     pub component: String,
     /// Pose file, a row a frame, NaN where nothing is fixed.
     pub file: PathBuf,
+}
+
+impl FixedPoses {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// Names the file and the line.
+    pub fn read(&self) -> Result<Fixed> {
+        Ok(Fixed {
+            component: self.component.clone(),
+            poses: read_poses(&self.file)?,
+            called: self.file.display().to_string(),
+        })
+    }
 }
 
 impl FromStr for FixedPoses {

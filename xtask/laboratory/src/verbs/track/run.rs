@@ -1,12 +1,13 @@
 //! What all steps of a run share: what is asked, the film, the journal, and how the progress is told.
 
-use std::sync::Mutex;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 use fluoropose::follow::Looked;
 
 use super::journal::Journal;
 use super::part::Part;
-use super::request::Request;
+use super::request::{Request, Told};
 use crate::files::Film;
 
 /// What all parts of a run share.
@@ -14,29 +15,45 @@ pub(super) struct Run<'r> {
     pub(super) request: &'r Request,
     pub(super) film: &'r Film,
     pub(super) journal: Journal,
-    pub(super) saying: Mutex<()>,
+    /// Number of components.
+    pub(super) parts: usize,
+    /// Frames that were looked at, by the numbers of their components.
+    pub(super) seen: Mutex<BTreeSet<(usize, usize)>>,
 }
 
 impl Run<'_> {
-    /// Says something on standard error.
-    pub(super) fn say(&self, text: &str) {
-        if !self.request.quiet {
-            let _one = self.saying.lock();
-            eprintln!("{text}");
-        }
+    /// Tells what was done or is begun.
+    pub(super) fn say(&self, what: String) {
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        (self.request.listener)(Told::Step {
+            what,
+            done: seen.len(),
+            of: self.parts * self.film.count(),
+        });
+    }
+
+    /// Tells that all is done: also what was never looked at, because nothing led to it.
+    pub(super) fn say_done(&self) {
+        let of = self.parts * self.film.count();
+        let what = "done".to_owned();
+        (self.request.listener)(Told::Step { what, done: of, of });
     }
 
     pub(super) fn debug(&self, text: impl FnOnce() -> String) {
         if std::env::var_os("FLUOROPOSE_TRACK_DEBUG").is_some() {
-            self.say(&text());
+            eprintln!("{}", text());
         }
     }
 
-    /// Tells the progress by frame.
+    /// Counts a frame of a component as looked at.
+    pub(super) fn count(&self, part: &Part<'_>, frame: usize) {
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.insert((part.number, frame));
+    }
+
+    /// Tells what was seen in a frame.
     pub(super) fn tell(&self, part: &Part<'_>, frame: usize, looked: &Looked) {
-        if self.request.quiet {
-            return;
-        }
+        self.count(part, frame);
         let what = match &looked.found {
             Ok(found) => format!(
                 "{:.2} px, edges {:.2}{}",
@@ -46,6 +63,6 @@ impl Run<'_> {
             ),
             Err(why) => format!("{why:?}").to_lowercase(),
         };
-        self.say(&format!("{} frame {}: {what}", part.name(), frame + 1));
+        self.say(format!("{} frame {}: {what}", part.name(), frame + 1));
     }
 }

@@ -28,6 +28,7 @@ pub(super) fn settle(
     cells: &mut [Cell],
 ) -> Result<Margins> {
     let mut rounds = ROUNDS;
+    run.say(format!("{}: other poses are looked at", part.name()));
     loop {
         let (samples, steps) = choose(run, part, femurs, cells)?;
         let beside = seen_elsewhere(run, part, &samples, cells)?;

@@ -1,0 +1,140 @@
+//! What is unusual of a camera: numbers that an X-ray set may have, but that most often are a mistake in the calibration.
+
+use core::fmt;
+
+use crate::camera::Camera;
+
+/// So far the principal point lies from the middle of frames that were not cut, in their sides: a frame of half or twice the size
+/// that was calibrated is farther off.
+const OFF_CENTRE: f64 = 0.2;
+/// The source stands so many times as far from the detector as the frame's longer side, in frames that were not cut.
+const TIMES: core::ops::RangeInclusive<f64> = 1.8..=10.0;
+/// Sides of pixels differ by less.
+const UNEQUAL: f64 = 0.05;
+
+/// What is unusual of a camera. A sentence without its full stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CameraDoubt {
+    /// The principal point lies far from the frame's middle.
+    PrincipalPoint {
+        /// Column and row, pixels; the first pixel's centre is 0.5.
+        point: [f64; 2],
+        /// Width and height of the frame, pixels.
+        frame: [usize; 2],
+    },
+    /// The focal length is unusual for the frame's size.
+    Focal {
+        /// The longer one, pixels.
+        focal: f64,
+        /// In longer sides of the frame.
+        times: f64,
+    },
+    /// The two focal lengths differ.
+    Unequal {
+        /// Horizontal and vertical, pixels.
+        focal: [f64; 2],
+    },
+}
+
+impl Camera {
+    /// What is unusual of this camera.
+    pub fn doubts(&self) -> impl Iterator<Item = CameraDoubt> {
+        let (frame, point, focal) = (
+            [self.width(), self.height()],
+            self.principal_point(),
+            self.focal(),
+        );
+        let off = |k: usize| (point[k] / frame[k] as f64 - 0.5).abs() > OFF_CENTRE;
+        let longer = focal[0].max(focal[1]);
+        let times = longer / frame[0].max(frame[1]) as f64;
+        [
+            (off(0) || off(1)).then_some(CameraDoubt::PrincipalPoint { point, frame }),
+            (!TIMES.contains(&times)).then_some(CameraDoubt::Focal {
+                focal: longer,
+                times,
+            }),
+            ((focal[0] / focal[1] - 1.0).abs() > UNEQUAL).then_some(CameraDoubt::Unequal { focal }),
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
+
+impl fmt::Display for CameraDoubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PrincipalPoint {
+                point: [column, row],
+                frame: [width, height],
+            } => write!(
+                f,
+                "the principal point, column {column:.1} and row {row:.1}, lies far from the middle of a frame of {width} x {height} pixels, \
+                 as in frames that were cut out of larger ones: if these were not, is it in pixels from the upper left corner, and of frames of this size?"
+            ),
+            Self::Focal { focal, times } => write!(
+                f,
+                "the focal length, {focal:.1} pixels, is {times:.2} times the frame's longer side; X-ray sources stand 2 to 6 times as far away: \
+                 is it in pixels, not mm, and of frames of this size?"
+            ),
+            Self::Unequal {
+                focal: [horizontal, vertical],
+            } => write!(
+                f,
+                "the focal lengths, {horizontal:.1} and {vertical:.1} pixels, differ as with pixels that are not square: are they so?"
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    fn told(
+        size: (usize, usize),
+        focal: [f64; 2],
+        point: [f64; 2],
+    ) -> std::vec::Vec<std::string::String> {
+        let camera = Camera::new(size.0, size.1, focal, point).expect("possible");
+        camera.doubts().map(|doubt| doubt.to_string()).collect()
+    }
+
+    #[test]
+    fn usual_cameras_are_not_doubted() {
+        for (size, focal, point) in [
+            ((1024, 1024), [3212.0; 2], [512.0; 2]),
+            ((1024, 1024), [4489.9, 4492.2], [459.0, 557.8]),
+            // A flat panel of 430 mm at 0.9 m, and one of 150 mm on a small arm.
+            ((3072, 3072), [6430.0; 2], [1500.0, 1600.0]),
+            ((1000, 1000), [3000.0; 2], [430.0, 600.0]),
+            ((1280, 720), [3900.0; 2], [640.0, 360.0]),
+        ] {
+            assert!(told(size, focal, point).is_empty(), "{focal:?}");
+        }
+    }
+
+    #[test]
+    fn usual_mistakes_are_told() {
+        let one = |size, focal, point, word: &str| {
+            let told = told(size, focal, point);
+            assert!(told.len() == 1 && told[0].contains(word), "{told:?}");
+        };
+        let middle = [512.0; 2];
+        // Millimetres from the frame's middle.
+        one(
+            (1024, 1024),
+            [3212.0; 2],
+            [0.5, 0.5],
+            "principal point, column 0.5",
+        );
+        // Calibrated at half and at twice the size.
+        one((1024, 1024), [3212.0; 2], [256.0; 2], "principal point");
+        one((512, 512), [3212.0; 2], [512.0; 2], "principal point");
+        // Focal length in millimetres.
+        one((1024, 1024), [1198.0; 2], middle, "not mm");
+        one((1024, 1024), [3212.0 * 12.0; 2], middle, "37.64 times");
+        one((1024, 1024), [3212.0, 2900.0], middle, "not square");
+        assert_eq!(told((1024, 1024), [1.2, 1.0], [0.5; 2]).len(), 3);
+    }
+}
