@@ -8,6 +8,7 @@ use anyhow::{Context, Result, ensure};
 use crate::output::announce;
 use crate::page::{self, Build};
 use crate::setup::{command, node};
+use crate::supply::{self, notices};
 use crate::{wheel, workspace};
 
 /// Options of `package`.
@@ -15,7 +16,8 @@ use crate::{wheel, workspace};
 /// Builds the page as `serve` does and writes three things into the folder:
 /// `site`, to be copied to any static host, into any folder of it; `fluoropose.html`, the same page in one file,
 /// which a browser opens from the disk; `npm`, the module for other programs (see its README.md). With `--python` it builds the wheel of the
-/// Python package instead (see core/python/README.md), and sets up what builds it.
+/// Python package instead (see core/python/README.md), and sets up what builds it. Each holds THIRD-PARTY.txt, the parts of others with their
+/// licences (the one file at its end), and the same for programs, sbom.cdx.json.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder to write to [default: package in cargo's target folder]
@@ -77,6 +79,7 @@ pub(crate) fn make(dist: &Path, out: &Path) -> Result<Package> {
 fn site(dist: &Path, to: &Path) -> Result<PathBuf> {
     empty(to)?;
     copy_folder(dist, to)?;
+    notices::write(to, "the page of fluoropose", &supply::of_page()?)?;
     Ok(to.to_path_buf())
 }
 
@@ -85,7 +88,10 @@ fn single(to: &Path) -> Result<PathBuf> {
     announce("bundling the page into one file (npm run build-embedded)");
     command::run(&mut node::script(&web, "build-embedded")?)?;
     let made = web.join("dist-embedded/fluoropose.html");
-    fs::copy(&made, to).with_context(|| format!("cannot copy {}", made.display()))?;
+    let mut page = fs::read(&made).with_context(|| format!("cannot read {}", made.display()))?;
+    let parts = notices::comment("the page of fluoropose", &supply::of_page()?)?;
+    page.extend_from_slice(parts.as_bytes());
+    fs::write(to, page).with_context(|| format!("cannot write {}", to.display()))?;
     Ok(to.to_path_buf())
 }
 
@@ -105,6 +111,7 @@ fn module(to: &Path) -> Result<PathBuf> {
         fs::copy(npm.join(name), to.join(name))?;
     }
     fs::copy(root.join("LICENSE"), to.join("LICENSE"))?;
+    notices::write(to, "the npm module fluoropose", &supply::of_module()?)?;
     ensure!(
         to.join("index.js").is_file() && to.join("index.d.ts").is_file(),
         "the compiler left no index.js with types in {}",
