@@ -45,9 +45,7 @@ pub(crate) fn yanked(parts: &[Part]) -> Result<(Vec<&Part>, usize)> {
 }
 
 fn indexes() -> Result<Vec<PathBuf>> {
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| Some(PathBuf::from(std::env::var_os("HOME")?).join(".cargo")));
-    let folder = home.context("cargo has no folder")?.join("registry/index");
+    let folder = workspace::cargo_home()?.join("registry/index");
     let entries = fs::read_dir(&folder).context("cargo has no copy of the registry's index")?;
     let caches = entries.flatten().map(|entry| entry.path().join(".cache"));
     let caches: Vec<PathBuf> = caches.filter(|cache| cache.is_dir()).collect();
