@@ -105,7 +105,8 @@ async function snap(page, stage, t) {
 
 /** @param {Page} page */
 async function shape(page) {
-  const pose = await panel.waitForPose(page);
+  // What was redone before is on the film once more.
+  const pose = await tracing.corrected(page);
   await tracing.strip(page).getByRole('button', { name: 'Shape the outline' }).click();
   const sheet = page.getByRole('dialog', { name: 'Shape' });
   await sheet.getByRole('slider', { name: 'Simplify within' }).fill('2');

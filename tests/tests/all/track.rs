@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use fluoropose::camera::Camera;
 use fluoropose::follow::{
@@ -14,9 +15,8 @@ use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers};
 use fluoropose::render::{Projected, render, scratch_needed};
-use fluoropose_laboratory::files::write_poses;
 use fluoropose_laboratory::progress::Stop;
-use fluoropose_laboratory::verbs::track::{Request, Tracked, track};
+use fluoropose_laboratory::verbs::track::{Fixed, Request, Tracked, track};
 use fluoropose_phantom::film::motion::{Position, deep_knee_bend};
 use fluoropose_phantom::implant::{Side, Triangles};
 use fluoropose_phantom::picture::write_grey;
@@ -124,26 +124,25 @@ fn shown(name: &str, show: fn(u8) -> u8) -> Short {
 impl Short {
     /// Follows from the frames in which the poses are fixed.
     fn track(&self, out: &str, fixed: &[usize]) -> anyhow::Result<Vec<Tracked>> {
-        let names = ["femur", "tibia"];
-        let files = names.iter().zip(&self.truth).map(|(name, truth)| {
-            let file = self.folder.join(format!("fixed-{out}-{name}.jts"));
-            let rows: Vec<Option<EulerPose>> = truth
+        let parts = ["femur", "tibia"].into_iter().zip(&self.truth);
+        let given = parts.map(|(name, truth)| Fixed {
+            component: name.to_owned(),
+            poses: truth
                 .iter()
                 .enumerate()
-                .map(|(frame, pose)| fixed.contains(&frame).then_some(*pose))
-                .collect();
-            write_poses(&file, &rows)?;
-            format!("{name}={}", file.display()).parse()
+                .map(|(frame, pose)| fixed.contains(&frame).then(|| Pose::from(*pose)))
+                .collect(),
+            called: name.to_owned(),
         });
         track(&Request {
             study: self.folder.join("study.toml"),
             out: self.folder.join(out),
             clicks: Vec::new(),
-            fixed: files.collect::<anyhow::Result<_>>()?,
+            fixed: given.collect(),
             polarity: None,
             interpolate: 0,
             anew: false,
-            quiet: true,
+            listener: Arc::new(|_| ()),
             stop: Stop::default(),
         })
     }
