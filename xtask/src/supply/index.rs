@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(place("Serde"), Path::new("se/rd/serde"));
         assert_eq!(place("png"), Path::new("3/p/png"));
         assert_eq!(place("cc"), Path::new("2/cc"));
-        let file = b"\x03\x02\0\0\0etag: x\01.0.0\0{\"vers\": \"1.0.0\", \"yanked\": true}\x001.0.1\0{\"vers\":\"1.0.1\",\"yanked\":false}\0";
+        let file = b"\x03\x02\0\0\0etag: x\x001.0.0\0{\"vers\": \"1.0.0\", \"yanked\": true}\x001.0.1\0{\"vers\":\"1.0.1\",\"yanked\":false}\0";
         assert_eq!(state(file, "1.0.0"), Some(true));
         assert_eq!(state(file, "1.0.1"), Some(false));
         assert_eq!(state(file, "1.0.2"), None);
