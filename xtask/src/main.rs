@@ -18,6 +18,7 @@ mod serve;
 mod setup;
 mod static_server;
 mod suite;
+mod supply;
 mod test;
 mod tidy;
 mod wheel;
@@ -50,6 +51,8 @@ enum Verb {
     Fuzz(fuzz::Args),
     /// Check the layout of the sources: layers, cycles between files, words
     Tidy(tidy::Args),
+    /// Check what comes from elsewhere: licences, sources, what was taken back
+    Supply(supply::Args),
     /// What continuous integration runs
     Ci(ci::Args),
     /// Write the built-in implants as STL files
@@ -109,6 +112,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Conformance(args) => conformance::run(args),
         Verb::Fuzz(args) => fuzz::run(args),
         Verb::Tidy(args) => tidy::run(args),
+        Verb::Supply(args) => supply::run(args),
         Verb::Ci(args) => ci::run(args),
         Verb::Models(args) => models::run(args),
         Verb::Demo(args) => demo::run(args),

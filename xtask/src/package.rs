@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 
 use crate::output::announce;
 use crate::page::{self, Build};
 use crate::setup::{command, node};
+use crate::supply::{self, notices};
 use crate::{wheel, workspace};
 
 /// Options of `package`.
@@ -15,7 +16,8 @@ use crate::{wheel, workspace};
 /// Builds the page as `serve` does and writes three things into the folder:
 /// `site`, to be copied to any static host, into any folder of it; `fluoropose.html`, the same page in one file,
 /// which a browser opens from the disk; `npm`, the module for other programs (see its README.md). With `--python` it builds the wheel of the
-/// Python package instead (see core/python/README.md), and sets up what builds it.
+/// Python package instead (see core/python/README.md), and sets up what builds it. Each holds THIRD-PARTY.txt, the parts of others with their
+/// licences (the one file at its end), and the same for programs, sbom.cdx.json.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Folder to write to [default: package in cargo's target folder]
@@ -28,7 +30,8 @@ pub(crate) struct Args {
 
 /// Runs the verb.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let out = args.out.unwrap_or_else(usual_folder);
+    // Parts are made by programs that run in other folders.
+    let out = std::path::absolute(args.out.unwrap_or_else(usual_folder))?;
     if args.python {
         println!("For pip:           {}", wheel::make(&out)?.display());
         return Ok(());
@@ -77,6 +80,8 @@ pub(crate) fn make(dist: &Path, out: &Path) -> Result<Package> {
 fn site(dist: &Path, to: &Path) -> Result<PathBuf> {
     empty(to)?;
     copy_folder(dist, to)?;
+    notices::write(to, "the page of fluoropose", &supply::of_page()?)?;
+    names_no_folder(to, &folders_here()?)?;
     Ok(to.to_path_buf())
 }
 
@@ -85,7 +90,10 @@ fn single(to: &Path) -> Result<PathBuf> {
     announce("bundling the page into one file (npm run build-embedded)");
     command::run(&mut node::script(&web, "build-embedded")?)?;
     let made = web.join("dist-embedded/fluoropose.html");
-    fs::copy(&made, to).with_context(|| format!("cannot copy {}", made.display()))?;
+    let mut page = fs::read(&made).with_context(|| format!("cannot read {}", made.display()))?;
+    let parts = notices::comment("the page of fluoropose", &supply::of_page()?)?;
+    page.extend_from_slice(parts.as_bytes());
+    fs::write(to, page).with_context(|| format!("cannot write {}", to.display()))?;
     Ok(to.to_path_buf())
 }
 
@@ -105,12 +113,42 @@ fn module(to: &Path) -> Result<PathBuf> {
         fs::copy(npm.join(name), to.join(name))?;
     }
     fs::copy(root.join("LICENSE"), to.join("LICENSE"))?;
+    notices::write(to, "the npm module fluoropose", &supply::of_module()?)?;
     ensure!(
         to.join("index.js").is_file() && to.join("index.d.ts").is_file(),
         "the compiler left no index.js with types in {}",
         to.display()
     );
+    names_no_folder(to, &folders_here()?)?;
     Ok(to.to_path_buf())
+}
+
+/// Folders of this machine that compilers like to write down.
+fn folders_here() -> Result<[PathBuf; 2]> {
+    Ok([
+        workspace::cargo_home()?.join("registry"),
+        workspace::root().join("core/src"),
+    ])
+}
+
+/// Refuses a package of which a file names one of the folders: it may name a person, and no two machines would build the same.
+fn names_no_folder(package: &Path, folders: &[PathBuf]) -> Result<()> {
+    for entry in fs::read_dir(package)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            names_no_folder(&path, folders)?;
+            continue;
+        }
+        let bytes = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let text = String::from_utf8_lossy(&bytes);
+        let named = folders
+            .iter()
+            .find(|folder| text.contains(&*folder.to_string_lossy()));
+        if let Some(folder) = named {
+            bail!("{} names the folder {}", path.display(), folder.display());
+        }
+    }
+    Ok(())
 }
 
 /// An empty folder, whatever was in it before.
@@ -157,6 +195,22 @@ mod tests {
         assert!(!to.join(".stamp").exists());
         empty(&to).unwrap();
         assert_eq!(fs::read_dir(&to).unwrap().count(), 0);
+        fs::remove_dir_all(scratch).unwrap();
+    }
+
+    #[test]
+    fn a_package_that_names_a_folder_of_the_machine_is_refused() {
+        let scratch = std::env::temp_dir().join(format!("fluoropose-names-{}", std::process::id()));
+        fs::create_dir_all(scratch.join("deep")).unwrap();
+        fs::write(
+            scratch.join("deep/a.wasm"),
+            b"\xff\0/home/x/.cargo/registry/src\xff",
+        )
+        .unwrap();
+        let named = |folder: &str| names_no_folder(&scratch, &[PathBuf::from(folder)]);
+        assert!(named("/home/y/.cargo/registry").is_ok());
+        let error = named("/home/x/.cargo/registry").unwrap_err().to_string();
+        assert!(error.contains("a.wasm"), "{error}");
         fs::remove_dir_all(scratch).unwrap();
     }
 }

@@ -53,11 +53,24 @@ impl Build {
     }
 }
 
-/// With 128-bit vectors, which every engine has that the page's own language asks for (but Safari 16.0 to 16.3).
-const WIDE: [&str; 2] = [
-    "--config",
-    "target.wasm32-unknown-unknown.rustflags=['-Ctarget-feature=+simd128']",
-];
+/// With 128-bit vectors, which every engine has that the page's own language asks for (but Safari 16.0 to 16.3), and without the
+/// folders of this machine, which would stand in the text of panics: they may name a person, and two machines would build two pages.
+fn compiler_settings() -> Result<[String; 2]> {
+    let mut flags = vec!["-Ctarget-feature=+simd128".to_owned()];
+    for (folder, instead) in [
+        (workspace::cargo_home()?, "/cargo"),
+        (workspace::root(), "/fluoropose"),
+    ] {
+        flags.push(format!(
+            "--remap-path-prefix={}={instead}",
+            folder.display()
+        ));
+    }
+    // A list of texts in JSON is one in TOML.
+    let flags = serde_json::to_string(&flags)?;
+    let setting = format!("target.wasm32-unknown-unknown.rustflags={flags}");
+    Ok(["--config".to_owned(), setting])
+}
 
 /// Sets up what is missing, builds everything and returns the folder to serve (`web/dist`).
 ///
@@ -109,7 +122,7 @@ fn build_modules(toolchain: &Toolchain, how: Build) -> Result<Vec<PathBuf>> {
     let target_dir = workspace::target_dir();
     let mut cargo = toolchain.cargo("build", &target_dir);
     cargo.args(["--profile", how.profile(), "--lib"]);
-    cargo.args(WIDE);
+    cargo.args(compiler_settings()?);
     for module in MODULES {
         cargo.args(["--package", module.package]);
     }

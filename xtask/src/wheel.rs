@@ -7,6 +7,7 @@ use anyhow::{Context, Result};
 
 use crate::output::announce;
 use crate::setup::{command, python};
+use crate::supply::{self, notices};
 use crate::workspace;
 
 /// What builds it.
@@ -22,11 +23,19 @@ pub(crate) fn make(out: &Path) -> Result<PathBuf> {
     for old in wheels(out)? {
         fs::remove_file(&old).with_context(|| format!("cannot remove {}", old.display()))?;
     }
+    let folder = workspace::root().join("core/python");
+    notices::write(
+        &folder,
+        "the Python package fluoropose",
+        &supply::of_wheel()?,
+    )?;
     announce("building the Python package (maturin build)");
     let mut maturin = command::of_lane(python::beside(&tools, "maturin"));
     maturin
         .args(["build", "--release", "--manifest-path"])
-        .arg(workspace::root().join("core/python/Cargo.toml"))
+        .arg(folder.join("Cargo.toml"))
+        .arg("--sbom-include")
+        .arg(folder.join(notices::SBOM))
         .arg("--out")
         .arg(out);
     command::run(&mut maturin)?;

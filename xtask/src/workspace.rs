@@ -21,6 +21,16 @@ pub(crate) fn target_dir() -> PathBuf {
     root().join(chosen)
 }
 
+/// Where cargo keeps what it fetched.
+///
+/// Errors where the environment does not say.
+pub(crate) fn cargo_home() -> Result<PathBuf> {
+    let told = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let of_person = || Some(std::env::home_dir()?.join(".cargo"));
+    told.or_else(of_person)
+        .context("the environment names no folder for cargo")
+}
+
 /// SHA-256 (hex) over the names and contents of files and whole folders, independent of the order on disk.
 ///
 /// Errors when one of the paths cannot be read.

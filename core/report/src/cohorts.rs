@@ -6,6 +6,7 @@ use fluoropose::joint::COLUMNS;
 use fluoropose::joint::group::OverKnees;
 use fluoropose::joint::numbers::{NUMBERS, place};
 
+use crate::cell::quoted;
 use crate::group::Group;
 use crate::svg::{Anchor, Drawing, Plot, Scale};
 
@@ -44,10 +45,6 @@ fn rows(out: &mut String, names: [&str; 2], levels: &[f64], at: impl Fn(usize, f
         }
         out.push('\n');
     }
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 /// Size in its own units, and width in print: two columns of a journal.

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod cell;
 pub mod cohorts;
 mod facts;
 mod figure;

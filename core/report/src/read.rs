@@ -6,6 +6,7 @@ use fluoropose::joint::{COLUMNS, JointFrame};
 use fluoropose::{Pose, Side};
 use thiserror::Error;
 
+use crate::cell::plain;
 use crate::film::{JointFilm, JointRow};
 
 /// Why a file cannot be read.
@@ -181,10 +182,11 @@ pub fn film(text: &str) -> Result<JointFilm, ReadError> {
             .split_once(",\"")
             .map_or("", |(_, doubt)| doubt)
             .trim_end();
-        doubt
+        let doubt = doubt
             .strip_suffix('"')
             .unwrap_or(doubt)
-            .replace("\"\"", "\"")
+            .replace("\"\"", "\"");
+        plain(&doubt).to_owned()
     });
     for (at, doubt) in doubts.enumerate() {
         let take = |columns: &[Vec<f64>]| core::array::from_fn(|k| columns[k][at]);

@@ -9,6 +9,7 @@ use fluoropose::pose::jts::{JTA_EULER_KINEMATICS, JTA_EULER_POSE};
 use fluoropose::pose::{EulerPose, Pose};
 use thiserror::Error;
 
+use crate::cell::{in_heading, quoted};
 use crate::film::{JointFilm, JointRow};
 use crate::group::Group;
 
@@ -37,7 +38,7 @@ fn heading(film: &JointFilm) -> Vec<String> {
     };
     vec![
         format!("fluoropose {}, joint table version 1", env!("CARGO_PKG_VERSION")),
-        format!("study: {}; knee: {side}; frames are numbered as in the film, from 1; NaN where a component has no pose", film.name.replace(['\n', '\r'], " ")),
+        format!("study: {}; knee: {side}; frames are numbered as in the film, from 1; NaN where a component has no pose", in_heading(&film.name)),
         "units: mm, degrees (deg), percent of the tray's anterior-posterior extent from its posterior border".to_owned(),
         "field_*: origin of the femoral component in the axes of the tibial one; flexion, abduction, internal rotation: tibia against femur, z-x-y, which is Grood and Suntay's sequence".to_owned(),
         "gs_*: shift of the tibial origin from the femoral one along the axes of Grood and Suntay 1983".to_owned(),
@@ -87,12 +88,8 @@ fn table_row(out: &mut String, film: &JointFilm, row: &JointRow) {
     for number in all.chain(filtered.into_iter().flatten()) {
         let _ = write!(out, ",{number}");
     }
-    let doubt = row
-        .doubt
-        .as_deref()
-        .unwrap_or_default()
-        .replace('"', "\"\"");
-    let _ = writeln!(out, ",{},\"{doubt}\"", u8::from(row.checked));
+    let doubt = quoted(row.doubt.as_deref().unwrap_or_default());
+    let _ = writeln!(out, ",{},{doubt}", u8::from(row.checked));
 }
 
 /// The first frame of the film is at time 0.
@@ -107,7 +104,7 @@ fn seconds(film: &JointFilm, row: &JointRow) -> Option<f64> {
 /// [`WriteError::NoTimes`].
 pub fn mot(film: &JointFilm) -> Result<String, WriteError> {
     let mut out = String::new();
-    let name = film.name.replace(['\n', '\r', '\t'], " ");
+    let name = film.name.replace(char::is_control, " ");
     let (rows, columns) = (film.rows.len(), NUMBERS + 1);
     let _ = write!(
         out,
@@ -155,7 +152,7 @@ pub fn group_table(group: &Group) -> String {
         "# fluoropose {}, group table version 1\n",
         env!("CARGO_PKG_VERSION")
     );
-    let name = group.name.replace(['\n', '\r'], " ");
+    let name = in_heading(&group.name);
     let _ = writeln!(
         out,
         "# group: {name}; mean and standard deviation over knees, of each knee the mean of its films, of each film that of its monotonic phases; without doubtful frames, nothing extrapolated, NaN where fewer than two knees have a number"
@@ -163,7 +160,7 @@ pub fn group_table(group: &Group) -> String {
     for knee in group.knees() {
         let films: Vec<&str> = knee.films.iter().map(|film| film.name.as_str()).collect();
         let line = format!("# knee {}: {}", knee.name, films.join(", "));
-        let _ = writeln!(out, "{}", line.replace(['\n', '\r'], " "));
+        let _ = writeln!(out, "{}", in_heading(&line));
     }
     let mut names = vec!["flexion_step_deg".to_owned(), "n".to_owned()];
     names.extend(COLUMNS.iter().flat_map(|column| {

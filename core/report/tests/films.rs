@@ -409,3 +409,58 @@ fn the_report_names_inputs_settings_doubts_and_limits() {
             || page.matches("http://").count() == page.matches("http://www.w3.org").count()
     );
 }
+
+/// What a spreadsheet that takes commas, semicolons or tabs for separators would calculate: cells that begin with a sign and are no number.
+fn formulas(table: &str) -> Vec<&str> {
+    let cells = table.lines().flat_map(|line| line.split([',', ';', '\t']));
+    // One quote is the cell's; a second would be its text's.
+    let texts = cells.map(|cell| {
+        let cell = cell.trim();
+        cell.strip_prefix('"').unwrap_or(cell).trim_start()
+    });
+    texts
+        .filter(|text| text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err())
+        .collect()
+}
+
+#[test]
+fn hostile_names_are_no_formulas_and_leave_the_numbers_alone() {
+    let names = [
+        "=HYPERLINK(\"x\")",
+        "a,=1",
+        "b;@2",
+        "c\t+3",
+        "d\n-4,\"=5\"",
+        "\"=6\"",
+    ];
+    for hostile in names {
+        let (plain, mut film) = (film(12.0), film(12.0));
+        film.name = hostile.to_owned();
+        film.rows[5].doubt = Some(hostile.split([',', ';']).collect());
+        let group = Group::new(
+            hostile.to_owned(),
+            vec![Knee {
+                name: hostile.to_owned(),
+                films: vec![FilmLevels::of(&film), FilmLevels::of(&film)],
+            }],
+        );
+        for table in [
+            write::table(&film),
+            write::matrix(&[&film], 0),
+            write::group_table(&group),
+        ] {
+            assert_eq!(formulas(&table), Vec::<&str>::new(), "{hostile:?}");
+        }
+        let cohorts = cohorts::table(std::slice::from_ref(&group));
+        let first = cohorts.lines().nth(1).unwrap();
+        assert!(
+            !first.starts_with("\"=") && !first.starts_with("\"@"),
+            "{first}"
+        );
+        let numbers = |film| read::table(&write::table(film)).unwrap().rows;
+        assert_eq!(
+            format!("{:?}", numbers(&film)),
+            format!("{:?}", numbers(&plain))
+        );
+    }
+}

@@ -1,7 +1,8 @@
 import { cellOf, chosenCandidate, type Doc, type Outline } from '../document/types';
 import { poseTable } from '../document/session/table';
 import { writeCoco } from '../exchange/coco';
-import { download, fileStem } from '../exchange/browser_files';
+import { download } from '../exchange/browser_files';
+import { fileStem } from '../terms/file_name';
 import { exportMasks } from '../exchange/exporter';
 import { writeOutlines } from '../exchange/outline_file';
 import { publishedFilm } from '../exchange/publish';

@@ -52,8 +52,3 @@ async function filesOf(entry: FileSystemEntry): Promise<Located[]> {
     for (const inner of entries) files.push(...(await filesOf(inner)));
   }
 }
-
-/** The name of a study as the beginning of a file's name. */
-export function fileStem(name: string): string {
-  return name.trim().replace(/[^\p{L}\p{N}._-]+/gu, '_') || 'study';
-}

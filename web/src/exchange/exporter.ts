@@ -1,5 +1,6 @@
 import { cellOf, type Doc } from '../document/types';
 import { COMPONENT_NAMES } from '../terms/component';
+import { fileStem } from '../terms/file_name';
 import { texts } from '../texts/texts';
 import { asJob, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
@@ -33,15 +34,21 @@ export function masksOf(doc: Doc): MaskToWrite[] {
   );
 }
 
-/** Names of the frames as names of files, each once. "film.tif #3" becomes "film_0003". */
+/** Names of the frames as names of files, each once whatever the case. "film.tif #3" becomes "film_0003". */
 function namesOf(doc: Doc): string[] {
-  const used = new Map<string, number>();
+  const used = new Set<string>();
+  const counts = new Map<string, number>();
   return doc.frames.map(({ name }) => {
-    const [, file = name, page] = /^(.*?)(?: #(\d+))?$/.exec(name) ?? [];
-    const stem = file.replace(/\.[a-z0-9]+$/i, '').replace(/[^\p{L}\p{N}._-]+/gu, '_') || 'frame';
+    const [, file = name, page] = /^(.*?)(?: #(\d{1,9}))?$/s.exec(name) ?? [];
+    const stem = fileStem(file.replace(/\.[a-z0-9]+$/i, ''), 'frame');
     const wanted = page === undefined ? stem : `${stem}_${page.padStart(4, '0')}`;
-    const before = used.get(wanted) ?? 0;
-    used.set(wanted, before + 1);
-    return before === 0 ? wanted : `${wanted}_${before + 1}`;
+    const folded = wanted.toLowerCase();
+    let count = counts.get(folded) ?? 0;
+    let own = wanted;
+    do own = ++count === 1 ? wanted : `${wanted}_${count}`;
+    while (used.has(own.toLowerCase()));
+    counts.set(folded, count);
+    used.add(own.toLowerCase());
+    return own;
   });
 }

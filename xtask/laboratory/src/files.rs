@@ -6,6 +6,7 @@ mod film;
 mod frames;
 mod mask;
 mod model;
+mod name;
 mod poses;
 mod role;
 mod study;
@@ -20,6 +21,7 @@ pub use model::{
     other_shape, owned, read_model, read_model_and_remarks, read_model_and_remarks_of,
     read_model_of, shape_doubt,
 };
+pub use name::check_file_name;
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
 pub use study::{Component, StatedFilm, Study};

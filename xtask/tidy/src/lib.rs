@@ -1,7 +1,7 @@
 //! `cargo xtask tidy`: what the layout of the sources promises, checked from their text.
 //!
 //! No file uses another in a circle ([`graph`]); no room uses one above it ([`layers`]); nothing stands at the top of
-//! the repository that has no place there ([`top`]); no test is switched off ([`code`]), no work left to come
+//! the repository that has no place there ([`top`]); no script of the page makes markup of text ([`markup`]); no test is switched off ([`code`]), no work left to come
 //! ([`texts`]), and no word comes back that was replaced ([`words`]).
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
@@ -12,6 +12,7 @@ pub mod files;
 pub mod findings;
 pub mod graph;
 pub mod layers;
+pub mod markup;
 pub mod print;
 pub mod rust;
 pub mod scripts;
@@ -38,6 +39,7 @@ pub fn check(root: &Path) -> Result<Findings> {
     let mut findings = Findings::default();
     findings.errors.extend(top::errors(root)?);
     findings.errors.extend(texts::errors(root, &files)?);
+    findings.errors.extend(markup::errors(root, &files)?);
     for graph in graphs(root, &files, &mut findings)? {
         findings.errors.extend(graph.cycles());
         if let Some(layers) = layers_of(root, &graph)? {

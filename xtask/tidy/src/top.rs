@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 
 /// All that a visitor meets first, dot-folders aside.
-const PLACED: [&str; 12] = [
+const PLACED: [&str; 13] = [
     "CHANGELOG.md",
     "CONTRIBUTING.md",
     "Cargo.lock",
@@ -13,6 +13,7 @@ const PLACED: [&str; 12] = [
     "DESIGN.md",
     "LICENSE",
     "README.md",
+    "SECURITY.md",
     "core",
     "tests",
     "wasm",

@@ -1,4 +1,5 @@
 import { framePoint, type FramePoint } from '../../geometry/points';
+import { COMPONENT_NAMES } from '../../terms/component';
 import { readAudit, type Audit } from './audit';
 import { readAxes } from '../axes';
 import { Cells } from '../cells';
@@ -186,6 +187,8 @@ const readPosedParts = object<Omit<Posed, 'program' | 'onFrame' | 'doubt'>>({
 const readPosed: Reader<Posed> = (value, path) => {
   const { program, onFrame, doubt } = object({ program: optional(text), onFrame: optional(readOnFrame), doubt: optional(number) })(value, path);
   const read = readPosedParts(value, path);
+  // Where there is none, the first is chosen of none.
+  if (read.chosen >= Math.max(1, read.candidates.length)) throw new ReadError(`${path}.chosen is ${read.chosen} of ${read.candidates.length}`);
   const parts = { ...read, origin: interned(read.origin) };
   const found = onFrame ?? (isByClick(parts) ? { film: null } : null);
   return { ...parts, ...(program !== null && { program }), ...(found && { onFrame: found }), ...(doubt !== null && { doubt }) };
@@ -222,7 +225,15 @@ function isOfClick(result: Result | null): boolean {
   return result?.kind === 'posed' && result.from === 'outline' && result.onFrame !== undefined;
 }
 
-const readCells: Reader<Cells<Cell>> = (value, path) => Cells.from(Object.entries(dictionary(readCell)(value, path)));
+const readCells: Reader<Cells<Cell>> = (value, path) => {
+  const cells = Object.entries(dictionary(readCell)(value, path));
+  const stray = cells.find(([key]) => !CELL_KEY.test(key));
+  if (stray) throw new ReadError(`${path} names ${JSON.stringify(stray[0].slice(0, 40))}, which is no frame and component`);
+  return Cells.from(cells);
+};
+
+/** As `cellKey` makes it. */
+const CELL_KEY = new RegExp(`^.+/(?:${COMPONENT_NAMES.join('|')})$`, 's');
 
 const readFrame = object<FrameEntry>({
   id: text,

@@ -87,12 +87,18 @@ function onFrameWords({ onFrame }: Posed): string {
   return onFrame.film ? ' on the frame by its film' : ' on the frame, film unknown';
 }
 
-/** Rows with commas (RFC 4180). */
+/** Rows with commas (RFC 4180). Text that a spreadsheet would take for a formula gets an apostrophe before it; numbers never. */
 export function tableOf(rows: readonly (readonly (string | number | null)[])[]): string {
   return rows.map((row) => `${row.map(field).join(',')}\r\n`).join('');
 }
 
 function field(value: string | number | null): string {
-  const text = value === null ? '' : String(value);
+  const text = typeof value === 'string' ? harmless(value) : String(value ?? '');
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+/** As `fluoropose_report::cell` has it: control characters are spaces, and some programs leave those out before they look. */
+function harmless(text: string): string {
+  const line = text.replace(/\p{Cc}/gu, ' ');
+  return /^\s*[=+\-@＝＋－＠]/u.test(line) ? `'${line}` : line;
 }

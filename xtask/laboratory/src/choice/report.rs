@@ -6,6 +6,7 @@ use anyhow::{Result, bail};
 use fluoropose::finder::{Candidate, Verdict};
 use fluoropose::math::Vector3;
 use fluoropose::pose::{EulerPose, Pose};
+use fluoropose_report::cell::quoted;
 use serde::Serialize;
 
 use super::decide::Decision;
@@ -179,11 +180,6 @@ fn why(found: &FrameFound, decision: Option<&Decision>) -> String {
     }
 }
 
-/// A cell of text (RFC 4180).
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
-}
-
 const HEADING: &str = "frame,file,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,residual_px,offset_px,verdict,because,decided_by,\
 rival_x_mm,rival_y_mm,rival_z_mm,rival_z_rot_deg,rival_x_rot_deg,rival_y_rot_deg,rival_residual_px";
@@ -264,6 +260,13 @@ mod tests {
             z_mm: -1000.0,
             ..EulerPose::default()
         }));
+        let hostile = FrameReport {
+            file: "=HYPERLINK(\"x\")\t.png".to_owned(),
+            because: "-1+1".to_owned(),
+            ..missing()
+        };
+        assert_eq!(hostile.cells()[1], "\"'=HYPERLINK(\"\"x\"\") .png\"");
+        assert_eq!(hostile.cells()[17], "\"'-1+1\"");
         let full = FrameReport {
             pose: Some(numbers),
             sd: Some(numbers),

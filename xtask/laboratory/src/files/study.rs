@@ -9,6 +9,7 @@ use serde::Deserialize;
 use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm};
 use fluoropose_phantom::implant::Side;
 
+use super::name::check_file_name;
 use super::role::Role;
 use super::text::read_text;
 
@@ -149,6 +150,12 @@ impl Study {
                 path.display()
             );
         }
+        for component in &study.components {
+            let sources = component.masks.keys().chain(component.peer.keys());
+            for word in sources.chain([&component.name]) {
+                check_file_name(word).with_context(|| format!("in {}", path.display()))?;
+            }
+        }
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
         resolve(&mut study.calibration);
@@ -229,6 +236,24 @@ mod tests {
             "colour = 1",
         ] {
             assert!(film(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_that_lead_elsewhere_are_refused() {
+        let head = "name = 'left'\ncalibration = 'c.txt'\n[[component]]\nmodel = 'f.stl'\n";
+        for hostile in [
+            "name = '../femur'",
+            "name = '/tmp/femur'",
+            "name = 'NUL'",
+            "name = 'femur'\nmasks.'../m' = 'm'",
+            "name = 'femur'\npeer.'a/b' = 'p.jts'",
+        ] {
+            let error = read(&format!("{head}{hostile}\n")).unwrap_err();
+            assert!(
+                format!("{error:#}").contains("is no name for a file"),
+                "{error:#}"
+            );
         }
     }
 

@@ -71,8 +71,11 @@ pub fn write_json(path: Option<&Path>, table: &impl serde::Serialize) -> Result<
 /// Fields of a line of a table, some in quotes.
 pub fn csv_fields(line: &str) -> Vec<String> {
     let (mut fields, mut field, mut quoted) = (Vec::new(), String::new(), false);
-    for letter in line.chars() {
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
         match letter {
+            // Two within quotes are one.
+            '"' if quoted && letters.next_if_eq(&'"').is_some() => field.push('"'),
             '"' => quoted = !quoted,
             ',' if !quoted => fields.push(std::mem::take(&mut field)),
             other => field.push(other),
@@ -86,4 +89,21 @@ pub fn csv_fields(line: &str) -> Vec<String> {
 pub fn sha256(bytes: &[u8]) -> String {
     let digest: [u8; 32] = Sha256::digest(bytes).into();
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_read_back_as_they_were_quoted() {
+        use fluoropose_report::cell::{plain, quoted};
+        let texts = ["=1,\"2\"", "a \"mask\", of two", "", "\"", "plain"];
+        let line = texts.map(quoted).join(",");
+        let fields = csv_fields(&line);
+        assert_eq!(
+            fields.iter().map(|field| plain(field)).collect::<Vec<_>>(),
+            texts
+        );
+    }
 }

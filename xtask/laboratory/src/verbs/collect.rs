@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
+use fluoropose_report::cell::{plain, quoted};
 use fluoropose_report::cohorts::{figure, table};
 use fluoropose_report::levels::FilmLevels;
 use fluoropose_report::{Group, Knee, read};
@@ -159,9 +160,10 @@ fn doubtful(done: &[Done<'_>], results: &Path) -> Result<String> {
                 bail!("{}: a row is cut off", path.display());
             };
             if verdict != "good" {
+                let texts = [&entry.name, component, because];
+                let [study, component, because] = texts.map(|text| quoted(plain(text)));
                 out.push_str(&format!(
-                    "{},{frame},\"{component}\",{state},{verdict},\"{because}\"\n",
-                    entry.name
+                    "{study},{frame},{component},{state},{verdict},{because}\n"
                 ));
             }
         }

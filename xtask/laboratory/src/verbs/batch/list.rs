@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 
-use crate::files::{csv_fields, name_of, read_text};
+use crate::files::{check_file_name, csv_fields, name_of, read_text};
 use crate::verbs::track::{Click, FixedPoses};
 
 /// A study of a list.
@@ -98,6 +98,7 @@ fn entry(heading: &[String], fields: &[String], folder: &Path) -> Result<Entry> 
         !name.is_empty() && !name.starts_with('.') && name.chars().all(plain),
         "'{name}' is no name for a folder: letters, digits, and - _ + . but not first"
     );
+    check_file_name(&name)?;
     let several = |name: &str| {
         field(name)
             .unwrap_or_default()
@@ -159,6 +160,7 @@ mod tests {
             ("study\n", "no study"),
             ("study\na/s.toml\na/t.toml\n", "line 3"),
             ("study,name\na/s.toml,../x\n", "line 2"),
+            ("study,name\na/s.toml,nul\n", "line 2"),
             ("study,name\na/s.toml\n", "line 2"),
         ] {
             let error = entries(text, Path::new("")).unwrap_err();

@@ -8,6 +8,7 @@ use fluoropose::Pose;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::covariance::PoseCovariance;
 use fluoropose_report::Input;
+use fluoropose_report::cell::plain;
 
 use crate::files::{
     Component, Role, Study, csv_fields, name_of, read, read_model_of, read_poses, read_text, sha256,
@@ -179,7 +180,7 @@ pub fn doubts(text: &str) -> BTreeMap<usize, String> {
         let (Ok(frame), false) = (frame.parse::<usize>(), verdict == "good") else {
             continue;
         };
-        let why = format!("{component} {state}: {because}");
+        let why = format!("{} {state}: {}", plain(component), plain(because));
         let all = all.entry(frame.saturating_sub(1)).or_default();
         if !all.is_empty() {
             all.push_str("; ");

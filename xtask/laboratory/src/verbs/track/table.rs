@@ -6,6 +6,7 @@ use fluoropose::follow::{Cell, Conclusion, State};
 use fluoropose::math::Vector3;
 use fluoropose::pose::EulerPose;
 use fluoropose::pose::covariance::Deviations;
+use fluoropose_report::cell::quoted;
 
 /// A frame of a component.
 #[derive(Clone, Debug)]
@@ -82,7 +83,6 @@ impl Row {
     }
 
     pub(super) fn write(&self, component: &str, out: &mut String) {
-        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
         let number =
             |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
         let mut cells = vec![
