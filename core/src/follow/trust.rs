@@ -102,6 +102,8 @@ pub enum Distrust {
     Depths(f64),
     /// The same against what a joint allows.
     Joint(f64),
+    /// It lies so far behind the detector, mm.
+    Behind(f64),
     /// The model has the shape of this component, which is the other one.
     Shape(KneeComponent),
 }
@@ -118,7 +120,7 @@ impl Distrust {
             Self::Apart(..) | Self::Unmet(_) => "residual",
             Self::Cut(_) => "cut off",
             Self::Undetermined(_) => "undetermined",
-            Self::Depths(_) | Self::Joint(_) => "depths",
+            Self::Depths(_) | Self::Joint(_) | Self::Behind(_) => "depths",
             Self::Shape(_) => "shape",
         }
     }
@@ -172,6 +174,10 @@ impl fmt::Display for Distrust {
             Self::Joint(mm) => write!(
                 f,
                 "it lies {mm:.0} mm behind the other component along the view, which no joint does"
+            ),
+            Self::Behind(mm) => write!(
+                f,
+                "it lies {mm:.0} mm behind the detector: the calibration is of other frames, or the model of another unit"
             ),
             Self::Shape(shape) => {
                 let is = match shape {
