@@ -124,7 +124,9 @@ async function shape(page) {
   await sheet.waitFor({ state: 'hidden' });
   await page.getByRole('button', { name: 'Undo: simplify the outline' }).waitFor();
   await page.keyboard.press('Control+z');
-  await panel.waitForThePose(page, pose);
+  await page.getByRole('button', { name: 'Redo: simplify the outline' }).waitFor();
+  // The outline is what it was; its pose is corrected by what the film has told since (seen: 0.8 mm of z).
+  panel.assertNear(await tracing.corrected(page), pose, tracing.BY_TWO_CLICKS);
 }
 
 /** @param {Page} page @param {Stage} stage @param {import('node:test').TestContext} t */
