@@ -3,6 +3,7 @@
 mod accuracy;
 mod anatomy;
 mod biplane;
+mod calibration;
 mod golden;
 mod implant;
 mod joint;
