@@ -12,7 +12,7 @@ mod role;
 mod study;
 mod text;
 
-pub use calibration::{camera_for, camera_of_frames, read_calibration};
+pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};
@@ -25,4 +25,6 @@ pub use name::check_file_name;
 pub use poses::{read_poses, write_poses};
 pub use role::Role;
 pub use study::{Component, StatedFilm, Study};
-pub use text::{csv_fields, files_in, name_of, read, read_text, sha256, write_json, write_text};
+pub use text::{
+    counted, csv_fields, files_in, name_of, read, read_text, sha256, write_json, write_text,
+};

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 from ._model import Model
 from ._native import VERSION
 from ._poses import Poses, rows
 
 
 @dataclass(frozen=True, eq=False)
-class ByFlexion:
+class ByFlexion(Alike):
     """Numbers at steps of 10 degrees of flexion, each the mean over the phases that pass it; doubtful frames are in none.
 
     Steps that no phase passes have no row: a film whose flexion jumps over some, by more than 45 degrees or in doubtful frames, has none there.
@@ -37,7 +38,7 @@ class ByFlexion:
 
 
 @dataclass(frozen=True, eq=False)
-class Kinematics:
+class Kinematics(Alike):
     """A joint's numbers in every frame of a film; NaN where a component has no pose."""
 
     name: str

@@ -9,6 +9,7 @@ use super::claim::{End, Held};
 use super::folders::{Failure, FailureKind, Folders};
 use super::list::Entry;
 use super::manifest::{Manifest, Settings};
+use crate::exit;
 
 /// What is known of a study.
 #[derive(Clone, Debug)]
@@ -96,10 +97,10 @@ impl StudyState {
     pub(super) fn exit_code(&self) -> u8 {
         match self.word() {
             "done" => 0,
-            "doubtful" => 3,
-            "failed" => 4,
-            "crashed" => 5,
-            _ => 6,
+            "doubtful" => exit::DOUBTFUL,
+            "failed" => exit::BAD_INPUT,
+            "crashed" => exit::CRASHED,
+            _ => exit::NOT_DONE,
         }
     }
 }

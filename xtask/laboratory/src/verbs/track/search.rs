@@ -27,7 +27,7 @@ pub(super) fn clicked(
         part.number,
         part.phase()
     );
-    run.journal.step(&key, || {
+    run.step((part, frame), "clicked into", &key, || {
         let at = Point::new(place[0], place[1]);
         let mut found: Option<FramePose> = None;
         for (number, distance) in part.distances().into_iter().enumerate() {
@@ -63,7 +63,7 @@ pub(super) fn searched(
         format!("/beside-{}-{}", beside.part.number, mark(beside.from))
     });
     let key = format!("search/{}/{}/{frame}{known}", part.number, part.phase());
-    run.journal.step(&key, || {
+    run.step((part, frame), "searched", &key, || {
         let unknown = match beside {
             Some(beside) => Some(beside.part.silhouette(beside.pose)?),
             None => None,
@@ -71,6 +71,11 @@ pub(super) fn searched(
         let unknown = unknown.as_ref().map(MaskBuffer::mask);
         let middle = beside.map(|beside| beside.pose.transform(&beside.part.middle()));
         for (number, distance) in part.distances_near(depth) {
+            run.say(format!(
+                "{} frame {}: compared with views from {distance:.0} mm",
+                part.name(),
+                frame + 1
+            ));
             let mut clicker =
                 Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
             let found =
