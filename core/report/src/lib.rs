@@ -4,6 +4,7 @@
 
 pub mod cell;
 pub mod cohorts;
+mod count;
 mod facts;
 mod figure;
 mod film;
@@ -14,6 +15,7 @@ pub mod read;
 mod svg;
 pub mod write;
 
+pub use count::counted;
 pub use facts::{Facts, Input};
 pub use figure::{figure, group_figure};
 pub use film::{JointFilm, JointRow, Step, impossibilities};

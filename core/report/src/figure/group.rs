@@ -5,6 +5,7 @@ use fluoropose::joint::numbers::place;
 
 use super::course::{Ink, Panel};
 use super::{FLEXION, LEFT, RIGHT, SIZE, WIDTH_MM, against_flexion, letter};
+use crate::count::counted;
 use crate::group::Group;
 use crate::svg::{Anchor, Drawing, Plot, Scale};
 
@@ -26,11 +27,8 @@ pub fn group_figure(group: &Group) -> String {
 }
 
 fn counts(group: &Group) -> String {
-    format!(
-        "{} knees, {} films",
-        group.knees().len(),
-        group.films().count()
-    )
+    let knees = counted(group.knees().len(), "knee");
+    format!("{knees}, {}", counted(group.films().count(), "film"))
 }
 
 struct Course<'g> {

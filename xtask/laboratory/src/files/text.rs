@@ -85,11 +85,6 @@ pub fn csv_fields(line: &str) -> Vec<String> {
     fields
 }
 
-/// So many of something, in words: one is not several.
-pub fn counted((count, what): (usize, &str)) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// SHA-256 of some bytes, hexadecimal.
 pub fn sha256(bytes: &[u8]) -> String {
     let digest: [u8; 32] = Sha256::digest(bytes).into();

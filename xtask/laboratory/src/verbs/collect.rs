@@ -7,10 +7,10 @@ use anyhow::{Context, Result, bail, ensure};
 use fluoropose_report::cell::{plain, quoted};
 use fluoropose_report::cohorts::{figure, table};
 use fluoropose_report::levels::FilmLevels;
-use fluoropose_report::{Group, Knee, read};
+use fluoropose_report::{Group, Knee, counted, read};
 
 use crate::exit;
-use crate::files::{counted, csv_fields, read_text, write_text};
+use crate::files::{csv_fields, read_text, write_text};
 use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 
 /// Options of `collect`.
@@ -72,7 +72,7 @@ pub fn run(args: Args) -> Result<u8> {
     write_text(&args.out.join("groups.svg"), &figure(&groups))?;
     write_text(&args.out.join("doubtful.csv"), &doubtful)?;
     for group in &groups {
-        println!("{}: {}", group.name, counted((group.knees().len(), "knee")));
+        println!("{}: {}", group.name, counted(group.knees().len(), "knee"));
     }
     match doubtful.lines().count() - 1 {
         1 => println!("1 frame is not good"),

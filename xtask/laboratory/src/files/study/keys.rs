@@ -118,6 +118,11 @@ impl Checked {
     pub(super) fn of(text: &str) -> Result<Self> {
         let table = DeTable::parse(text).or_else(|error| {
             let line = error.span().map_or(1, |span| line_of(text, span.start));
+            let own = text.lines().nth(line - 1).unwrap_or_default().trim();
+            // The second of them is a fault of the form already.
+            if own.starts_with("[component]") {
+                bail!("line {line}: {}", two_brackets("component"));
+            }
             bail!("line {line}: {}", error.message().replace('\n', ", "))
         })?;
         let mut checked = Self::default();
@@ -195,10 +200,9 @@ impl Checked {
                     self.one_of_several(place, format!("{path}.{number}"), one, keys)
                 })
             }
-            (Kind::Tables(_), DeValue::Table(_)) => bail!(
-                "line {line}: [{0}] needs two brackets, [[{0}]]: a study may have several",
-                key.name
-            ),
+            (Kind::Tables(_), DeValue::Table(_)) => {
+                bail!("line {line}: {}", two_brackets(key.name))
+            }
             (kind, value) if kind.holds(value) => Ok(()),
             (kind, value) => bail!(
                 "line {line}: {}{} must be {}, as in {}; it is {}",
@@ -285,6 +289,10 @@ impl Kind {
             Self::Table(_) | Self::Tables(_) => "a table".to_owned(),
         }
     }
+}
+
+fn two_brackets(key: &str) -> String {
+    format!("[{key}] needs two brackets, [[{key}]]: a study may have several")
 }
 
 fn number(value: &DeValue<'_>) -> Option<f64> {

@@ -122,6 +122,10 @@ fn faults_are_told_with_file_line_key_and_what_was_expected() {
             ],
         ),
         (
+            format!("{STUDY}[component]\nname = 'femur'\n\n[component]\nname = 'tibia'\n"),
+            ["line 6: [component] needs two brackets", "[[component]]"],
+        ),
+        (
             format!("{STUDY}[[components]]\nname = 'femur'\nmodel = 'f.stl'\n"),
             [
                 "line 3: the key \"components\" is not known",

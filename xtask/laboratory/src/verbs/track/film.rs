@@ -76,8 +76,13 @@ pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
 pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let study = Study::read(&request.study)?;
     for name in request.components() {
-        let known = study.components.iter().any(|one| one.name == name);
-        ensure!(known, "the study has no component {name}");
+        let names = study.components.iter().map(|one| one.name.as_str());
+        let known: Vec<&str> = names.collect();
+        let others = known.join(", ");
+        ensure!(
+            known.contains(&name),
+            "the study has no component {name}: it has {others}"
+        );
     }
     let frames = study.frames_folder()?;
     study.check_files(Some(frames))?;
