@@ -32,7 +32,13 @@ class Threads(OnTheDemo):
         self.assertEqual(sorted(steps, key=lambda step: step[0]), steps)
         self.assertTrue(all(of == 2 and what for _, of, what in steps))
         # The steps of a search too, which takes seconds.
-        blank, told = np.full((1, 128, 128), 200, np.uint8), []
+        def until(done: int, of: int, what: str) -> None:
+            if "% searched" in what:
+                raise LookupError(what)
+
+        with self.assertRaisesRegex(LookupError, r"frame \d: \d+ % searched"):
+            fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", progress=until)
+        blank, told = np.full((1, 128, 128), 200, np.uint8), list[str]()
         camera = fp.Camera([[600, 0, 63.5], [0, 600, 63.5], [0, 0, 1]], (128, 128))
         fp.track(blank, self.femur, None, camera, "left", progress=lambda done, of, what: told.append(what))
         for words in ("femur: looked for in frame 1", "femur frame 1: searched", "femur frame 1: compared with views from"):

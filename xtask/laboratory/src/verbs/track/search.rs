@@ -1,5 +1,7 @@
 //! A component looked for in a whole frame, or where a person clicked.
 
+use std::time::{Duration, Instant};
+
 use anyhow::Result;
 use fluoropose::follow::{Anchor, FramePose, From, refined_on_frame};
 use fluoropose::image::contour::Point;
@@ -14,6 +16,9 @@ use crate::finding::Clicker;
 
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
+/// So often a search says how far it is.
+const TELLS: Duration = Duration::from_millis(250);
+
 /// The pose that a click leads to; `None` where it leads nowhere.
 pub(super) fn clicked(
     run: &Run<'_>,
@@ -80,7 +85,7 @@ pub(super) fn searched(
                 Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
             let found =
                 part.see_beside(run.film, frame, unknown.as_ref(), |subject, image, _| {
-                    clicker.search(subject, image, middle)
+                    clicker.search(subject, image, middle, search_told(run, part, frame))
                 })??;
             if let Some(found) = found {
                 return Ok(Some(found.pose));
@@ -88,6 +93,22 @@ pub(super) fn searched(
         }
         Ok(None)
     })
+}
+
+/// Tells how far the search of a frame is, and ends it where the run is to stop.
+fn search_told(run: &Run<'_>, part: &Part<'_>, frame: usize) -> impl FnMut(f64) -> Result<()> {
+    let mut told = Instant::now();
+    move |done| {
+        if told.elapsed() >= TELLS {
+            told = Instant::now();
+            let (name, percent) = (part.name(), 100.0 * done);
+            run.say(format!(
+                "{name} frame {}: {percent:.0} % searched",
+                frame + 1
+            ));
+        }
+        run.request.stop.check()
+    }
 }
 
 fn answers(
