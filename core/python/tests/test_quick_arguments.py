@@ -44,6 +44,17 @@ class Arguments(OnTheDemo):
         with self.assertWarnsRegex(UserWarning, "femur: .*swapped"), self.assertRaises(ValueError):
             fp.track([], self.tibia, self.femur, self.camera, "left")
 
+    def test_a_joint_that_no_knee_has_is_told(self) -> None:
+        femur, tibia = (fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia"))
+        given = {"femur_model": self.femur, "tibia_model": self.tibia, "side": "left"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(fp.kinematics(femur, tibia, **given).remarks, ())  # type: ignore[arg-type]
+        with self.assertWarnsRegex(UserWarning, "frame 1.*which no knee does") as caught:
+            joint = fp.kinematics(tibia, femur, **given)  # type: ignore[arg-type]
+        self.assertEqual(caught.filename, __file__)
+        self.assertIn("which no knee does", joint.remarks[0])
+
     def test_models_of_the_other_component_are_told_with_the_pose(self) -> None:
         mask = fp.read_frames(DEMO / "masks/tibia")[0]
         with self.assertWarnsRegex(UserWarning, "model: .*swapped") as caught:

@@ -58,6 +58,7 @@ class Kinematics(Alike):
     axes: tuple[str, str] = field(repr=False)
     """Which of the femoral and of the tibial file's axes point anteriorly, superiorly and to the right, and who says so."""
     remarks: tuple[str, ...]
+    """What has to be known of it: numbers that no knee has, models that look swapped, axes that a shape does not tell. Told as warnings too."""
     version: str
     by_flexion: ByFlexion = field(repr=False)
     """The numbers at steps of flexion."""
@@ -130,6 +131,7 @@ def kinematics(
         cutoff=cutoff_hz,
         doubts=_doubts(femur, tibia),
     )
+    _checks.warn(joint["remarks"])
     steps = joint["by_flexion"]
     names = tuple(joint["names"])
     return Kinematics(
