@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -53,6 +55,15 @@ class Threads(OnTheDemo):
             fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", progress=enough)
         self.assertEqual(len(called), 1)
         self.assertLess(time.monotonic() - called[0], 1.0)
+
+    @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
+    def test_the_command_ends_without_a_word_where_nobody_reads(self) -> None:
+        words = [sys.executable, "-m", "fluoropose", "batch", "--help"]
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as command:
+            assert command.stdout is not None and command.stderr is not None
+            command.stdout.close()
+            said = command.stderr.read()
+        self.assertEqual((command.returncode, said), (-signal.SIGPIPE, b""))
 
     @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
     def test_ctrl_c_ends_a_film_and_a_stack_of_masks(self) -> None:
