@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Result;
+use fluoropose_report::counted;
 
 use crate::signals::say_when_ended;
 use claim::Claim;
@@ -166,8 +167,10 @@ impl Args {
         }
         match work::work(entry, &settings, folders, &claim)? {
             Ok(manifest) => println!(
-                "{}: {} frames, {} doubtful",
-                entry.name, manifest.frames, manifest.doubtful
+                "{}: {}, {} doubtful",
+                entry.name,
+                counted(manifest.frames, "frame"),
+                manifest.doubtful
             ),
             Err(failure) => eprintln!("{}: {}", entry.name, failure.because),
         }

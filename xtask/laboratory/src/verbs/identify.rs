@@ -14,6 +14,8 @@ use fluoropose::search::{
     query_bytes_needed,
 };
 
+use fluoropose_report::counted;
+
 use crate::files::{MaskBuffer, files_in, name_of, read, read_calibration};
 use crate::sequence::{Folders, Source};
 
@@ -72,9 +74,9 @@ pub fn run(args: Args) -> Result<()> {
         let found = memory.identify(&catalogue, &source.camera, mask)?;
         let took = start.elapsed();
         println!(
-            "{}: looked for in {} libraries in {took:.1?}",
+            "{}: looked for among {} in {took:.1?}",
             name_of(path),
-            libraries.len()
+            counted(libraries.len(), "implant")
         );
         for one in &found {
             println!(

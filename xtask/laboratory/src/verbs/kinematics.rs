@@ -25,7 +25,7 @@ use fluoropose_phantom::implant::Side;
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
 numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees); the \
 translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. A frame in which \
-either has no pose has empty numbers. Numbers that no knee has, as of swapped poses or of the other side, are told: on standard error, by the exit \
+either has no pose has empty numbers. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
 code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
 patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"

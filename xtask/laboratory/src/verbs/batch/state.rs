@@ -4,6 +4,7 @@ use std::fmt;
 use std::time::Duration;
 
 use anyhow::Result;
+use fluoropose_report::counted;
 
 use super::claim::{End, Held};
 use super::folders::{Failure, FailureKind, Folders};
@@ -111,8 +112,9 @@ impl fmt::Display for StudyState {
         match self {
             Self::Done(manifest) => write!(
                 f,
-                "{} frames, {} doubtful",
-                manifest.frames, manifest.doubtful
+                "{}, {} doubtful",
+                counted(manifest.frames, "frame"),
+                manifest.doubtful
             ),
             Self::Outdated => {
                 f.write_str("the results are of another version or of other settings")

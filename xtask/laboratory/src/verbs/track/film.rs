@@ -8,6 +8,7 @@ use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
+use fluoropose_report::counted;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
@@ -37,7 +38,12 @@ pub struct Tracked {
 
 impl fmt::Display for Tracked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} frames", self.component, self.rows.len())?;
+        write!(
+            f,
+            "{}: {}",
+            self.component,
+            counted(self.rows.len(), "frame")
+        )?;
         for state in State::ALL {
             let count = self.rows.iter().filter(|row| row.state == state).count();
             if count > 0 {
