@@ -82,7 +82,30 @@ pub fn run(args: Args) -> Result<u8> {
     };
     let femur_part = part(&args.femur_model, &args.femur_axes, Role::Femur)?;
     let tibia_part = part(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
-    let joint = joint(&femur_part, &tibia_part, side);
+    let parts = [&femur_part, &tibia_part];
+    let (table, told) = table(parts, side, femur.into_iter().zip(tibia))?;
+    let marked: String = told
+        .iter()
+        .map(|told| format!("# doubtful: {told}\n"))
+        .collect();
+    write_text(&args.out, &(marked + &table))?;
+    // Written before anything is said, so that it is there where nobody reads on.
+    for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
+        if let Some(axes) = &part.axes {
+            say(name, axes);
+        }
+    }
+    told.iter().for_each(|told| eprintln!("{told}"));
+    Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
+}
+
+/// The table, and what is told of numbers that no knee has.
+fn table(
+    [femur_part, tibia_part]: [&Part; 2],
+    side: kinematics::Side,
+    poses: impl Iterator<Item = (Option<Pose>, Option<Pose>)>,
+) -> Result<(String, Vec<String>)> {
+    let joint = joint(femur_part, tibia_part, side);
     let mut memory = vec![0; joint.map_or(0, |joint| joint.memory_needed())];
     let columns = if joint.is_some() {
         NUMBERS
@@ -91,7 +114,7 @@ pub fn run(args: Args) -> Result<u8> {
     };
     let mut table = heading(columns);
     let mut frames = Vec::new();
-    for (frame, (femur, tibia)) in femur.into_iter().zip(tibia).enumerate() {
+    for (frame, (femur, tibia)) in poses.enumerate() {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
             Some((femur, tibia)) => {
@@ -115,20 +138,7 @@ pub fn run(args: Args) -> Result<u8> {
         }
         table.push('\n');
     }
-    let told = impossibilities(frames.into_iter());
-    let marked: String = told
-        .iter()
-        .map(|told| format!("# doubtful: {told}\n"))
-        .collect();
-    write_text(&args.out, &(marked + &table))?;
-    // Written before anything is said, so that it is there where nobody reads on.
-    for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
-        if let Some(axes) = &part.axes {
-            say(name, axes);
-        }
-    }
-    told.iter().for_each(|told| eprintln!("{told}"));
-    Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
+    Ok((table, impossibilities(frames.into_iter())))
 }
 
 /// A component: its model and its anatomical axes, where they are known.

@@ -97,113 +97,111 @@ fn refused(text: &str) -> String {
 const STUDY: &str = "name = 'left'\ncalibration = 'c.txt'\n";
 const FEMUR: &str = "[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
 
+/// Studies that are refused, and words of why; `STUDY;` and `FEMUR;` stand for what most begin and end with.
+const FAULTY: &[(&str, [&str; 2])] = &[
+    (
+        "name = 'left'\ncalibraton = 'c.txt'\nFEMUR;",
+        [
+            "line 2: the key \"calibraton\" is not known",
+            "was calibration meant?",
+        ],
+    ),
+    (
+        "name = 'left'\nFEMUR;",
+        [
+            "the key calibration is missing",
+            "as in calibration = \"calibration.txt\"",
+        ],
+    ),
+    (
+        "STUDY;[component]\nname = 'femur'\nmodel = 'f.stl'\n",
+        [
+            "line 3: [component] needs two brackets, [[component]]",
+            "several",
+        ],
+    ),
+    (
+        "STUDY;[component]\nname = 'femur'\n\n[component]\nname = 'tibia'\n",
+        ["line 6: [component] needs two brackets", "[[component]]"],
+    ),
+    (
+        "STUDY;[[components]]\nname = 'femur'\nmodel = 'f.stl'\n",
+        [
+            "line 3: the key \"components\" is not known",
+            "was component meant?",
+        ],
+    ),
+    ("STUDY;", ["the key component is missing", "[[component]]"]),
+    (
+        "STUDY;frames_per_s = '15'\nFEMUR;",
+        [
+            "line 3: frames_per_s must be a number above 0, as in frames_per_s = 15.0",
+            "it is \"15\"",
+        ],
+    ),
+    (
+        "STUDY;side = 'Left'\nFEMUR;",
+        [
+            "line 3: side must be \"left\" or \"right\"",
+            "it is \"Left\"",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;distance_mm = 'far'\n",
+        [
+            "line 6: component femur: distance_mm must be a number above 0",
+            "it is \"far\"",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;nominal = [0.0]\n",
+        [
+            "line 6: component femur: nominal must be two numbers",
+            "a list of 1",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;masks = 'masks'\n",
+        [
+            "line 6: component femur: masks must be files or folders",
+            "masks.hand = \"masks/femur\"",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;side = 'left'\n",
+        [
+            "line 6: component femur: the key \"side\" is not known there",
+            "before the first [[component]]",
+        ],
+    ),
+    (
+        "STUDY;[[component]]\nname = 'femur'\nmdel = 'f.stl'\n",
+        [
+            "line 5: component femur: the key \"mdel\" is not known",
+            "was model meant?",
+        ],
+    ),
+    (
+        "STUDY;[[component]]\nmodel = 'f.stl'\n",
+        [
+            "the [[component]] of line 3: the key name is missing",
+            "name = \"femur\"",
+        ],
+    ),
+    (
+        "STUDY;FEMUR;[[component]]\nname = 'Femur'\nmodel = 'f.stl'\n",
+        [
+            "line 6: there is another component \"Femur\" (line 3: \"femur\")",
+            "name of its own",
+        ],
+    ),
+    ("STUDY;side = left\nFEMUR;", ["line 3: ", "string"]),
+];
+
 #[test]
 fn faults_are_told_with_file_line_key_and_what_was_expected() {
-    for (text, words) in [
-        (
-            format!("name = 'left'\ncalibraton = 'c.txt'\n{FEMUR}"),
-            [
-                "line 2: the key \"calibraton\" is not known",
-                "was calibration meant?",
-            ],
-        ),
-        (
-            format!("name = 'left'\n{FEMUR}"),
-            [
-                "the key calibration is missing",
-                "as in calibration = \"calibration.txt\"",
-            ],
-        ),
-        (
-            format!("{STUDY}[component]\nname = 'femur'\nmodel = 'f.stl'\n"),
-            [
-                "line 3: [component] needs two brackets, [[component]]",
-                "several",
-            ],
-        ),
-        (
-            format!("{STUDY}[component]\nname = 'femur'\n\n[component]\nname = 'tibia'\n"),
-            ["line 6: [component] needs two brackets", "[[component]]"],
-        ),
-        (
-            format!("{STUDY}[[components]]\nname = 'femur'\nmodel = 'f.stl'\n"),
-            [
-                "line 3: the key \"components\" is not known",
-                "was component meant?",
-            ],
-        ),
-        (
-            STUDY.to_owned(),
-            ["the key component is missing", "[[component]]"],
-        ),
-        (
-            format!("{STUDY}frames_per_s = '15'\n{FEMUR}"),
-            [
-                "line 3: frames_per_s must be a number above 0, as in frames_per_s = 15.0",
-                "it is \"15\"",
-            ],
-        ),
-        (
-            format!("{STUDY}side = 'Left'\n{FEMUR}"),
-            [
-                "line 3: side must be \"left\" or \"right\"",
-                "it is \"Left\"",
-            ],
-        ),
-        (
-            format!("{STUDY}{FEMUR}distance_mm = 'far'\n"),
-            [
-                "line 6: component femur: distance_mm must be a number above 0",
-                "it is \"far\"",
-            ],
-        ),
-        (
-            format!("{STUDY}{FEMUR}nominal = [0.0]\n"),
-            [
-                "line 6: component femur: nominal must be two numbers",
-                "a list of 1",
-            ],
-        ),
-        (
-            format!("{STUDY}{FEMUR}masks = 'masks'\n"),
-            [
-                "line 6: component femur: masks must be files or folders",
-                "masks.hand = \"masks/femur\"",
-            ],
-        ),
-        (
-            format!("{STUDY}{FEMUR}side = 'left'\n"),
-            [
-                "line 6: component femur: the key \"side\" is not known there",
-                "before the first [[component]]",
-            ],
-        ),
-        (
-            format!("{STUDY}[[component]]\nname = 'femur'\nmdel = 'f.stl'\n"),
-            [
-                "line 5: component femur: the key \"mdel\" is not known",
-                "was model meant?",
-            ],
-        ),
-        (
-            format!("{STUDY}[[component]]\nmodel = 'f.stl'\n"),
-            [
-                "the [[component]] of line 3: the key name is missing",
-                "name = \"femur\"",
-            ],
-        ),
-        (
-            format!("{STUDY}{FEMUR}{}", FEMUR.replace("femur", "Femur")),
-            [
-                "line 6: there is another component \"Femur\" (line 3: \"femur\")",
-                "name of its own",
-            ],
-        ),
-        (
-            format!("{STUDY}side = left\n{FEMUR}"),
-            ["line 3: ", "string"],
-        ),
-    ] {
+    for (text, words) in FAULTY {
+        let text = text.replace("STUDY;", STUDY).replace("FEMUR;", FEMUR);
         let said = refused(&text);
         assert!(
             said.starts_with("in ") && said.contains(".toml: "),
