@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::ops::Deref;
-use std::process::ExitStatus;
+use std::process::Command;
 
 use anyhow::{Context, Result};
 
@@ -28,20 +28,23 @@ impl Deref for Words {
     }
 }
 
-/// Ends this program as the laboratory's ends when it runs `verb`.
+/// Goes over into the laboratory's program that runs `verb`, so that its exit code and what ends it are this one's.
 ///
 /// # Errors
-/// Where cargo cannot be started. Otherwise the laboratory has said what was wrong, and nothing returns from here
-/// unless it succeeded.
+/// Where cargo cannot be started. Nothing returns from here otherwise.
 pub(crate) fn run(verb: &str, words: &[OsString]) -> Result<()> {
-    let status = start(verb, words)?;
-    if status.success() {
-        return Ok(());
-    }
-    std::process::exit(status.code().unwrap_or(1))
+    let mut cargo = command(verb, words)?;
+    #[cfg(unix)]
+    let failed = std::os::unix::process::CommandExt::exec(&mut cargo);
+    #[cfg(not(unix))]
+    let failed = match cargo.status() {
+        Ok(status) => std::process::exit(status.code().unwrap_or(1)),
+        Err(error) => error,
+    };
+    Err(failed).context("cannot start cargo")
 }
 
-fn start(verb: &str, words: &[OsString]) -> Result<ExitStatus> {
+fn command(verb: &str, words: &[OsString]) -> Result<Command> {
     let mut cargo = own_cargo();
     // Paths among the words are meant from where the person is.
     cargo.current_dir(std::env::current_dir()?);
@@ -52,5 +55,5 @@ fn start(verb: &str, words: &[OsString]) -> Result<ExitStatus> {
         .args(words)
         // As its examples name it.
         .env("FLUOROPOSE_COMMAND", "cargo xtask");
-    cargo.status().context("cannot start cargo")
+    Ok(cargo)
 }

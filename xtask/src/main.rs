@@ -93,6 +93,7 @@ enum Verb {
 
 fn main() -> std::process::ExitCode {
     clock::since_the_command();
+    end_with_the_reader();
     match run(Cli::parse().verb) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
@@ -100,6 +101,18 @@ fn main() -> std::process::ExitCode {
             eprintln!("error: {error:#}");
             std::process::ExitCode::FAILURE
         }
+    }
+}
+
+/// Behind `| head` the program ends when that has read enough, without a word, as programs do on Unix.
+fn end_with_the_reader() {
+    #[cfg(unix)]
+    {
+        use std::sync::{Arc, atomic::AtomicBool};
+        let always = Arc::new(AtomicBool::new(true));
+        let pipe = signal_hook::consts::SIGPIPE;
+        // Without it a write fails, and the macros that print break off over that.
+        let _ = signal_hook::flag::register_conditional_default(pipe, always);
     }
 }
 

@@ -26,6 +26,20 @@ impl Calibration {
         self.read.to_string()
     }
 
+    /// What it says, in words, where that is no matrix.
+    fn words(&self) -> Option<String> {
+        match self.read {
+            calibration::Calibration::PrincipalDistance {
+                distance,
+                offset: [right, up],
+                pitch,
+            } => Some(format!(
+                "principal distance {distance} mm, principal point {right} mm to the right of the frame's middle and {up} mm above it, pixels of {pitch} mm"
+            )),
+            calibration::Calibration::CameraMatrix { .. } => None,
+        }
+    }
+
     /// Columns and rows of the frames that it is for, where it says so.
     fn size(&self) -> Option<(usize, usize)> {
         match self.read {

@@ -14,7 +14,7 @@ use fluoropose_report::{JointFilm, figure, write};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::failure::python_error;
 use crate::model::Model;
@@ -136,7 +136,9 @@ impl Joint {
                 .transpose()
                 .map_err(python_error)?,
         )?;
-        answer.set_item("svg", figure(film))?;
+        let figure = figure(film);
+        answer.set_item("svg", figure.svg())?;
+        answer.set_item("pdf", PyBytes::new(py, &figure.pdf()))?;
         answer.set_item("axes", &self.axes)?;
         answer.set_item("remarks", &self.remarks)?;
         Ok(answer)

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use fluoropose_decode::{FrameFile, Geometry, GreyFrame, Pixels};
 use fluoropose_laboratory::files::{MaskBuffer, name_of, read};
 use fluoropose_phantom::picture::{write_grey, write_grey_16};
@@ -104,6 +104,16 @@ pub(crate) fn read_frames(py: Python<'_>, path: PathBuf) -> PyResult<Vec<Bound<'
         .into_iter()
         .map(array)
         .collect()
+}
+
+/// Columns and rows of the first frame of a file, of which nothing is decoded.
+#[pyfunction]
+pub(crate) fn frame_size(path: PathBuf) -> PyResult<(u32, u32)> {
+    let size = || -> Result<(u32, u32)> {
+        let file = FrameFile::open(read(&path)?, &name_of(&path))?;
+        file.size(0).context("there is no frame")
+    };
+    size().map_err(python_error)
 }
 
 /// Writes a frame of 8 or 16 bits as PNG.

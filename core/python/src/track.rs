@@ -27,12 +27,11 @@ type FixedGiven<'py> = (String, PyReadonlyArray2<'py, f64>, String);
 #[derive(Default)]
 struct Untold {
     remarks: Vec<String>,
-    /// The newest step alone.
-    step: Option<(usize, usize, String)>,
+    steps: Vec<(usize, usize, String)>,
 }
 
 /// Follows the components of a study; a dictionary for each, in the study's order. `remark` is called with every sentence that has to
-/// be known, and `progress` now and then with what is done, of how much, and in words.
+/// be known, and `progress` with every step: what is done, of how much, and in words.
 #[pyfunction]
 #[pyo3(signature = (study, out, *, clicks, fixed, bright, interpolate, anew, remark, progress))]
 #[allow(clippy::too_many_arguments, reason = "Python names each of them")]
@@ -101,8 +100,10 @@ fn hear(
     for sentence in news.remarks {
         remark.call1((sentence,))?;
     }
-    if let (Some(progress), Some(step)) = (progress, news.step) {
-        progress.call1(step)?;
+    for step in news.steps {
+        if let Some(progress) = progress {
+            progress.call1(step)?;
+        }
     }
     Ok(())
 }
@@ -114,7 +115,7 @@ fn listener(untold: &Arc<Mutex<Untold>>) -> Listener {
         let mut untold = untold.lock().unwrap_or_else(PoisonError::into_inner);
         match told {
             Told::Remark(remark) => untold.remarks.push(remark),
-            Told::Step { what, done, of } => untold.step = Some((done, of, what)),
+            Told::Step { what, done, of } => untold.steps.push((done, of, what)),
         }
     })
 }

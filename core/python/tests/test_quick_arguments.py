@@ -44,6 +44,17 @@ class Arguments(OnTheDemo):
         with self.assertWarnsRegex(UserWarning, "femur: .*swapped"), self.assertRaises(ValueError):
             fp.track([], self.tibia, self.femur, self.camera, "left")
 
+    def test_a_joint_that_no_knee_has_is_told(self) -> None:
+        femur, tibia = (fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia"))
+        given = {"femur_model": self.femur, "tibia_model": self.tibia, "side": "left"}
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(fp.kinematics(femur, tibia, **given).remarks, ())  # type: ignore[arg-type]
+        with self.assertWarnsRegex(UserWarning, "frame 1.*which no knee does") as caught:
+            joint = fp.kinematics(tibia, femur, **given)  # type: ignore[arg-type]
+        self.assertEqual(caught.filename, __file__)
+        self.assertIn("which no knee does", joint.remarks[0])
+
     def test_models_of_the_other_component_are_told_with_the_pose(self) -> None:
         mask = fp.read_frames(DEMO / "masks/tibia")[0]
         with self.assertWarnsRegex(UserWarning, "model: .*swapped") as caught:
@@ -83,14 +94,47 @@ class Arguments(OnTheDemo):
             with self.assertRaisesRegex(ValueError, "K or size: .*fx,0,cx"):
                 fp.Camera(skewed, size)
         # A file that names no size is seen with its frames.
+        unseen = fp.Camera.from_intcalib(DEMO / "calibration.txt")
         with self.assertWarnsRegex(UserWarning, "camera: .*focal length, 3217.2 pixels, is 12.5"):
-            found = fp.estimate(np.zeros((256, 256), bool), self.femur, self.camera)
+            found = fp.estimate(np.zeros((256, 256), bool), self.femur, unseen)
         self.assertEqual(len(found.remarks), 1)
         frames = np.zeros((2, 256, 256), np.uint8)
         fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
         with self.assertWarnsRegex(UserWarning, "camera: .*is 12.5") as caught:
-            film = fp.track(frames, self.femur, None, self.camera, "left", fixed=fixed)
+            film = fp.track(frames, self.femur, None, unseen, "left", fixed=fixed)
         self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
+
+    def test_masks_of_another_size_than_the_cameras_are_told_or_refused(self) -> None:
+        file, half = DEMO / "calibration.txt", np.zeros((512, 512), bool)
+        camera = fp.Camera.from_intcalib(file)
+        fp.estimate(np.zeros((1024, 1024), bool), self.femur, camera)
+        with self.assertWarnsRegex(UserWarning, "these are 512 x 512 pixels, those before 1024 x 1024"):
+            found = fp.estimate(half, self.femur, camera)
+        self.assertIn("size=(columns, rows)", found.remarks[-1])
+        fixed = {"femur": fp.read_poses(DEMO / "femur.jts")}
+        small = fp.Camera.from_intcalib(file)
+        fp.estimate(half, self.femur, small)
+        with self.assertWarnsRegex(UserWarning, "these are 1024 x 1024 pixels, those before 512 x 512") as caught:
+            film = fp.track(DEMO / "frames", self.femur, None, small, "left", fixed=fixed)
+        self.assertEqual((caught.filename, len(film.remarks)), (__file__, 1))
+        sized = fp.Camera.from_intcalib(file, size=(1024, 1024))
+        self.refused(ValueError, "masks: 512 x 512 pixels, but camera is for 1024 x 1024", lambda: fp.estimate(half, self.femur, sized))
+        wrong = fp.Camera.from_intcalib(file, size=(512, 512))
+        self.refused(ValueError, "frames: 1024 x 1024 pixels", lambda: fp.track(DEMO / "frames", self.femur, None, wrong, "left"))
+        assert sized.K is not None
+        np.testing.assert_array_equal(sized.K, camera.matrix(1024, 1024))
+        self.assertNotEqual(sized, camera)
+        self.assertRegex(repr(camera), r"^Camera\(principal distance 1[0-9.]+ mm, principal point .* pixels of 0\.[0-9]+ mm\)$")
+        self.assertRegex(repr(sized), r"^Camera\(K=.*, size=\(1024, 1024\), principal distance")
+        self.refused(TypeError, "size ", lambda: fp.Camera.from_intcalib(file, size=1024))  # type: ignore[arg-type]
+
+    def test_a_path_in_place_of_pixels_is_told_how_to_become_some(self) -> None:
+        one, camera, file = self.femur, self.camera, str(DEMO / "masks/femur")
+        self.refused(TypeError, "mask must be an array, not a path: read the file with fluoropose.read_frames(path)[0]", lambda: fp.estimate(file, one, camera))
+        self.refused(TypeError, "masks must be an array, not a path: read the file with fluoropose.read_frames(path)", lambda: fp.estimate_all(file, one, camera))
+        self.refused(TypeError, "frame must be an array, not a path", lambda: fp.estimate(None, one, camera, frame=file))
+        mask = np.zeros((1, 1024, 1024), bool)
+        self.refused(TypeError, "frames must be an array, not a path", lambda: fp.estimate_all(mask, one, camera, frames=file))  # type: ignore[arg-type]
 
     def test_messages_name_the_argument_and_no_file_that_nobody_gave(self) -> None:
         frames = np.zeros((2, 64, 48), np.uint8)
@@ -109,7 +153,7 @@ class Arguments(OnTheDemo):
 
         told(lambda: fp.track(frames, one, None, camera, "left", fixed=three), "fixed['femur']: there are 3 rows, but the film has 2 frames")
         told(lambda: fp.track(frames, one, None, camera, "left", fixed={"femur": binary}), "fixed['femur']", str(binary))
-        for column, row in ((49, 5), (5, 65), (-1, 5), (5, float("inf"))):
+        for column, row in ((49, 5), (48, 5), (5, 64), (-1, 5), (5, float("inf"))):
             click = fp.Click("femur", 0, column, row)
             told(lambda click=click: fp.track(frames, one, two, camera, "left", clicks=[click]), "clicks")  # type: ignore[misc]
         far = fp.Click("tibia", 1, 5, 640)

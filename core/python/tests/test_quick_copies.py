@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import multiprocessing
 import pickle
 import unittest
@@ -51,6 +52,27 @@ class Copies(OnTheDemo):
             joint.to_csv(file)
             texts.append(file.read_bytes())
         self.assertEqual(texts[1:], texts[:1] * 2)
+
+    def test_equality_is_of_what_they_hold_and_nan_is_nan(self) -> None:
+        masks = [fp.read_frames(DEMO / "masks/femur")[0], np.zeros((1024, 1024), bool)]
+        found, nothing = (fp.estimate(mask, self.femur, self.camera) for mask in masks)
+        fixed = {name: fp.read_poses(DEMO / f"{name}.jts") for name in ("femur", "tibia")}
+        film = fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", 15.0, fixed=fixed)
+        joint = film.kinematics()
+        for one in (found, nothing, nothing.pose, found.rivals, film, film.femur, joint, joint.by_flexion, self.femur):
+            other = pickle.loads(pickle.dumps(one))
+            self.assertEqual(one, other)
+            self.assertEqual(hash(one), hash(other))
+            self.assertEqual(one, copy.deepcopy(one))
+        assert film.femur is not None
+        self.assertNotEqual(found, nothing)
+        self.assertNotEqual(film.femur, film.tibia)
+        self.assertNotEqual(self.femur, self.tibia)
+        self.assertNotEqual(found.pose, dataclasses.replace(found.pose, x_mm=float("nan")))
+        moved = film.femur.pose.copy()
+        moved[1, 2] += 1e-9
+        self.assertNotEqual(film.femur, dataclasses.replace(film.femur, pose=moved))
+        self.assertNotEqual(found, 1)
 
     def test_other_processes_find_the_same(self) -> None:
         """Also those that are forked when threads of this one were at work: they have threads of their own."""

@@ -57,7 +57,8 @@ class SameNumbers(OnTheDemo):
         joint.to_csv(self.folder / "joint.csv")
         joint.to_mot(self.folder / "joint.mot")
         joint.to_svg(self.folder / "figure.svg")
-        for name in ("joint.csv", "joint.mot", "figure.svg"):
+        joint.to_pdf(self.folder / "figure.pdf")
+        for name in ("joint.csv", "joint.mot", "figure.svg", "figure.pdf"):
             self.assertEqual((self.folder / name).read_bytes(), (report / name).read_bytes(), name)
         cycle = (report / "cycle/flexion_deg.csv").read_text(encoding="utf-8").splitlines()[-1]
         np.testing.assert_array_equal(joint.cycle("flexion_deg"), [float(number) for number in cycle.split(",")])

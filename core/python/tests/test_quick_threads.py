@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -31,6 +33,18 @@ class Threads(OnTheDemo):
         self.assertEqual(steps[-1], (2, 2, "done"))
         self.assertEqual(sorted(steps, key=lambda step: step[0]), steps)
         self.assertTrue(all(of == 2 and what for _, of, what in steps))
+        # The steps of a search too, which takes seconds.
+        def until(done: int, of: int, what: str) -> None:
+            if "% searched" in what:
+                raise LookupError(what)
+
+        with self.assertRaisesRegex(LookupError, r"frame \d: \d+ % searched"):
+            fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", progress=until)
+        blank, told = np.full((1, 128, 128), 200, np.uint8), list[str]()
+        camera = fp.Camera([[600, 0, 63.5], [0, 600, 63.5], [0, 0, 1]], (128, 128))
+        fp.track(blank, self.femur, None, camera, "left", progress=lambda done, of, what: told.append(what))
+        for words in ("femur: looked for in frame 1", "femur frame 1: searched", "femur frame 1: compared with views from"):
+            self.assertTrue(any(words in what for what in told), told)
         called: list[float] = []
 
         def enough(done: int, of: int, what: str) -> None:
@@ -41,6 +55,15 @@ class Threads(OnTheDemo):
             fp.track(DEMO / "frames", self.femur, self.tibia, self.camera, "left", progress=enough)
         self.assertEqual(len(called), 1)
         self.assertLess(time.monotonic() - called[0], 1.0)
+
+    @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
+    def test_the_command_ends_without_a_word_where_nobody_reads(self) -> None:
+        words = [sys.executable, "-m", "fluoropose", "batch", "--help"]
+        with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as command:
+            assert command.stdout is not None and command.stderr is not None
+            command.stdout.close()
+            said = command.stderr.read()
+        self.assertEqual((command.returncode, said), (-signal.SIGPIPE, b""))
 
     @unittest.skipIf(os.name == "nt", "signals are told otherwise there")
     def test_ctrl_c_ends_a_film_and_a_stack_of_masks(self) -> None:

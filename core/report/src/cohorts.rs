@@ -11,7 +11,10 @@ use crate::cell::quoted;
 use crate::drawing::{Anchor, Colour, Drawing, Dress, Figure, Stroke};
 use crate::group::Group;
 
-/// A row for each group, knee (empty for the group itself) and step.
+/// In place of a knee, in rows of its group.
+const OF_THE_GROUP: &str = "mean of the group";
+
+/// A row for each group, knee and step, and after the knees of a group its own.
 #[must_use]
 pub fn table(groups: &[Group]) -> String {
     let mut out = String::from("group,knee,at_flexion_deg");
@@ -27,7 +30,7 @@ pub fn table(groups: &[Group]) -> String {
             rows(&mut out, [&group.name, name], &levels, at);
         }
         let at = |number, level| group.at(number, level);
-        rows(&mut out, [&group.name, ""], &levels, at);
+        rows(&mut out, [&group.name, OF_THE_GROUP], &levels, at);
     }
     out
 }

@@ -5,6 +5,7 @@
 mod axes;
 pub mod cell;
 pub mod cohorts;
+mod count;
 mod drawing;
 mod facts;
 mod figure;
@@ -17,6 +18,7 @@ pub mod read;
 mod svg;
 pub mod write;
 
+pub use count::counted;
 pub use drawing::Figure;
 pub use facts::{Facts, Input};
 pub use figure::{figure, group_figure};

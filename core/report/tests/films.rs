@@ -150,7 +150,10 @@ fn a_group_is_the_mean_of_its_knees() {
     };
     assert_eq!(rotation("\"two <knees>\",\"p1\",30,")[0], "3");
     assert_eq!(rotation("\"two <knees>\",\"p2\",30,"), ["9", "NaN", "1"]);
-    assert_eq!(rotation("\"two <knees>\",\"\",50,"), ["3", "NaN", "1"]);
+    assert_eq!(
+        rotation("\"two <knees>\",\"mean of the group\",50,"),
+        ["3", "NaN", "1"]
+    );
     let drawn = cohorts::figure(&[group.clone(), group]).svg();
     assert!(drawn.contains("(n = 2)") && !drawn.contains("NaN"));
     let nothing = group_figure(&Group::new(String::new(), Vec::new())).svg();

@@ -41,7 +41,10 @@ pub enum CalibrationError {
     #[error("the calibration's rotation is not a rotation matrix")]
     Rotation,
     /// The frame has another size than the calibration names.
-    #[error("the calibration is for frames of {calibration:?} pixels, but the frame has {frame:?}")]
+    #[error(
+        "the calibration is for frames of {} x {} pixels, but these have {} x {}: it is of frames as they were taken, neither scaled nor cut",
+        calibration.0, calibration.1, frame.0, frame.1
+    )]
     FrameSize {
         /// Width and height in the file.
         calibration: (usize, usize),

@@ -171,10 +171,15 @@ impl fmt::Display for Doubt {
                 f,
                 "{px:.2} px remain, on this film at most {limit_px:.2} px are usual: does it lie on other edges, as an inner rim, or on the wrong side of the mirror?"
             ),
-            Self::Open { turn_deg, other_px } => write!(
-                f,
-                "another pose, {turn_deg:.0} degrees away, fits as well ({other_px:.2} px), and nothing tells which is right"
-            ),
+            Self::Open { turn_deg, other_px } => {
+                // What is written as 1.
+                let is_one = turn_deg > 0.5 && turn_deg < 1.5;
+                let unit = if is_one { "degree" } else { "degrees" };
+                write!(
+                    f,
+                    "another pose, {turn_deg:.0} {unit} away, fits as well ({other_px:.2} px), and nothing tells which is right"
+                )
+            }
         }
     }
 }
@@ -265,4 +270,19 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     let apart = |px: f64, limit_px: f64| (px > limit_px).then_some(Doubt::Apart { px, limit_px });
     let between = fit.apart_px.and_then(|px| apart(px, limits.good_apart_px));
     apart(fit.misfit_px, limit_px).or(between)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn one_degree_is_not_several() {
+        for (turn_deg, words) in [(0.4, "0 degrees"), (1.2, "1 degree "), (1.6, "2 degrees")] {
+            let other_px = 0.3;
+            let doubt = Doubt::Open { turn_deg, other_px }.to_string();
+            assert!(doubt.contains(words), "{doubt}");
+        }
+    }
 }

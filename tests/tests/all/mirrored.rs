@@ -139,7 +139,11 @@ fn what_is_given_up_on_the_way_would_have_left_more() {
             true => assert_eq!(within, Some(whole), "{deg} degrees"),
             false => assert_eq!(within, None, "{deg} degrees"),
         }
-        *(if within.is_some() { &mut kept } else { &mut left }) += 1;
+        *(if within.is_some() {
+            &mut kept
+        } else {
+            &mut left
+        }) += 1;
     }
     assert!(kept > 3 && left > 3, "{kept} {left}");
 }

@@ -119,6 +119,12 @@ impl Dicom {
         self.frames_per_s
     }
 
+    /// Width and height of frame `index`, pixels.
+    pub(crate) fn size(&self, index: usize) -> (u32, u32) {
+        let attributes = self.per_frame.get(index).unwrap_or(&self.attributes);
+        (attributes.width, attributes.height)
+    }
+
     /// Decodes frame `index`, below [`Self::count`]; `bytes` are those that [`Self::open`] left.
     pub(crate) fn frame(&self, bytes: &[u8], index: usize) -> Result<GreyFrame, Problem> {
         let attributes = self.per_frame.get(index).unwrap_or(&self.attributes);

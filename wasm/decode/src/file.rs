@@ -29,11 +29,11 @@ pub struct FrameFile<'a> {
     content: Content,
 }
 
-/// What the kinds need to find a frame.
+/// What the kinds need to find a frame; of files that hold one, its width and height.
 enum Content {
-    Png,
-    Jpeg,
-    Jpeg2000,
+    Png((u32, u32)),
+    Jpeg((u32, u32)),
+    Jpeg2000((u32, u32)),
     Tiff { pages: Vec<tiff::Page> },
     Dicom(Box<Dicom>),
 }
@@ -70,7 +70,7 @@ impl<'a> FrameFile<'a> {
     /// How many frames it holds, at least 1.
     pub fn count(&self) -> usize {
         match &self.content {
-            Content::Png | Content::Jpeg | Content::Jpeg2000 => 1,
+            Content::Png(_) | Content::Jpeg(_) | Content::Jpeg2000(_) => 1,
             Content::Tiff { pages } => pages.len(),
             Content::Dicom(dicom) => dicom.count(),
         }
@@ -82,6 +82,18 @@ impl<'a> FrameFile<'a> {
         match &self.content {
             Content::Dicom(dicom) => dicom.frames_per_s(),
             _ => None,
+        }
+    }
+
+    /// Width and height of frame `index`, counted from 0, pixels; `None` if there is no such frame. Nothing is decoded.
+    pub fn size(&self, index: usize) -> Option<(u32, u32)> {
+        if index >= self.count() {
+            return None;
+        }
+        match &self.content {
+            Content::Png(size) | Content::Jpeg(size) | Content::Jpeg2000(size) => Some(*size),
+            Content::Tiff { pages } => Some(pages.get(index)?.size),
+            Content::Dicom(dicom) => Some(dicom.size(index)),
         }
     }
 
@@ -99,9 +111,9 @@ impl<'a> FrameFile<'a> {
             return Err(Problem::NoSuchFrame { index, count });
         }
         match &self.content {
-            Content::Png => png::decode(&self.bytes),
-            Content::Jpeg => jpeg::decode(&self.bytes),
-            Content::Jpeg2000 => jpeg2000::decode(&self.bytes),
+            Content::Png(_) => png::decode(&self.bytes),
+            Content::Jpeg(_) => jpeg::decode(&self.bytes),
+            Content::Jpeg2000(_) => jpeg2000::decode(&self.bytes),
             Content::Tiff { pages } => tiff::decode(&self.bytes, &pages[index]),
             Content::Dicom(dicom) => dicom.frame(&self.bytes, index),
         }
@@ -111,18 +123,9 @@ impl<'a> FrameFile<'a> {
 impl Content {
     fn of(kind: Kind, bytes: &mut Cow<'_, [u8]>) -> Result<Self, Problem> {
         Ok(match kind {
-            Kind::Png => {
-                png::check(bytes)?;
-                Self::Png
-            }
-            Kind::Jpeg => {
-                jpeg::check(bytes)?;
-                Self::Jpeg
-            }
-            Kind::Jpeg2000 => {
-                jpeg2000::check(bytes)?;
-                Self::Jpeg2000
-            }
+            Kind::Png => Self::Png(png::check(bytes)?),
+            Kind::Jpeg => Self::Jpeg(jpeg::check(bytes)?),
+            Kind::Jpeg2000 => Self::Jpeg2000(jpeg2000::check(bytes)?),
             Kind::Tiff => Self::Tiff {
                 pages: tiff::pages(bytes)?,
             },

@@ -60,9 +60,10 @@ fn checked_header(bytes: &[u8]) -> Result<Header, Problem> {
     }
 }
 
-/// Checks the markers: whether this is one whole image of a kind and size that is read.
-pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
-    checked_header(bytes).map(drop)
+/// Checks the markers: whether this is one whole image of a kind and size that is read. Width and height.
+pub(crate) fn check(bytes: &[u8]) -> Result<(u32, u32), Problem> {
+    let header = checked_header(bytes)?;
+    Ok((header.width.into(), header.height.into()))
 }
 
 /// Decodes the image.

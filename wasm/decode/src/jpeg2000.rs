@@ -48,9 +48,10 @@ fn checked(bytes: &[u8]) -> Result<Size, Problem> {
     Ok(size)
 }
 
-/// Checks the structure: whether this is one whole image of a kind and size that is read.
-pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
-    checked(bytes).map(drop)
+/// Checks the structure: whether this is one whole image of a kind and size that is read. Width and height.
+pub(crate) fn check(bytes: &[u8]) -> Result<(u32, u32), Problem> {
+    let size = checked(bytes)?;
+    Ok((size.width, size.height))
 }
 
 /// Decodes an image file.

@@ -42,9 +42,9 @@ fn open(bytes: &[u8]) -> Result<Reader<Cursor<&[u8]>>, Problem> {
     decoder.read_info().map_err(damaged)
 }
 
-/// Checks the header: whether this is one frame of a size that is read.
-pub(crate) fn check(bytes: &[u8]) -> Result<(), Problem> {
-    open(bytes).map(drop)
+/// Checks the header: whether this is one frame of a size that is read. Width and height.
+pub(crate) fn check(bytes: &[u8]) -> Result<(u32, u32), Problem> {
+    Ok(open(bytes)?.info().size())
 }
 
 /// Decodes the still image.

@@ -5,6 +5,8 @@ use std::ffi::OsString;
 use anyhow::Result;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::exit;
+use crate::signals::end_with_the_reader;
 use crate::verbs;
 
 /// Who runs the command tells by this variable under which name a person knows it.
@@ -59,6 +61,7 @@ enum Verb {
 /// Runs a command line, the program's name first, and says what went wrong on standard error. Returns the code to exit with; help and
 /// words that cannot be understood end the process.
 pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
+    end_with_the_reader();
     let name = std::env::var(NAME).unwrap_or_else(|_| "fluoropose".to_owned());
     let matches = known_as(&name).get_matches_from(words);
     let done = match Cli::from_arg_matches(&matches) {
@@ -75,7 +78,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
 }
 
-/// The command with examples that can be typed as they stand.
+/// The command with examples that can be typed as they stand, and with the codes that it exits with.
 fn known_as(name: &str) -> clap::Command {
     let renamed = |text: &clap::builder::StyledStr| {
         text.to_string().replace(IN_EXAMPLES, &format!("{name} "))
@@ -84,7 +87,7 @@ fn known_as(name: &str) -> clap::Command {
         Some(help) => argument.help(help),
         None => argument,
     };
-    let mut command = Cli::command();
+    let mut command = Cli::command().after_help(exit::CODES);
     let verbs: Vec<String> = command
         .get_subcommands()
         .map(|verb| verb.get_name().to_owned())
@@ -92,11 +95,9 @@ fn known_as(name: &str) -> clap::Command {
     for verb in verbs {
         command = command.mut_subcommand(verb, |verb| {
             let after = verb.get_after_help().map(renamed);
-            let verb = verb.mut_args(argument);
-            match after {
-                Some(after) => verb.after_help(after),
-                None => verb,
-            }
+            let after = after.into_iter().chain([exit::CODES.to_owned()]);
+            let after = after.collect::<Vec<_>>().join("\n\n");
+            verb.mut_args(argument).after_help(after)
         });
     }
     command
@@ -106,18 +107,18 @@ fn verb(verb: Verb) -> Result<u8> {
     match verb {
         Verb::Batch(args) => return verbs::batch::run(args),
         Verb::Collect(args) => return verbs::collect::run(args),
+        Verb::Pose(args) => return verbs::pose::run(args),
+        Verb::Track(args) => return verbs::track::run(args),
+        Verb::Kinematics(args) => return verbs::kinematics::run(args),
         Verb::Library(args) => verbs::library::run(args),
-        Verb::Pose(args) => verbs::pose::run(args),
         Verb::Biplane(args) => verbs::biplane::run(args),
         Verb::Synthetic(args) => verbs::synthetic::run(*args),
         Verb::Identify(args) => verbs::identify::run(args),
         Verb::Evaluate(args) => verbs::evaluate::run(args),
-        Verb::Track(args) => verbs::track::run(args),
         Verb::Outline(args) => verbs::outline::run(args),
         Verb::Bound(args) => verbs::bound::run(args),
         Verb::Calibrate(args) => verbs::calibrate::run(args),
         Verb::Undistort(args) => verbs::undistort::run(args),
-        Verb::Kinematics(args) => verbs::kinematics::run(args),
         Verb::Report(args) => verbs::report::run(args),
         Verb::Bench(args) => verbs::bench::run(args),
     }?;

@@ -12,7 +12,7 @@ mod role;
 mod study;
 mod text;
 
-pub use calibration::{camera_for, camera_of_frames, read_calibration};
+pub use calibration::{camera_for, camera_of_frames, read_calibration, size_taken};
 pub use distortion::{Undistorter, read_distortion, write_distortion};
 pub use film::Film;
 pub use frames::{Frames, grey, stated_frames_per_s};

@@ -1,8 +1,10 @@
 //! The laboratory: poses of whole studies, measured. The rooms stand in the order in which data goes through them.
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+pub mod exit;
 pub mod options;
 pub mod progress;
+pub mod signals;
 
 pub mod files;
 

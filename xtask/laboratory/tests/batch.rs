@@ -249,7 +249,7 @@ fn they_are_put_together(studies: &Studies) {
         "{said}"
     );
     let read = |name: &str| fs::read_to_string(studies.0.join("group").join(name)).expect("a file");
-    assert!(read("groups.csv").contains("\n\"all\",\"\",10,"));
+    assert!(read("groups.csv").contains("\n\"all\",\"mean of the group\",10,"));
     assert!(read("groups.svg").contains("all (n = 2)"));
     assert_eq!(read("doubtful.csv").lines().count(), 1);
     let manifest = studies.0.join("whole/b/manifest.json");

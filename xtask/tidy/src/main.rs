@@ -1,6 +1,7 @@
 //! The check by itself, for a folder other than that of the running cargo: `tidy [--root FOLDER]
 //! [--graph FOLDER] [--long]`.
 
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -39,7 +40,7 @@ fn run() -> Result<bool> {
         }
     }
     if let Some(folder) = wanted {
-        print!("{}", fluoropose_tidy::graph_text(&root, &folder)?);
+        say(&fluoropose_tidy::graph_text(&root, &folder)?);
         return Ok(true);
     }
     Ok(report(&fluoropose_tidy::check(&root)?, long_counts))
@@ -48,16 +49,21 @@ fn run() -> Result<bool> {
 /// Prints what was found; long files and functions one by one only when they count. Whether nothing is wrong.
 fn report(findings: &Findings, long_counts: bool) -> bool {
     for error in &findings.errors {
-        println!("error: {error}");
+        say(&format!("error: {error}\n"));
     }
     if long_counts {
         for long in &findings.long {
-            println!("too long: {long}");
+            say(&format!("too long: {long}\n"));
         }
     }
     let (errors, long) = (findings.errors.len(), findings.long.len());
-    println!(
-        "{errors} errors; {long} files or functions that are long (--long lists them and makes them errors)"
-    );
+    say(&format!(
+        "{errors} errors; {long} files or functions that are long (--long lists them and makes them errors)\n"
+    ));
     errors == 0 && (long == 0 || !long_counts)
+}
+
+/// Prints; where nobody reads on, as behind `| head`, nothing is lost by that.
+fn say(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }

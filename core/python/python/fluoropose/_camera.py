@@ -12,39 +12,48 @@ from . import _checks
 from ._native import Calibration
 
 
-@dataclass(frozen=True, init=False)
+@dataclass(frozen=True, init=False, repr=False)
 class Camera:
     """A calibrated X-ray camera.
 
     `K` is its matrix in pixels, whole numbers at pixel centres, and `size` is (columns, rows) of its frames: the convention of
     computer vision and of MayaCam 2.0. Files are read by `from_intcalib` and `from_mayacam`. What is unusual of it is warned of:
-    of files that name no frame size when the first frames are seen.
+    of files that name no frame size when frames are seen, and where those are of another size than frames before.
     """
 
     K: tuple[tuple[float, float, float], ...] | None
+    """None where the frame size is not known; `matrix` tells it for frames of a size."""
     size: tuple[int, int] | None
+    """Columns and rows of its frames; None where nobody says."""
     remarks: tuple[str, ...] = field(compare=False)
     """What is unusual of it, most often because the calibration is wrong."""
     _calibration: Calibration = field(repr=False, compare=False)
     text: str = field(repr=False)
+    _seen: set[tuple[int, int]] = field(compare=False)
+    """Sizes of frames that were seen with it."""
 
     def __init__(self, K: ArrayLike, size: tuple[int, int]) -> None:
         matrix = _checks.numbers(K, (3, 3), "K")
-        try:
-            columns, rows_ = size
-        except (TypeError, ValueError) as error:
-            raise TypeError("size must be (columns, rows)") from error
-        width, height = _checks.whole(columns, "size"), _checks.whole(rows_, "size")
+        width, height = _size(size)
         rows = "\n".join(",".join(repr(float(number)) for number in row) for row in matrix)
         text = f"image size\n{width},{height}\n\ncamera matrix\n{rows}\n"
         with _checks.argument("K or size"):
             calibration = Calibration(text)
         self._set(calibration, matrix.tolist(), (width, height))
 
+    def __repr__(self) -> str:
+        """Matrix and size where they are known, else what the file says."""
+        told = None if self.K is None else f"K={self.K}, size={self.size}"
+        return f"Camera({', '.join(filter(None, (told, self._calibration.words())))})"
+
     @classmethod
-    def from_intcalib(cls, source: _checks.PathLike) -> Camera:
-        """Reads a `JT_INTCALIB` file: principal distance, principal point and pitch, mm. It names no frame size."""
-        return cls._read(source)
+    def from_intcalib(cls, source: _checks.PathLike, size: tuple[int, int] | None = None) -> Camera:
+        """Reads a `JT_INTCALIB` file: principal distance, principal point and pitch, mm.
+
+        It names no frame size: with `size` (columns, rows) masks and frames of another size are refused, as with a matrix; without it
+        they are taken for whole frames of the detector, and only told where they differ from those that the camera was used with before.
+        """
+        return cls._read(source, None if size is None else _size(size))
 
     @classmethod
     def from_mayacam(cls, source: _checks.PathLike) -> Camera:
@@ -55,7 +64,7 @@ class Camera:
         return camera
 
     @classmethod
-    def _read(cls, source: _checks.PathLike) -> Camera:
+    def _read(cls, source: _checks.PathLike, stated: tuple[int, int] | None = None) -> Camera:
         name = _checks.path(source, "source")
         try:
             text = Path(name).read_text(encoding="utf-8-sig")
@@ -64,10 +73,13 @@ class Camera:
         with _checks.argument(f"source: {name}"):
             calibration = Calibration(text)
         camera = object.__new__(cls)
-        size = calibration.size()
+        size = calibration.size() or stated
+        if stated not in (None, size):
+            raise ValueError(f"size is {stated}, but {name} is for {size}")
         matrix = None
         if size is not None:
-            fx, fy, cx, cy = calibration.camera(*size)
+            with _checks.argument("size"):
+                fx, fy, cx, cy = calibration.camera(*size)
             matrix = [[fx, 0.0, cx - 0.5], [0.0, fy, cy - 0.5], [0.0, 0.0, 1.0]]
         camera._set(calibration, matrix, size)
         return camera
@@ -84,6 +96,7 @@ class Camera:
             ("remarks", remarks),
             ("_calibration", calibration),
             ("text", calibration.text()),
+            ("_seen", set()),
         ):
             object.__setattr__(self, name, value)
 
@@ -96,10 +109,29 @@ class Camera:
         """What is unusual of it for frames of this size; it is warned of where that was not done before."""
         doubts = self._calibration.doubts(width, height)
         if self.size is None:
+            doubts += self.others(width, height)
             _checks.warn(doubts)
         return doubts
+
+    def others(self, width: int, height: int) -> list[str]:
+        """That frames of another size were seen with it before: it can be of one size alone."""
+        others = sorted(self._seen - {(width, height)})
+        self._seen.add((width, height))
+        return [
+            f"camera: these are {width} x {height} pixels, those before {columns} x {rows}: a calibration is of frames of one size, neither scaled "
+            "nor cut; state it, as in Camera.from_intcalib(path, size=(columns, rows))"
+            for columns, rows in others[:1]
+        ]
 
     def matrix(self, width: int, height: int) -> np.ndarray[tuple[int, int], np.dtype[np.float64]]:
         """`K` for frames of this size, for files that name none."""
         fx, fy, cx, cy = self._calibration.camera(width, height)
         return np.array([[fx, 0.0, cx - 0.5], [0.0, fy, cy - 0.5], [0.0, 0.0, 1.0]])
+
+
+def _size(value: tuple[int, int]) -> tuple[int, int]:
+    try:
+        columns, rows = value
+    except (TypeError, ValueError) as error:
+        raise TypeError("size must be (columns, rows)") from error
+    return _checks.whole(columns, "size"), _checks.whole(rows, "size")

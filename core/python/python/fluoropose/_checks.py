@@ -68,9 +68,17 @@ def choice(value: object, words: Sequence[str], name: str) -> None:
         raise ValueError(f"{name} must be one of {', '.join(words)}, not {value!r}")
 
 
+def pixels(value: ArrayLike, one: bool, name: str) -> NDArray[Any]:
+    """An array of pixels; a path in its place is told how to become one."""
+    if is_path(value):
+        remedy = f"fluoropose.read_frames(path){'[0]' if one else ''}"
+        raise TypeError(f"{name} must be an array, not a path: read the file with {remedy}")
+    return np.asarray(value)
+
+
 def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
     """Masks as bytes: rows, columns, and before them the frames where there are three dimensions."""
-    array = np.asarray(value)
+    array = pixels(value, dimensions == 2, name)
     if array.dtype != np.bool_ and not np.issubdtype(array.dtype, np.integer):
         raise TypeError(f"{name} must be of booleans or whole numbers, not {array.dtype}")
     if array.ndim != dimensions or 0 in array.shape:
@@ -83,7 +91,7 @@ def masks(value: ArrayLike, dimensions: int, name: str) -> NDArray[np.uint8]:
 
 def frame(value: ArrayLike, name: str) -> NDArray[Any]:
     """A grey frame of 8 or 16 bits."""
-    array = np.asarray(value)
+    array = pixels(value, True, name)
     if array.dtype not in (np.uint8, np.uint16):
         raise TypeError(f"{name} must be of uint8 or uint16, not {array.dtype}")
     if array.ndim != 2 or 0 in array.shape:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 from ._camera import Camera
 from ._model import Model
 from ._native import VERSION
@@ -19,8 +20,8 @@ from ._poses import Pose, Poses, rows
 METHODS = ("library", "refined", "image")
 
 
-@dataclass(frozen=True)
-class Rival:
+@dataclass(frozen=True, eq=False)
+class Rival(Alike):
     """Another pose that explains the image."""
 
     pose: Pose
@@ -29,7 +30,7 @@ class Rival:
 
 
 @dataclass(frozen=True, eq=False)
-class Estimate:
+class Estimate(Alike):
     """The pose of an implant in an image, and how far it is to be trusted."""
 
     pose: Pose
@@ -161,6 +162,8 @@ def estimate_all(
         raise ValueError(f"unknown must have the shape of the masks, {pixels.shape}, not {hidden.shape}")
     grey = None
     if frames is not None:
+        if _checks.is_path(frames):
+            _checks.pixels(frames, False, "frames")  # type: ignore[arg-type]
         grey = [_checks.frame(one, "frames") for one in frames]
         if len(grey) != count or any(one.shape != (height, width) for one in grey):
             raise ValueError(f"frames must be {count} of {height} x {width} pixels, as the masks")

@@ -18,15 +18,26 @@ def read_frames(path: _checks.PathLike) -> NDArray[Any]:
     folder itself and reads one at a time.
     """
     place = Path(_checks.path(path, "path"))
-    files = [place]
-    if place.is_dir():
-        files = sorted(file for file in place.iterdir() if file.is_file() and not file.name.startswith("."))
+    files = files_of(place) if place.is_dir() else [place]
     frames = [frame for file in files for frame in _decoded(file)]
     if not frames:
         raise ValueError(f"path: {place} holds no frames")
     if any(frame.shape != frames[0].shape for frame in frames):
         raise ValueError(f"path: the frames of {place} differ in size")
     return np.stack(frames)
+
+
+def files_of(folder: Path) -> list[Path]:
+    """The files of a folder in the order of the frames."""
+    return sorted(file for file in folder.iterdir() if file.is_file() and not file.name.startswith("."))
+
+
+def size_in(folder: Path) -> tuple[int, int] | None:
+    """Columns and rows of the first frame of a folder; none where it cannot be read."""
+    try:
+        return _native.frame_size(str(files_of(folder)[0]))
+    except (ValueError, OSError, IndexError):
+        return None
 
 
 def _decoded(file: Path) -> list[NDArray[Any]]:

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 from ._model import Model
 from ._native import VERSION
 from ._poses import Poses, rows
 
 
 @dataclass(frozen=True, eq=False)
-class ByFlexion:
+class ByFlexion(Alike):
     """Numbers at steps of 10 degrees of flexion, each the mean over the phases that pass it; doubtful frames are in none.
 
     Steps that no phase passes have no row: a film whose flexion jumps over some, by more than 45 degrees or in doubtful frames, has none there.
@@ -37,7 +38,7 @@ class ByFlexion:
 
 
 @dataclass(frozen=True, eq=False)
-class Kinematics:
+class Kinematics(Alike):
     """A joint's numbers in every frame of a film; NaN where a component has no pose."""
 
     name: str
@@ -57,11 +58,12 @@ class Kinematics:
     axes: tuple[str, str] = field(repr=False)
     """Which of the femoral and of the tibial file's axes point anteriorly, superiorly and to the right, and who says so."""
     remarks: tuple[str, ...]
+    """What has to be known of it: numbers that no knee has, models that look swapped, axes that a shape does not tell. Told as warnings too."""
     version: str
     by_flexion: ByFlexion = field(repr=False)
     """The numbers at steps of flexion."""
     _cycles: NDArray[np.float64] = field(repr=False)
-    _files: Mapping[str, str | None] = field(repr=False)
+    _files: Mapping[str, str | bytes | None] = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -86,11 +88,15 @@ class Kinematics:
         """Writes the published figure."""
         self._write(path, "svg")
 
+    def to_pdf(self, path: _checks.PathLike) -> None:
+        """Writes the published figure as PDF, 180 mm wide."""
+        self._write(path, "pdf")
+
     def _write(self, path: _checks.PathLike, kind: str) -> None:
-        text = self._files[kind]
-        if text is None:
+        made = self._files[kind]
+        if made is None:
             raise ValueError("fps must be known for a .mot: time is its first column")
-        Path(_checks.path(path, "path")).write_text(text, encoding="utf-8", newline="\n")
+        Path(_checks.path(path, "path")).write_bytes(made.encode() if isinstance(made, str) else made)
 
 
 def kinematics(
@@ -129,6 +135,7 @@ def kinematics(
         cutoff=cutoff_hz,
         doubts=_doubts(femur, tibia),
     )
+    _checks.warn(joint["remarks"])
     steps = joint["by_flexion"]
     names = tuple(joint["names"])
     return Kinematics(
@@ -147,7 +154,7 @@ def kinematics(
         version=VERSION,
         by_flexion=ByFlexion(steps["flexion_deg"], names, steps["mean"], steps["sd"], steps["n"]),
         _cycles=joint["cycles"],
-        _files={"csv": joint["csv"], "mot": joint["mot"], "svg": joint["svg"]},
+        _files={"csv": joint["csv"], "mot": joint["mot"], "svg": joint["svg"], "pdf": joint["pdf"]},
     )
 
 

@@ -8,19 +8,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Model:
+class Model(Alike):
     """The CAD model of an implant, mm: the very size that was implanted.
 
     Libraries of its views are built when they are first needed and kept as long as the model.
     """
 
-    path: str | None
+    path: str | None = field(compare=False)
     digest: str
-    remarks: tuple[str, ...]
-    _handle: _native.Model = field(repr=False)
+    """SHA-256 of its vertices and triangles: models are equal where theirs are."""
+    remarks: tuple[str, ...] = field(compare=False)
+    _handle: _native.Model = field(repr=False, compare=False)
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike) -> None:
         places = _checks.numbers(vertices, (None, 3), "vertices")

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 
 NUMBERS: Final = ("x_mm", "y_mm", "z_mm", "z_rot_deg", "x_rot_deg", "y_rot_deg")
 """The numbers of a pose in the order of all arrays and of `.jts` files."""
 
 
-@dataclass(frozen=True)
-class Pose:
+@dataclass(frozen=True, eq=False)
+class Pose(Alike):
     """Where an implant is: `X_camera = Rz Rx Ry X_model + t`, in the frame of the X-ray source, x right, y up, looking along -z.
 
     All numbers are NaN where nothing was found. The same numbers with `sd_` meaning: one standard deviation of each.
@@ -45,7 +46,7 @@ class Pose:
 
 
 @dataclass(frozen=True, eq=False)
-class Poses:
+class Poses(Alike):
     """A component in every frame of a film."""
 
     name: str

@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _checks, _native
+from ._alike import Alike
 from ._camera import Camera
 from ._estimate import bright
+from ._frames import size_in
 from ._kinematics import Kinematics, kinematics
 from ._model import Model
 from ._native import VERSION
@@ -41,8 +43,8 @@ class Click:
     row: float
 
 
-@dataclass(frozen=True)
-class Part:
+@dataclass(frozen=True, eq=False)
+class Part(Alike):
     """A component as it is looked for."""
 
     name: str
@@ -53,7 +55,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class Track(Alike):
     """The components of a knee in every frame of a film."""
 
     femur: Poses | None
@@ -120,8 +122,8 @@ def track(
     `frames` are a folder, an array (frames, rows, columns) of 8 or 16 bits, or an iterable of paths or of arrays, of which one at a
     time is in memory. `fixed` poses (a row a frame, NaN where there is none, by femur and tibia) never change. `out` keeps the film as
     a study that the command `fluoropose track` reads too, with what was done after every frame: a call that was broken off goes on there.
-    `progress` (as `print`) is called on the caller's thread, some times a second, with how many frames of components were looked at, of
-    how many, and what was just done, in the command's words; an exception from it ends the work as Ctrl-C does.
+    `progress` (as `print`) is called on the caller's thread with every step: how many frames of components were looked at, of how many, and
+    what is done, in the command's words; an exception from it ends the work as Ctrl-C does.
     """
     _checks.instance(camera, Camera, "camera")
     _checks.choice(side, ("left", "right"), "side")
@@ -220,7 +222,11 @@ def follow(
     shutil.rmtree(begun, ignore_errors=True)
     begun.mkdir()
     try:
-        _write_study(frames, parts, camera, begun, side=side, fps=fps)
+        size = size_in(_write_study(frames, parts, camera, begun, side=side, fps=fps))
+        if size is not None:
+            camera.check(*size, "frames")
+            for remark in camera.others(*size):
+                hear(remark)
         # What is there stays as it is where it is of something else.
         if not anew and (place / "journal.txt").exists() and not _are_alike(begun, place):
             raise ValueError(
@@ -252,7 +258,8 @@ def follow(
 
 def _write_study(
     frames: Frames, parts: Sequence[Part], camera: Camera, place: Path, *, side: str, fps: float | None
-) -> None:
+) -> Path:
+    """The folder of its frames."""
     (place / "calibration.txt").write_text(camera.text, encoding="utf-8")
     pictures = _frames(frames, camera, place)
     lines = ['name = "film"', f'side = "{side}"', 'calibration = "calibration.txt"', f"frames = {_text(pictures)}"]
@@ -270,6 +277,7 @@ def _write_study(
         if part.distance_mm is not None:
             lines.append(f"distance_mm = {part.distance_mm!r}")
     (place / "study.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return place / pictures
 
 
 def _are_alike(begun: Path, place: Path) -> bool:

@@ -6,6 +6,7 @@ use fluoropose::joint::numbers::place;
 use super::course::{Ink, Panel};
 use super::{FLEXION, LEFT, RIGHT, SIZE, WIDTH_MM, against_flexion, letter};
 use crate::axes::{Plot, Scale};
+use crate::count::counted;
 use crate::drawing::{Anchor, Colour, Drawing, Figure, Stroke};
 use crate::group::Group;
 
@@ -27,11 +28,8 @@ pub fn group_figure(group: &Group) -> Figure {
 }
 
 fn counts(group: &Group) -> String {
-    format!(
-        "{} knees, {} films",
-        group.knees().len(),
-        group.films().count()
-    )
+    let knees = counted(group.knees().len(), "knee");
+    format!("{knees}, {}", counted(group.films().count(), "film"))
 }
 
 struct Course<'g> {

@@ -37,6 +37,8 @@ const PALETTE: u64 = 3;
 pub(crate) struct Page {
     /// Its place in the file's order, counted from 0.
     pub number: usize,
+    /// Width and height, pixels.
+    pub size: (u32, u32),
     /// Where the file says which page is the first, and what it says where this one is.
     pub as_first: (usize, Vec<u8>),
     /// Where a page of numbers of colours says that it is one, and what it says where they are greys.
@@ -256,6 +258,7 @@ pub(super) fn pages(bytes: &[u8]) -> Result<Vec<Page>, Problem> {
             checked_area(said.width, said.height)?;
             pages.push(Page {
                 number,
+                size: (said.width as u32, said.height as u32),
                 as_first: walker.as_first(next),
                 palette_as_grey: said.palette_as_grey,
             });

@@ -255,7 +255,12 @@ pub(crate) fn read_all(bytes: &[u8], name: &str) -> bool {
     let frames = decode_frames(bytes, name);
     let mask = decode_mask(bytes, name);
     if let Ok(file) = FrameFile::open(bytes, name) {
-        let _ = file.frame(file.count() - 1);
+        let last = file.count() - 1;
+        if let Ok(frame) = file.frame(last) {
+            let told = Some((frame.width, frame.height));
+            assert_eq!(file.size(last), told, "told before it is decoded");
+        }
+        assert_eq!(file.size(last + 1), None);
     }
     for error in [
         model.as_ref().err(),

@@ -84,6 +84,17 @@ fn pages_in_a_circle_are_refused() {
 }
 
 #[test]
+fn sizes_of_pages_are_told_before_they_are_decoded() {
+    let file = tiff(Compression::Uncompressed, |encoder| {
+        encoder.write_image::<Gray8>(2, 1, &[1, 2]).unwrap();
+        encoder.write_image::<Gray8>(1, 3, &[1, 2, 3]).unwrap();
+    });
+    let file = FrameFile::open(file, "run.tif").unwrap();
+    let sizes = [0, 1, 2].map(|page| file.size(page));
+    assert_eq!(sizes, [Some((2, 1)), Some((1, 3)), None]);
+}
+
+#[test]
 fn pages_are_decoded_in_any_order() {
     let file = tiff(Compression::Uncompressed, |encoder| {
         for value in 0..5 {

@@ -20,6 +20,11 @@ along the outline (what shifts the whole outline alike, as a trace that is every
 the residual (root of twice the robust loss, pixels), the offset of the edges where --edge-offset found one, the verdict (good, doubtful or none) and why, what decided for \
 this pose, and the best of the other poses (one that nothing ruled out, where there is any) with its residual. A frame without a pose has a row that says so.";
 
+/// Why standard deviations of two of the rotations may look large.
+pub const NEAR_THE_POLE: &str = "\
+Where x_rot_deg comes near 90 or -90, the rotations about z and y turn about nearly the same axis: both, and their standard deviations, may be \
+large and change by much from frame to frame though the pose is well known (their errors cancel). That depends on the axes of the model's file alone.";
+
 /// The six numbers of a pose, or a standard deviation of each.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Numbers {

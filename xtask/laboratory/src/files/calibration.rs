@@ -30,6 +30,18 @@ pub fn camera_of_frames(
     Ok((camera, doubts.collect()))
 }
 
+/// What is taken for granted of frames of a size where the calibration states none: a sentence that tells frames and masks which were
+/// scaled or cut, without its full stop.
+pub fn size_taken(calibration: &Calibration, (width, height): (usize, usize)) -> Option<String> {
+    let &Calibration::PrincipalDistance { pitch, .. } = calibration else {
+        return None;
+    };
+    let [wide, high] = [width, height].map(|side| side as f64 * pitch);
+    Some(format!(
+        "camera: the calibration states no frame size; {width} x {height} pixels are taken for the whole frame, {wide:.0} x {high:.0} mm of the detector"
+    ))
+}
+
 /// The camera of a calibration for frames of a size; a camera matrix has its own.
 ///
 /// # Errors

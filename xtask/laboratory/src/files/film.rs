@@ -31,15 +31,16 @@ pub struct Film {
 
 /// What is known of a file before its frames are looked at.
 struct Listed {
-    count: usize,
     digest: [u8; 32],
+    /// Width and height of each of its frames.
+    sizes: Vec<(u32, u32)>,
 }
 
 impl Film {
     /// Lists the frames of a folder. Every file is read once, for its digest and its number of frames.
     ///
     /// # Errors
-    /// For a folder or a file that cannot be read.
+    /// For a folder or a file that cannot be read, and frames of several sizes.
     pub fn read(folder: &Path) -> Result<Self> {
         let paths = files_in(folder)?;
         let listed: Vec<Listed> = paths
@@ -50,8 +51,11 @@ impl Film {
         let mut places = Vec::new();
         for (file, listed) in listed.iter().enumerate() {
             whole.update(listed.digest);
-            places.extend((0..listed.count).map(|index| (file, index, listed.count)));
+            let count = listed.sizes.len();
+            places.extend((0..count).map(|index| (file, index, count)));
         }
+        let sizes = listed.iter().flat_map(|listed| &listed.sizes);
+        let sizes: Vec<(u32, u32)> = sizes.copied().collect();
         let mut film = Self {
             paths,
             places,
@@ -60,12 +64,36 @@ impl Film {
             decoded: Mutex::default(),
             opened: Mutex::default(),
         };
+        film.check_sizes(&sizes)?;
         let first = film.frame(0)?;
         film.size = (first.width as usize, first.height as usize);
         for note in &first.notes {
             eprintln!("{}: {note}", folder.display());
         }
         Ok(film)
+    }
+
+    /// Refuses frames that are not of the first one's size: neither a camera nor a component's way is known between them.
+    fn check_sizes(&self, sizes: &[(u32, u32)]) -> Result<()> {
+        let (first, others) = sizes.split_first().context("there is no frame")?;
+        let Some(other) = others.iter().position(|size| size != first) else {
+            return Ok(());
+        };
+        let named = |frame: usize| {
+            let ((file, place), (width, height)) = (self.place(frame), sizes[frame]);
+            let place = match self.places[frame].2 {
+                1 => String::new(),
+                _ => format!(", frame {place}"),
+            };
+            format!("{file}{place} is {width} x {height} pixels")
+        };
+        let folder = self.paths[0].parent().unwrap_or(Path::new(""));
+        bail!(
+            "{}: {} but {}: a film has frames of one size, those that were calibrated; take the others out of the folder",
+            folder.display(),
+            named(other + 1),
+            named(0)
+        )
     }
 
     /// Number of frames.
@@ -76,6 +104,14 @@ impl Film {
     /// Columns and rows of each frame.
     pub fn size(&self) -> (usize, usize) {
         self.size
+    }
+
+    /// The name of the file that a frame, from 0, stands in, and its number in that, from 1; no name for one that is not there.
+    pub fn place(&self, frame: usize) -> (String, usize) {
+        let place = self.places.get(frame);
+        place.map_or((String::new(), 1), |&(file, index, _)| {
+            (name_of(&self.paths[file]), index + 1)
+        })
     }
 
     /// SHA-256 of the files' digests, in their order.
@@ -146,6 +182,39 @@ fn open(path: &Path) -> Result<FrameFile<'static>> {
 fn list(path: &Path) -> Result<Listed> {
     let bytes = read(path)?;
     let digest = Sha256::digest(&bytes).into();
-    let count = FrameFile::open(bytes, &name_of(path))?.count();
-    Ok(Listed { count, digest })
+    let file = FrameFile::open(bytes, &name_of(path))?;
+    let sizes = (0..file.count()).filter_map(|frame| file.size(frame));
+    Ok(Listed {
+        sizes: sizes.collect(),
+        digest,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fluoropose_phantom::picture::write_grey;
+
+    #[test]
+    fn a_frame_of_another_size_is_told_at_the_start_and_places_bear_names() {
+        let folder = std::env::temp_dir().join(format!("fluoropose-many-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let write = |name: &str, side: usize| {
+            write_grey(&folder.join(name), (side, 8), &vec![7; 8 * side]).unwrap();
+        };
+        (1..6).for_each(|number| write(&format!("{number}.png"), 16));
+        let film = Film::read(&folder).unwrap();
+        assert_eq!(
+            (film.place(4), film.size()),
+            (("5.png".to_owned(), 1), (16, 8))
+        );
+        assert_eq!(film.place(5), (String::new(), 1));
+        write("4.png", 15);
+        let refused = Film::read(&folder).err().unwrap().to_string();
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(
+            refused.contains("4.png is 15 x 8 pixels but 1.png is 16 x 8 pixels"),
+            "{refused}"
+        );
+    }
 }

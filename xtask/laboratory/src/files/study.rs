@@ -1,5 +1,8 @@
 //! Studies: `study.toml` and the files that it names.
 
+mod keys;
+mod sizes;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +13,8 @@ use fluoropose::film::{DisplayKind, FilmConstants, GivenFilm};
 use fluoropose_phantom::implant::Side;
 
 use super::name::check_file_name;
+use keys::Checked;
+
 use super::role::Role;
 use super::text::read_text;
 
@@ -31,8 +36,12 @@ pub struct Study {
     /// The components.
     #[serde(rename = "component", default)]
     pub components: Vec<Component>,
-    #[serde(flatten)]
-    others: BTreeMap<String, toml::Value>,
+    /// The study file.
+    #[serde(skip)]
+    file: PathBuf,
+    /// Lines of its keys.
+    #[serde(skip)]
+    lines: BTreeMap<String, usize>,
 }
 
 /// What a person states of a film. With curvature and blur all is stated, and nothing is estimated; otherwise what is left out is.
@@ -121,8 +130,6 @@ pub struct Component {
     /// Pose files of other methods, rows of the same table.
     #[serde(default)]
     pub peer: BTreeMap<String, PathBuf>,
-    #[serde(flatten)]
-    others: BTreeMap<String, toml::Value>,
 }
 
 impl Component {
@@ -133,140 +140,131 @@ impl Component {
 }
 
 impl Study {
-    /// Reads a study and resolves the paths in it against its folder.
+    /// Reads a study and resolves the paths in it against its folder. What there is to say of its keys is said on standard error.
     ///
     /// # Errors
-    /// Names the file and the key at fault.
+    /// Names the file, the line, the key at fault and what was expected.
     pub fn read(path: &Path) -> Result<Self> {
-        let mut study: Self =
-            toml::from_str(&read_text(path)?).with_context(|| format!("in {}", path.display()))?;
-        let film = study.film.map_or(Ok(()), |film| film.check());
-        film.with_context(|| format!("in {}", path.display()))?;
-        let of_components = study.components.iter().flat_map(|c| c.others.keys());
-        for key in study.others.keys().chain(of_components) {
-            // A misspelt key must not pass unseen; a later format's key must not stop the rest.
-            eprintln!(
-                "{}: the key '{key}' is not known and left out",
-                path.display()
-            );
+        let (study, remarks) =
+            Self::of(&read_text(path)?, path).with_context(|| format!("in {}", path.display()))?;
+        for remark in remarks {
+            eprintln!("in {}: {remark}", path.display());
         }
-        for component in &study.components {
-            let sources = component.masks.keys().chain(component.peer.keys());
-            for word in sources.chain([&component.name]) {
-                check_file_name(word).with_context(|| format!("in {}", path.display()))?;
+        Ok(study)
+    }
+
+    fn of(text: &str, path: &Path) -> Result<(Self, Vec<String>)> {
+        let checked = Checked::of(text)?;
+        let mut study: Self = toml::from_str(text)?;
+        study.lines = checked.lines;
+        study.file = path.to_owned();
+        study.film.map_or(Ok(()), |film| film.check())?;
+        study.check_names()?;
+        study.resolve(path.parent().unwrap_or(Path::new("")))?;
+        Ok((study, checked.remarks))
+    }
+
+    /// The folder of the frames.
+    ///
+    /// # Errors
+    /// Where the study names none.
+    pub fn frames_folder(&self) -> Result<&Path> {
+        self.frames.as_deref().with_context(|| self.lacks("frames"))
+    }
+
+    /// Which knee it is.
+    ///
+    /// # Errors
+    /// Where the study does not say.
+    pub fn known_side(&self) -> Result<Side> {
+        self.side.with_context(|| self.lacks("side"))
+    }
+
+    /// Whether it has both components of a knee.
+    pub fn is_knee(&self) -> bool {
+        let has = |role| self.components.iter().any(|one| one.role() == Some(role));
+        has(Role::Femur) && has(Role::Tibia)
+    }
+
+    /// That a key is missing, in words.
+    pub fn lacks(&self, key: &str) -> String {
+        format!("in {}: {}", self.file.display(), keys::missing(key))
+    }
+
+    /// Whether what all work on a study needs is there: calibration and models, and what else was asked for.
+    ///
+    /// # Errors
+    /// Names the first file that is not there, with the key and its line.
+    pub fn check_files(&self, frames: Option<&Path>) -> Result<()> {
+        let models = self.components.iter().enumerate();
+        let models = models.map(|(number, one)| (format!("component.{number}.model"), &*one.model));
+        let calibration = ("calibration".to_owned(), &*self.calibration);
+        let frames = frames.map(|folder| ("frames".to_owned(), folder));
+        for (key, path) in [calibration].into_iter().chain(models).chain(frames) {
+            if !path.exists() {
+                let name = key.rsplit('.').next().unwrap_or(&key);
+                bail!(
+                    "in {}: {}{name}: there is no {}",
+                    self.file.display(),
+                    self.line(&key),
+                    path.display()
+                );
             }
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
+        Ok(())
+    }
+
+    /// `line N: ` of a key.
+    fn line(&self, key: &str) -> String {
+        let line = self.lines.get(key);
+        line.map_or(String::new(), |line| format!("line {line}: "))
+    }
+
+    /// Names become names of files, and tell components apart.
+    fn check_names(&self) -> Result<()> {
+        for (number, component) in self.components.iter().enumerate() {
+            let line = |number: usize| self.line(&format!("component.{number}"));
+            let sources = component.masks.keys().chain(component.peer.keys());
+            for word in sources.chain([&component.name]) {
+                check_file_name(word).with_context(|| format!("{}component", line(number)))?;
+            }
+            let same =
+                |other: &Component| other.name.to_lowercase() == component.name.to_lowercase();
+            if let Some(first) = self.components[..number].iter().position(same) {
+                bail!(
+                    "{}there is another component {:?} ({}{:?}): give each a name of its own, which its files bear",
+                    line(number),
+                    component.name,
+                    line(first),
+                    self.components[first].name
+                );
+            }
+        }
+        Ok(())
+    }
+
+    fn resolve(&mut self, folder: &Path) -> Result<()> {
         let resolve = |path: &mut PathBuf| *path = folder.join(&*path);
-        resolve(&mut study.calibration);
-        study.frames.as_mut().map(resolve);
-        for component in &mut study.components {
+        resolve(&mut self.calibration);
+        self.frames.as_mut().map(resolve);
+        for component in &mut self.components {
             resolve(&mut component.model);
             component.reference.as_mut().map(resolve);
             component.masks.values_mut().for_each(resolve);
             component.unknown.values_mut().for_each(resolve);
-            for source in component.unknown.keys() {
-                if !component.masks.contains_key(source) {
-                    bail!(
-                        "{}: the component {} has unknown.{source} but no masks.{source}",
-                        path.display(),
-                        component.name
-                    );
-                }
-            }
             component.peer.values_mut().for_each(resolve);
+            let stray = component.unknown.keys();
+            let stray = stray.filter(|source| !component.masks.contains_key(*source));
+            if let Some(source) = stray.into_iter().next() {
+                bail!(
+                    "the component {} has unknown.{source} but no masks.{source}",
+                    component.name
+                );
+            }
         }
-        Ok(study)
+        Ok(())
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn read(text: &str) -> Result<Study> {
-        let name = format!(
-            "fluoropose-study-{}-{}.toml",
-            std::process::id(),
-            text.len()
-        );
-        let path = std::env::temp_dir().join(name);
-        std::fs::write(&path, text).unwrap();
-        let study = Study::read(&path);
-        std::fs::remove_file(&path).unwrap();
-        study
-    }
-
-    #[test]
-    fn unknown_pixels_belong_to_a_source_of_masks() {
-        let component = "name = 'left'\ncalibration = 'c.txt'\n[[component]]\nname = 'femur'\nmodel = 'f.stl'\n";
-        let study = read(&format!(
-            "{component}masks.hand = 'm'\nunknown.hand = 'u'\n"
-        ));
-        let unknown = &study.unwrap().components[0].unknown["hand"];
-        assert_eq!(unknown, &std::env::temp_dir().join("u"));
-        let stray = read(&format!(
-            "{component}masks.hand = 'm'\nunknown.foot = 'u'\n"
-        ));
-        let message = stray.unwrap_err().to_string();
-        assert!(message.contains("unknown.foot"), "{message}");
-    }
-
-    #[test]
-    fn a_film_is_stated_in_whole_or_in_part() {
-        let film = |keys: &str| {
-            let study = read(&format!(
-                "name = 'left'\ncalibration = 'c.txt'\n[film]\n{keys}\n"
-            ))?;
-            Ok::<_, anyhow::Error>(study.film.expect("it is there"))
-        };
-        let whole = film("curvature = 0.025\nblur_px = 0.8").unwrap();
-        let constants = whole.constants().expect("all of them");
-        assert_eq!((constants.curvature, constants.blur_px), (0.025, 0.8));
-        let part = film("display = 'logarithmic'").unwrap();
-        assert_eq!(part.constants(), None);
-        assert_eq!(part.given().display, Some(DisplayKind::Logarithmic));
-        assert_eq!(film("blur_px = 1.3").unwrap().given().blur_px, Some(1.3));
-        for wrong in [
-            "curvature = 0.025",
-            "curvature = 0.025\nblur_px = 0.8\ndisplay = 'linear'",
-            "blur_px = 0.0",
-            "curvature = -1.0\nblur_px = 0.8",
-            "display = 'bent'",
-            "colour = 1",
-        ] {
-            assert!(film(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn names_that_lead_elsewhere_are_refused() {
-        let head = "name = 'left'\ncalibration = 'c.txt'\n[[component]]\nmodel = 'f.stl'\n";
-        for hostile in [
-            "name = '../femur'",
-            "name = '/tmp/femur'",
-            "name = 'NUL'",
-            "name = 'femur'\nmasks.'../m' = 'm'",
-            "name = 'femur'\npeer.'a/b' = 'p.jts'",
-        ] {
-            let error = read(&format!("{head}{hostile}\n")).unwrap_err();
-            assert!(
-                format!("{error:#}").contains("is no name for a file"),
-                "{error:#}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_role_is_told_or_follows_from_the_name() {
-        let study = read(
-            "name = 'left'\ncalibration = 'c.txt'\n\
-             [[component]]\nname = 'Femur'\nmodel = 'f.stl'\n\
-             [[component]]\nname = 'tray'\nrole = 'tibia'\nmodel = 't.stl'\n\
-             [[component]]\nname = 'patella'\nmodel = 'p.stl'\n",
-        );
-        let components = study.unwrap().components;
-        let roles: Vec<Option<Role>> = components.iter().map(Component::role).collect();
-        assert_eq!(roles, [Some(Role::Femur), Some(Role::Tibia), None]);
-    }
-}
+mod tests;

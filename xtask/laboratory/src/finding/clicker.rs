@@ -134,16 +134,18 @@ impl<'l> Clicker<'l> {
         Ok(found.candidates.to_vec())
     }
 
-    /// Looks for the component in a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame).
+    /// Looks for the component in a whole frame, or `beside` the middle of the joint's other one (mm, in the camera's frame). It takes
+    /// seconds, so that `goes_on` hears the part that is done, 0 to 1, and may end it.
     ///
     /// # Errors
-    /// Those of [`WholeFrame::step`].
+    /// Those of [`WholeFrame::step`] and of `goes_on`.
     pub fn search(
         &mut self,
         subject: &Subject<'_>,
         image: &ImageTarget<'_>,
         beside: Option<Vector3>,
-    ) -> Result<Option<Discovery>, OneClickError> {
+        mut goes_on: impl FnMut(f64) -> Result<()>,
+    ) -> Result<Option<Discovery>> {
         let component = Component {
             library: &self.library,
             model: &self.mesh,
@@ -154,6 +156,7 @@ impl<'l> Clicker<'l> {
         let mut search = WholeFrame::new(image, &component, camera, beside, &mut sums)?;
         let kernels = fluoropose_kernels::fastest();
         while let Some(needs) = search.needs(camera) {
+            goes_on(search.progress())?;
             let finder = self.finder.borrow(&component, camera, kernels);
             let mut memory = self.own.borrow(&needs, finder.workspace, finder.refine);
             search.step(subject, image, &component, &mut memory)?;

@@ -73,7 +73,8 @@ impl Source {
             check_size(path, mask, size)?;
         }
         let count = masks.len();
-        let (camera, doubts) = camera_of_frames(calibration, size)?;
+        let folder = || folders.masks.display().to_string();
+        let (camera, doubts) = camera_of_frames(calibration, size).with_context(folder)?;
         for doubt in doubts {
             eprintln!("{doubt}");
         }
@@ -189,8 +190,14 @@ fn read_unknown(folder: &Path, count: usize, size: (usize, usize)) -> Result<Vec
 }
 
 fn check_size(path: &Path, mask: &MaskBuffer, size: (usize, usize)) -> Result<()> {
-    if (mask.mask().width(), mask.mask().height()) != size {
-        bail!("{} differs in size from the first mask", path.display());
+    let (width, height) = (mask.mask().width(), mask.mask().height());
+    if (width, height) != size {
+        bail!(
+            "{} is {width} x {height} pixels and differs in size from the first mask, {} x {}: all are as large as the frames that were calibrated",
+            path.display(),
+            size.0,
+            size.1
+        );
     }
     Ok(())
 }

@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Result;
+use fluoropose_report::counted;
 
+use crate::signals::say_when_ended;
 use claim::Claim;
 use folders::Folders;
 use manifest::Look;
@@ -44,8 +46,10 @@ inputs, version or settings have changed; a study that was broken off goes on wh
 Tasks may share a folder: each study is claimed by one. A claim whose task is gone is taken over, at once where the process is known to be gone, \
 else after --stale seconds without a heartbeat. --status tells of each study whether it is done, doubtful (done, some frames doubtful), outdated \
 (of another version or other settings), claimed, abandoned (its task is gone: the next one takes it over), failed, crashed or unfinished.\n\n\
-Exit codes, the highest that a study of the part gives: 0 all done; 3 done, some frames doubtful; 4 a study's input is bad; 5 a study broke the \
-program off; 6 a study is not done, because another task works on it or it was left out; 1 and 2 for what is wrong with the command itself.\n\n\
+It exits with the highest code that a study of the part gives, with --status too: 0 all done; 3 done, some frames doubtful or without a pose; 4 a study's \
+input is bad (failed); 5 a study broke the program off (crashed); 6 a study is not done: another task works on it or did, it was left out, or its results \
+are outdated. 1 and 2 are for what is wrong with the command itself.\n\n\
+A task that is stopped loses nothing but the step in hand: the same command goes on from there.\n\n\
 Examples:\n  cargo xtask batch studies.csv --out results --partition slice:1/4\n  cargo xtask batch studies.csv --out results --status"
 )]
 pub struct Args {
@@ -103,6 +107,11 @@ pub fn run(args: Args) -> Result<u8> {
     let own: Vec<&Entry> = own.map(|(_, entry)| entry).collect();
     let folders = Folders::make(&args.out)?;
     if !args.status {
+        say_when_ended(format!(
+            "finished studies are in {0}, the one in hand is kept in {1}; the same command goes on from there (--status: how far all are)",
+            args.out.display(),
+            folders.aside("").display()
+        ));
         crate::progress::without_bars();
         own.iter().try_for_each(|entry| args.one(entry, &folders))?;
     }
@@ -158,8 +167,10 @@ impl Args {
         }
         match work::work(entry, &settings, folders, &claim)? {
             Ok(manifest) => println!(
-                "{}: {} frames, {} doubtful",
-                entry.name, manifest.frames, manifest.doubtful
+                "{}: {}, {} doubtful",
+                entry.name,
+                counted(manifest.frames, "frame"),
+                manifest.doubtful
             ),
             Err(failure) => eprintln!("{}: {}", entry.name, failure.because),
         }
@@ -192,5 +203,9 @@ fn print(states: &[(&Entry, StudyState)], each: bool) {
         .iter()
         .map(|(word, count)| format!("{word} {count}"))
         .collect();
-    println!("{} studies: {}", states.len(), counts.join(", "));
+    let all = match states.len() {
+        1 => "1 study".to_owned(),
+        more => format!("{more} studies"),
+    };
+    println!("{all}: {}", counts.join(", "));
 }

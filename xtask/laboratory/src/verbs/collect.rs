@@ -7,19 +7,20 @@ use anyhow::{Context, Result, bail, ensure};
 use fluoropose_report::cell::{plain, quoted};
 use fluoropose_report::cohorts::{figure, table};
 use fluoropose_report::levels::FilmLevels;
-use fluoropose_report::{Group, Knee, read};
+use fluoropose_report::{Group, Knee, counted, read};
 
+use crate::exit;
 use crate::files::{csv_fields, read_text, write_figure, write_text};
 use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 
 /// Options of `collect`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and \
-each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, and doubtful.csv (every frame \
+    after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and, \
+where the column knee says `mean of the group`, each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, and doubtful.csv (every frame \
 that is not good, with its reason). Doubtful frames are in none of the means.\n\n\
-Exit codes: 0 all studies of the list are in it; 6 some have no results (not done, or failed: which, and why, is told), and what the others give is \
-written; 1 and 2 nothing is written.\n\n\
+It exits with 0 where all studies of the list are in it, and with 6 where some have no results (not done, or failed: which, and why, is told): what \
+the others give is written then. With 1 and 2 nothing is written.\n\n\
 Example:\n  cargo xtask collect studies.csv --results results --out group"
 )]
 pub struct Args {
@@ -41,9 +42,6 @@ struct Done<'e> {
     entry: &'e Entry,
     manifest: Manifest,
 }
-
-/// What the command exits with where studies are missing, as `batch` does.
-const MISSING: u8 = 6;
 
 /// Runs the verb; the code to exit with.
 ///
@@ -74,9 +72,12 @@ pub fn run(args: Args) -> Result<u8> {
     write_figure(&args.out, "groups", &figure(&groups))?;
     write_text(&args.out.join("doubtful.csv"), &doubtful)?;
     for group in &groups {
-        println!("{}: {} knees", group.name, group.knees().len());
+        println!("{}: {}", group.name, counted(group.knees().len(), "knee"));
     }
-    println!("{} frames are not good", doubtful.lines().count() - 1);
+    match doubtful.lines().count() - 1 {
+        1 => println!("1 frame is not good"),
+        more => println!("{more} frames are not good"),
+    }
     if missing.is_empty() {
         return Ok(0);
     }
@@ -89,7 +90,7 @@ pub fn run(args: Args) -> Result<u8> {
         let why = failure_of(&args.results, name);
         println!("{name}: {}", why.as_deref().unwrap_or("not done"));
     }
-    Ok(MISSING)
+    Ok(exit::NOT_DONE)
 }
 
 /// Refuses what was not made by one program in one way.

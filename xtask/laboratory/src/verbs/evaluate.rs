@@ -91,12 +91,9 @@ pub fn run(args: Args) -> Result<()> {
 pub fn evaluate(path: &Path, request: &Request<'_>) -> Result<Table> {
     request.disturbance.check()?;
     let study = Study::read(path)?;
-    if request.asks_frames() && study.frames.is_none() {
-        bail!(
-            "{} has no key 'frames': this needs the folder of the grey frames, frames = \"folder\"",
-            path.display()
-        );
-    }
+    let frames = request.asks_frames().then(|| study.frames_folder());
+    study.check_files(frames.transpose()?)?;
+    study.check_sizes()?;
     if let Some(source) = request.source
         && !study
             .components

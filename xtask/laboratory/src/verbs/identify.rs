@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::camera::calibration::Calibration;
+use fluoropose::camera::Camera;
 use fluoropose::canonical::{CanonicalSpec, canonicalise, reverse};
 use fluoropose::library::Library;
 use fluoropose::locate::{Workspace, locate, workspace_needed};
@@ -14,7 +14,10 @@ use fluoropose::search::{
     query_bytes_needed,
 };
 
-use crate::files::{MaskBuffer, files_in, name_of, read, read_calibration, read_mask};
+use fluoropose_report::counted;
+
+use crate::files::{MaskBuffer, files_in, name_of, read, read_calibration};
+use crate::sequence::{Folders, Source};
 
 /// Implants that are told of each mask.
 const TOLD: usize = 3;
@@ -41,7 +44,7 @@ pub struct Args {
 /// Runs the verb.
 ///
 /// # Errors
-/// For files that cannot be read or do not go together, and masks without a canonical form.
+/// For files that cannot be read or do not go together, masks of several sizes, and masks without a canonical form.
 pub fn run(args: Args) -> Result<()> {
     let calibration = read_calibration(&args.calibration)?;
     let files = files_in(&args.libraries)?;
@@ -60,15 +63,20 @@ pub fn run(args: Args) -> Result<()> {
     };
     let catalogue = Catalogue::new(&libraries, memory)?;
     let mut memory = Memory::new(&catalogue.spec());
-    for path in files_in(&args.masks)? {
-        let mask = read_mask(&path)?;
+    let folders = Folders {
+        masks: &args.masks,
+        unknown: None,
+        frames: None,
+    };
+    let source = Source::read(&folders, &calibration)?;
+    for (path, mask) in &source.masks {
         let start = Instant::now();
-        let found = memory.identify(&catalogue, &calibration, &mask)?;
+        let found = memory.identify(&catalogue, &source.camera, mask)?;
         let took = start.elapsed();
         println!(
-            "{}: looked for in {} libraries in {took:.1?}",
-            name_of(&path),
-            libraries.len()
+            "{}: looked for among {} in {took:.1?}",
+            name_of(path),
+            counted(libraries.len(), "implant")
         );
         for one in &found {
             println!(
@@ -82,7 +90,7 @@ pub fn run(args: Args) -> Result<()> {
         };
         println!(
             "  {}",
-            pose_line(&libraries[best.library], &calibration, &mask)?
+            pose_line(&libraries[best.library], &source.camera, mask)?
         );
     }
     Ok(())
@@ -109,12 +117,11 @@ impl Memory {
     fn identify(
         &mut self,
         catalogue: &Catalogue<'_>,
-        calibration: &Calibration,
+        camera: &Camera,
         mask: &MaskBuffer,
     ) -> Result<Vec<Identified>> {
         let spec = catalogue.spec();
         let mask = mask.mask();
-        let camera = calibration.camera(mask.width(), mask.height())?;
         canonicalise(&mask, &spec, camera.aspect(), &mut self.canonical)?;
         reverse(&self.canonical, &mut self.turned);
         let query = Query::new(&spec, &self.canonical, &self.turned, &mut self.query)?;
@@ -125,13 +132,8 @@ impl Memory {
 }
 
 /// The pose by the library that fits best.
-fn pose_line(
-    library: &Library<'_>,
-    calibration: &Calibration,
-    mask: &MaskBuffer,
-) -> Result<String> {
+fn pose_line(library: &Library<'_>, camera: &Camera, mask: &MaskBuffer) -> Result<String> {
     let mask = mask.mask();
-    let camera = calibration.camera(mask.width(), mask.height())?;
     let needs = workspace_needed(library);
     let work = Workspace {
         canonical: &mut vec![0; needs.words],
@@ -140,7 +142,7 @@ fn pose_line(
         bytes: &mut vec![0; needs.bytes],
         kernels: fluoropose_kernels::fastest(),
     };
-    let found = locate::<1>(&mask, &camera, library, work)?;
+    let found = locate::<1>(&mask, camera, library, work)?;
     let located = found
         .poses
         .first()

@@ -13,7 +13,8 @@ use fluoropose::mesh::anatomy::AnatomicalAxes;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose_report::impossibilities;
 
-use crate::files::{Role, read_model_of, read_poses};
+use crate::exit;
+use crate::files::{Role, read_model_of, read_poses, write_text};
 use crate::finding::axes_of;
 use crate::options::sides;
 use fluoropose_phantom::implant::Side;
@@ -24,7 +25,8 @@ use fluoropose_phantom::implant::Side;
     after_help = "A row a frame: the tibial component relative to the femoral one as a pose (mm, degrees), then the field's six \
 numbers: anterior-posterior, superior-inferior and mediolateral translation (mm), flexion, abduction and internal rotation (degrees); the \
 translations of Grood and Suntay (gs_*, mm); and, where both models are named, the lowest points of both condyles above the tray. A frame in which \
-either has no pose has empty numbers. The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
+either has no pose has empty numbers. Numbers that no knee has, as swapped poses give, are told (the wrong side may give numbers that a knee has): on standard error, by the exit \
+code 3, and in the table by lines before its heading that begin with # (pandas.read_csv(..., comment=\"#\")). The numbers are those of components whose files have the field's axes (x anterior, y superior, z to the \
 patient's right); for others name the models, so that their shape tells the axes, or state the axes.\n\n\
 Example:\n  cargo xtask kinematics --femur femur.jts --tibia tibia.jts --side left --out kinematics.csv"
 )]
@@ -56,11 +58,11 @@ pub struct Args {
     out: PathBuf,
 }
 
-/// Runs the verb.
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
 /// For files that cannot be read or written, or that differ in their number of frames.
-pub fn run(args: Args) -> Result<()> {
+pub fn run(args: Args) -> Result<u8> {
     let (femur, tibia) = (read_poses(&args.femur)?, read_poses(&args.tibia)?);
     if femur.len() != tibia.len() {
         bail!(
@@ -80,7 +82,30 @@ pub fn run(args: Args) -> Result<()> {
     };
     let femur_part = part(&args.femur_model, &args.femur_axes, Role::Femur)?;
     let tibia_part = part(&args.tibia_model, &args.tibia_axes, Role::Tibia)?;
-    let joint = joint(&femur_part, &tibia_part, side);
+    let parts = [&femur_part, &tibia_part];
+    let (table, told) = table(parts, side, femur.into_iter().zip(tibia))?;
+    let marked: String = told
+        .iter()
+        .map(|told| format!("# doubtful: {told}\n"))
+        .collect();
+    write_text(&args.out, &(marked + &table))?;
+    // Written before anything is said, so that it is there where nobody reads on.
+    for (name, part) in [("femoral", &femur_part), ("tibial", &tibia_part)] {
+        if let Some(axes) = &part.axes {
+            say(name, axes);
+        }
+    }
+    told.iter().for_each(|told| eprintln!("{told}"));
+    Ok(if told.is_empty() { 0 } else { exit::DOUBTFUL })
+}
+
+/// The table, and what is told of numbers that no knee has.
+fn table(
+    [femur_part, tibia_part]: [&Part; 2],
+    side: kinematics::Side,
+    poses: impl Iterator<Item = (Option<Pose>, Option<Pose>)>,
+) -> Result<(String, Vec<String>)> {
+    let joint = joint(femur_part, tibia_part, side);
     let mut memory = vec![0; joint.map_or(0, |joint| joint.memory_needed())];
     let columns = if joint.is_some() {
         NUMBERS
@@ -89,7 +114,7 @@ pub fn run(args: Args) -> Result<()> {
     };
     let mut table = heading(columns);
     let mut frames = Vec::new();
-    for (frame, (femur, tibia)) in femur.into_iter().zip(tibia).enumerate() {
+    for (frame, (femur, tibia)) in poses.enumerate() {
         write!(table, "{}", frame + 1)?;
         match femur.zip(tibia) {
             Some((femur, tibia)) => {
@@ -113,58 +138,54 @@ pub fn run(args: Args) -> Result<()> {
         }
         table.push('\n');
     }
-    for told in impossibilities(frames.into_iter()) {
-        eprintln!("{told}");
-    }
-    std::fs::write(&args.out, table).with_context(|| format!("cannot write {}", args.out.display()))
+    Ok((table, impossibilities(frames.into_iter())))
 }
 
 /// A component: its model and its anatomical axes, where they are known.
 struct Part {
     model: Option<OwnedModel>,
-    /// `model_from_field`: stated, or told by the shape of the model.
-    axes: Option<Pose>,
+    /// Stated, or told by the shape of the model.
+    axes: Option<AnatomicalAxes>,
 }
 
 impl Part {
     fn read(file: Option<&Path>, words: Option<&str>, role: Role) -> Result<Self> {
-        let name = match role {
-            Role::Femur => "femoral",
-            Role::Tibia => "tibial",
-        };
         let read = |file| read_model_of(file, Some(role));
         let model = file.map(read).transpose()?;
         let axes = known_axes(file.zip(model.as_ref()), words, role)?;
-        if let Some(axes) = &axes {
-            println!("{name} anterior, superior, right: {axes}");
-            if !axes.are_files_own {
-                eprintln!(
-                    "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
-                );
-            }
-            if !axes.front_is_known {
-                eprintln!(
-                    "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
-                );
-            }
-        }
-        Ok(Self {
-            model,
-            axes: axes.map(|axes| axes.model_from_field),
-        })
+        Ok(Self { model, axes })
     }
 
     /// The rotation from the axes in which the field takes a joint to the file's: none where no axes are known.
     fn joint_axes(&self, side: kinematics::Side) -> Pose {
         let axes = self.axes.as_ref();
-        axes.map_or(Pose::IDENTITY, |axes| joint_axes(axes, side))
+        axes.map_or(Pose::IDENTITY, |axes| {
+            joint_axes(&axes.model_from_field, side)
+        })
+    }
+}
+
+/// Says which axes of a component's file are taken.
+fn say(name: &str, axes: &AnatomicalAxes) {
+    println!("{name} anterior, superior, right: {axes}");
+    if !axes.are_files_own {
+        eprintln!(
+            "the {name} file's axes are more than 10 degrees off those of its shape, which are taken"
+        );
+    }
+    if !axes.front_is_known {
+        eprintln!(
+            "the shape of the {name} component does not tell front from back: if flexion has the wrong sign, state its axes"
+        );
     }
 }
 
 /// The joint of two models whose axes are known.
 fn joint<'p>(femur: &'p Part, tibia: &'p Part, side: kinematics::Side) -> Option<Joint<'p>> {
-    let known =
-        |part: &'p Part| Some((*part.model.as_ref()?.as_model().mesh(), part.axes.as_ref()?));
+    let known = |part: &'p Part| {
+        let (model, axes) = (part.model.as_ref()?, part.axes.as_ref()?);
+        Some((*model.as_model().mesh(), &axes.model_from_field))
+    };
     Joint::new(known(femur)?, known(tibia)?, side)
 }
 
@@ -279,7 +300,7 @@ mod tests {
         let made = |mesh| Some(crate::files::owned(mesh).unwrap());
         let part = |model| Part {
             model,
-            axes: Some(Pose::IDENTITY),
+            axes: Some(AnatomicalAxes::from_words("x y z").unwrap()),
         };
         let femur = part(made(
             fluoropose_phantom::implant::femur(&parameters).unwrap(),

@@ -136,12 +136,7 @@ pub fn run(args: Args) -> Result<()> {
     let folders = Folders {
         masks: masks.with_context(|| format!("{} has no masks.{}", args.component, args.source))?,
         unknown: None,
-        frames: Some(
-            study
-                .frames
-                .as_deref()
-                .context("the study has no key 'frames'")?,
-        ),
+        frames: Some(study.frames_folder()?),
     };
     let calibration = read_calibration(&study.calibration)?;
     let source = Source::read(&folders, &calibration)?;

@@ -9,11 +9,14 @@ use fluoropose::math::Vector3;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 
+use crate::exit;
+
 use crate::choice::report::{self, FrameReport, Numbers, check_path, write_report};
-use crate::choice::{Beside, Decision, Posing, Reasons};
+use crate::choice::{Beside, Decision, Posed, Posing, Reasons};
 
 use crate::files::{
-    Role, name_of, read, read_calibration, read_model_of, read_poses, shape_doubt, write_poses,
+    Role, name_of, read, read_calibration, read_model_of, read_poses, shape_doubt, size_taken,
+    write_poses,
 };
 
 use crate::finding::{EdgeOptions, Finder, FrameFound, Method};
@@ -35,9 +38,9 @@ With --unknown, what a mask says of the pixels set in its companion is not belie
 To see what a worse trace would give, --jitter S follows each outline of a mask, smooths its pixel steps, moves it along its normals by \
 Gaussian noise of the standard deviation S and the correlation length --correlation, and fills it again; --occlude F hides the part F of \
 the outline's length behind a half plane, a disc or a band, and what is hidden is left out of the mask or traced as a part of it.\n\n\
-After the sign ± stands one standard deviation (1 SD). {}\n\n\
+After the sign ± stands one standard deviation (1 SD). {}\n\n{}\n\n\
 Example:\n  cargo xtask pose --library femur.library --model femur.stl --calibration calibration.txt --masks masks/femur --out femur.jts \
---method refined --report femur.csv", report::HELP)
+--method refined --report femur.csv", report::HELP, report::NEAR_THE_POLE)
 )]
 pub struct Args {
     /// Library file from `cargo xtask library`
@@ -82,12 +85,11 @@ pub struct Args {
     disturbance: DisturbanceOptions,
 }
 
-/// Runs the verb.
+/// Runs the verb; the code to exit with.
 ///
 /// # Errors
-/// For files that cannot be read or do not belong together, a model that the library was not made
-/// from, and masks of which not one has a pose: nothing is written then.
-pub fn run(args: Args) -> Result<()> {
+/// For files that cannot be read or do not belong together, and a model that the library was not made from.
+pub fn run(args: Args) -> Result<u8> {
     args.disturbance.check()?;
     args.report.as_deref().map_or(Ok(()), check_path)?;
     if args.method == Method::Image && args.frames.is_none() {
@@ -116,29 +118,42 @@ pub fn run(args: Args) -> Result<()> {
     };
     let sequence = source.disturbed(&args.disturbance)?;
     let posed = posing.run(sequence)?;
+    let (rows, poses) = (posed.report(), posed.poses());
+    let missing = poses.iter().filter(|pose| pose.is_none()).count();
+    let is_found = missing < poses.len();
+    // Written before anything is said, so that they are there where nobody reads on.
+    if is_found {
+        if let Some(path) = &args.report {
+            write_report(path, &rows)?;
+        }
+        let poses = poses.into_iter().map(|pose| pose.map(EulerPose::from));
+        write_poses(&args.out, &poses.collect::<Vec<_>>())?;
+    }
+    let size = (source.camera.width(), source.camera.height());
+    if let Some(words) = size_taken(&calibration, size) {
+        println!("{words}");
+    }
+    say(&posed, &rows, &mesh.bounds().centre);
+    if !is_found {
+        eprintln!("no mask has a pose; nothing was written");
+        return Ok(exit::NOTHING_FOUND);
+    }
+    if missing > 0 {
+        eprintln!("{missing} of {} masks have no pose", rows.len());
+    }
+    Ok(0)
+}
+
+/// Prints what was found.
+fn say(posed: &Posed, rows: &[FrameReport], middle: &Vector3) {
     if let Some(words) = &posed.film {
         println!("film: {words}");
     }
-    let middle = mesh.bounds().centre;
     let decisions = &posed.decisions;
-    let rows = posed.report();
-    for ((frame, decision), row) in posed.found.iter().zip(decisions).zip(&rows) {
-        describe(frame, decision.as_ref(), row, &middle);
+    for ((frame, decision), row) in posed.found.iter().zip(decisions).zip(rows) {
+        describe(frame, decision.as_ref(), row, middle);
     }
-    let poses = posed.poses();
-    let missing = poses.iter().filter(|pose| pose.is_none()).count();
     println!("chosen by: {}", Reasons::of(decisions));
-    if missing == decisions.len() {
-        bail!("no mask has a pose; nothing was written");
-    }
-    if missing > 0 {
-        eprintln!("{missing} of {} masks have no pose", decisions.len());
-    }
-    if let Some(path) = &args.report {
-        write_report(path, &rows)?;
-    }
-    let rows = poses.into_iter().map(|pose| pose.map(EulerPose::from));
-    write_poses(&args.out, &rows.collect::<Vec<_>>())
 }
 
 /// The other component, as files tell it.

@@ -7,7 +7,7 @@ pub mod sources;
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fluoropose::Side;
 use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
@@ -93,9 +93,7 @@ pub fn impossible(file: &Path, poses: &Path) -> Vec<String> {
 }
 
 fn side(study: &Study) -> Result<Side> {
-    let side = study.side;
-    let side = side.context("the study does not say which knee it is: key side")?;
-    Ok(match side {
+    Ok(match study.known_side()? {
         implant::Side::Left => Side::Left,
         implant::Side::Right => Side::Right,
     })

@@ -72,6 +72,8 @@ impl Inputs {
     /// For files that cannot be read.
     pub(super) fn read(entry: &Entry, settings: &Settings, look: Look) -> Result<Self> {
         let study = Study::read(&entry.study)?;
+        let folder = study.frames_folder()?;
+        study.check_files(Some(folder))?;
         let mut sha256 = BTreeMap::new();
         let mut take = |what: String, file: &Path| -> Result<()> {
             sha256.insert(what, digest(file)?);
@@ -85,8 +87,7 @@ impl Inputs {
         for fixed in &entry.fixed {
             take(format!("fixed {}", fixed.component), &fixed.file)?;
         }
-        let folder = study.frames.context("the study has no key 'frames'")?;
-        let files = files_in(&folder)?;
+        let files = files_in(folder)?;
         let length =
             |path: &std::path::PathBuf| std::fs::metadata(path).map_or(0, |about| about.len());
         if look == Look::Whole {

@@ -4,11 +4,13 @@ use std::fmt;
 use std::time::Duration;
 
 use anyhow::Result;
+use fluoropose_report::counted;
 
 use super::claim::{End, Held};
 use super::folders::{Failure, FailureKind, Folders};
 use super::list::Entry;
 use super::manifest::{Manifest, Settings};
+use crate::exit;
 
 /// What is known of a study.
 #[derive(Clone, Debug)]
@@ -96,10 +98,10 @@ impl StudyState {
     pub(super) fn exit_code(&self) -> u8 {
         match self.word() {
             "done" => 0,
-            "doubtful" => 3,
-            "failed" => 4,
-            "crashed" => 5,
-            _ => 6,
+            "doubtful" => exit::DOUBTFUL,
+            "failed" => exit::BAD_INPUT,
+            "crashed" => exit::CRASHED,
+            _ => exit::NOT_DONE,
         }
     }
 }
@@ -110,8 +112,9 @@ impl fmt::Display for StudyState {
         match self {
             Self::Done(manifest) => write!(
                 f,
-                "{} frames, {} doubtful",
-                manifest.frames, manifest.doubtful
+                "{}, {} doubtful",
+                counted(manifest.frames, "frame"),
+                manifest.doubtful
             ),
             Self::Outdated => {
                 f.write_str("the results are of another version or of other settings")

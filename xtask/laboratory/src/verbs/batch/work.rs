@@ -5,16 +5,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::Result;
-use fluoropose::follow::State;
 
 use super::claim::Claim;
 use super::folders::{Failure, FailureKind, Folders};
 use super::list::Entry;
 use super::manifest::{Inputs, Look, Manifest, Settings};
-use crate::files::{Role, Study, write_text};
+use crate::files::{Study, write_text};
 use crate::progress::Stop;
 use crate::verbs::report::{self, report};
-use crate::verbs::track::{FixedPoses, Request, Told, Tracked, track};
+use crate::verbs::track::{FixedPoses, Request, Told, Tracked, doubtful_frames, track};
 
 /// The study's joint, frame by frame.
 pub const JOINT: &str = "joint.csv";
@@ -66,6 +65,11 @@ fn whole(entry: &Entry, settings: &Settings, folders: &Folders, claim: &Claim) -
 /// Number of frames, and of doubtful ones.
 fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usize)> {
     let name = entry.name.clone();
+    let study = Study::read(&entry.study)?;
+    if study.is_knee() {
+        // Its report needs it, at the end of all work.
+        study.known_side()?;
+    }
     let tracked = track(&Request {
         study: entry.study.clone(),
         out: aside.to_owned(),
@@ -85,9 +89,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
         }),
         stop: Stop::default(),
     })?;
-    let study = Study::read(&entry.study)?;
-    let has = |role| study.components.iter().any(|one| one.role() == Some(role));
-    if has(Role::Femur) && has(Role::Tibia) {
+    if study.is_knee() {
         let of_study = report::Args {
             study: Some(entry.study.clone()),
             group: Vec::new(),
@@ -100,7 +102,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
     }
     // It says how far an unfinished run has come, in the order in which threads came there.
     std::fs::remove_file(aside.join("journal.txt"))?;
-    Ok((frames_of(&tracked), doubtful(&tracked)))
+    Ok((frames_of(&tracked), doubtful_frames(&tracked)))
 }
 
 fn rehearse(aside: &Path, inputs: &Inputs) -> Result<(usize, usize)> {
@@ -114,18 +116,6 @@ fn frames_of(tracked: &[Tracked]) -> usize {
         .map(|part| part.rows.len())
         .max()
         .unwrap_or(0)
-}
-
-/// Frames in which a component is not known well.
-fn doubtful(tracked: &[Tracked]) -> usize {
-    let known = |part: &Tracked, frame: usize| {
-        let state = part.rows.get(frame).map(|row| row.state);
-        matches!(state, Some(State::Fixed | State::Followed))
-    };
-    let frames = 0..frames_of(tracked);
-    frames
-        .filter(|&frame| !tracked.iter().all(|part| known(part, frame)))
-        .count()
 }
 
 /// A disk that is full is no fault of a study.

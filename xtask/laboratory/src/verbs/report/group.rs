@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use fluoropose_report::levels::FilmLevels;
-use fluoropose_report::{Group, JointFilm, Knee, group_figure, read, write};
+use fluoropose_report::{Group, JointFilm, Knee, counted, group_figure, read, write};
 
 use super::out::{make_folder, write_cycles};
 use crate::files::{name_of, read_text, write_figure, write_text};
@@ -17,7 +17,9 @@ pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
     write_figure(out, "figure", &group_figure(&group))?;
     let films: Vec<&JointFilm> = knees.iter().flat_map(|(_, films)| films).collect();
     write_cycles(out, &films)?;
-    println!("{} knees with {} films", knees.len(), films.len());
+    let [own, seen] =
+        [(knees.len(), "knee"), (films.len(), "film")].map(|(count, what)| counted(count, what));
+    println!("{own} with {seen}");
     for film in films {
         for told in film.impossibilities() {
             println!("{}: {told}", film.name);

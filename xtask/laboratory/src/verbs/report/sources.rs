@@ -57,6 +57,7 @@ impl Sources {
     /// # Errors
     /// For files that are missing, unreadable or do not belong together.
     pub fn read(file: &Path, study: &Study, poses: Option<&Path>) -> Result<Self> {
+        study.check_files(None)?;
         let mut inputs = vec![
             digest("study", file)?,
             digest("calibration", &study.calibration)?,

@@ -131,11 +131,16 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
             return of_person(run, part, frame, &pose);
         }
         let key = format!("again/{}/{}/{}", part.number, part.phase(), mark(anchor));
-        let found: Option<FramePose> = run.journal.step(&key, || {
-            part.see(run.film, frame, |subject, image, memory| {
-                Some(settled(subject, image, &anchor.found, memory))
-            })
-        })?;
+        let found: Option<FramePose> = run.step(
+            (part, frame),
+            "looked at with the film's constants",
+            &key,
+            || {
+                part.see(run.film, frame, |subject, image, memory| {
+                    Some(settled(subject, image, &anchor.found, memory))
+                })
+            },
+        )?;
         Ok(Anchor::found(frame, found.unwrap_or(anchor.found)))
     };
     anchors.iter().map(one).collect()

@@ -43,6 +43,11 @@ pub(super) fn learn_film(
         for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
             for anchor in anchors[number].iter().take(ANCHORS) {
                 for (frame, pose) in beside(run, part, anchor, BESIDE)? {
+                    let name = part.name();
+                    run.say(format!(
+                        "{name} frame {}: profiles of the film are read",
+                        frame + 1
+                    ));
                     let names = (number as u8, frame as u16);
                     let mut read = vec![FilmProfile::default(); PROFILES];
                     let count = part.see(run.film, frame, |subject, image, memory| {
@@ -54,6 +59,7 @@ pub(super) fn learn_film(
                 }
             }
         }
+        run.say("film: its constants are estimated".to_owned());
         let found = pool.estimate(given);
         if let Some(found) = &found {
             run.say(format!("film: {found}"));

@@ -8,6 +8,7 @@ use fluoropose::follow::{Anchor, Cell, Conclusion, State, trusted_depths};
 use fluoropose::mesh::OwnedModel;
 use fluoropose::pose::{EulerPose, Pose};
 use fluoropose::refine::Polarity;
+use fluoropose_report::counted;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
@@ -37,7 +38,12 @@ pub struct Tracked {
 
 impl fmt::Display for Tracked {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} frames", self.component, self.rows.len())?;
+        write!(
+            f,
+            "{}: {}",
+            self.component,
+            counted(self.rows.len(), "frame")
+        )?;
         for state in State::ALL {
             let count = self.rows.iter().filter(|row| row.state == state).count();
             if count > 0 {
@@ -48,6 +54,27 @@ impl fmt::Display for Tracked {
     }
 }
 
+impl Tracked {
+    /// Whether it has a pose in any frame.
+    #[must_use]
+    pub fn is_found(&self) -> bool {
+        self.rows.iter().any(|row| row.pose.is_some())
+    }
+}
+
+/// Frames in which a component is not known well.
+#[must_use]
+pub fn doubtful_frames(tracked: &[Tracked]) -> usize {
+    let good = |part: &Tracked, frame: usize| {
+        let row = part.rows.get(frame);
+        row.is_some_and(|row| row.verdict() == "good")
+    };
+    let frames = tracked.iter().map(|part| part.rows.len()).max();
+    (0..frames.unwrap_or(0))
+        .filter(|&frame| !tracked.iter().all(|part| good(part, frame)))
+        .count()
+}
+
 /// Follows the components of a study through its film.
 ///
 /// # Errors
@@ -55,15 +82,25 @@ impl fmt::Display for Tracked {
 pub fn track(request: &Request) -> Result<Vec<Tracked>> {
     let study = Study::read(&request.study)?;
     for name in request.components() {
-        let known = study.components.iter().any(|one| one.name == name);
-        ensure!(known, "the study has no component {name}");
+        let names = study.components.iter().map(|one| one.name.as_str());
+        let known: Vec<&str> = names.collect();
+        let others = known.join(", ");
+        ensure!(
+            known.contains(&name),
+            "the study has no component {name}: it has {others}"
+        );
+    }
+    let frames = study.frames_folder()?;
+    study.check_files(Some(frames))?;
+    if study.is_knee() && study.side.is_none() {
+        let lack = study.lacks("side");
+        (request.listener)(Told::Remark(format!("{lack}: joint numbers need it")));
     }
     let calibration = read_calibration(&study.calibration)?;
-    let frames = study.frames.as_deref();
-    let frames = frames.context("the study has no key 'frames'")?;
     let film = Film::read(frames).context("frames")?;
     request.check(&film)?;
-    let (camera, doubts) = camera_of_frames(&calibration, film.size())?;
+    let both = || format!("{} and {}", study.calibration.display(), frames.display());
+    let (camera, doubts) = camera_of_frames(&calibration, film.size()).with_context(both)?;
     for doubt in doubts {
         (request.listener)(Told::Remark(doubt));
     }
@@ -199,8 +236,9 @@ fn finish(
     }
     let mut text = String::from(HEADING);
     for frame in 0..run.film.count() {
+        let (file, place) = run.film.place(frame);
         for part in &tracked {
-            part.rows[frame].write(&part.component, &mut text);
+            part.rows[frame].write(&part.component, (&file, place), &mut text);
         }
     }
     write_text(&out.join("track.csv"), &text)?;

@@ -81,10 +81,11 @@ impl Request {
                 *frame < count,
                 "{called}: there is no such frame, the film has {count}"
             );
-            let is_within = |place: f64, side: usize| (0.0..=side as f64).contains(&place);
+            // The frame's last pixels end there.
+            let is_within = |place: f64, side: usize| (0.0..side as f64).contains(&place);
             ensure!(
                 is_within(*column, width) && is_within(*row, height),
-                "{called}: column {column}, row {row} is not on the frame, which has {width} columns and {height} rows"
+                "{called}: column {column}, row {row} is not on the frame, which has {width} columns and {height} rows, counted from 0"
             );
         }
         Ok(())

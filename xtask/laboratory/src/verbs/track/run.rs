@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 use std::sync::{Mutex, PoisonError};
 
+use anyhow::Result;
 use fluoropose::follow::Looked;
 
 use super::journal::Journal;
 use super::part::Part;
+use super::record::Record;
 use super::request::{Request, Told};
 use crate::files::Film;
 
@@ -30,6 +32,23 @@ impl Run<'_> {
             done: seen.len(),
             of: self.parts * self.film.count(),
         });
+    }
+
+    /// A step of the journal that takes a while, told when it is begun.
+    ///
+    /// # Errors
+    /// As of [`Journal::step`].
+    pub(super) fn step<R: Record>(
+        &self,
+        (part, frame): (&Part<'_>, usize),
+        what: &str,
+        key: &str,
+        work: impl FnOnce() -> Result<R>,
+    ) -> Result<R> {
+        self.journal.step(key, || {
+            self.say(format!("{} frame {}: {what}", part.name(), frame + 1));
+            work()
+        })
     }
 
     /// Tells that all is done: also what was never looked at, because nothing led to it.

@@ -1,5 +1,7 @@
 //! A component looked for in a whole frame, or where a person clicked.
 
+use std::time::{Duration, Instant};
+
 use anyhow::Result;
 use fluoropose::follow::{Anchor, FramePose, From, refined_on_frame};
 use fluoropose::image::contour::Point;
@@ -14,6 +16,9 @@ use crate::finding::Clicker;
 
 /// Of the answers to a click so many are refined once more and compared.
 const ANSWERS: usize = 4;
+/// So often a search says how far it is.
+const TELLS: Duration = Duration::from_millis(250);
+
 /// The pose that a click leads to; `None` where it leads nowhere.
 pub(super) fn clicked(
     run: &Run<'_>,
@@ -27,7 +32,7 @@ pub(super) fn clicked(
         part.number,
         part.phase()
     );
-    run.journal.step(&key, || {
+    run.step((part, frame), "clicked into", &key, || {
         let at = Point::new(place[0], place[1]);
         let mut found: Option<FramePose> = None;
         for (number, distance) in part.distances().into_iter().enumerate() {
@@ -63,7 +68,7 @@ pub(super) fn searched(
         format!("/beside-{}-{}", beside.part.number, mark(beside.from))
     });
     let key = format!("search/{}/{}/{frame}{known}", part.number, part.phase());
-    run.journal.step(&key, || {
+    run.step((part, frame), "searched", &key, || {
         let unknown = match beside {
             Some(beside) => Some(beside.part.silhouette(beside.pose)?),
             None => None,
@@ -71,11 +76,16 @@ pub(super) fn searched(
         let unknown = unknown.as_ref().map(MaskBuffer::mask);
         let middle = beside.map(|beside| beside.pose.transform(&beside.part.middle()));
         for (number, distance) in part.distances_near(depth) {
+            run.say(format!(
+                "{} frame {}: compared with views from {distance:.0} mm",
+                part.name(),
+                frame + 1
+            ));
             let mut clicker =
                 Clicker::open(part.library(number, distance)?, part.model(), part.camera)?;
             let found =
                 part.see_beside(run.film, frame, unknown.as_ref(), |subject, image, _| {
-                    clicker.search(subject, image, middle)
+                    clicker.search(subject, image, middle, search_told(run, part, frame))
                 })??;
             if let Some(found) = found {
                 return Ok(Some(found.pose));
@@ -83,6 +93,22 @@ pub(super) fn searched(
         }
         Ok(None)
     })
+}
+
+/// Tells how far the search of a frame is, and ends it where the run is to stop.
+fn search_told(run: &Run<'_>, part: &Part<'_>, frame: usize) -> impl FnMut(f64) -> Result<()> {
+    let mut told = Instant::now();
+    move |done| {
+        if told.elapsed() >= TELLS {
+            told = Instant::now();
+            let (name, percent) = (part.name(), 100.0 * done);
+            run.say(format!(
+                "{name} frame {}: {percent:.0} % searched",
+                frame + 1
+            ));
+        }
+        run.request.stop.check()
+    }
 }
 
 fn answers(

@@ -110,11 +110,16 @@ fn cross_jumps(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()>
             let expected = trail.expect(frame, &middle).pose.rotation;
             bits = bits_of(expected.into_iter().flatten().chain([f64::from_bits(bits)]));
             let key = format!("cross/{}/{}/{frame}/{bits:x}", part.number, part.phase());
-            let looked: Looked = run.journal.step(&key, || {
-                part.see(run.film, frame, |subject, image, memory| {
-                    look(subject, image, frame, trail, memory)
-                })
-            })?;
+            let looked: Looked = run.step(
+                (part, frame),
+                "followed from the other side of a jump",
+                &key,
+                || {
+                    part.see(run.film, frame, |subject, image, memory| {
+                        look(subject, image, frame, trail, memory)
+                    })
+                },
+            )?;
             crossing.saw(frame, looked, &middle);
         }
         crossing.write(cells);
@@ -131,7 +136,7 @@ fn look_again(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()> 
         let beside = look.expected.rotation.into_iter().flatten();
         let bits = bits_of(numbers.chain(beside));
         let key = format!("second/{}/{}/{frame}/{bits:x}", part.number, part.phase());
-        let better = run.journal.step(&key, || {
+        let better = run.step((part, frame), "looked at once more", &key, || {
             part.see(run.film, frame, |subject, image, memory| {
                 look.run(subject, image, memory)
             })
@@ -228,9 +233,9 @@ fn seen(
     frames: &[usize],
     look: impl Fn(usize, &FramePose) -> Result<Option<FramePose>> + Sync,
 ) -> Result<Vec<SideSample>> {
-    let what = match rival {
-        Rival::Mirrored => "mirror",
-        Rival::Elsewhere => "elsewhere",
+    let (what, told) = match rival {
+        Rival::Mirrored => ("mirror", "seen from the other side"),
+        Rival::Elsewhere => ("elsewhere", "other poses near by"),
     };
     let sample = |&frame: &usize| -> Result<Option<SideSample>> {
         let Some(&own) = cells[frame].found() else {
@@ -242,7 +247,7 @@ fn seen(
             frame,
             own,
             rival,
-            other: run.journal.step(&key, || look(frame, &own))?,
+            other: run.step((part, frame), told, &key, || look(frame, &own))?,
             fixed: cells[frame].fixed,
         }))
     };

@@ -29,7 +29,7 @@ pub struct Row {
 
 /// First line of the table.
 pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
-sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness\n";
+sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness,file,frame_of_file\n";
 
 /// The covariance of each pose that has one, a row a frame: the frame, and 36 numbers row by row, of a turn about the middle of
 /// the model (radians) and a shift (mm), both in camera axes; then how the pose moves with one standard deviation of each of two constants
@@ -82,7 +82,8 @@ impl Row {
         }
     }
 
-    pub(super) fn write(&self, component: &str, out: &mut String) {
+    /// Writes the row of a component; `file` is where the frame stands, and its number in that, from 1.
+    pub(super) fn write(&self, component: &str, (file, place): (&str, usize), out: &mut String) {
         let number =
             |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.6}"));
         let mut cells = vec![
@@ -110,6 +111,7 @@ impl Row {
         }
         cells.push(number(self.misfit_px));
         cells.push(number(self.pose.map(|_| self.badness)));
+        cells.extend([quoted(file), place.to_string()]);
         // A string takes everything.
         let _ = writeln!(out, "{}", cells.join(","));
     }

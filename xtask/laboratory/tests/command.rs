@@ -1,0 +1,225 @@
+//! The command as a shell meets it: closed pipes, Ctrl-C, and the codes that it exits with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use fluoropose_phantom::implant::Parameters;
+use fluoropose_phantom::sequence::{self, Options};
+use fluoropose_phantom::{implant, picture, stl};
+
+/// A folder of its own.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed stays in the folder of temporary files.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let name = format!("fluoropose-{name}-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        fs::create_dir_all(&folder).expect("a folder");
+        Self(folder)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).expect("a file");
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).expect("a file")
+    }
+
+    fn command(&self, words: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_fluoropose"));
+        command.args(words).current_dir(&self.0);
+        command
+    }
+
+    fn run(&self, words: &[&str]) -> (i32, String) {
+        let Output {
+            status,
+            stdout,
+            stderr,
+        } = self.command(words).output().expect("it runs");
+        let said = [stdout, stderr].map(|said| String::from_utf8_lossy(&said).into_owned());
+        (status.code().expect("a code"), said.concat())
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn whoever_stops_reading_ends_the_command_without_a_word() {
+    use std::os::unix::process::ExitStatusExt as _;
+    let folder = Folder::new("pipe");
+    let rows = (0..500).map(|number| format!("study.toml,s{number}\n"));
+    folder.write(
+        "list.csv",
+        &(String::from("study,name\n") + &rows.collect::<String>()),
+    );
+    let mut command = folder.command(&["batch", "list.csv", "--out", "out", "--status"]);
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("it runs");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(
+        (output.status.code(), output.status.signal()),
+        (None, Some(13))
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn whoever_ends_the_command_is_told_what_is_kept_and_how_to_go_on() {
+    use std::os::unix::process::ExitStatusExt as _;
+    use std::time::{Duration, Instant};
+    let folder = Folder::new("stopped");
+    let options = Options {
+        frames: 4,
+        seed: 3,
+        ..Options::default()
+    };
+    sequence::write(&options, &folder.0).expect("a study");
+    folder.write("list.csv", "study,name\nstudy.toml,a\n");
+    for (words, journal, said) in [
+        (
+            &["track", "--study", "study.toml", "--out", "tracked"][..],
+            "tracked/journal.txt",
+            "stopped: what was done is kept in tracked; the same command goes on from there",
+        ),
+        (
+            &["batch", "list.csv", "--out", "out"][..],
+            "out/.aside/a/journal.txt",
+            "stopped: finished studies are in out, the one in hand is kept in out/.aside/; the same command goes on",
+        ),
+    ] {
+        let child = folder.command(words).stderr(Stdio::piped()).spawn();
+        let child = child.expect("it runs");
+        let begun = Instant::now();
+        while !folder.0.join(journal).exists() && begun.elapsed() < Duration::from_secs(120) {
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        // As Ctrl-C, which is ignored by what runs in the background of a script, and so perhaps by this test.
+        let kill = Command::new("kill")
+            .args(["-TERM", &child.id().to_string()])
+            .status();
+        assert!(kill.expect("it runs").success());
+        let output = child.wait_with_output().expect("it ends");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(stderr.contains(said), "{stderr}");
+        assert_eq!(output.status.signal(), Some(15), "{stderr}");
+    }
+}
+
+#[test]
+fn every_verbs_help_ends_with_the_codes() {
+    let folder = Folder::new("help");
+    for words in [
+        &["--help"][..],
+        &["track", "--help"],
+        &["library", "--help"],
+        &["batch", "--help"],
+    ] {
+        let (code, said) = folder.run(words);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(code, 0);
+        for word in [
+            "130 Ctrl-C",
+            "137 killed",
+            "141 nobody reads",
+            "3 done, but numbers",
+        ] {
+            assert!(said.contains(word), "{said}");
+        }
+    }
+    let (_, said) = folder.run(&["batch", "--help"]);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(said.contains("with --status too: 0 all done;"), "{said}");
+}
+
+#[test]
+fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
+    let folder = Folder::new("swapped");
+    for name in ["femur", "tibia"] {
+        let made = match name {
+            "femur" => implant::femur(&Parameters::default()),
+            _ => implant::tibia(&Parameters::default()),
+        };
+        let path = folder.0.join(format!("{name}.stl"));
+        stl::write_file(&made.expect("usual"), &path).expect("a file");
+    }
+    // The tray lies below the femoral component, and both are upright.
+    let jts = |y: f64| format!("JT_EULER_312\n0,{y},-1000,0,0,0\n0,{y},-1000,0,0,0\n");
+    folder.write("above.jts", &jts(0.0));
+    folder.write("below.jts", &jts(-30.0));
+    let joint = |femur: &str, tibia: &str| {
+        folder.run(&[
+            "kinematics",
+            "--femur",
+            femur,
+            "--tibia",
+            tibia,
+            "--side",
+            "left",
+            "--femur-model",
+            "femur.stl",
+            "--tibia-model",
+            "tibia.stl",
+            "--out",
+            "joint.csv",
+        ])
+    };
+    let (code, said) = joint("above.jts", "below.jts");
+    assert_eq!(code, 0, "{said}");
+    assert!(folder.read("joint.csv").starts_with("frame,rel_x_mm"));
+    let (code, said) = joint("below.jts", "above.jts");
+    assert_eq!(code, 3, "{said}");
+    let table = folder.read("joint.csv");
+    assert!(
+        table.starts_with("# doubtful: frame 1 and 1 more: "),
+        "{table}"
+    );
+    assert!(table.contains("\nframe,rel_x_mm"), "{table}");
+}
+
+#[test]
+fn a_film_without_an_implant_exits_with_its_own_code() {
+    let folder = Folder::new("nothing");
+    let (femur, side) = (implant::femur(&Parameters::default()), 192);
+    stl::write_file(&femur.expect("usual"), &folder.0.join("femur.stl")).expect("a file");
+    fs::create_dir_all(folder.0.join("frames")).expect("a folder");
+    for frame in 0..2 {
+        let path = folder.0.join(format!("frames/{frame}.png"));
+        picture::write_grey(&path, (side, side), &vec![150; side * side]).expect("a frame");
+    }
+    folder.write("calibration.txt", "JT_INTCALIB\n1200\n0\n0\n2\n");
+    let study = "name = 'x'\ncalibration = 'calibration.txt'\nframes = 'frames'\n\
+        [[component]]\nname = 'femur'\nmodel = 'femur.stl'\n";
+    folder.write("study.toml", study);
+    let (code, said) = folder.run(&["track", "--study", "study.toml", "--out", "tracked"]);
+    assert_eq!(code, 7, "{said}");
+    let table = folder.read("tracked/track.csv");
+    let last = table.lines().last().expect("a row");
+    assert!(last.ends_with(",\"1.png\",1"), "{table}");
+    let beyond = format!("femur:1:{side},20");
+    let track = [
+        "track",
+        "--study",
+        "study.toml",
+        "--out",
+        "t",
+        "--click",
+        &beyond,
+    ];
+    let (code, said) = folder.run(&track);
+    assert!(
+        code == 1 && said.contains("column 192, row 20 is not on the frame"),
+        "{said}"
+    );
+    assert!(!Path::new(&folder.0.join("t")).exists());
+}
