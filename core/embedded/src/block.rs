@@ -1,0 +1,43 @@
+//! One piece of borrowed memory, cut into what is worked in.
+#![expect(
+    unsafe_code,
+    reason = "memory that comes as bytes is made a list of other values by its address alone"
+)]
+
+use core::mem::MaybeUninit;
+use core::slice;
+
+/// What every address in a block is a multiple of.
+pub(crate) type Unit = u64;
+
+/// Memory that was not handed out yet.
+pub(crate) struct Block<'m> {
+    rest: &'m mut [MaybeUninit<Unit>],
+}
+
+impl<'m> Block<'m> {
+    pub(crate) fn new(memory: &'m mut [MaybeUninit<Unit>]) -> Self {
+        Self { rest: memory }
+    }
+
+    /// A list of `count` values, all of them `fill`; `None` where there is too little left.
+    pub(crate) fn take<T: Copy>(&mut self, count: usize, fill: T) -> Option<&'m mut [T]> {
+        const { assert!(align_of::<T>() <= align_of::<Unit>()) };
+        let units = units_for::<T>(count)?;
+        let (own, rest) = core::mem::take(&mut self.rest).split_at_mut_checked(units)?;
+        self.rest = rest;
+        let first = own.as_mut_ptr().cast::<T>();
+        for number in 0..count {
+            // SAFETY: `own` has room for `count` values by `units_for`, at a place that suits them by the assertion above.
+            unsafe { first.add(number).write(fill) };
+        }
+        // SAFETY: all `count` values were written; nothing else reaches `own`, which was split off for as long as 'm lasts.
+        Some(unsafe { slice::from_raw_parts_mut(first, count) })
+    }
+}
+
+/// How many units hold `count` values.
+pub(crate) fn units_for<T>(count: usize) -> Option<usize> {
+    let bytes = size_of::<T>().checked_mul(count)?;
+    Some(bytes.div_ceil(size_of::<Unit>()))
+}
