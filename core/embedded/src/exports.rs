@@ -13,6 +13,7 @@ use core::ffi::c_char;
 use core::fmt::{self, Write};
 use core::mem::MaybeUninit;
 use core::slice;
+use core::task::Poll;
 
 use fluoropose::Point;
 use fluoropose::implant::ImplantFile;
@@ -20,13 +21,14 @@ use fluoropose::implant::ImplantFile;
 use crate::block::{Unit, units_for};
 use crate::failure::{Failure, Status};
 use crate::layouts::{CameraNumbers, CandidateNumbers, FoundNumbers, Room};
-use crate::session::{Session, units_needed};
+use crate::session::Session;
+use crate::task::{Task, task_units};
 
 /// `fluoropose`: what begins a session's memory.
 pub struct Opened {
     /// That these bytes are a session.
     mark: u32,
-    session: Session<'static>,
+    task: Task,
     /// Why the last call failed.
     failure: Option<Failure>,
 }
@@ -45,7 +47,8 @@ unsafe fn list<'a, T>(first: *const T, count: usize) -> Option<&'a [T]> {
     let is_possible = !first.is_null() && first.is_aligned();
     let bytes = count.checked_mul(size_of::<T>())?;
     // SAFETY: it is not null, aligned, no longer than memory can be, and the rest is the caller's promise.
-    (is_possible && bytes <= isize::MAX as usize).then(|| unsafe { slice::from_raw_parts(first, count) })
+    (is_possible && bytes <= isize::MAX as usize)
+        .then(|| unsafe { slice::from_raw_parts(first, count) })
 }
 
 /// Writes a value; not where the pointer is null or not aligned.
@@ -111,7 +114,7 @@ pub unsafe extern "C" fn fluoropose_bytes_needed(
     // SAFETY: the caller's promise.
     let (file, room) = unsafe { (implant(implant_file, implant_bytes, 1), list(room, 1)) };
     let units = file.ok().zip(room.and_then(<[Room]>::first));
-    let units = units.and_then(|(file, room)| units_needed(&file, room));
+    let units = units.and_then(|(file, room)| task_units(&file, room));
     let own = units_for::<Opened>(1).unwrap_or_default();
     let units = units.and_then(|units| units.checked_add(own));
     units
@@ -158,18 +161,18 @@ pub unsafe extern "C" fn fluoropose_open(
     let Some((own, rest)) = units.split_at_mut_checked(own) else {
         return Status::Memory;
     };
-    let session = match Session::new(file, room, rest) {
-        Ok(session) => session,
+    let task = match Task::new(file, room, rest) {
+        Ok(task) => task,
         Err(failure) => return failure.status(),
     };
     let place = own.as_mut_ptr().cast::<Opened>();
     const { assert!(align_of::<Opened>() <= align_of::<Unit>()) };
     // SAFETY: `own` has room for it by `units_for`, at a place that suits it by the assertion above, and `rest`, which the
-    // session borrows, is apart from it.
+    // task borrows, is apart from it.
     unsafe {
         place.write(Opened {
             mark: MARK,
-            session,
+            task,
             failure: None,
         });
         put(finder, place)
@@ -186,10 +189,13 @@ pub unsafe extern "C" fn fluoropose_camera_of(
     camera: *mut CameraNumbers,
 ) -> Status {
     // SAFETY: the caller's promise.
-    match unsafe { opened(finder) } {
+    let Some(opened) = (unsafe { opened(finder) }) else {
+        return Status::Pointer;
+    };
+    match opened.task.idle() {
         // SAFETY: the caller's promise.
-        Some(opened) => unsafe { put(camera, opened.session.camera().into()) },
-        None => Status::Pointer,
+        Some(session) => unsafe { put(camera, session.camera().into()) },
+        None => opened.keep(Err(Failure::Order)),
     }
 }
 
@@ -207,7 +213,7 @@ pub unsafe extern "C" fn fluoropose_set_camera(
         return Status::Pointer;
     };
     let camera = camera.camera().map_err(Failure::from);
-    let session = &mut opened.session;
+    let session = opened.task.session();
     let set = camera.map(|camera| session.set_camera(camera));
     opened.keep(set)
 }
@@ -226,7 +232,7 @@ pub unsafe extern "C" fn fluoropose_outline(
     let (Some(opened), Some(points)) = (unsafe { (opened(finder), list(points, count)) }) else {
         return Status::Pointer;
     };
-    let taken = opened.session.outline(points);
+    let taken = opened.task.session().outline(points);
     opened.keep(taken)
 }
 
@@ -240,7 +246,7 @@ pub unsafe extern "C" fn fluoropose_begin_rows(finder: *mut Opened) -> Status {
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    let begun = opened.session.begin_rows();
+    let begun = opened.task.session().begin_rows();
     opened.keep(begun)
 }
 
@@ -260,7 +266,7 @@ pub unsafe extern "C" fn fluoropose_row(
         return Status::Pointer;
     };
     let inside = pixels.iter().map(|&pixel| pixel != 0);
-    let added = opened.session.row(row as usize, inside);
+    let added = opened.task.session().row(row as usize, inside);
     opened.keep(added)
 }
 
@@ -270,12 +276,29 @@ pub unsafe extern "C" fn fluoropose_row(
 /// `finder` is an open session that nothing else uses, or null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fluoropose_find(finder: *mut Opened) -> Status {
+    loop {
+        // SAFETY: the caller's promise.
+        match unsafe { fluoropose_go_on(finder, u32::MAX) } {
+            Status::More => {}
+            status => return status,
+        }
+    }
+}
+
+/// The same in slices: so many of them.
+///
+/// # Safety
+/// As [`fluoropose_find`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fluoropose_go_on(finder: *mut Opened, slices: u32) -> Status {
     // SAFETY: the caller's promise.
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    let found = opened.session.find();
-    opened.keep(found)
+    match opened.task.go_on(slices) {
+        Poll::Ready(found) => opened.keep(found),
+        Poll::Pending => Status::More,
+    }
 }
 
 /// Tells what was found.
@@ -291,7 +314,8 @@ pub unsafe extern "C" fn fluoropose_found_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.session.decision() {
+    let session = opened.task.idle().ok_or(Failure::Order);
+    match session.and_then(Session::decision) {
         // SAFETY: the caller's promise.
         Ok((numbers, _)) => unsafe { put(found, numbers) },
         Err(failure) => opened.keep(Err(failure)),
@@ -312,7 +336,8 @@ pub unsafe extern "C" fn fluoropose_candidate_of(
     let Some(opened) = (unsafe { opened(finder) }) else {
         return Status::Pointer;
     };
-    match opened.session.candidate(number as usize) {
+    let session = opened.task.idle().ok_or(Failure::Order);
+    match session.and_then(|session| session.candidate(number as usize)) {
         // SAFETY: the caller's promise.
         Ok(numbers) => unsafe { put(candidate, numbers) },
         Err(failure) => opened.keep(Err(failure)),
@@ -341,7 +366,8 @@ pub unsafe extern "C" fn fluoropose_sentence(
         needed: 0,
     };
     // Writing into it does not fail.
-    let _ = match (&opened.failure, opened.session.decision()) {
+    let session = opened.task.idle().ok_or(Failure::Order);
+    let _ = match (&opened.failure, session.and_then(Session::decision)) {
         (Some(failure), _) => write!(out, "{failure}"),
         (None, Ok((_, decision))) => write!(out, "{}", decision.verdict),
         (None, Err(failure)) => write!(out, "{failure}"),

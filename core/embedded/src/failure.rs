@@ -33,6 +33,8 @@ pub enum Status {
     NoPose = 8,
     /// `FLUOROPOSE_ORDER`.
     Order = 9,
+    /// `FLUOROPOSE_MORE`.
+    More = 10,
 }
 
 /// Why there is no answer; displayed, a sentence.
@@ -83,7 +85,9 @@ impl fmt::Display for Failure {
             Self::Rows(error) => error.fmt(f),
             Self::Silhouette(error) => error.fmt(f),
             Self::Find(error) => error.fmt(f),
-            Self::Order => f.write_str("nothing was found yet: a silhouette comes first, then find"),
+            Self::Order => {
+                f.write_str("a silhouette comes first, then the search, then what it found")
+            }
         }
     }
 }

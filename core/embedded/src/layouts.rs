@@ -126,7 +126,9 @@ impl From<&Candidate> for CandidateNumbers {
             covariance: covariance.unwrap_or_default(),
             misfit_px: candidate.misfit(),
             met: candidate.fit.met,
-            drawings: candidate.refined.map_or(0, |refined| refined.renders as u32),
+            drawings: candidate
+                .refined
+                .map_or(0, |refined| refined.renders as u32),
             has_covariance: u32::from(covariance.is_some()),
         }
     }

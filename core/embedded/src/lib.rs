@@ -13,6 +13,7 @@ pub mod exports;
 mod failure;
 mod layouts;
 mod session;
+mod task;
 
 pub use failure::{Failure, Status};
 pub use layouts::{CameraNumbers, CandidateNumbers, FoundNumbers, PointNumbers, Room};

@@ -1,15 +1,14 @@
 //! An implant that is looked for, frame after frame, in memory that was borrowed once.
 
-use core::mem::MaybeUninit;
-
 use fluoropose::film::LineMemory;
 use fluoropose::finder::choice::ChoiceContext;
-use fluoropose::finder::{Decision, find_into};
+use fluoropose::finder::{Decision, Wanted, find_paced};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::{MaskError, Word};
 use fluoropose::image::runs::{PixelRun, RunBuilder};
 use fluoropose::implant::{ArenaNeeds, ImplantFile};
 use fluoropose::locate::partial::PartialMemory;
+use fluoropose::pace::Pace;
 use fluoropose::refine::BorderPixel;
 use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
@@ -18,7 +17,7 @@ use fluoropose::{
     Silhouette, Workspace,
 };
 
-use crate::block::{Block, Unit, units_for};
+use crate::block::{Block, units_for};
 use crate::failure::Failure;
 use crate::layouts::{CandidateNumbers, FoundNumbers, Room};
 
@@ -79,19 +78,22 @@ impl<'m> Session<'m> {
     ///
     /// # Errors
     /// [`Failure::Memory`] where `memory` is too short for `room`.
-    pub fn new(
+    pub(crate) fn new(
         implant: ImplantFile<'m>,
         room: &Room,
-        memory: &'m mut [MaybeUninit<Unit>],
+        mut block: Block<'m>,
     ) -> Result<Self, Failure> {
         let camera = implant.library().info().camera;
-        let mut block = Block::new(memory);
         let needs = needs(&implant, room).ok_or(Failure::Memory)?;
         let runs = block.take(room.runs as usize, PixelRun::EMPTY);
         let words = block.take(needs.words, 0);
         let memory = finder_memory(&mut block, &needs, room);
         Ok(Self {
-            runs: RunBuilder::new(runs.ok_or(Failure::Memory)?, camera.width(), camera.height())?,
+            runs: RunBuilder::new(
+                runs.ok_or(Failure::Memory)?,
+                camera.width(),
+                camera.height(),
+            )?,
             words: words.ok_or(Failure::Memory)?,
             memory: memory.ok_or(Failure::Memory)?,
             implant,
@@ -142,7 +144,8 @@ impl<'m> Session<'m> {
     /// None, of a camera that was set.
     pub fn begin_rows(&mut self) -> Result<(), Failure> {
         self.forget();
-        self.runs.restart(self.camera.width(), self.camera.height())?;
+        self.runs
+            .restart(self.camera.width(), self.camera.height())?;
         self.seen = Seen::Rows;
         Ok(())
     }
@@ -167,11 +170,11 @@ impl<'m> Session<'m> {
         Ok(added?)
     }
 
-    /// Finds the poses that explain the silhouette, chooses among them and judges the choice.
+    /// Finds the poses that explain the silhouette, chooses among them and judges the choice; in slices.
     ///
     /// # Errors
     /// [`Failure`].
-    pub fn find(&mut self) -> Result<(), Failure> {
+    pub async fn find(&mut self, pace: &Pace) -> Result<(), Failure> {
         self.decision = None;
         let crop = self.part()?;
         let words = self.words.get(..crop.words_needed()).unwrap_or_default();
@@ -180,16 +183,14 @@ impl<'m> Session<'m> {
         let camera = self.camera.cropped(&crop)?;
         let component = self.implant.component();
         let (memory, found) = (&mut self.memory, &mut self.found);
-        let options = RefineOptions::default();
-        find_into(
-            &component,
-            &camera,
-            &silhouette,
-            Goal::Outline,
-            options,
-            memory,
-            found,
-        )?;
+        let wanted = Wanted {
+            component: &component,
+            camera: &camera,
+            silhouette: &silhouette,
+            goal: Goal::Outline,
+            options: RefineOptions::default(),
+        };
+        find_paced(&wanted, memory, found, pace).await?;
         self.decision = found.decide(&ChoiceContext::default());
         Ok(())
     }
