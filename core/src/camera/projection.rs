@@ -34,6 +34,8 @@ pub struct Camera {
     fy: f64,
     cx: f64,
     cy: f64,
+    /// Distance from focus to detector, mm; infinite where that is not known.
+    detector: f64,
 }
 
 fn check(
@@ -83,6 +85,7 @@ impl Camera {
             fy,
             cx,
             cy,
+            detector: f64::INFINITY,
         })
     }
 
@@ -112,7 +115,9 @@ impl Camera {
             width as f64 / 2.0 + offset[0] / pitch,
             height as f64 / 2.0 - offset[1] / pitch,
         ];
-        Self::new(width, height, [focal, focal], centre)
+        let detector = distance;
+        let camera = Self::new(width, height, [focal, focal], centre)?;
+        Ok(Self { detector, ..camera })
     }
 
     /// The camera of a part of its frames: it sees there what this one sees, so that poses are the same.
@@ -130,7 +135,9 @@ impl Camera {
             self.cx - crop.columns().start as f64,
             self.cy - crop.rows().start as f64,
         ];
-        Self::new(crop.width(), crop.height(), self.focal(), centre)
+        let detector = self.detector;
+        let camera = Self::new(crop.width(), crop.height(), self.focal(), centre)?;
+        Ok(Self { detector, ..camera })
     }
 
     /// Columns of the frame.
@@ -157,6 +164,13 @@ impl Camera {
         [self.cx, self.cy]
     }
 
+    /// How far behind the detector a depth (mm from the focus along the axis) lies, mm; 0 before it, or where its distance is not known,
+    /// as of a camera matrix.
+    #[must_use]
+    pub fn behind_detector(&self, depth: f64) -> f64 {
+        (depth - self.detector).max(0.0)
+    }
+
     /// Height of a pixel divided by its width at the object: `fx / fy`.
     #[must_use]
     pub fn aspect(&self) -> f64 {
@@ -179,12 +193,14 @@ impl Camera {
     /// [`CameraError::Value`] when the frame becomes too large.
     pub fn supersampled(&self, factor: usize) -> Result<Self, CameraError> {
         let f = factor as f64;
-        Self::new(
+        let camera = Self::new(
             self.width.saturating_mul(factor),
             self.height.saturating_mul(factor),
             [self.fx * f, self.fy * f],
             [self.cx * f, self.cy * f],
-        )
+        )?;
+        let detector = self.detector;
+        Ok(Self { detector, ..camera })
     }
 }
 
@@ -225,5 +241,19 @@ mod tests {
         assert_eq!(name(make(1000.0, -0.3, 0.0)), "pixel pitch");
         assert_eq!(name(make(1000.0, 0.3, f64::INFINITY)), "principal point x");
         assert_eq!(name(Camera::new(0, 9, [1e3; 2], [4.0; 2])), "frame width");
+    }
+    #[test]
+    fn parts_and_finer_frames_of_a_camera_keep_its_detector() {
+        let camera = Camera::from_principal_distance(800, 600, 1000.0, 0.5, [0.0; 2]);
+        let camera = camera.expect("valid");
+        let crop = Crop::around(100..164, 50..114, 0, [800, 600]).expect("valid");
+        let part = camera.cropped(&crop).expect("within");
+        let finer = camera.supersampled(4).expect("possible");
+        for camera in [camera, part, finer] {
+            assert_eq!(camera.behind_detector(999.0), 0.0);
+            assert_eq!(camera.behind_detector(1200.0), 200.0);
+        }
+        let matrix = Camera::new(800, 600, camera.focal(), camera.principal_point());
+        assert_eq!(matrix.expect("valid").behind_detector(1e9), 0.0);
     }
 }

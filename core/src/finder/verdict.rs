@@ -59,6 +59,11 @@ pub enum Doubt {
         /// How far they may, pixels.
         limit_px: f64,
     },
+    /// The model lies behind the detector, where no part can be.
+    Behind {
+        /// How far, mm.
+        mm: f64,
+    },
     /// Too little of the outline is known.
     Unknown {
         /// The part that is known.
@@ -153,6 +158,10 @@ impl fmt::Display for Doubt {
                 f,
                 "the outlines lie {px:.1} px apart, those of a good fit at most {limit_px:.1} px: trace again, or is it another size or implant?"
             ),
+            Self::Behind { mm } => write!(
+                f,
+                "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
+            ),
             Self::Unknown { known } => {
                 let percent = 100.0 * known;
                 write!(f, "only {percent:.0} % of the model's outline is known")
@@ -241,6 +250,10 @@ fn refusal(fit: &Fit, limits: &Limits) -> Option<Refusal> {
 
 fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
     let limit_px = limits.good_px.min(limits.good_part * fit.size_px);
+    if fit.behind_mm > 0.0 {
+        let mm = fit.behind_mm;
+        return Some(Doubt::Behind { mm });
+    }
     if fit.known < limits.good_known {
         return Some(Doubt::Unknown { known: fit.known });
     }

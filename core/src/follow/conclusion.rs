@@ -100,15 +100,6 @@ impl Conclusion {
         }
     }
 
-    /// Makes a pose doubtful that lies behind the detector, which is `principal_distance_mm` from the focus. `middle` is the model's.
-    pub fn distrust_behind(&mut self, principal_distance_mm: f64, middle: &Vector3) {
-        let depth = self.pose.map(|pose| -pose.transform(middle)[2]);
-        let behind = depth.map(|depth| depth - principal_distance_mm);
-        if let Some(mm) = behind.filter(|mm| *mm > 0.0) {
-            self.distrust(Distrust::Behind(mm));
-        }
-    }
-
     /// Whether the pose is to be trusted.
     #[must_use]
     pub fn is_trusted(&self) -> bool {
@@ -166,25 +157,6 @@ pub fn fill_gaps(film: &mut [Conclusion], longest: usize, middle: &Vector3) {
 mod tests {
     use super::*;
     use crate::mesh::anatomy::KneeComponent;
-
-    #[test]
-    fn what_lies_behind_the_detector_is_doubtful() {
-        let at = |depth_mm: f64| {
-            let mut one = Conclusion {
-                state: State::Followed,
-                pose: Some(Pose {
-                    rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-                    translation: [0.0, 0.0, -depth_mm],
-                }),
-                why: Why::Agrees,
-                badness: 0.0,
-            };
-            one.distrust_behind(1200.0, &[0.0; 3]);
-            (one.state, one.badness > 1.0)
-        };
-        assert_eq!(at(1150.0), (State::Followed, false));
-        assert_eq!(at(2180.0), (State::Doubtful, true));
-    }
 
     #[test]
     fn what_a_person_gave_and_what_is_not_there_cannot_become_doubtful() {

@@ -26,6 +26,9 @@ pub struct FrameEvidence {
     pub fixed: bool,
 }
 
+/// How bad it is where no part can be: no other reason is worse.
+const BEHIND: f64 = 1e3;
+
 /// Limits of trust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrustLimits {
@@ -177,7 +180,7 @@ impl fmt::Display for Distrust {
             ),
             Self::Behind(mm) => write!(
                 f,
-                "it lies {mm:.0} mm behind the detector: the calibration is of other frames, or the model of another unit"
+                "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
             ),
             Self::Shape(shape) => {
                 let is = match shape {
@@ -205,6 +208,7 @@ pub struct Trust {
 }
 
 /// What is usual in a film.
+#[derive(Default)]
 struct Usual {
     misfit_px: f64,
     strength: f64,
@@ -316,6 +320,9 @@ impl Trust {
 
     /// What a frame by itself says of its pose.
     fn weigh_fit(&mut self, found: &FramePose, limits: &TrustLimits, usual: &Usual) {
+        if found.fit.behind_mm > 0.0 {
+            self.weigh(BEHIND, Distrust::Behind(found.fit.behind_mm));
+        }
         let part = found.contrast.strength / usual.strength.max(f64::MIN_POSITIVE);
         self.weigh(limits.strength / part.max(0.01), Distrust::Faint(part));
         let px = found.misfit_px;
@@ -344,4 +351,23 @@ fn median(values: impl Iterator<Item = f64>, sorted: &mut [f64]) -> f64 {
     let sorted = &mut sorted[..count];
     sorted.sort_unstable_by(f64::total_cmp);
     sorted.get(count / 2).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::follow::fake::turned;
+
+    #[test]
+    fn what_lies_behind_the_detector_is_doubtful_before_all_else() {
+        let told = |behind_mm: f64| {
+            let mut found = turned(0.0, 0.1);
+            (found.fit.behind_mm, found.fit.met) = (behind_mm, 0.5);
+            let mut trust = Trust::default();
+            trust.weigh_fit(&found, &TrustLimits::USUAL, &Usual::default());
+            trust.distrust
+        };
+        assert_eq!(told(0.0), Some(Distrust::Unmet(0.5)));
+        assert_eq!(told(980.0), Some(Distrust::Behind(980.0)));
+    }
 }

@@ -2,8 +2,9 @@
 
 use super::border::{BorderPixel, Residual};
 use super::view::Target;
+use crate::camera::Camera;
 use crate::image::mask::{Mask, MaskError, Word, words_needed};
-use crate::math::sqrt;
+use crate::math::{Vector3, sqrt};
 
 /// A sample of the model's outline is met where the target's outline is nearer to it than this, pixels: three standard
 /// deviations of a hand that traces, whose jitter is 1 px.
@@ -27,6 +28,9 @@ pub struct Fit {
     pub apart_px: Option<f64>,
     /// Square root of the area of the model as drawn, pixels: what is one pixel off tells more of a larger silhouette.
     pub size_px: f64,
+    /// How far behind the detector the model's middle lies, mm, where the camera knows its detector: a part cannot be there, so that
+    /// the calibration is of other frames or the model in another unit.
+    pub behind_mm: f64,
 }
 
 /// Sums over samples and views.
@@ -41,6 +45,7 @@ pub(super) struct FitSums {
     unmatched: Unmatched,
     area: f64,
     views: f64,
+    behind_mm: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -79,6 +84,11 @@ impl FitSums {
         }
     }
 
+    /// `middle` is the model's, in that camera's frame, mm.
+    pub(super) fn add_place(&mut self, camera: &Camera, middle: &Vector3) {
+        self.behind_mm = self.behind_mm.max(camera.behind_detector(-middle[2]));
+    }
+
     /// `drawn` is the model as drawn in that view.
     pub(super) fn add_areas(
         &mut self,
@@ -113,6 +123,7 @@ impl FitSums {
                 _ => None,
             },
             size_px: sqrt(part(self.area, self.views)),
+            behind_mm: self.behind_mm,
         }
     }
 }

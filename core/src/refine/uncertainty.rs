@@ -131,6 +131,8 @@ pub(super) fn observe(
         each(view, &stage, border, lines);
         sums.add_samples(border, stage.range);
         sums.add_areas(&view.target, memory.drawn)?;
+        let seen = view.placement.compose(pose);
+        sums.add_place(view.camera, &seen.transform(&model.bounds().centre));
     }
     Ok(sums.fit())
 }

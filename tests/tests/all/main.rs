@@ -3,6 +3,7 @@
 mod accuracy;
 mod anatomy;
 mod biplane;
+mod calibration;
 mod embedded;
 mod golden;
 mod implant;

@@ -15,10 +15,6 @@ pub(super) fn judge(
 ) -> Vec<Conclusion> {
     let mut film = conclude(cells, margins, depths, &part.middle());
     fill_gaps(&mut film, interpolate, &part.middle());
-    if let Some(distance) = part.principal_distance() {
-        let all = film.iter_mut();
-        all.for_each(|one| one.distrust_behind(distance, &part.middle()));
-    }
     // Right or not, they are not those of the component whose name they bear.
     if let Some(shape) = part.other_shape() {
         let all = film.iter_mut();

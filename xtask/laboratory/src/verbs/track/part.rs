@@ -110,11 +110,6 @@ impl<'s> Part<'s> {
         self.component.role()
     }
 
-    /// From the focus to the detector, mm, where the calibration tells it.
-    pub(super) fn principal_distance(&self) -> Option<f64> {
-        self.calibration.principal_distance()
-    }
-
     /// The component that its model has the shape of, where that is the other one.
     pub(super) fn other_shape(&self) -> Option<KneeComponent> {
         other_shape(self.model, self.role()?)

@@ -42,7 +42,7 @@ impl Record for FramePose {
         let apart = fit.apart_px.unwrap_or(f64::NAN);
         numbers.extend([fit.known, fit.met, fit.residual_px, fit.misfit_px, apart]);
         let contrast = &self.contrast;
-        numbers.extend([fit.size_px, self.misfit_px, contrast.step]);
+        numbers.extend([fit.size_px, fit.behind_mm, self.misfit_px, contrast.step]);
         numbers.extend([contrast.strength, contrast.known]);
         numbers.extend(self.film_steps.iter().flatten());
         numbers
@@ -65,7 +65,15 @@ impl Record for FramePose {
             }
             false => None,
         };
-        let [known, met, residual_px, misfit_px, apart, size_px] = reader.some()?;
+        let [
+            known,
+            met,
+            residual_px,
+            misfit_px,
+            apart,
+            size_px,
+            behind_mm,
+        ] = reader.some()?;
         let fit = Fit {
             known,
             met,
@@ -73,6 +81,7 @@ impl Record for FramePose {
             misfit_px,
             apart_px: (!apart.is_nan()).then_some(apart),
             size_px,
+            behind_mm,
         };
         let misfit_px = reader.one()?;
         let [step, strength, known] = reader.some()?;
