@@ -14,6 +14,9 @@
 //! assert!(go_on(work.as_mut(), &pace, 3).is_pending()); // three slices; then the watchdog, or other work
 //! assert_eq!(go_on(work.as_mut(), &pace, 3), Poll::Ready(()));
 //! ```
+//!
+//! Under an executor `poll_fn(|context| { pace.allow(1); work.as_mut().poll(context) }).await` gives way to other tasks after
+//! each slice.
 
 use core::cell::Cell;
 use core::future::{Future, poll_fn};
@@ -40,20 +43,23 @@ impl Pace {
         self.slices.set(slices);
     }
 
-    /// Takes a slice, or pauses until one is left.
+    /// Takes a slice, or pauses until one is left. An executor is asked to come back: the work waits for nothing else.
     pub fn pause(&self) -> impl Future<Output = ()> {
-        poll_fn(|_| match self.slices.get().checked_sub(1) {
+        poll_fn(|context| match self.slices.get().checked_sub(1) {
             Some(left) => {
                 self.slices.set(left);
                 Poll::Ready(())
             }
-            None => Poll::Pending,
+            None => {
+                context.waker().wake_by_ref();
+                Poll::Pending
+            }
         })
     }
 }
 
-/// Goes on with work that keeps to a pace for so many slices: [`Poll::Pending`] where more are left. Nobody is woken; work
-/// that is finished must not be gone on with.
+/// Goes on with work that keeps to a pace for so many slices: [`Poll::Pending`] where more are left. Work that is
+/// finished must not be gone on with.
 pub fn go_on<F: Future + ?Sized>(work: Pin<&mut F>, pace: &Pace, slices: u32) -> Poll<F::Output> {
     pace.allow(slices);
     work.poll(&mut Context::from_waker(Waker::noop()))
@@ -92,6 +98,40 @@ mod tests {
         assert!(go_on(pinned.as_mut(), &pace, 1).is_pending());
         assert_eq!(done.get(), 4);
         assert_eq!(go_on(pinned.as_mut(), &pace, 9), Poll::Ready("done"));
-        assert_eq!(at_once(&pace, async { pace.pause().await }), ());
+        at_once(&pace, async { pace.pause().await });
+    }
+
+    #[test]
+    fn an_executor_is_asked_to_come_back() {
+        use std::sync::Arc;
+        use std::sync::atomic::{AtomicUsize, Ordering};
+        use std::task::Wake;
+
+        #[derive(Default)]
+        struct Woken(AtomicUsize);
+
+        impl Wake for Woken {
+            fn wake(self: Arc<Self>) {
+                self.0.fetch_add(1, Ordering::Relaxed);
+            }
+        }
+
+        let (pace, woken) = (Pace::new(), Arc::new(Woken::default()));
+        let waker = Waker::from(Arc::clone(&woken));
+        let mut context = Context::from_waker(&waker);
+        let mut work = pin!(async {
+            for _ in 0..3 {
+                pace.pause().await;
+            }
+        });
+        let mut polls = 0;
+        loop {
+            pace.allow(1);
+            polls += 1;
+            if work.as_mut().poll(&mut context).is_ready() {
+                break;
+            }
+        }
+        assert_eq!((polls, woken.0.load(Ordering::Relaxed)), (3, 2));
     }
 }
