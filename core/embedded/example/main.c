@@ -18,6 +18,10 @@ IN_FLASH(outline, OUTLINE_FILE);
 /* The largest silhouette with its margin, and the longest outline. */
 static const fluoropose_room ROOM = {.columns = 224, .rows = 288, .border = 900, .runs = 0};
 
+/* The device's camera. That of the implant's library sees the same, but does not know where its detector is, behind which nothing
+ * lies: an outline of some pixels could be that of an implant far behind it. */
+static const fluoropose_calibration CALIBRATION = {.width = 512, .height = 512, .distance_mm = 1000, .pitch_mm = 0.4};
+
 /* All that the library works in. fluoropose_bytes_needed tells how much it has to be. */
 static uint64_t memory[192 * 1024 / 8];
 
@@ -72,6 +76,10 @@ int application(void) {
     if (status != FLUOROPOSE_OK) {
         tell("memory that would be needed", needed, " bytes\n");
         return fail(finder, "the implant cannot be opened", status);
+    }
+    status = fluoropose_set_calibration(finder, &CALIBRATION);
+    if (status != FLUOROPOSE_OK) {
+        return fail(finder, "the camera is none", status);
     }
     status = fluoropose_outline(finder, (const fluoropose_point *)(const void *)outline,
                                 (size_t)(outline_end - outline) / sizeof(fluoropose_point));

@@ -51,6 +51,16 @@ typedef struct {
     double cy;
 } fluoropose_camera;
 
+/* A camera by the field's quantities. */
+typedef struct {
+    uint32_t width;
+    uint32_t height;
+    double distance_mm; /* from the focus to the detector */
+    double pitch_mm;    /* between pixels, at the detector */
+    double right_mm;    /* the principal point, to the right of the frame's middle, at the detector */
+    double up_mm;       /* the same, up */
+} fluoropose_calibration;
+
 /* A point of an outline. */
 typedef struct {
     double column;
@@ -96,6 +106,9 @@ fluoropose_status fluoropose_camera_of(fluoropose *finder, fluoropose_camera *ca
 
 /* Looks at frames of another camera from now on; a search that was begun is given up, a silhouette forgotten. */
 fluoropose_status fluoropose_set_camera(fluoropose *finder, const fluoropose_camera *camera);
+
+/* The same of a camera whose detector's place is known, which no other tells: poses behind it are doubtful. */
+fluoropose_status fluoropose_set_calibration(fluoropose *finder, const fluoropose_calibration *calibration);
 
 /* Takes the outline of the next frame, whose last point is joined to the first. The points are needed no more afterwards. */
 fluoropose_status fluoropose_outline(fluoropose *finder, const fluoropose_point *points, size_t count);

@@ -15,12 +15,13 @@ use core::mem::MaybeUninit;
 use core::slice;
 use core::task::Poll;
 
-use fluoropose::Point;
+use fluoropose::camera::CameraError;
 use fluoropose::implant::ImplantFile;
+use fluoropose::{Camera, Point};
 
 use crate::block::{Unit, units_for};
 use crate::failure::{Failure, Status};
-use crate::layouts::{CameraNumbers, CandidateNumbers, FoundNumbers, Room};
+use crate::layouts::{CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundNumbers, Room};
 use crate::session::Session;
 use crate::task::{Task, task_units};
 
@@ -78,6 +79,12 @@ unsafe fn opened<'a>(finder: *mut Opened) -> Option<&'a mut Opened> {
 }
 
 impl Opened {
+    /// Looks with another camera, where it is one.
+    fn look_with(&mut self, camera: Result<Camera, CameraError>) -> Status {
+        let set = camera.map(|camera| self.task.session().set_camera(camera));
+        self.keep(set.map_err(Failure::from))
+    }
+
     fn keep(&mut self, result: Result<(), Failure>) -> Status {
         self.failure = result.err();
         self.failure.map_or(Status::Ok, |failure| failure.status())
@@ -212,10 +219,24 @@ pub unsafe extern "C" fn fluoropose_set_camera(
     let (Some(opened), Some([camera])) = (unsafe { (opened(finder), list(camera, 1)) }) else {
         return Status::Pointer;
     };
-    let camera = camera.camera().map_err(Failure::from);
-    let session = opened.task.session();
-    let set = camera.map(|camera| session.set_camera(camera));
-    opened.keep(set)
+    opened.look_with(camera.camera())
+}
+
+/// The same of a camera whose detector's place is known: poses behind it are doubtful.
+///
+/// # Safety
+/// As [`fluoropose_camera_of`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fluoropose_set_calibration(
+    finder: *mut Opened,
+    calibration: *const CalibrationNumbers,
+) -> Status {
+    // SAFETY: the caller's promise.
+    let (Some(opened), Some([calibration])) = (unsafe { (opened(finder), list(calibration, 1)) })
+    else {
+        return Status::Pointer;
+    };
+    opened.look_with(calibration.camera())
 }
 
 /// Takes the outline of the next frame.

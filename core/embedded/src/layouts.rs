@@ -63,6 +63,34 @@ impl CameraNumbers {
     }
 }
 
+/// `fluoropose_calibration`: a camera by the field's quantities.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
+pub struct CalibrationNumbers {
+    /// Columns of the frame.
+    pub width: u32,
+    /// Rows of the frame.
+    pub height: u32,
+    /// From the focus to the detector, mm.
+    pub distance_mm: f64,
+    /// Between pixels, at the detector, mm.
+    pub pitch_mm: f64,
+    /// The principal point, to the right of the frame's middle, mm at the detector.
+    pub right_mm: f64,
+    /// The same, up.
+    pub up_mm: f64,
+}
+
+impl CalibrationNumbers {
+    /// # Errors
+    /// [`CameraError`] for numbers of no camera.
+    pub(crate) fn camera(&self) -> Result<Camera, CameraError> {
+        let (width, height) = (self.width as usize, self.height as usize);
+        let middle = [self.right_mm, self.up_mm];
+        Camera::from_principal_distance(width, height, self.distance_mm, self.pitch_mm, middle)
+    }
+}
+
 /// `fluoropose_found`: what was found, and how far it is to be trusted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C)]

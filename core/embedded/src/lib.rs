@@ -16,7 +16,9 @@ mod session;
 mod task;
 
 pub use failure::{Failure, Status};
-pub use layouts::{CameraNumbers, CandidateNumbers, FoundNumbers, PointNumbers, Room};
+pub use layouts::{
+    CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundNumbers, PointNumbers, Room,
+};
 pub use session::Session;
 
 /// Nothing in the core panics; should it, the watchdog of the device is what ends it. It is not entered by a way back to C.

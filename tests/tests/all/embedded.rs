@@ -10,7 +10,9 @@ use fluoropose::implant::ImplantFile;
 use fluoropose::search::kernels::Kernels;
 use fluoropose::{Mask, Point, RefineOptions, Silhouette};
 use fluoropose_embedded::exports::*;
-use fluoropose_embedded::{CameraNumbers, CandidateNumbers, FoundNumbers, Room, Status};
+use fluoropose_embedded::{
+    CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundNumbers, Room, Status,
+};
 
 use crate::made_implant::{camera, drawn, is_cut_off, made_femur, made_tibia, poses};
 
@@ -201,6 +203,7 @@ fn what_comes_in_a_wrong_order_is_refused() {
         assert_eq!(fluoropose_find(c.finder), Status::Order);
         c.rows(&mask);
         assert_eq!(fluoropose_find(c.finder), Status::Ok);
+        assert_eq!(c.found().verdict, 0);
         assert_eq!(
             fluoropose_candidate_of(c.finder, 99, &mut candidate),
             Status::Order
@@ -211,6 +214,28 @@ fn what_comes_in_a_wrong_order_is_refused() {
         camera.fx = camera.fy;
         assert_eq!(fluoropose_set_camera(c.finder, &camera), Status::Ok);
         assert_eq!(fluoropose_found_of(c.finder, &mut found), Status::Order);
+        // That of the library, with a detector in front of the implant: what was good is doubtful.
+        let mut calibration = CalibrationNumbers {
+            width: 512,
+            height: 512,
+            distance_mm: 600.0,
+            pitch_mm: 0.36,
+            right_mm: 1.8,
+            up_mm: -1.2,
+        };
+        let set = fluoropose_set_calibration(c.finder, &calibration);
+        assert_eq!(set, Status::Ok);
+        c.rows(&mask);
+        assert_eq!(fluoropose_find(c.finder), Status::Ok);
+        assert_eq!(c.found().verdict, 1);
+        assert!(
+            c.sentence().contains("behind the detector"),
+            "{}",
+            c.sentence()
+        );
+        calibration.pitch_mm = 0.0;
+        let set = fluoropose_set_calibration(c.finder, &calibration);
+        assert_eq!(set, Status::Camera);
     }
 }
 
@@ -278,6 +303,10 @@ fn pointers_that_lead_nowhere_give_an_error() {
             );
             assert_eq!(
                 fluoropose_outline(finder, [Point::new(0.0, 0.0)].as_ptr(), 1),
+                Status::Pointer
+            );
+            assert_eq!(
+                fluoropose_set_calibration(finder, &CalibrationNumbers::default()),
                 Status::Pointer
             );
             assert_eq!(fluoropose_begin_rows(finder), Status::Pointer);
@@ -460,7 +489,7 @@ fn the_headers_functions_are_the_librarys() {
         .filter_map(|(name, count)| Some((name.strip_prefix("fluoropose_")?, count)))
         .collect();
     assert_eq!(declared, exported);
-    assert_eq!(declared.len(), 12);
+    assert_eq!(declared.len(), 13);
     for (name, status) in [
         ("OK", Status::Ok),
         ("POINTER", Status::Pointer),
@@ -528,6 +557,16 @@ fn the_headers_structs_are_laid_out_as_the_librarys() {
         fy,
         cx,
         cy
+    );
+    laid_out!(
+        "fluoropose_calibration",
+        CalibrationNumbers,
+        width,
+        height,
+        distance_mm,
+        pitch_mm,
+        right_mm,
+        up_mm
     );
     laid_out!("fluoropose_point", Point, column, row);
     laid_out!(
