@@ -1,4 +1,4 @@
-//! Compilers for targets other than this machine: WASM and Cortex-M.
+//! Compilers for targets other than this machine: WASM, microcontrollers, 32 bits.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
