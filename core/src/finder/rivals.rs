@@ -94,7 +94,7 @@ pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
 /// there is no start.
 ///
 /// # Errors
-/// That of [`refine`] for the last start, when none can be refined.
+/// That of [`crate::refine::refine`] for the last start, when none can be refined.
 pub fn refine_rivals(
     model: &Model<'_>,
     views: &[CameraView<'_>],
