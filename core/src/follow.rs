@@ -56,7 +56,9 @@ pub use elsewhere::elsewhere;
 pub use false_minimum::{ROUNDS, elsewhere_margins, leaves_less, runs_elsewhere};
 #[cfg(feature = "alloc")]
 pub use following::{Following, KnownFemur};
-pub use frame_pose::{FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame};
+pub use frame_pose::{
+    FramePose, From, frame_pose_at, mirrored_pose, refined_on_frame, refined_within,
+};
 pub use look::{Looked, Missing, look};
 pub use meeting::{have_met, join_ways};
 pub use motion::{Expected, Known, between};

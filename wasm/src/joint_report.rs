@@ -120,7 +120,13 @@ impl JointReport {
 
     /// The figure of four panels, as SVG.
     pub fn figure(&self) -> String {
-        figure(&self.film)
+        figure(&self.film).svg()
+    }
+
+    /// The same as PDF.
+    #[wasm_bindgen(js_name = figurePdf)]
+    pub fn figure_pdf(&self) -> Vec<u8> {
+        figure(&self.film).pdf()
     }
 
     /// The report, as HTML.

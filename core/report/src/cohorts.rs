@@ -6,9 +6,10 @@ use fluoropose::joint::COLUMNS;
 use fluoropose::joint::group::OverKnees;
 use fluoropose::joint::numbers::{NUMBERS, place};
 
+use crate::axes::{Plot, Scale};
 use crate::cell::quoted;
+use crate::drawing::{Anchor, Colour, Drawing, Dress, Figure, Stroke};
 use crate::group::Group;
-use crate::svg::{Anchor, Drawing, Plot, Scale};
 
 /// A row for each group, knee (empty for the group itself) and step.
 #[must_use]
@@ -51,11 +52,11 @@ fn rows(out: &mut String, names: [&str; 2], levels: &[f64], at: impl Fn(usize, f
 const SIZE: [f64; 2] = [720.0, 640.0];
 const WIDTH_MM: f64 = 180.0;
 /// Told apart by dashes too, for print without colours.
-const INKS: [(&str, &str); 4] = [
-    ("#00755e", ""),
-    ("#a0428c", "5 3"),
-    ("#a05a00", "1.5 2.5"),
-    ("#333", "8 3 2 3"),
+const INKS: [Stroke; 4] = [
+    Stroke::of(Colour([0x00, 0x75, 0x5e]), 1.4),
+    Stroke::of(Colour([0xa0, 0x42, 0x8c]), 1.4).dashed(&[5.0, 3.0]),
+    Stroke::of(Colour([0xa0, 0x5a, 0x00]), 1.4).dashed(&[1.5, 2.5]),
+    Stroke::of(Colour::grey(0x33), 1.4).dashed(&[8.0, 3.0, 2.0, 3.0]),
 ];
 const PANELS: [(usize, &str); 4] = [
     (place::MEDIAL_AP, "Medial AP position (mm, anterior +)"),
@@ -64,9 +65,9 @@ const PANELS: [(usize, &str); 4] = [
     (place::ABDUCTION, "Abduction (\u{b0})"),
 ];
 
-/// The groups against flexion as SVG: means, and bands of one standard deviation between knees.
+/// The groups against flexion: means, and bands of one standard deviation between knees.
 #[must_use]
-pub fn figure(groups: &[Group]) -> String {
+pub fn figure(groups: &[Group]) -> Figure {
     let mut drawing = Drawing::default();
     for (panel, (number, label)) in PANELS.into_iter().enumerate() {
         let (column, row) = (panel % 2, panel / 2);
@@ -86,7 +87,7 @@ pub fn figure(groups: &[Group]) -> String {
         }
     }
     legend(&mut drawing, groups);
-    drawing.finish(SIZE, WIDTH_MM, "Joint motion of groups of knees")
+    drawing.finish(SIZE, WIDTH_MM, "Joint motion of groups of knees".to_owned())
 }
 
 /// A flexion, degrees, and the mean there.
@@ -109,26 +110,18 @@ fn band(step: &OverKnees) -> [f64; 2] {
     [step.mean - deviation, step.mean + deviation]
 }
 
-fn draw(
-    drawing: &mut Drawing,
-    plot: &Plot,
-    (name, points): (&str, &[Point]),
-    (colour, dashes): (&str, &str),
-) {
+fn draw(drawing: &mut Drawing, plot: &Plot, (name, points): (&str, &[Point]), ink: Stroke) {
     let edge = |side: usize| {
         let places = points.iter();
         places.map(move |(flexion, mean)| plot.place(*flexion, band(mean)[side]))
     };
     let around: Vec<[f64; 2]> = edge(0).chain(edge(1).rev()).collect();
-    drawing.shape(&around, &format!("fill=\"{colour}\" fill-opacity=\"0.14\""));
+    drawing.shape(&around, Dress::faint(ink.colour, 0.14));
     let middle = points.iter();
     let middle: Vec<[f64; 2]> = middle
         .map(|(flexion, mean)| plot.place(*flexion, mean.mean))
         .collect();
-    drawing.line(
-        &middle,
-        &format!("stroke=\"{colour}\" stroke-width=\"1.4\" stroke-dasharray=\"{dashes}\""),
-    );
+    drawing.line(&middle, ink);
     for ((flexion, mean), at) in points.iter().zip(&middle) {
         let between = match mean.deviation.is_finite() {
             true => format!(" \u{b1} {:.2}", mean.deviation),
@@ -138,17 +131,14 @@ fn draw(
             "{name}, {flexion}\u{b0}: {:.2}{between}, n = {}",
             mean.mean, mean.n
         );
-        drawing.point(*at, 2.4, &format!("fill=\"{colour}\""), &title);
+        drawing.point(*at, 2.4, Dress::filled(ink.colour), &title);
     }
 }
 
 fn legend(drawing: &mut Drawing, groups: &[Group]) {
     let mut x = 64.0;
-    for (group, (colour, dashes)) in groups.iter().zip(INKS.iter().cycle()) {
-        drawing.line(
-            &[[x, 24.0], [x + 24.0, 24.0]],
-            &format!("stroke=\"{colour}\" stroke-width=\"1.4\" stroke-dasharray=\"{dashes}\""),
-        );
+    for (group, ink) in groups.iter().zip(INKS.iter().cycle()) {
+        drawing.line(&[[x, 24.0], [x + 24.0, 24.0]], *ink);
         let words = format!("{} (n = {})", group.name, group.knees().len());
         drawing.words([x + 30.0, 28.0], Anchor::Start, 11.0, &words);
         x += 54.0 + 6.2 * words.chars().count() as f64;

@@ -9,8 +9,9 @@ mod tray;
 
 use fluoropose::joint::numbers::place;
 
+use crate::axes::Plot;
+use crate::drawing::{Anchor, Colour, Drawing, Figure, Stroke};
 use crate::film::JointFilm;
-use crate::svg::{Anchor, Drawing, Plot};
 pub use group::group_figure;
 
 use course::{Course, Ink, LATERAL, MEDIAL, PLAIN, Panel, doubtful_point};
@@ -25,16 +26,16 @@ const RIGHT: [f64; 2] = [432.0, 706.0];
 /// The label of all panels.
 const FLEXION: &str = "Flexion (\u{b0})";
 
-/// The figure of a film as SVG.
+/// The figure of a film.
 #[must_use]
-pub fn figure(film: &JointFilm) -> String {
+pub fn figure(film: &JointFilm) -> Figure {
     let mut drawing = Drawing::default();
     let course = Course::of(film);
     against_flexion(&mut drawing, |drawing, panel| course.panel(drawing, panel));
     doubts(&mut drawing, film, [RIGHT[0] + 14.0, 27.0]);
     letter(&mut drawing, "c", LEFT[0], 346.0);
     tray::draw(&mut drawing, film, &course, [LEFT[0] - 30.0, 358.0]);
-    drawing.finish(SIZE, WIDTH_MM, &format!("Joint motion of {}", film.name))
+    drawing.finish(SIZE, WIDTH_MM, format!("Joint motion of {}", film.name))
 }
 
 /// The panels a, b and d, which a film and a group have alike.
@@ -70,13 +71,12 @@ fn against_flexion(drawing: &mut Drawing, mut draw: impl FnMut(&mut Drawing, &Pa
 }
 
 fn letter(drawing: &mut Drawing, letter: &str, x: f64, y: f64) {
-    let bold = "font-weight=\"bold\"";
-    drawing.words_with([x - 52.0, y], Anchor::Start, 15.0, bold, letter);
+    drawing.bold([x - 52.0, y], 15.0, letter);
 }
 
 fn legend(drawing: &mut Drawing, [x, y]: [f64; 2]) {
     for (ink, word, x) in [(MEDIAL, "medial", x), (LATERAL, "lateral", x + 86.0)] {
-        drawing.line(&[[x, y - 4.0], [x + 24.0, y - 4.0]], &ink.stroke(1.2));
+        drawing.line(&[[x, y - 4.0], [x + 24.0, y - 4.0]], ink.stroke(1.2));
         ink.mark(drawing, [x + 12.0, y - 4.0], 3.4, "");
         drawing.words([x + 30.0, y], Anchor::Start, 11.0, word);
     }
@@ -105,7 +105,7 @@ fn thresholds(drawing: &mut Drawing, plot: &Plot) {
     for threshold in [-1.0, 1.0] {
         if plot.y.low <= threshold && threshold <= plot.y.high {
             let y = plot.y.at(threshold);
-            let dotted = "stroke=\"#777\" stroke-width=\"0.7\" stroke-dasharray=\"1.5 2.5\"";
+            let dotted = Stroke::of(Colour::grey(0x77), 0.7).dashed(&[1.5, 2.5]);
             drawing.line(&[[plot.x.from, y], [plot.x.to, y]], dotted);
         }
     }

@@ -36,7 +36,7 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
     let _ = write!(
         out,
         "<h2>Figure</h2>\n<figure>\n{}<figcaption>{}</figcaption></figure>\n",
-        figure(film),
+        figure(film).svg(),
         escaped(&caption(film))
     );
     steps(&mut out, film);

@@ -2,18 +2,22 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used, reason = "it fails the test"))]
 
+mod axes;
 pub mod cell;
 pub mod cohorts;
+mod drawing;
 mod facts;
 mod figure;
 mod film;
 mod group;
 mod html;
 pub mod levels;
+mod pdf;
 pub mod read;
 mod svg;
 pub mod write;
 
+pub use drawing::Figure;
 pub use facts::{Facts, Input};
 pub use figure::{figure, group_figure};
 pub use film::{JointFilm, JointRow, Step, impossibilities};

@@ -137,7 +137,7 @@ fn a_group_is_the_mean_of_its_knees() {
             && text.lines().last().unwrap().starts_with("50,1,")
             && text.contains(",50,NaN,")
     );
-    let picture = group_figure(&group);
+    let picture = group_figure(&group).svg();
     assert!(picture.contains("2 knees, 3 films") && picture.contains("two &lt;knees&gt;"));
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     // Beside another group: a row for each step of each knee, then of the group.
@@ -151,9 +151,9 @@ fn a_group_is_the_mean_of_its_knees() {
     assert_eq!(rotation("\"two <knees>\",\"p1\",30,")[0], "3");
     assert_eq!(rotation("\"two <knees>\",\"p2\",30,"), ["9", "NaN", "1"]);
     assert_eq!(rotation("\"two <knees>\",\"\",50,"), ["3", "NaN", "1"]);
-    let drawn = cohorts::figure(&[group.clone(), group]);
+    let drawn = cohorts::figure(&[group.clone(), group]).svg();
     assert!(drawn.contains("(n = 2)") && !drawn.contains("NaN"));
-    let nothing = group_figure(&Group::new(String::new(), Vec::new()));
+    let nothing = group_figure(&Group::new(String::new(), Vec::new())).svg();
     assert!(nothing.contains("0 knees") && !nothing.contains("NaN"));
 }
 
@@ -266,7 +266,7 @@ fn faulty_files_are_refused_by_line() {
 
 #[test]
 fn the_figure_has_four_panels_and_tells_its_centre() {
-    let picture = figure(&film(12.0));
+    let picture = figure(&film(12.0)).svg();
     for letter in ["a", "b", "c", "d"] {
         assert!(
             picture.contains(&format!("font-weight=\"bold\">{letter}</text>")),
@@ -285,7 +285,7 @@ fn the_figure_has_four_panels_and_tells_its_centre() {
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     // Levels at 0, 10, .. 50 degrees: a line on the tray for each but 10, whose frame is doubtful.
     assert_eq!(picture.matches("stroke-width=\"1.5\"").count(), 5);
-    let little = figure(&film(2.0));
+    let little = figure(&film(2.0)).svg();
     assert!(little.contains("the condyle lines turn by 2.0\u{b0} only"));
 }
 
@@ -303,7 +303,11 @@ fn doubtful_frames_are_shown_and_count_for_nothing() {
     assert!(steps.len() == 5 && steps.iter().all(|level| level.steps[place::FLEXION].n > 0));
     let at = |film: &JointFilm| film.at(place::LATERAL_AP, &film.phases(), 30.0).mean;
     assert_eq!(at(&spoilt), at(&film(12.0)));
-    assert!(figure(&spoilt).contains("<title>frame 16: 900.00</title>"));
+    assert!(
+        figure(&spoilt)
+            .svg()
+            .contains("<title>frame 16: 900.00</title>")
+    );
 }
 
 /// A tibia on the wrong side of its mirror: told, left out, and not drawn.
@@ -324,7 +328,7 @@ fn numbers_that_no_knee_has_are_told_and_not_drawn() {
         told.starts_with("frame 23 and 2 more: ") && told.contains(why),
         "{told}"
     );
-    let picture = figure(&spoilt);
+    let picture = figure(&spoilt).svg();
     assert!(!picture.contains(": 160.00") && picture.contains("not drawn, no knee does that: 3"));
     assert!(picture.contains("<title>frame 22: "));
     let page = html(&spoilt, &Facts::default());
@@ -353,7 +357,7 @@ fn no_line_joins_angles_that_jump() {
                 joint.numbers[place::ROTATION] += if k < 15 { -30.0 } else { jump - 30.0 };
             }
         }
-        let picture = figure(&film);
+        let picture = figure(&film).svg();
         let frames = picture.split("<g class=\"frames\">").nth(3).unwrap();
         frames
             .split("</g>")
@@ -369,10 +373,10 @@ fn no_line_joins_angles_that_jump() {
 fn a_film_without_anything_is_drawn_empty() {
     let mut nothing = film(12.0);
     nothing.rows.iter_mut().for_each(|row| row.joint = None);
-    let picture = figure(&nothing);
+    let picture = figure(&nothing).svg();
     assert!(picture.contains("too few condyle lines") && !picture.contains("NaN"));
     (nothing.plate_depth_mm, nothing.plate_width_mm) = (0.0, 0.0);
-    let picture = figure(&nothing);
+    let picture = figure(&nothing).svg();
     assert!(picture.contains("lowest points are not known") && !picture.contains("NaN"));
     nothing.rows.clear();
     assert!(html(&nothing, &Facts::default()).contains("0 frames"));

@@ -1,8 +1,11 @@
 //! What is known of a component in each frame while a film is followed.
 
-use super::frame_pose::FramePose;
+use super::frame_pose::{FramePose, From as Refined, frame_pose_at, refined_on_frame};
 use super::look::Looked;
+use super::subject::Subject;
+use super::trail::Usual;
 use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineError, RefineMemory};
 
 /// A frame whose pose is known before a component is followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +16,42 @@ pub struct Anchor {
     pub found: FramePose,
     /// Whether a person gave it: it never changes.
     pub fixed: bool,
+    /// What is usual of the component's poses, as far as this frame tells.
+    pub usual: Usual,
+}
+
+impl Anchor {
+    /// At a pose that was found.
+    #[must_use]
+    pub fn found(frame: usize, found: FramePose) -> Self {
+        Self {
+            frame,
+            found,
+            fixed: false,
+            usual: Usual::of(&found),
+        }
+    }
+
+    /// At a pose that a person gave. Hands leave more than refinement does: what is usual is told by the pose that it leads to.
+    ///
+    /// # Errors
+    /// [`RefineError`] where the model cannot be drawn there.
+    pub fn fixed(
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        (frame, pose): (usize, &Pose),
+        memory: &mut RefineMemory<'_>,
+    ) -> Result<Self, RefineError> {
+        let found = frame_pose_at(subject, image, pose, memory)?;
+        let refined = refined_on_frame(subject, image, (pose, Refined::Near), memory).ok();
+        let less = refined.filter(|refined| refined.misfit_px < found.misfit_px);
+        Ok(Self {
+            frame,
+            found,
+            fixed: true,
+            usual: Usual::of(&less.unwrap_or(found)),
+        })
+    }
 }
 
 /// What came of a frame.

@@ -12,7 +12,7 @@ use super::look::Looked;
 use super::meeting::{have_met, join_ways};
 use super::motion::between;
 use super::sides::{ELSEWHERE_RATIO, MOST};
-use super::trail::apart;
+use super::trail::{Usual, apart};
 use super::trust::TrustLimits;
 use super::way::Way;
 use crate::math::{Vector3, ln};
@@ -98,15 +98,14 @@ impl Crossing {
             .map_while(|k| looked(away(k, !forward)?))
             .collect();
         let &(frame, _, found) = before.last()?;
-        let fixed = cells[frame].fixed;
-        let mut way = Way::begin(
-            &Anchor {
-                frame,
-                found,
-                fixed,
-            },
-            forward,
-        );
+        // What a hand leaves is not usual.
+        let free = before.iter().rev().find(|(frame, ..)| !cells[*frame].fixed);
+        let usual = Usual::of(free.map_or(&found, |(_, _, found)| found));
+        let anchor = Anchor {
+            usual,
+            ..Anchor::found(frame, found)
+        };
+        let mut way = Way::begin(&anchor, forward);
         for (frame, looked, _) in before.iter().rev().skip(1) {
             way.take(*frame, looked, middle);
         }

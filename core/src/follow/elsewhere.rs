@@ -7,7 +7,7 @@
 
 use heapless::Vec;
 
-use super::frame_pose::{FramePose, From, probed, refined_on_frame};
+use super::frame_pose::{FramePose, From, probed, refined_within};
 use super::subject::Subject;
 use crate::finder::nearby::about;
 use crate::math::{Vector3, radians, sin_cos};
@@ -39,7 +39,9 @@ pub fn elsewhere(
     let known = || core::iter::once(own).chain(mirrored);
     let mut best: Option<FramePose> = None;
     for near in near_elsewhere(subject, image, known().map(|known| &known.pose), memory) {
-        let Ok(found) = refined_on_frame(subject, image, (&near, From::Near), memory) else {
+        let most_px = best.map_or(f64::INFINITY, |best| best.misfit_px);
+        let Some(found) = refined_within(most_px, subject, image, (&near, From::Near), memory)
+        else {
             continue;
         };
         let back = known().any(|one| are_one(&one.pose, &found.pose));

@@ -188,26 +188,19 @@ impl Following {
         };
         match task {
             Some(Task::Given { frame, pose, fixed }) => {
-                let found = task::given(subject, image, &pose, fixed, memory)?;
-                self.anchors.push(Anchor {
-                    frame,
-                    found,
-                    fixed,
-                });
-                Ok(Some(found))
+                let anchor = match fixed {
+                    true => Anchor::fixed(subject, image, (frame, &pose), memory)?,
+                    false => task::given(subject, image, (frame, &pose), memory)?,
+                };
+                self.anchors.push(anchor);
+                Ok(Some(anchor.found))
             }
             Some(Task::Found { frame, pose, run }) => {
-                let found = task::given(subject, image, &pose, false, memory)?;
-                let fixed = false;
-                let anchor = Anchor {
-                    frame,
-                    found,
-                    fixed,
-                };
+                let anchor = task::given(subject, image, (frame, &pose), memory)?;
                 // What is still missing afterwards is searched too.
                 self.phase = Phase::Search(run.start);
                 self.go_through(&anchor, &run);
-                Ok(Some(found))
+                Ok(Some(anchor.found))
             }
             Some(Task::Again(look)) => Ok(self.look_again(&look, subject, image, memory)),
             Some(Task::BothSides(frame)) => Ok(self.see_both_sides(subject, image, frame, memory)),

@@ -8,7 +8,7 @@ use crate::pose::covariance::PoseCovariance;
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, Effort, Fit, ImageTarget, RefineError, RefineMemory, RefineOptions, Refined,
-    assess, correct, fit_at, refine,
+    assess, correct_unless, fit_at, refine,
 };
 
 /// A pose in a frame, with what the frame says of it.
@@ -38,9 +38,14 @@ impl FramePose {
     /// By what poses of a frame are compared, the greatest first: strength of the edges, multiplied by how near they lie.
     #[must_use]
     pub fn score(&self) -> f64 {
-        let loss = self.misfit_px * self.misfit_px / 2.0;
+        let loss = loss_of(self.misfit_px);
         self.contrast.strength * (1.0 - (loss / WORST_PX2).clamp(0.0, 1.0))
     }
+}
+
+/// The robust loss of a misfit, square pixels: half of its square.
+fn loss_of(misfit_px: f64) -> f64 {
+    misfit_px * misfit_px / 2.0
 }
 
 /// From how far refinement comes.
@@ -63,17 +68,58 @@ pub fn refined_on_frame(
     (start, from): (&Pose, From),
     memory: &mut RefineMemory<'_>,
 ) -> Result<FramePose, RefineError> {
+    let start = (start, from);
+    let refined = refined_unless(f64::INFINITY, subject, image, start, memory)?;
+    seen(subject, image, &refined, memory)
+}
+
+/// The same where no more than `most_px` remain between outline and edges; `None` also where nothing is found. Where the film is known,
+/// what will leave more is given up on the way.
+#[must_use]
+pub fn refined_within(
+    most_px: f64,
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    start: (&Pose, From),
+    memory: &mut RefineMemory<'_>,
+) -> Option<FramePose> {
+    let hopeless = loss_of(most_px);
+    let refined = refined_unless(hopeless, subject, image, start, memory).ok()?;
+    if refined.loss > hopeless {
+        return None;
+    }
+    seen(subject, image, &refined, memory).ok()
+}
+
+fn refined_unless(
+    hopeless: f64,
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    (start, from): (&Pose, From),
+    memory: &mut RefineMemory<'_>,
+) -> Result<Refined, RefineError> {
     let views = [CameraView::only(subject.camera, *image)];
     let (model, options) = (subject.model, subject.options);
-    let refined = match (image.film, from) {
-        (None, _) => refine(model, &views, start, options, memory)?,
-        (Some(_), From::Near) => correct(model, &views, &begun(start), options, memory)?,
-        (Some(_), From::Far) => {
-            let near = probed(subject, image, start, memory)?;
-            correct(model, &views, &begun(&near.pose), options, memory)?
-        }
+    if image.film.is_none() {
+        return refine(model, &views, start, options, memory);
+    }
+    let near = match from {
+        From::Near => *start,
+        From::Far => probed(subject, image, start, memory)?.pose,
     };
-    let assessment = assess(subject.model, &views, &refined, memory)?;
+    let begun = Refined::at(near);
+    correct_unless(hopeless, model, &views, &begun, options, memory)
+}
+
+/// A refined pose, with what the frame says of it.
+fn seen(
+    subject: &Subject<'_>,
+    image: &ImageTarget<'_>,
+    refined: &Refined,
+    memory: &mut RefineMemory<'_>,
+) -> Result<FramePose, RefineError> {
+    let views = [CameraView::only(subject.camera, *image)];
+    let assessment = assess(subject.model, &views, refined, memory)?;
     Ok(FramePose {
         pose: refined.pose,
         covariance: assessment.covariance,
@@ -100,19 +146,6 @@ pub(super) fn probed(
         ..subject.options
     };
     refine(subject.model, &views, start, probe, memory)
-}
-
-/// A pose from which the last stage of refinement begins.
-fn begun(pose: &Pose) -> Refined {
-    Refined {
-        pose: *pose,
-        offset_px: 0.0,
-        residual_px: 0.0,
-        robust_sigma_px: 0.0,
-        loss: 0.0,
-        renders: 0,
-        converged: false,
-    }
 }
 
 /// What the frame says of a pose as it is, such as one that a person gave.

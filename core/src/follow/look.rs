@@ -1,6 +1,6 @@
 //! One frame looked at with an expectation: refined from there, and searched around where that is out of the ordinary.
 
-use super::frame_pose::{FramePose, From, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_on_frame, refined_within};
 use super::motion::Expected;
 use super::near::near_poses;
 use super::subject::Subject;
@@ -137,16 +137,15 @@ impl Search<'_> {
     ) -> Option<FramePose> {
         let reach = self.reach_px(missed);
         let (subject, image, step) = (self.subject, self.image, self.usual.step);
-        let starts = near_poses(subject, image, &self.expected.pose, reach, step, memory);
+        let expected = &self.expected.pose;
+        let near = near_poses(subject, image, expected, reach, step, memory).unwrap_or_default();
+        let near = near.iter().take(REFINED).map(|pose| (*pose, From::Far));
+        let beside = beside(expected, &self.middle, BESIDE_PART).map(|pose| (pose, From::Near));
         let mut best = first;
-        for start in beside(&self.expected.pose, &self.middle, BESIDE_PART) {
-            let from = (&start, From::Near);
-            let found = refined_on_frame(subject, image, from, memory).ok();
-            best = self.better(best, found);
-        }
-        for start in starts.unwrap_or_default().iter().take(REFINED) {
-            let from = (start, From::Far);
-            let found = refined_on_frame(subject, image, from, memory).ok();
+        // Where the outline has the strongest edges first: most misses are ways in the image plane.
+        for (start, from) in near.chain(beside) {
+            let most_px = self.most_px(best.as_ref());
+            let found = refined_within(most_px, subject, image, (&start, from), memory);
             best = self.better(best, found);
         }
         best
@@ -162,15 +161,23 @@ impl Search<'_> {
 
     /// The one that is more as usual; of two alike, the one nearer to what was expected.
     fn better(&self, one: Option<FramePose>, other: Option<FramePose>) -> Option<FramePose> {
-        let cost = |found: &FramePose| {
-            let [turn_deg, shift_mm] = apart(&self.expected.pose, &found.pose, &self.middle);
-            let off = turn_deg / self.expected.turn_deg + shift_mm / self.expected.shift_mm;
-            self.usual.cost(found) + OFF * off
-        };
         match (one, other) {
-            (Some(one), Some(other)) if cost(&other) >= cost(&one) => Some(one),
+            (Some(one), Some(other)) if self.cost(&other) >= self.cost(&one) => Some(one),
             (one, other) => other.or(one),
         }
+    }
+
+    fn cost(&self, found: &FramePose) -> f64 {
+        let [turn_deg, shift_mm] = apart(&self.expected.pose, &found.pose, &self.middle);
+        let off = turn_deg / self.expected.turn_deg + shift_mm / self.expected.shift_mm;
+        self.usual.cost(found) + OFF * off
+    }
+
+    /// The misfit above which a pose is worse than the best so far, or not believed, pixels.
+    fn most_px(&self, best: Option<&FramePose>) -> f64 {
+        let believed = self.most_like(BELIEVED);
+        let better = best.map(|best| self.usual.most_px(self.cost(best)));
+        better.map_or(believed, |px| px.min(believed))
     }
 
     fn is_ordinary(&self, found: &FramePose) -> bool {
@@ -187,11 +194,15 @@ impl Search<'_> {
         self.fits(found, BELIEVED)
     }
 
-    fn fits(&self, found: &FramePose, [times, more, part]: [f64; 3]) -> bool {
-        found.misfit_px <= times * self.usual.misfit_px + more
+    fn fits(&self, found: &FramePose, limits @ [.., part]: [f64; 3]) -> bool {
+        found.misfit_px <= self.most_like(limits)
             && found.contrast.strength >= part * self.usual.strength
             && found.contrast.step >= LEAST_STEP * self.usual.step
             && found.fit.known >= LEAST_KNOWN
+    }
+
+    fn most_like(&self, [times, more, _]: [f64; 3]) -> f64 {
+        times * self.usual.misfit_px + more
     }
 }
 

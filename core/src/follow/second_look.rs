@@ -7,7 +7,7 @@ use alloc::vec::Vec;
 
 use super::cell::Cell;
 use super::conclude::conclude;
-use super::frame_pose::{FramePose, From, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_within};
 use super::look::beside;
 use super::motion::between;
 use super::subject::Subject;
@@ -101,7 +101,8 @@ impl SecondLook {
         let own = self.cost(&self.own, &middle);
         let (mut best, mut least) = (None, own - WORTH);
         for (start, from) in here.into_iter().chain(around) {
-            let Ok(one) = refined_on_frame(subject, image, (&start, from), memory) else {
+            let most_px = self.usual.most_px(least);
+            let Some(one) = refined_within(most_px, subject, image, (&start, from), memory) else {
                 continue;
             };
             let cost = self.cost(&one, &middle);

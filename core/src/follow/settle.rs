@@ -1,7 +1,7 @@
 //! A pose that was found without knowing the film, settled with its constants: the best of what it and those around it lead
 //! to.
 
-use super::frame_pose::{FramePose, From, refined_on_frame};
+use super::frame_pose::{FramePose, From, refined_within};
 use super::look::beside;
 use super::near::near_poses;
 use super::subject::Subject;
@@ -36,7 +36,8 @@ pub fn settled(
         .chain(far);
     let mut best: Option<FramePose> = None;
     for (start, from) in starts {
-        let one = refined_on_frame(subject, image, (&start, from), memory).ok();
+        let most_px = best.map_or(f64::INFINITY, |best| usual.most_px(usual.cost(&best)));
+        let one = refined_within(most_px, subject, image, (&start, from), memory);
         let better = |one: &FramePose| best.is_none_or(|best| usual.cost(one) < usual.cost(&best));
         best = one.filter(better).or(best);
     }

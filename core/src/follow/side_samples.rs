@@ -111,13 +111,9 @@ pub fn runs_to_go_over<'s>(
 
 fn best_other(samples: &[SideSample]) -> Option<Anchor> {
     // What a person gave stays, even where the film speaks for the other side.
-    let others = samples.iter().filter_map(|sample| {
-        Some(Anchor {
-            frame: sample.frame,
-            found: sample.free()?,
-            fixed: false,
-        })
-    });
+    let others = samples
+        .iter()
+        .filter_map(|sample| Some(Anchor::found(sample.frame, sample.free()?)));
     others.max_by(|a, b| a.found.score().total_cmp(&b.found.score()))
 }
 

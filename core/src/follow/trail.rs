@@ -59,6 +59,11 @@ impl Usual {
         misfit + LACKING * (lacking - LACKING_FREE).max(0.0)
     }
 
+    /// The misfit above which every pose costs more than this, pixels.
+    pub(super) fn most_px(&self, cost: f64) -> f64 {
+        cost * (self.misfit_px + LEAST_MISFIT_PX)
+    }
+
     fn learn(&mut self, pose: &FramePose) {
         let seen = Self::of(pose);
         let towards = |usual: &mut f64, seen: f64| *usual += LEARNING * (seen - *usual);
@@ -82,15 +87,12 @@ pub struct Trail {
 impl Trail {
     /// Begins at a frame whose pose is known.
     #[must_use]
-    pub fn begin(frame: usize, pose: &FramePose) -> Self {
+    pub fn begin(frame: usize, pose: &Pose, usual: Usual) -> Self {
         Self {
-            last: Known {
-                frame,
-                pose: pose.pose,
-            },
+            last: Known { frame, pose: *pose },
             before: None,
             errors: Deque::new(),
-            usual: Usual::of(pose),
+            usual,
             missed: 0,
         }
     }

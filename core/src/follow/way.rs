@@ -22,7 +22,7 @@ impl Way {
     #[must_use]
     pub fn begin(from: &Anchor, forward: bool) -> Self {
         Self {
-            trail: Trail::begin(from.frame, &from.found),
+            trail: Trail::begin(from.frame, &from.found.pose, from.usual),
             at: from.frame,
             forward,
         }

@@ -17,6 +17,9 @@ use crate::render::RenderError;
 
 /// Looks at most.
 const LOOKS: usize = 5 * FILM_PARTS;
+/// Looks after which a correction is given up, and how many times more than what is hopeless at its end its loss is then: each part has
+/// been seen twice, or three times.
+const GIVE_UP: [(usize, f64); 2] = [(2 * FILM_PARTS, 4.0), (3 * FILM_PARTS, 2.0)];
 /// A step of this size is the last: 0.002 degrees or 0.01 mm,
 const SMALL: f64 = 0.002;
 /// or one of so many standard deviations of the pose: what it leaves is a small part of it.
@@ -56,7 +59,10 @@ impl Problem<'_> {
             }
             let has_all = turn + 1 >= FILM_PARTS;
             next.converged = has_all && (step.size() < SMALL || all.deviations(&step) < little);
-            if next.converged {
+            let is_over =
+                |&(after, times): &_| turn + 1 == after && all.loss() > times * self.hopeless;
+            let hopeless = GIVE_UP.iter().any(is_over);
+            if next.converged || hopeless {
                 break;
             }
         }

@@ -39,6 +39,8 @@ pub(super) struct Problem<'a> {
     pub(super) pace: Option<&'a Pace>,
     /// Poses from which it is known where they lead.
     pub(super) known: Option<&'a dyn Fn(&Pose) -> bool>,
+    /// Loss of a correction, square pixels, above which it is given up.
+    pub(super) hopeless: f64,
 }
 
 /// Steps shorter than this lower the loss by no more than its grain: [`Step::size`]. Polishing does the rest. With all
@@ -116,6 +118,7 @@ impl<'a> Problem<'a> {
             effort: Effort::Full,
             pace: None,
             known: None,
+            hopeless: f64::INFINITY,
         })
     }
 

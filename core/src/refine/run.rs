@@ -218,9 +218,25 @@ pub fn correct(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Refined, RefineError> {
+    correct_unless(f64::INFINITY, model, views, refined, options, memory)
+}
+
+/// As [`correct`], but given up on the way where a loss is so large that it is not likely to fall below `hopeless`, square pixels.
+///
+/// # Errors
+/// [`RefineError`].
+pub(crate) fn correct_unless(
+    hopeless: f64,
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    refined: &Refined,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+) -> Result<Refined, RefineError> {
     let mut problem = Problem::new(model, views, memory)?;
     problem.hold(options.locks, &refined.pose);
     problem.effort = options.effort;
+    problem.hopeless = hopeless;
     let mut state = *refined;
     if problem.has_film() {
         let pass = Pass {

@@ -2,7 +2,9 @@
 
 use fluoropose::film::{FilmConstants, FilmModel};
 use fluoropose::finder::{Candidate, correct_candidates};
+use fluoropose::follow::{Anchor, From, Subject, frame_pose_at, refined_on_frame, refined_within};
 use fluoropose::image::frame::Frame;
+use fluoropose::math::{add, apply, multiply, radians, rotation_by, subtract};
 use fluoropose::mesh::mirror::mirror_pose;
 use fluoropose::mesh::symmetry::symmetry_planes;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
@@ -47,6 +49,17 @@ fn grey() -> Vec<u8> {
     expose(&scene, &Physics::default(), 1, 0).expect("a film")
 }
 
+/// Turned about the middle of the model, degrees about the axes of the image, and shifted, mm.
+fn moved(pose: &Pose, middle: &[f64; 3], [x, y]: [f64; 2], shift: [f64; 3]) -> Pose {
+    let turn = rotation_by(&[radians(x), radians(y), 0.0]);
+    let centre = pose.transform(middle);
+    let arm = apply(&turn, &subtract(&pose.translation, &centre));
+    Pose {
+        rotation: multiply(&turn, &pose.rotation),
+        translation: add(&add(&arm, &centre), &shift),
+    }
+}
+
 /// One click found the mirror image alone, before anything was known of the film, and it was called good.
 #[test]
 fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
@@ -86,4 +99,51 @@ fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
     assert!(off(&both[0].pose) < 0.4, "{:.2} deg", off(&both[0].pose));
     // So much less remains there that nobody has to be asked.
     assert!(1.3 * both[0].misfit() < both[1].misfit());
+}
+
+#[test]
+fn what_is_given_up_on_the_way_would_have_left_more() {
+    let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
+    let model = model.as_model();
+    let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
+    let image = ImageTarget {
+        frame: &frame.expect("fits"),
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: Some(film()),
+    };
+    let subject = Subject::new(&model, &[], &camera);
+    let mut buffers = RefineBuffers::default();
+    let mut memory = buffers.borrow(&model, &camera);
+    let (truth, middle) = (Pose::from(TRUE), model.bounds().centre);
+
+    // A hand leaves more than is usual.
+    let by_hand = moved(&truth, &middle, [0.0; 2], [0.35, -0.3, 0.0]);
+    let seen = frame_pose_at(&subject, &image, &by_hand, &mut memory).expect("drawn");
+    let anchor = Anchor::fixed(&subject, &image, (3, &by_hand), &mut memory).expect("drawn");
+    assert_eq!((anchor.found, anchor.fixed), (seen, true));
+    let usual = anchor.usual.misfit_px;
+    assert!(usual < 0.5 * seen.misfit_px, "{usual} {}", seen.misfit_px);
+
+    let (mut kept, mut left) = (0, 0);
+    for (turn, deg) in (0..6).flat_map(|turn| [1.0, 3.0, 6.0].map(|deg| (turn, deg))) {
+        let (sin, cos) = f64::from(turn).sin_cos();
+        let start = moved(&truth, &middle, [deg * cos, deg * sin], [0.0; 3]);
+        let start = (&start, From::Near);
+        let whole = refined_on_frame(&subject, &image, start, &mut memory).expect("refined");
+        let any = refined_within(f64::INFINITY, &subject, &image, start, &mut memory);
+        assert_eq!(any, Some(whole));
+        let most_px = 1.5 * usual;
+        let within = refined_within(most_px, &subject, &image, start, &mut memory);
+        match whole.misfit_px <= most_px {
+            true => assert_eq!(within, Some(whole), "{deg} degrees"),
+            false => assert_eq!(within, None, "{deg} degrees"),
+        }
+        *(if within.is_some() {
+            &mut kept
+        } else {
+            &mut left
+        }) += 1;
+    }
+    assert!(kept > 3 && left > 3, "{kept} {left}");
 }

@@ -108,6 +108,9 @@ async function makeFile(app: App, exporting: Exporting, film: FilmType | null): 
     const zip = await exportMasks(services);
     return zip && { part: zip, type: 'application/zip' };
   }
+  if (kind === 'figure' && forms.figure === 'pdf') {
+    return { part: await app.joint.figurePdf(await publishedFilm(services.store.doc, app.joint.numbers)), type: 'application/pdf' };
+  }
   const text = (await textOf(app, exporting)) ?? '';
   if (kind === 'figure' && forms.figure === 'png') return { part: await pngOf(text), type: 'image/png' };
   return { part: text, type: TEXT_TYPES[kind] ?? 'text/plain' };

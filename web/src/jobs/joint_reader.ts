@@ -62,6 +62,10 @@ export class JointReader {
     return this.#worker.call('publish', { film, what });
   }
 
+  figurePdf(film: PublishedFilm): Promise<Uint8Array<ArrayBuffer>> {
+    return this.#worker.call('figurePdf', film);
+  }
+
   poseText(text: PoseText): Promise<string> {
     return this.#worker.call('poseText', text);
   }

@@ -9,7 +9,7 @@ export const FORMS = {
   session: ['whole', 'without files', 'study'],
   poses: ['jts', 'csv', 'jtak', 'jtap', 'tra'],
   joint: ['csv', 'mot', 'cycle'],
-  figure: ['svg', 'png'],
+  figure: ['svg', 'pdf', 'png'],
   report: ['html'],
   film: ['video', 'pictures'],
   outlines: ['outlines', 'coco', 'masks'],

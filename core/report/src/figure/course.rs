@@ -4,8 +4,9 @@ use fluoropose::joint::COLUMNS;
 use fluoropose::joint::course::{JUMP_DEG, Phase};
 use fluoropose::joint::numbers::place;
 
+use crate::axes::{Plot, Scale};
+use crate::drawing::{Colour, Drawing, Dress, Stroke, WHITE};
 use crate::film::JointFilm;
-use crate::svg::{Drawing, Plot, Scale};
 
 /// More frames than this are drawn as lines alone.
 const MANY: usize = 150;
@@ -13,39 +14,36 @@ const MANY: usize = 150;
 /// How one number is drawn: told apart by shape and dashes as well, for print without colours.
 #[derive(Clone, Copy)]
 pub(super) struct Ink {
-    pub(super) colour: &'static str,
+    pub(super) colour: Colour,
     dashed: bool,
     square: bool,
 }
 
 /// Green and purple differ for colour-blind people too, and are no component's colours.
 pub(super) const MEDIAL: Ink = Ink {
-    colour: "#00755e",
+    colour: Colour([0x00, 0x75, 0x5e]),
     dashed: false,
     square: false,
 };
 pub(super) const LATERAL: Ink = Ink {
-    colour: "#a0428c",
+    colour: Colour([0xa0, 0x42, 0x8c]),
     dashed: true,
     square: true,
 };
 pub(super) const PLAIN: Ink = Ink {
-    colour: "#333",
+    colour: Colour::grey(0x33),
     dashed: false,
     square: false,
 };
 
 impl Ink {
-    pub(super) fn stroke(&self, width: f64) -> String {
-        let dashes = if self.dashed {
-            " stroke-dasharray=\"5 3\""
+    pub(super) fn stroke(&self, width: f64) -> Stroke {
+        let whole = Stroke::of(self.colour, width);
+        if self.dashed {
+            whole.dashed(&[5.0, 3.0])
         } else {
-            ""
-        };
-        format!(
-            "stroke=\"{}\" stroke-width=\"{width}\"{dashes}",
-            self.colour
-        )
+            whole
+        }
     }
 
     /// A mark at a flexion, with a bar of one standard deviation to either side where that is known.
@@ -59,10 +57,10 @@ impl Ink {
         let [x, y] = plot.place(flexion, mean);
         if deviation.is_finite() {
             let ends = [-1.0, 1.0].map(|sign| plot.y.at(mean + sign * deviation));
-            let bar = format!("stroke=\"{}\" stroke-width=\"1\"", self.colour);
-            drawing.line(&[[x, ends[0]], [x, ends[1]]], &bar);
+            let bar = Stroke::of(self.colour, 1.0);
+            drawing.line(&[[x, ends[0]], [x, ends[1]]], bar);
             for end in ends {
-                drawing.line(&[[x - 3.0, end], [x + 3.0, end]], &bar);
+                drawing.line(&[[x - 3.0, end], [x + 3.0, end]], bar);
             }
         }
         self.mark(drawing, [x, y], 3.6, title);
@@ -70,22 +68,19 @@ impl Ink {
 
     /// A mark on a place.
     pub(super) fn mark(&self, drawing: &mut Drawing, at: [f64; 2], size: f64, title: &str) {
-        let fill = format!("fill=\"{}\"", self.colour);
+        let fill = Dress::filled(self.colour);
         if self.square {
-            drawing.square(at, 0.88 * size, &fill);
+            drawing.square(at, 0.88 * size, fill);
         } else {
-            drawing.point(at, size, &fill, title);
+            drawing.point(at, size, fill, title);
         }
     }
 }
 
 /// A frame that counts for nothing.
 pub(super) fn doubtful_point(drawing: &mut Drawing, at: [f64; 2], ink: Ink, title: &str) {
-    let dress = format!(
-        "fill=\"#fff\" stroke=\"{}\" stroke-width=\"0.7\"",
-        ink.colour
-    );
-    drawing.point(at, 2.2, &dress, title);
+    let dress = Dress::filled(WHITE).within(Stroke::of(ink.colour, 0.7));
+    drawing.point(at, 2.2, dress, title);
 }
 
 /// Some numbers against flexion, and where they are drawn.
@@ -159,7 +154,7 @@ impl<'f> Course<'f> {
     /// One standard deviation to either side, phase by phase.
     fn band(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
         let (values, deviations) = (self.film.values(number), self.film.deviations(number));
-        let fill = format!("fill=\"{}\" fill-opacity=\"0.14\"", ink.colour);
+        let fill = Dress::faint(ink.colour, 0.14);
         for phase in &self.phases {
             let edge = |sign: f64| -> Vec<[f64; 2]> {
                 let known = (phase.first..=phase.last).filter(|&k| deviations[k].is_finite());
@@ -170,7 +165,7 @@ impl<'f> Course<'f> {
             let mut around = edge(1.0);
             around.extend(edge(-1.0).into_iter().rev());
             if around.len() > 3 {
-                drawing.shape(&around, &fill);
+                drawing.shape(&around, fill);
             }
         }
     }
@@ -182,9 +177,9 @@ impl<'f> Course<'f> {
         let places: Vec<[f64; 2]> = (0..values.len())
             .map(|k| plot.place(self.flexion[k], values[k]))
             .collect();
-        let stroke = format!("{} stroke-opacity=\"0.75\"", ink.stroke(0.9));
+        let stroke = ink.stroke(0.9).fainter(0.75);
         for run in self.runs(&values, number) {
-            drawing.line(&places[run], &stroke);
+            drawing.line(&places[run], stroke);
         }
         let many = values.len() > MANY;
         for ((row, place), value) in self.film.rows.iter().zip(&places).zip(&values) {
@@ -196,7 +191,7 @@ impl<'f> Course<'f> {
             if doubtful {
                 doubtful_point(drawing, *place, *ink, &title);
             } else {
-                drawing.point(*place, 1.3, &format!("fill=\"{}\"", ink.colour), &title);
+                drawing.point(*place, 1.3, Dress::filled(ink.colour), &title);
             }
         }
         drawing.close();

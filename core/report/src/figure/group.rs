@@ -5,13 +5,14 @@ use fluoropose::joint::numbers::place;
 
 use super::course::{Ink, Panel};
 use super::{FLEXION, LEFT, RIGHT, SIZE, WIDTH_MM, against_flexion, letter};
+use crate::axes::{Plot, Scale};
+use crate::drawing::{Anchor, Colour, Drawing, Figure, Stroke};
 use crate::group::Group;
-use crate::svg::{Anchor, Drawing, Plot, Scale};
 
-/// The figure of a group as SVG: mean and standard deviation over knees at steps of 10 degrees of flexion that two knees or more reach, and
+/// The figure of a group: mean and standard deviation over knees at steps of 10 degrees of flexion that two knees or more reach, and
 /// each knee as a thin line.
 #[must_use]
-pub fn group_figure(group: &Group) -> String {
+pub fn group_figure(group: &Group) -> Figure {
     let mut drawing = Drawing::default();
     let course = Course {
         group,
@@ -22,7 +23,7 @@ pub fn group_figure(group: &Group) -> String {
     drawing.words([RIGHT[1], 27.0], Anchor::End, 11.0, words);
     letter(&mut drawing, "c", LEFT[0], 346.0);
     course.counts(&mut drawing, [606.0, 360.0]);
-    drawing.finish(SIZE, WIDTH_MM, &format!("Joint motion of {}", group.name))
+    drawing.finish(SIZE, WIDTH_MM, format!("Joint motion of {}", group.name))
 }
 
 fn counts(group: &Group) -> String {
@@ -96,13 +97,13 @@ impl Course<'_> {
 
     fn knees(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: Ink) {
         drawing.open("knees");
-        let stroke = format!("{} stroke-opacity=\"0.5\"", ink.stroke(0.8));
+        let stroke = ink.stroke(0.8).fainter(0.5);
         for knee in 0..self.group.knees().len() {
             let points: Vec<[f64; 2]> = self
                 .knee(knee, number)
                 .map(|[x, y]| plot.place(x, y))
                 .collect();
-            lines(drawing, &points, &stroke);
+            lines(drawing, &points, stroke);
         }
         drawing.close();
     }
@@ -113,7 +114,7 @@ impl Course<'_> {
         // One knee is no group.
         let mean = |one: &OverKnees| if one.n > 1 { one.mean } else { f64::NAN };
         let points: Vec<[f64; 2]> = points.map(|(&x, one)| plot.place(x, mean(one))).collect();
-        lines(drawing, &points, &ink.stroke(1.6));
+        lines(drawing, &points, ink.stroke(1.6));
         for (&level, one) in self.levels.iter().zip(means) {
             if one.n > 1 {
                 let title = format!("{:.2}, n = {}", one.mean, one.n);
@@ -134,7 +135,8 @@ impl Course<'_> {
         plot.axes(drawing, [FLEXION, "Knees"], true);
         for (&level, &count) in self.levels.iter().zip(&counts) {
             let [x, y] = plot.place(level, count);
-            drawing.line(&[[x, bottom], [x, y]], "stroke=\"#777\" stroke-width=\"5\"");
+            let bar = Stroke::of(Colour::grey(0x77), 5.0);
+            drawing.line(&[[x, bottom], [x, y]], bar);
             drawing.words([x, y - 4.0], Anchor::Middle, 10.5, count);
         }
     }
@@ -145,7 +147,7 @@ fn over(values: &[f64]) -> f64 {
 }
 
 /// Lines through what is known, none across a gap.
-fn lines(drawing: &mut Drawing, points: &[[f64; 2]], stroke: &str) {
+fn lines(drawing: &mut Drawing, points: &[[f64; 2]], stroke: Stroke) {
     for run in points
         .split(|[_, y]| !y.is_finite())
         .filter(|run| run.len() > 1)

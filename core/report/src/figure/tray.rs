@@ -4,8 +4,9 @@ use fluoropose::joint::numbers::place;
 use fluoropose::joint::pivot::Pivot;
 
 use super::course::{Course, LATERAL, MEDIAL};
+use crate::drawing::{Anchor, BLACK, Colour, Drawing, Dress, Stroke};
 use crate::film::JointFilm;
-use crate::svg::{Anchor, Drawing, short};
+use crate::svg::short;
 
 /// The panel's size, and what its words take of it.
 const WIDTH: f64 = 320.0;
@@ -59,10 +60,8 @@ pub(super) fn draw(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>,
         .map(|&point| view.place(point))
         .collect();
     if border.len() > 2 {
-        drawing.shape(
-            &border,
-            "fill=\"#f1f1f1\" stroke=\"#888\" stroke-width=\"1\"",
-        );
+        let plate = Dress::filled(Colour::grey(0xf1));
+        drawing.shape(&border, plate.within(Stroke::of(Colour::grey(0x88), 1.0)));
     }
     directions(drawing, film, &view);
     lines(drawing, film, course, &view);
@@ -93,10 +92,7 @@ fn directions(drawing: &mut Drawing, film: &JointFilm, view: &View) {
     }
     let [x, y] = view.place([-half_depth, 0.0]);
     let (y, half) = (y + 20.0, 5.0 * view.per_mm);
-    drawing.line(
-        &[[x - half, y], [x + half, y]],
-        "stroke=\"#111\" stroke-width=\"1.6\"",
-    );
+    drawing.line(&[[x - half, y], [x + half, y]], Stroke::of(BLACK, 1.6));
     drawing.words([x + half + 6.0, y + 4.0], Anchor::Start, 11.0, "10 mm");
 }
 
@@ -119,12 +115,9 @@ fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &Vi
     let span = (high - low).max(1.0);
     for &(level, medial, lateral) in &drawn {
         let colour = ramp((level - low) / span);
-        drawing.line(
-            &[medial, lateral],
-            &format!("stroke=\"{colour}\" stroke-width=\"1.5\""),
-        );
-        drawing.point(medial, 2.8, &format!("fill=\"{}\"", MEDIAL.colour), "");
-        drawing.square(lateral, 2.5, &format!("fill=\"{}\"", LATERAL.colour));
+        drawing.line(&[medial, lateral], Stroke::of(colour, 1.5));
+        drawing.point(medial, 2.8, Dress::filled(MEDIAL.colour), "");
+        drawing.square(lateral, 2.5, Dress::filled(LATERAL.colour));
     }
     // Beside the lateral ends, where lines are apart.
     for &(level, medial, lateral) in [drawn.first(), drawn.last()].into_iter().flatten() {
@@ -140,14 +133,9 @@ fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &Vi
 }
 
 /// From light to dark with flexion, so that it can be read without colours.
-fn ramp(part: f64) -> String {
+fn ramp(part: f64) -> Colour {
     let mix = |from: f64, to: f64| (from + (to - from) * part).round() as u8;
-    format!(
-        "#{:02x}{:02x}{:02x}",
-        mix(236.0, 60.0),
-        mix(170.0, 20.0),
-        mix(60.0, 60.0)
-    )
+    Colour([mix(236.0, 60.0), mix(170.0, 20.0), mix(60.0, 60.0)])
 }
 
 fn place_of(pivot: &Pivot) -> [f64; 2] {
@@ -160,7 +148,7 @@ fn cross(drawing: &mut Drawing, view: &View, pivot: &Pivot) {
     if !view.holds(view.place(at)) {
         return;
     }
-    const INK: &str = "stroke=\"#111\" stroke-width=\"1.4\"";
+    const INK: Stroke = Stroke::of(BLACK, 1.4);
     for k in 0..2 {
         let end = |sign: f64| {
             let mut end = at;
@@ -169,8 +157,12 @@ fn cross(drawing: &mut Drawing, view: &View, pivot: &Pivot) {
         };
         drawing.line(&[end(-1.0), end(1.0)], INK);
     }
-    let dress = "fill=\"none\" stroke=\"#111\" stroke-width=\"1.4\"";
-    drawing.point(view.place(at), 4.5, dress, "centre of rotation");
+    drawing.point(
+        view.place(at),
+        4.5,
+        Dress::hollow(INK),
+        "centre of rotation",
+    );
 }
 
 /// The centre in words.

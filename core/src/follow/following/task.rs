@@ -116,23 +116,22 @@ impl Task {
     }
 }
 
-/// What a frame says of a pose that was given. One that nobody fixed is brought to the best of those near it once the film is
-/// known.
+/// A frame with a pose that was given, and that nobody fixed: it is brought to the best of those near it once the film is known.
 ///
 /// # Errors
 /// Where the model cannot be drawn there.
 pub(super) fn given(
     subject: &Subject<'_>,
     image: &ImageTarget<'_>,
-    pose: &Pose,
-    fixed: bool,
+    (frame, pose): (usize, &Pose),
     memory: &mut RefineMemory<'_>,
-) -> Result<FramePose, RefineError> {
+) -> Result<Anchor, RefineError> {
     let found = frame_pose_at(subject, image, pose, memory)?;
-    Ok(match fixed || image.film.is_none() {
-        true => found,
-        false => settled(subject, image, &found, memory),
-    })
+    let found = match image.film {
+        None => found,
+        Some(_) => settled(subject, image, &found, memory),
+    };
+    Ok(Anchor::found(frame, found))
 }
 
 /// From an anchor to the end of the film, or of a run of frames.

@@ -27,20 +27,23 @@ export function joint(ready: Promise<unknown>): Handlers<JointProtocol> {
       const width = numbers.length / Math.max(1, frames.length);
       return { numbers, impossible: frames.map((_, at) => joint.impossible(numbers.subarray(at * width, (at + 1) * width)) ?? null) };
     },
-    publish: ({ film, what }) => {
-      if (!open) throw new Error('No joint is open');
-      const report = reportOf(open, film);
-      try {
-        return textOf(report, what);
-      } finally {
-        report.free();
-      }
-    },
+    publish: ({ film, what }) => published(open, film, (report) => textOf(report, what)),
+    figurePdf: (film) => published(open, film, (report) => report.figurePdf() as Uint8Array<ArrayBuffer>),
     poseText: async (text) => {
       await ready;
       return poseText(text);
     },
   };
+}
+
+function published<T>(joint: KneeJoint | null, film: PublishedFilm, made: (report: JointReport) => T): T {
+  if (!joint) throw new Error('No joint is open');
+  const report = reportOf(joint, film);
+  try {
+    return made(report);
+  } finally {
+    report.free();
+  }
 }
 
 function reportOf(joint: KneeJoint, { name, rate, frames, inputs, settings, remarks }: PublishedFilm): JointReport {

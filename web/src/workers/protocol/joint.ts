@@ -71,5 +71,7 @@ export interface JointProtocol {
   joint: { input: readonly { readonly femur: Uncertain; readonly tibia: Uncertain }[]; output: JointOfFrames; progress: never };
   /** The same text as the command line's. Throws while no joint is open, and for what needs times where there are none. */
   publish: { input: { readonly film: PublishedFilm; readonly what: JointText }; output: string; progress: never };
+  /** The figure of four panels as PDF, the same as the command line's. Throws while no joint is open. */
+  figurePdf: { input: PublishedFilm; output: Uint8Array<ArrayBuffer>; progress: never };
   poseText: { input: PoseText; output: string; progress: never };
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose_report::Figure;
 use sha2::{Digest, Sha256};
 
 /// Reads a whole file.
@@ -55,6 +56,16 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
 /// Names the file.
 pub fn write_text(path: &Path, text: &str) -> Result<()> {
     fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a figure as SVG and as PDF.
+///
+/// # Errors
+/// Names the file.
+pub fn write_figure(folder: &Path, stem: &str, figure: &Figure) -> Result<()> {
+    write_text(&folder.join(format!("{stem}.svg")), &figure.svg())?;
+    let path = folder.join(format!("{stem}.pdf"));
+    fs::write(&path, figure.pdf()).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// Writes a table as JSON where `--json` asked for it.

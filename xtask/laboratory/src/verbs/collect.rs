@@ -9,7 +9,7 @@ use fluoropose_report::cohorts::{figure, table};
 use fluoropose_report::levels::FilmLevels;
 use fluoropose_report::{Group, Knee, read};
 
-use crate::files::{csv_fields, read_text, write_text};
+use crate::files::{csv_fields, read_text, write_figure, write_text};
 use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 
 /// Options of `collect`.
@@ -71,7 +71,7 @@ pub fn run(args: Args) -> Result<u8> {
     std::fs::create_dir_all(&args.out)
         .with_context(|| format!("cannot make the folder {}", args.out.display()))?;
     write_text(&args.out.join("groups.csv"), &table(&groups))?;
-    write_text(&args.out.join("groups.svg"), &figure(&groups))?;
+    write_figure(&args.out, "groups", &figure(&groups))?;
     write_text(&args.out.join("doubtful.csv"), &doubtful)?;
     for group in &groups {
         println!("{}: {} knees", group.name, group.knees().len());

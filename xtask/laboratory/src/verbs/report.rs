@@ -12,7 +12,7 @@ use fluoropose::Side;
 use fluoropose_phantom::implant;
 use fluoropose_report::{Facts, JointFilm, figure, html, write};
 
-use crate::files::{Study, stated_frames_per_s, write_text};
+use crate::files::{Study, stated_frames_per_s, write_figure, write_text};
 use knee::{Filtering, Knee};
 use out::{make_folder, write_cycles};
 use sources::Sources;
@@ -113,7 +113,7 @@ fn frames_per_s(asked: Option<f64>, study: &Study) -> Result<Option<f64>> {
 
 fn write_all(out: &Path, film: &JointFilm, sources: &Sources, facts: &Facts) -> Result<()> {
     write_text(&out.join("joint.csv"), &write::table(film))?;
-    write_text(&out.join("figure.svg"), &figure(film))?;
+    write_figure(out, "figure", &figure(film))?;
     write_text(&out.join("report.html"), &html(film, facts))?;
     let bodies = [&sources.femur, &sources.tibia];
     for body in bodies {

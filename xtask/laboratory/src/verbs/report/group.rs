@@ -7,14 +7,14 @@ use fluoropose_report::levels::FilmLevels;
 use fluoropose_report::{Group, JointFilm, Knee, group_figure, read, write};
 
 use super::out::{make_folder, write_cycles};
-use crate::files::{name_of, read_text, write_text};
+use crate::files::{name_of, read_text, write_figure, write_text};
 
 pub(super) fn run(tables: &[String], out: &Path) -> Result<()> {
     let knees = knees(tables)?;
     let group = group(&knees, name_of(out));
     make_folder(out)?;
     write_text(&out.join("group.csv"), &write::group_table(&group))?;
-    write_text(&out.join("figure.svg"), &group_figure(&group))?;
+    write_figure(out, "figure", &group_figure(&group))?;
     let films: Vec<&JointFilm> = knees.iter().flat_map(|(_, films)| films).collect();
     write_cycles(out, &films)?;
     println!("{} knees with {} films", knees.len(), films.len());

@@ -1,9 +1,7 @@
 //! Frames whose pose is known before a component is followed: fixed by a person, clicked into, or found.
 
 use anyhow::{Context, Result};
-use fluoropose::follow::{
-    Anchor, Cell, FramePose, frame_pose_at, frames_to_search, run_to_search, settled,
-};
+use fluoropose::follow::{Anchor, Cell, FramePose, frames_to_search, run_to_search, settled};
 use fluoropose::pose::Pose;
 
 use super::follow::{beside, follow, mark};
@@ -48,11 +46,7 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
             continue;
         }
         match clicked(run, part, click.frame, click.place)? {
-            Some(found) => anchors.push(Anchor {
-                frame: click.frame,
-                found,
-                fixed: false,
-            }),
+            Some(found) => anchors.push(Anchor::found(click.frame, found)),
             None => run.say(format!(
                 "{}: the click into frame {} leads to no pose",
                 part.name(),
@@ -65,14 +59,10 @@ pub(super) fn given(run: &Run<'_>, part: &Part<'_>) -> Result<Vec<Anchor>> {
 }
 
 fn of_person(run: &Run<'_>, part: &Part<'_>, frame: usize, pose: &Pose) -> Result<Anchor> {
-    let found = part.see(run.film, frame, |subject, image, memory| {
-        frame_pose_at(subject, image, pose, memory)
+    let anchor = part.see(run.film, frame, |subject, image, memory| {
+        Anchor::fixed(subject, image, (frame, pose), memory)
     })?;
-    Ok(Anchor {
-        frame,
-        found: found.with_context(|| format!("the pose of frame {}", frame + 1))?,
-        fixed: true,
-    })
+    anchor.with_context(|| format!("the pose of frame {}", frame + 1))
 }
 
 /// A frame that a component is followed from, where it is found in it.
@@ -91,12 +81,7 @@ pub(super) fn found_in(
     if found.is_some() {
         run.say(format!("{}: found in frame {}", part.name(), frame + 1));
     }
-    let fixed = false;
-    Ok(found.map(|found| Anchor {
-        frame,
-        found,
-        fixed,
-    }))
+    Ok(found.map(|found| Anchor::found(frame, found)))
 }
 
 /// Looks for a component that was not found once more, beside another one: what is the other's is left out of sight.
@@ -122,11 +107,7 @@ pub(super) fn begin_beside(
                 run.say(format!("{name}: looked for {place}"));
                 if let Some(found) = searched(run, part, *frame, depth, Some(seen))? {
                     run.say(format!("{name}: found {place}"));
-                    return Ok(vec![Anchor {
-                        frame: *frame,
-                        found,
-                        fixed: false,
-                    }]);
+                    return Ok(vec![Anchor::found(*frame, found)]);
                 }
             }
         }
@@ -155,10 +136,7 @@ pub(super) fn again(run: &Run<'_>, part: &Part<'_>, anchors: &[Anchor]) -> Resul
                 Some(settled(subject, image, &anchor.found, memory))
             })
         })?;
-        Ok(Anchor {
-            found: found.unwrap_or(anchor.found),
-            ..*anchor
-        })
+        Ok(Anchor::found(frame, found.unwrap_or(anchor.found)))
     };
     anchors.iter().map(one).collect()
 }
@@ -177,11 +155,7 @@ pub(super) fn fill(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result
             let Some(found) = searched(run, part, frame, depth, None)? else {
                 continue;
             };
-            let anchor = Anchor {
-                frame,
-                found,
-                fixed: false,
-            };
+            let anchor = Anchor::found(frame, found);
             follow(run, part, &[anchor], gap.clone(), cells)?;
             // What is still missing is searched too.
             from = gap.start;
