@@ -28,7 +28,7 @@ pub use candidate::{CANDIDATES, Candidate};
 pub use component::Component;
 pub use corrected::{correct_candidates, onto_target};
 pub use error::FindError;
-pub use find::{Found, Goal, find, find_into};
+pub use find::{Found, Goal, Wanted, find, find_into, find_paced};
 pub use first::{FIRST_POSES, FirstPoses, first_poses};
 pub use memory::FinderMemory;
 pub use usual::{FilmMisfits, look_beyond};

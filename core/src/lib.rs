@@ -4,7 +4,7 @@
 //!
 //! | module | from | to |
 //! | --- | --- | --- |
-//! | [`memory`], [`shortlist`], [`math`] | | what every other module stands on |
+//! | [`memory`], [`shortlist`], [`pace`], [`math`] | | what every other module stands on |
 //! | [`image`] | points, grey values | [`Outline`], [`Frame`], [`Mask`] and what is measured of them |
 //! | [`pose`] | matrices, angles, `.jts` files | [`Pose`], [`PoseCovariance`] |
 //! | [`camera`] | calibration files | [`Camera`] |
@@ -29,6 +29,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod memory;
+pub mod pace;
 pub mod shortlist;
 
 pub mod math;

@@ -1,11 +1,10 @@
 //! Finds the library and the outline that go into flash, and the linker script.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-changed=memory.x");
     println!("cargo::rerun-if-env-changed=FLUOROPOSE_FIRMWARE_INPUTS");
     let package = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").expect("cargo sets it"));
     let inputs = env::var_os("FLUOROPOSE_FIRMWARE_INPUTS").map_or_else(
@@ -26,10 +25,21 @@ fn main() {
         inputs.display()
     );
     if env::var("CARGO_CFG_TARGET_OS").is_ok_and(|os| os == "none") {
-        let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-        fs::copy(package.join("memory.x"), out.join("memory.x")).expect("OUT_DIR can be written");
-        println!("cargo::rustc-link-search={}", out.display());
-        println!("cargo::rustc-link-arg-bins=-Tlink.x");
-        println!("cargo::rustc-link-arg-bins=--nmagic");
+        let is_arm = env::var("CARGO_CFG_TARGET_ARCH").is_ok_and(|arch| arch == "arm");
+        link(&package, is_arm);
     }
+}
+
+/// Names the linker script of the board; cortex-m-rt's wants the memory alone.
+fn link(package: &Path, is_arm: bool) {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
+    let (own, there, script) = match is_arm {
+        true => ("boards/cortex.x", "memory.x", "link.x"),
+        false => ("boards/riscv.ld", "riscv.ld", "riscv.ld"),
+    };
+    println!("cargo::rerun-if-changed={own}");
+    fs::copy(package.join(own), out.join(there)).expect("OUT_DIR can be written");
+    println!("cargo::rustc-link-search={}", out.display());
+    println!("cargo::rustc-link-arg-bins=-T{script}");
+    println!("cargo::rustc-link-arg-bins=--nmagic");
 }

@@ -9,6 +9,7 @@ use crate::camera::Camera;
 use crate::locate::rerank::Reranked;
 use crate::mesh::Model;
 use crate::mesh::symmetry::SymmetryPlane;
+use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, ImageTarget, RefineError, RefineMemory, RefineOptions, Target, assess, correct,
@@ -46,18 +47,29 @@ pub fn onto_target<'t>(
     let refined = refine_rivals(model, &[view], &starts, &[], options, memory)?;
     let mut candidates = Vec::new();
     let located = |found: &RefinedRival| outline.get(found.start)?.located;
-    add_assessed(model, &view, &refined, located, memory, &mut candidates)?;
+    let pace = Pace::new();
+    let all = add_assessed(
+        model,
+        &view,
+        &refined,
+        located,
+        memory,
+        &mut candidates,
+        &pace,
+    );
+    at_once(&pace, all)?;
     Ok(candidates)
 }
 
 /// Adds refined poses with what led to them, how sure they are and how well they fit, each pose once.
-pub(super) fn add_assessed(
+pub(super) async fn add_assessed(
     model: &Model<'_>,
     view: &CameraView<'_>,
     refined: &[RefinedRival],
     located: impl Fn(&RefinedRival) -> Option<Reranked>,
     memory: &mut RefineMemory<'_>,
     candidates: &mut Vec<Candidate, CANDIDATES>,
+    pace: &Pace,
 ) -> Result<(), RefineError> {
     for found in refined.iter().take(CANDIDATES) {
         let same = |other: &Candidate| {
@@ -68,6 +80,7 @@ pub(super) fn add_assessed(
         let Some(located) = located(found).filter(|_| !candidates.iter().any(same)) else {
             continue;
         };
+        pace.pause().await;
         let assessment = assess(model, &[*view], &found.refined, memory)?;
         let candidate = Candidate {
             pose: found.refined.pose,

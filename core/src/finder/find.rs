@@ -7,13 +7,14 @@ use super::choice::{ChoiceContext, choose};
 use super::component::Component;
 use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
-use super::first::{FIRST_POSES, FirstPoses, first_poses, of_pieces};
+use super::first::{FIRST_POSES, FirstPoses, first_poses_paced, of_pieces};
 use super::memory::FinderMemory;
-use super::rivals::{RefinedRival, STARTS, add_rivals, worth_refining};
+use super::rivals::{RefinedRival, RivalRefinement, STARTS, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
 use crate::camera::Camera;
 use crate::image::silhouette::Silhouette;
 use crate::locate::rerank::Reranked;
+use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
 use crate::shortlist::keep;
@@ -91,24 +92,72 @@ pub fn find_into(
     memory: &mut FinderMemory<'_>,
     found: &mut Found,
 ) -> Result<(), FindError> {
+    let wanted = Wanted {
+        component,
+        camera,
+        silhouette,
+        goal,
+        options,
+    };
+    let pace = Pace::new();
+    at_once(&pace, find_paced(&wanted, memory, found, &pace))
+}
+
+/// What is to be found in a frame, and how far its poses are brought: what [`find`] is asked.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'w> {
+    /// The implant.
+    pub component: &'w Component<'w>,
+    /// What saw it; of a silhouette in a part of a frame, that part's.
+    pub camera: &'w Camera,
+    /// What was seen.
+    pub silhouette: &'w Silhouette<'w>,
+    /// How far poses are brought.
+    pub goal: Goal<'w>,
+    /// How they are refined.
+    pub options: RefineOptions,
+}
+
+/// The same as [`find_into`] in slices ([`crate::pace`]): the search of the library, then each drawing of the model. What is
+/// one slice as a whole is rare: poses of pieces of an outline, a closer look around a pose of an outline that fits in part
+/// only, and all that is done on a grey frame.
+///
+/// # Errors
+/// As [`find`]; what `found` holds then, or while work is left, means nothing.
+pub async fn find_paced(
+    wanted: &Wanted<'_>,
+    memory: &mut FinderMemory<'_>,
+    found: &mut Found,
+    pace: &Pace,
+) -> Result<(), FindError> {
+    let Wanted {
+        component,
+        camera,
+        silhouette,
+        ..
+    } = *wanted;
     if component.library.info().model != component.model.digest() {
         return Err(FindError::OtherModel);
     }
-    let first = first_poses(component, camera, silhouette, memory)?;
+    let candidates = &mut found.candidates;
+    candidates.clear();
+    let first = first_poses_paced(component, camera, silhouette, memory, pace).await?;
+    (found.clipped, found.partial) = (first.clipped, first.partial);
     let mut way = Way {
         component,
         camera,
         silhouette,
-        options,
+        options: wanted.options,
         memory,
+        pace,
     };
-    let candidates = &mut found.candidates;
-    candidates.clear();
-    (found.clipped, found.partial) = (first.clipped, first.partial);
-    match goal {
+    match wanted.goal {
         Goal::Library => way.as_the_library_has_them(&first, candidates),
-        Goal::Outline => way.on_outline(&first, candidates),
-        Goal::Image(image) => way.on_image(&first, image, candidates),
+        Goal::Outline => way.on_outline(&first, candidates).await,
+        Goal::Image(image) => {
+            way.on_outline(&first, candidates).await?;
+            way.on_image(image, candidates)
+        }
     }
 }
 
@@ -119,6 +168,7 @@ struct Way<'w, 'm> {
     silhouette: &'w Silhouette<'w>,
     options: RefineOptions,
     memory: &'w mut FinderMemory<'m>,
+    pace: &'w Pace,
 }
 
 type Candidates = Vec<Candidate, CANDIDATES>;
@@ -174,46 +224,45 @@ impl Way<'_, '_> {
 
     /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
     /// that pieces of the outline lead to are refined too.
-    fn on_outline(
+    async fn on_outline(
         &mut self,
         first: &FirstPoses,
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
-        self.add_refined(worth_refining(&first.poses), candidates)?;
+        self.add_refined(worth_refining(&first.poses), candidates)
+            .await?;
         let met = candidates.first().map_or(0.0, |best| best.fit.met);
         if !first.partial && met < Limits::USUAL.good_met {
-            self.add_of_pieces(candidates);
+            self.add_of_pieces(candidates).await;
         }
         Ok(())
     }
 
-    #[inline(never)]
-    fn add_of_pieces(&mut self, candidates: &mut Candidates) {
+    async fn add_of_pieces(&mut self, candidates: &mut Candidates) {
         let pieces = self.pieces();
         // A second opinion that leads nowhere is none.
-        let _ = self.add_refined(worth_refining(&pieces), candidates);
+        let _ = self.add_refined(worth_refining(&pieces), candidates).await;
     }
 
     #[inline(never)]
     fn on_image(
         &mut self,
-        first: &FirstPoses,
         image: ImageTarget<'_>,
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
-        let mut outline = Vec::new();
-        self.on_outline(first, &mut outline)?;
+        let outline = candidates.clone();
         let (model, camera, options) = (self.component.model, self.camera, self.options);
         let memory = &mut self.memory.refine;
         *candidates = onto_target(model, camera, image, &outline, options, memory)?;
         Ok(())
     }
 
+    #[inline(never)]
     fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
         of_pieces(self.component, self.camera, self.silhouette, self.memory).unwrap_or_default()
     }
 
-    fn add_refined(
+    async fn add_refined(
         &mut self,
         worth: &[Reranked],
         candidates: &mut Candidates,
@@ -224,18 +273,20 @@ impl Way<'_, '_> {
         let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;
         let mut refined = Vec::new();
-        add_rivals(
+        let mut rivals = RivalRefinement {
             model,
-            &[view],
-            &starts,
+            views: &[view],
             planes,
-            self.options,
+            options: self.options,
             memory,
-            &mut refined,
-        )?;
+            pace: self.pace,
+            answers: &mut refined,
+        };
+        rivals.run(&starts).await?;
         let located = |found: &RefinedRival| worth.get(found.start).copied();
-        Ok(add_assessed(
-            model, &view, &refined, located, memory, candidates,
-        )?)
+        let assessed = add_assessed(
+            model, &view, &refined, located, memory, candidates, self.pace,
+        );
+        Ok(assessed.await?)
     }
 }

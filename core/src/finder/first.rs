@@ -10,7 +10,8 @@ use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
 use crate::locate::locate;
 use crate::locate::partial::{known_fraction, locate_partial};
-use crate::locate::rerank::{Reranked, rerank};
+use crate::locate::rerank::{Reranked, rerank_paced};
+use crate::pace::{Pace, at_once};
 
 /// First poses that are kept of one silhouette.
 pub const FIRST_POSES: usize = 12;
@@ -44,6 +45,22 @@ pub fn first_poses(
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
 ) -> Result<FirstPoses, FindError> {
+    let pace = Pace::new();
+    at_once(
+        &pace,
+        first_poses_paced(component, camera, silhouette, memory, &pace),
+    )
+}
+
+/// The same in slices: the search of the library, then one for each drawing.
+pub(super) async fn first_poses_paced(
+    component: &Component<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    memory: &mut FinderMemory<'_>,
+    pace: &Pace,
+) -> Result<FirstPoses, FindError> {
+    pace.pause().await;
     if known_fraction(silhouette).is_partial() {
         return Ok(FirstPoses {
             poses: of_pieces(component, camera, silhouette, memory)?,
@@ -51,7 +68,7 @@ pub fn first_poses(
             partial: true,
         });
     }
-    let whole = of_whole(component, camera, silhouette, memory)?;
+    let whole = of_whole(component, camera, silhouette, memory, pace).await?;
     match whole.poses.is_empty() {
         true => Err(FindError::NoView),
         false => Ok(whole),
@@ -67,11 +84,12 @@ impl FirstPoses {
     }
 }
 
-fn of_whole(
+async fn of_whole(
     component: &Component<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
+    pace: &Pace,
 ) -> Result<FirstPoses, FindError> {
     let Component { library, model, .. } = component;
     let work = memory.workspace.reborrow();
@@ -81,8 +99,17 @@ fn of_whole(
     let words = memory.refine.drawn.get_mut(..words_needed(width, height));
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
     let scratch = &mut *memory.refine.projected;
+    let poses = rerank_paced(
+        &found.poses,
+        model,
+        camera,
+        silhouette,
+        scratch,
+        &mut drawn,
+        pace,
+    );
     Ok(FirstPoses {
-        poses: rerank(&found.poses, model, camera, silhouette, scratch, &mut drawn)?,
+        poses: poses.await?,
         clipped: found.form.clipped,
         partial: false,
     })

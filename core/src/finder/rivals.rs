@@ -9,10 +9,11 @@ use crate::math::radians;
 use crate::mesh::Model;
 use crate::mesh::mirror::mirror_pose;
 use crate::mesh::symmetry::SymmetryPlane;
+use crate::pace::{Pace, at_once};
 use crate::pose::{Pose, geodesic_deg};
 use crate::refine::{
     CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
-    refine,
+    refine_paced,
 };
 use crate::shortlist::keep;
 
@@ -93,7 +94,7 @@ pub fn worth_refining(rivals: &[Reranked]) -> &[Reranked] {
 /// there is no start.
 ///
 /// # Errors
-/// That of [`refine`] for the last start, when none can be refined.
+/// That of [`crate::refine::refine`] for the last start, when none can be refined.
 pub fn refine_rivals(
     model: &Model<'_>,
     views: &[CameraView<'_>],
@@ -102,52 +103,52 @@ pub fn refine_rivals(
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
 ) -> Result<Vec<RefinedRival, ANSWERS>, RefineError> {
-    let mut answers = Vec::new();
-    add_rivals(model, views, starts, planes, options, memory, &mut answers)?;
-    Ok(answers)
-}
-
-/// The same into an empty list, which is long: a copy of it takes kilobytes of stack.
-pub(super) fn add_rivals(
-    model: &Model<'_>,
-    views: &[CameraView<'_>],
-    starts: &[Pose],
-    planes: &[SymmetryPlane],
-    options: RefineOptions,
-    memory: &mut RefineMemory<'_>,
-    answers: &mut Vec<RefinedRival, ANSWERS>,
-) -> Result<(), RefineError> {
+    let (mut answers, pace) = (Vec::new(), Pace::new());
     let mut search = RivalRefinement {
         model,
         views,
         planes,
         options,
         memory,
-        answers,
+        pace: &pace,
+        answers: &mut answers,
     };
-    search.refine_starts(starts)?;
-    search.mirror();
-    if !search.look_beside() {
-        search.look_closer();
-    }
-    keep_distinct(answers);
-    Ok(())
+    at_once(&pace, search.run(starts))?;
+    Ok(answers)
 }
 
 /// Refinement from a growing list of starts.
-struct RivalRefinement<'s, 'm> {
-    model: &'s Model<'s>,
-    views: &'s [CameraView<'s>],
-    planes: &'s [SymmetryPlane],
-    options: RefineOptions,
-    memory: &'s mut RefineMemory<'m>,
-    /// By rising loss.
-    answers: &'s mut Vec<RefinedRival, ANSWERS>,
+pub(super) struct RivalRefinement<'s, 'm> {
+    pub(super) model: &'s Model<'s>,
+    pub(super) views: &'s [CameraView<'s>],
+    pub(super) planes: &'s [SymmetryPlane],
+    pub(super) options: RefineOptions,
+    pub(super) memory: &'s mut RefineMemory<'m>,
+    pub(super) pace: &'s Pace,
+    /// By rising loss; at first none. The list is long: a copy of it takes kilobytes of stack.
+    pub(super) answers: &'s mut Vec<RefinedRival, ANSWERS>,
 }
 
 impl RivalRefinement<'_, '_> {
-    fn refine(&mut self, pose: &Pose, start: usize, mirrored: bool) -> Result<(), RefineError> {
-        let refined = refine(self.model, self.views, pose, self.options, self.memory)?;
+    /// All of [`refine_rivals`].
+    pub(super) async fn run(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
+        self.refine_starts(starts).await?;
+        self.mirror().await;
+        if !self.look_beside().await {
+            self.look_closer().await;
+        }
+        keep_distinct(self.answers);
+        Ok(())
+    }
+
+    async fn refine(
+        &mut self,
+        pose: &Pose,
+        start: usize,
+        mirrored: bool,
+    ) -> Result<(), RefineError> {
+        let (model, views, options) = (self.model, self.views, self.options);
+        let refined = refine_paced(model, views, pose, options, self.memory, self.pace).await?;
         self.keep(*pose, refined, start, mirrored);
         Ok(())
     }
@@ -164,20 +165,21 @@ impl RivalRefinement<'_, '_> {
 
     /// Refines the starts. Of several, the first stage tells where each leads, and only the poses that may be the best are
     /// refined to the end, each once.
-    fn refine_starts(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
+    async fn refine_starts(&mut self, starts: &[Pose]) -> Result<(), RefineError> {
         let starts = &starts[..starts.len().min(STARTS)];
         let mut failure = None;
         if let ([_, _, ..], true) = (starts, self.is_outline()) {
-            for (start, begun) in self.begun(starts, &mut failure) {
-                let refined = finish(self.model, self.views, &begun, self.options, self.memory);
-                match refined {
+            for (start, begun) in self.begun(starts, &mut failure).await {
+                let (model, views, options) = (self.model, self.views, self.options);
+                let finished = finish(model, views, &begun, options, self.memory, self.pace);
+                match finished.await {
                     Ok(refined) => self.keep(starts[start], refined, start, false),
                     Err(error) => failure = Some(error),
                 }
             }
         } else {
             for (start, pose) in starts.iter().enumerate() {
-                if let Err(error) = self.refine(pose, start, false) {
+                if let Err(error) = self.refine(pose, start, false).await {
                     failure = Some(error);
                 }
             }
@@ -195,7 +197,7 @@ impl RivalRefinement<'_, '_> {
     }
 
     /// Where the first stage leads from the starts, each pose once, and only those that may be the best.
-    fn begun(
+    async fn begun(
         &mut self,
         starts: &[Pose],
         failure: &mut Option<RefineError>,
@@ -207,7 +209,8 @@ impl RivalRefinement<'_, '_> {
                 begun.any(|(_, other)| is_on_the_way(pose, &other.pose, LOOKED_SAME_DEG))
             };
             let (model, views, options) = (self.model, self.views, self.options);
-            match begin(model, views, pose, options, &known, self.memory) {
+            let begun_here = begin(model, views, pose, options, &known, self.memory, self.pace);
+            match begun_here.await {
                 Ok(None) => {}
                 Ok(Some(one)) => {
                     keep(&mut begun, (start, one), |(_, one)| one.loss);
@@ -231,7 +234,7 @@ impl RivalRefinement<'_, '_> {
     }
 
     /// Refines the mirror images of all poses so far, where they cover what was seen.
-    fn mirror(&mut self) {
+    async fn mirror(&mut self) {
         let mut distinct: Vec<(usize, Pose), ANSWERS> = Vec::new();
         for RefinedRival { start, refined, .. } in &*self.answers {
             if !distinct
@@ -242,23 +245,24 @@ impl RivalRefinement<'_, '_> {
                 let _ = distinct.push((*start, refined.pose));
             }
         }
-        for (start, pose) in distinct {
+        for &(start, pose) in &distinct {
             for plane in self.planes {
                 let mirrored = mirror_pose(&pose, plane);
+                self.pace.pause().await;
                 let near = self
                     .views
                     .iter()
                     .all(|view| is_near(self.model, view, &mirrored, &pose, self.memory));
-                if near && self.leads_elsewhere(&mirrored) {
+                if near && self.leads_elsewhere(&mirrored).await {
                     // A mirror image that leads nowhere is no rival.
-                    let _ = self.refine(&mirrored, start, true);
+                    let _ = self.refine(&mirrored, start, true).await;
                 }
             }
         }
     }
 
     /// Whether a quick look finds that a pose leads to what may fit as well as the best, and was not found before.
-    fn leads_elsewhere(&mut self, start: &Pose) -> bool {
+    async fn leads_elsewhere(&mut self, start: &Pose) -> bool {
         let (Some(best), true) = (self.answers.first().copied(), self.is_outline()) else {
             return true;
         };
@@ -269,7 +273,8 @@ impl RivalRefinement<'_, '_> {
             })
         };
         let (model, views, options) = (self.model, self.views, self.options);
-        let Ok(Some(looked)) = probe(model, views, start, options, &known, self.memory) else {
+        let looked = probe(model, views, start, options, &known, self.memory, self.pace);
+        let Ok(Some(looked)) = looked.await else {
             return false;
         };
         let known = |RefinedRival { refined, .. }: &RefinedRival| {
@@ -281,7 +286,7 @@ impl RivalRefinement<'_, '_> {
     }
 
     /// A quick look at where a start leads; nothing where it leads to what is `known`.
-    fn look(
+    async fn look(
         &mut self,
         start: &Pose,
         known: &dyn Fn(&Pose) -> bool,
@@ -293,13 +298,15 @@ impl RivalRefinement<'_, '_> {
             self.options,
             known,
             self.memory,
+            self.pace,
         )
+        .await
     }
 
     /// A nearly symmetric part has minima beside each other that fit alike, some degrees apart: from both sides of the best
     /// pose, about both axes out of the image plane, it is tried whether another is there. Gives whether all that was tried
     /// led back: then no false minimum lies nearer either, it would have been met.
-    fn look_beside(&mut self) -> bool {
+    async fn look_beside(&mut self) -> bool {
         let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
             return false;
         };
@@ -312,11 +319,11 @@ impl RivalRefinement<'_, '_> {
         for turn in [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] {
             let [x, y] = turn.map(|sign| radians(sign * BESIDE_DEG));
             let start = about(&middle, &best.refined.pose, &[x, y, 0.0], [0.0; 3]);
-            let led = self.probe(&start, &best.refined, back);
+            let led = self.probe(&start, &best.refined, back).await;
             all_back &= matches!(led, Led::Back);
             if let Led::To(found) = led {
                 // From there it leads somewhere.
-                let _ = self.refine(&found, best.start, best.mirrored);
+                let _ = self.refine(&found, best.start, best.mirrored).await;
             }
         }
         all_back
@@ -324,7 +331,7 @@ impl RivalRefinement<'_, '_> {
 
     /// Where most of the outline fits exactly and a part does not, the best pose may be a false minimum near the right
     /// one: refinement starts again from poses around it.
-    fn look_closer(&mut self) {
+    async fn look_closer(&mut self) {
         let (Some(best), [view]) = (self.answers.first().copied(), self.views) else {
             return;
         };
@@ -335,20 +342,22 @@ impl RivalRefinement<'_, '_> {
             return;
         }
         let (model, camera, pose) = (self.model, view.camera, &best.refined.pose);
+        // All of its drawings in one slice; few poses need it.
+        self.pace.pause().await;
         let starts = nearby(model, camera, silhouette, pose, CLOSE_DEG, self.memory);
         let apart = |start: &&Pose| geodesic_deg(&start.rotation, &pose.rotation) > CLOSE_DEG / 2.0;
         for start in starts.iter().filter(apart) {
-            if let Led::To(found) = self.probe(start, &best.refined, BACK_DEG) {
+            if let Led::To(found) = self.probe(start, &best.refined, BACK_DEG).await {
                 // From there it leads somewhere.
-                let _ = self.refine(&found, best.start, best.mirrored);
+                let _ = self.refine(&found, best.start, best.mirrored).await;
             }
         }
     }
 
     /// Where a start leads: most lead to the best pose again, to within `back_deg`, or to a worse one.
-    fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Led {
+    async fn probe(&mut self, start: &Pose, best: &Refined, back_deg: f64) -> Led {
         let known = |pose: &Pose| is_on_the_way(pose, &best.pose, back_deg);
-        let found = match self.look(start, &known) {
+        let found = match self.look(start, &known).await {
             Ok(Some(found)) => found,
             Ok(None) => return Led::Back,
             Err(_) => return Led::Nowhere,

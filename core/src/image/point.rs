@@ -1,8 +1,9 @@
 //! Places in an image.
 
 /// A point of the image plane in continuous coordinates: the centre of the first pixel is
-/// (0.5, 0.5), `row` grows downwards.
+/// (0.5, 0.5), `row` grows downwards. Laid out as C has two doubles.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct Point {
     /// Pixels to the right of the frame's left border.
     pub column: f64,

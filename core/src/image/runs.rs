@@ -155,19 +155,37 @@ impl<'m> RunBuilder<'m> {
     /// All rows that were added.
     #[must_use]
     pub fn finish(self) -> Runs<'m> {
-        let Self {
-            memory,
-            count,
-            moments,
-            columns,
-            frame,
-        } = self;
+        let runs = self.memory.get(..self.count).unwrap_or_default();
         Runs {
-            runs: memory.get(..count).unwrap_or_default(),
-            moments,
-            columns,
-            frame,
+            runs,
+            moments: self.moments,
+            columns: self.columns,
+            frame: self.frame,
         }
+    }
+
+    /// The rows that were added so far.
+    #[must_use]
+    pub fn runs(&self) -> Runs<'_> {
+        Runs {
+            runs: self.memory.get(..self.count).unwrap_or_default(),
+            moments: self.moments,
+            columns: self.columns,
+            frame: self.frame,
+        }
+    }
+
+    /// Begins with another silhouette of a frame of `width` x `height` pixels in the same memory.
+    ///
+    /// # Errors
+    /// [`RunsError::Mask`] for an impossible frame; what was added stays then.
+    pub fn restart(&mut self, width: usize, height: usize) -> Result<(), RunsError> {
+        Crop::whole(width, height)?;
+        self.count = 0;
+        self.moments = Moments::default();
+        self.columns = [MAX_SIDE, 0];
+        self.frame = [width, height];
+        Ok(())
     }
 }
 
@@ -292,12 +310,24 @@ mod tests {
                 ..
             }))
         ));
-        let runs = builder.finish();
+        assert_eq!(
+            builder.restart(0, 30),
+            Err(MaskError::Shape {
+                width: 0,
+                height: 30
+            }
+            .into())
+        );
+        let runs = builder.runs();
         assert_eq!((runs.runs().len(), runs.moments().area), (3, 6));
         // What lies beyond a part is cut off.
         let crop = Crop::around(5..10, 4..6, 0, [100, 30]).expect("inside");
         let mut words = [0; 2];
         assert_eq!(runs.draw(&crop, &mut words).expect("fits").area(), 2);
+        assert_eq!(builder.restart(101, 30), Ok(()));
+        assert_eq!(builder.runs().moments(), Moments::default());
+        assert_eq!(builder.add_run(2, 90..101), Ok(()));
+        assert_eq!(builder.finish().crop(0).expect("some").columns(), 90..101);
         assert!(RunBuilder::new(&mut [], 0, 3).is_err());
         let nothing = RunBuilder::new(&mut [], 5, 3).expect("a frame").finish();
         assert_eq!(nothing.crop(3), Err(MaskError::Empty));

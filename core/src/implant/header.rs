@@ -90,10 +90,19 @@ impl Header {
             // There is room for as many.
             let _ = header.planes.push(plane);
         }
-        match usize::from(length) == HEADER_BYTES && planes <= PLANES {
+        let is_right = usize::from(length) == HEADER_BYTES && planes <= PLANES;
+        match is_right && header.needs_are_possible() {
             true => Ok(header),
             false => Err(ImplantError::Value("header")),
         }
+    }
+
+    /// Whether no more silhouette edges are said to be than there are edges, and no more of them to cross a row: programs
+    /// make room by these numbers.
+    fn needs_are_possible(&self) -> bool {
+        let [_, _, _, edges, rims] = self.counts.map(u64::from);
+        let (seen, crossings) = (u64::from(self.edges), u64::from(self.crossings));
+        seen <= edges + rims && crossings <= seen + 1
     }
 
     /// The header's bytes.

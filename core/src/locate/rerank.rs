@@ -10,6 +10,7 @@ use crate::image::mask::MaskMut;
 use crate::image::silhouette::Silhouette;
 use crate::locate::whole::Located;
 use crate::mesh::Model;
+use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 use crate::render::{Projected, RenderError, render};
 use crate::shortlist::keep;
@@ -57,9 +58,25 @@ pub fn rerank<const K: usize>(
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
+    let pace = Pace::new();
+    let drawn = rerank_paced(poses, model, camera, silhouette, scratch, drawn, &pace);
+    at_once(&pace, drawn)
+}
+
+/// The same in slices, a drawing each.
+pub(crate) async fn rerank_paced<const K: usize>(
+    poses: &[Located],
+    model: &Model<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    scratch: &mut [Projected],
+    drawn: &mut MaskMut<'_>,
+    pace: &Pace,
+) -> Result<Vec<Reranked, K>, RenderError> {
     let mut reranked: Vec<Reranked, K> = Vec::new();
     let mut undrawable = None;
     for &located in poses.iter().take(K) {
+        pace.pause().await;
         match unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn) {
             Ok(unmatched) => {
                 let own = Reranked { located, unmatched };

@@ -46,7 +46,8 @@ impl Problem<'_> {
         let little = LITTLE * sqrt(FILM_PARTS as f64);
         next.converged = false;
         for turn in 0..LOOKS {
-            parts[turn % FILM_PARTS] = self.look_at_part(&mut next, turn, pass, memory)?;
+            let part = &mut parts[turn % FILM_PARTS];
+            self.look_at_part(part, &mut next, turn, pass, memory)?;
             let all = joined(&parts);
             let Some((step, more)) = self.step(&all, 0.0, pass, &next.pose) else {
                 return Err(RefineError::TooFar);
@@ -76,27 +77,28 @@ impl Problem<'_> {
     /// What a part of the border pixels sees; a smaller one where there is not room for as many lines.
     fn look_at_part(
         &self,
+        equations: &mut Equations,
         state: &mut Refined,
         turn: usize,
         pass: &Pass,
         memory: &mut RefineMemory<'_>,
-    ) -> Result<Equations, RefineError> {
+    ) -> Result<(), RefineError> {
         let part = Pass {
             turn,
             corrects: true,
             ..*pass
         };
-        let seen = match self.look(state, &part, memory) {
+        let seen = match self.look(equations, state, &part, memory) {
             Err(RefineError::Memory(_) | RefineError::Render(RenderError::Memory(_))) => {
                 let smaller = Pass {
                     corrects: false,
                     ..part
                 };
-                self.look(state, &smaller, memory)
+                self.look(equations, state, &smaller, memory)
             }
             seen => seen,
         };
-        Ok(seen?.equations)
+        seen.map(drop)
     }
 }
 

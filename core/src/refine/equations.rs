@@ -65,6 +65,15 @@ impl Equations {
         }
     }
 
+    /// As new.
+    pub(super) fn clear(&mut self) {
+        self.normal.as_flattened_mut().fill(0.0);
+        self.right.fill(0.0);
+        self.histogram.fill(0.0);
+        (self.length, self.known) = (0.0, 0.0);
+        (self.loss, self.used, self.squares) = (0.0, 0.0, 0.0);
+    }
+
     /// Adds what was found along the normal of a sample, weighed as a stage does.
     pub(super) fn add_sample(&mut self, sample: &BorderPixel, stage: &Stage) {
         let length = f64::from(sample.weight);

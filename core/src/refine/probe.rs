@@ -72,11 +72,39 @@ fn coverage(silhouette: &Silhouette<'_>, column: f64, row: f64) -> Option<f64> {
         return Some(f64::from(square & 1));
     }
     let (right, down) = (column - left as f64, row - above as f64);
-    let pixel = |bit: u32| f64::from(square >> bit & 1);
-    let upper = pixel(0) * (1.0 - right) + pixel(1) * right;
-    let lower = pixel(2) * (1.0 - right) + pixel(3) * right;
+    let [upper, lower] = [square, square >> 2].map(|pair| between(pair, right));
     Some(upper * (1.0 - down) + lower * down)
+}
+
+/// `a * (1 - share) + b * share` of two pixels, the lower bit first: products by 0 and 1 are dear where software makes them.
+fn between(pair: u32, share: f64) -> f64 {
+    match pair & 0b11 {
+        0b00 => 0.0,
+        0b01 => 1.0 - share,
+        0b10 => share,
+        // As it is rounded.
+        _ => (1.0 - share) + share,
+    }
 }
 
 /// How far the drawn model's own outline may be from the middle of a border pixel, pixels.
 pub(super) const OWN_RANGE: f64 = 3.0;
+
+#[cfg(test)]
+mod tests {
+    use super::between;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn between_two_pixels_is_what_products_give(share in 0.0..1.0f64, small in 0.0..1e-15f64) {
+            for share in [share, small, 1.0 - small, 0.0, -0.0] {
+                for pair in 0..4u32 {
+                    let [a, b] = [pair & 1, pair >> 1].map(f64::from);
+                    let products = a * (1.0 - share) + b * share;
+                    prop_assert_eq!(between(pair, share), products);
+                }
+            }
+        }
+    }
+}

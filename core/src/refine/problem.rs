@@ -1,5 +1,7 @@
 //! What is the same for every step: observation of residuals, damped steps, polishing.
 
+use core::mem::swap;
+
 use super::drawing::{Drawing, draw};
 use super::drawn::DrawnEdges;
 use super::effort::Effort;
@@ -17,6 +19,7 @@ use super::view::{CameraView, Target};
 use crate::image::mask::MaskError;
 use crate::math::Vector3;
 use crate::mesh::Model;
+use crate::pace::Pace;
 use crate::pose::{EulerPose, Pose};
 use crate::render::RenderError;
 
@@ -32,6 +35,8 @@ pub(super) struct Problem<'a> {
     /// Numbers of the pose that do not change.
     hold: Option<Hold>,
     pub(super) effort: Effort,
+    /// Where it pauses, before each drawing.
+    pub(super) pace: Option<&'a Pace>,
     /// Poses from which it is known where they lead.
     pub(super) known: Option<&'a dyn Fn(&Pose) -> bool>,
     /// Loss of a correction, square pixels, above which it is given up.
@@ -58,11 +63,29 @@ const WORTH_GOING_ON: f64 = 0.02;
 /// Edges of a grey frame have no grain: there, this part of both, and of what polishing ends at.
 const WITHOUT_GRAIN: f64 = 0.02;
 
-/// What was seen at a pose.
+/// What was seen at a pose, in one place from the first drawing to the last: it is long.
 pub(super) struct Seen {
     pub(super) equations: Equations,
-    /// Number of its samples in memory; `None` after another pose was observed.
+    /// Number of its samples in memory; `None` before anything was observed, and after another pose was.
     samples: Option<usize>,
+    /// Of a pose that is tried.
+    tried: Equations,
+}
+
+impl Seen {
+    /// Nothing yet.
+    pub(super) fn new() -> Self {
+        Self {
+            equations: Equations::new(),
+            samples: None,
+            tried: Equations::new(),
+        }
+    }
+
+    /// What is seen next begins anew.
+    pub(super) fn forget(&mut self) {
+        self.samples = None;
+    }
 }
 
 impl<'a> Problem<'a> {
@@ -93,6 +116,7 @@ impl<'a> Problem<'a> {
             middle: model.bounds().centre,
             hold: None,
             effort: Effort::Full,
+            pace: None,
             known: None,
             hopeless: f64::INFINITY,
         })
@@ -120,6 +144,13 @@ impl<'a> Problem<'a> {
         Pass {
             drawn: self.has_film(),
             ..Pass::default()
+        }
+    }
+
+    /// Before a drawing.
+    pub(super) async fn pause(&self) {
+        if let Some(pace) = self.pace {
+            pace.pause().await;
         }
     }
 
@@ -163,23 +194,20 @@ impl<'a> Problem<'a> {
     /// Levenberg's and Marquardt's damping: a step that does not lower the loss is taken back
     /// and tried again more cautiously, until it is so short that the grain of the loss hides the way.
     ///
-    /// `before` is what the stage before saw at this pose.
-    pub(super) fn run(
+    /// `seen` is what the stage before saw at this pose, and what this one saw at the last, afterwards.
+    pub(super) async fn run(
         &self,
         pass: &Pass,
         state: &mut Refined,
-        before: Option<Seen>,
+        seen: &mut Seen,
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
-    ) -> Result<Seen, RefineError> {
-        let mut seen = match before.and_then(|before| self.weigh_again(&before, pass, memory)) {
-            Some(seen) => seen,
-            None => {
-                let seen = self.look(state, pass, memory)?;
-                trace(&seen.equations.iterate(pass, state));
-                seen
-            }
-        };
+    ) -> Result<(), RefineError> {
+        if !self.weigh_again(seen, pass, memory) {
+            self.pause().await;
+            seen.samples = self.look(&mut seen.equations, state, pass, memory)?;
+            trace(&seen.equations.iterate(pass, state));
+        }
         let mut damping = 1e-3;
         for _ in 0..self.steps(pass) {
             let Some((step, more)) = self.step(&seen.equations, damping, pass, &state.pose) else {
@@ -196,12 +224,14 @@ impl<'a> Problem<'a> {
                 *state = next;
                 break;
             }
-            let tried = self.look(&mut next, pass, memory);
+            self.pause().await;
+            let tried = self.look(&mut seen.tried, &mut next, pass, memory);
             state.renders = next.renders;
             match tried {
-                Ok(there) if there.equations.loss() < seen.equations.loss() => {
-                    let gained = 1.0 - there.equations.loss() / seen.equations.loss();
-                    (*state, seen) = (next, there);
+                Ok(samples) if seen.tried.loss() < seen.equations.loss() => {
+                    let gained = 1.0 - seen.tried.loss() / seen.equations.loss();
+                    swap(&mut seen.equations, &mut seen.tried);
+                    (*state, seen.samples) = (next, samples);
                     damping = (damping * 0.2).max(1e-9);
                     trace(&seen.equations.iterate(pass, state));
                     if gained < WORTH_GOING_ON && self.goes_on(pass) {
@@ -220,7 +250,7 @@ impl<'a> Problem<'a> {
             }
         }
         seen.equations.report(state);
-        Ok(seen)
+        Ok(())
     }
 
     /// Damping of the step that is tried after one that failed.
@@ -262,11 +292,11 @@ impl<'a> Problem<'a> {
     /// pixels of its outline allow, and near its minimum that hides the way down; the gradient
     /// still shows it. A step longer than the one before is a sign of swinging to and fro, and
     /// the next are shortened.
-    pub(super) fn polish(
+    pub(super) async fn polish(
         &self,
         pass: &Pass,
         state: &mut Refined,
-        seen: Seen,
+        seen: &mut Seen,
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
     ) -> Result<(), RefineError> {
@@ -274,7 +304,7 @@ impl<'a> Problem<'a> {
             return Ok(());
         };
         let small = small * self.coarseness(state);
-        let (mut next, mut seen) = (*state, seen);
+        let mut next = *state;
         let (mut fraction, mut last) = (1.0, f64::INFINITY);
         for _ in 0..POLISHING {
             let Some((step, more)) = self.step(&seen.equations, 0.0, pass, &next.pose) else {
@@ -291,7 +321,8 @@ impl<'a> Problem<'a> {
             }
             next.pose = self.apply(&step, &next.pose);
             next.offset_px += fraction * more;
-            seen = self.look(&mut next, pass, memory)?;
+            self.pause().await;
+            seen.samples = self.look(&mut seen.equations, &mut next, pass, memory)?;
         }
         state.renders = next.renders;
         if seen.equations.loss() <= state.loss * (1.0 + GRAIN) + GRAIN * GRAIN {
@@ -327,26 +358,15 @@ impl<'a> Problem<'a> {
         self.views.iter().all(silhouette)
     }
 
-    /// Observes a pose, and counts the drawings.
+    /// Observes a pose, and counts the drawings. Gives the number of samples of the last view.
     pub(super) fn look(
-        &self,
-        state: &mut Refined,
-        pass: &Pass,
-        memory: &mut RefineMemory<'_>,
-    ) -> Result<Seen, RefineError> {
-        let mut equations = Equations::new();
-        let samples = self.look_into(&mut equations, state, pass, memory)?;
-        Ok(Seen { equations, samples })
-    }
-
-    /// Adds what is seen at a pose, and gives the number of samples of the last view.
-    pub(super) fn look_into(
         &self,
         equations: &mut Equations,
         state: &mut Refined,
         pass: &Pass,
         memory: &mut RefineMemory<'_>,
     ) -> Result<Option<usize>, RefineError> {
+        equations.clear();
         state.renders += self.views.len();
         let mut samples = None;
         for view in self.views {
@@ -359,22 +379,24 @@ impl<'a> Problem<'a> {
 
     /// What was seen, weighed as another stage does, without drawing again: of one camera, and of a
     /// silhouette, whose outline is where it is whatever the range, or of a frame whose film corrects what comes of it.
-    fn weigh_again(&self, before: &Seen, pass: &Pass, memory: &RefineMemory<'_>) -> Option<Seen> {
+    /// Gives whether it could be.
+    fn weigh_again(&self, seen: &mut Seen, pass: &Pass, memory: &RefineMemory<'_>) -> bool {
         let [CameraView { target, .. }] = self.views else {
-            return None;
+            return false;
         };
         if !self.is_outline() && !self.is_corrected(pass) {
-            return None;
+            return false;
         }
+        let samples = seen.samples.and_then(|count| memory.border.get(..count));
+        let Some(samples) = samples else {
+            return false;
+        };
         let stage = pass.stage(target);
-        let mut equations = Equations::new();
-        for sample in memory.border.get(..before.samples?)? {
-            equations.add_sample(sample, &stage);
+        seen.equations.clear();
+        for sample in samples {
+            seen.equations.add_sample(sample, &stage);
         }
-        Some(Seen {
-            equations,
-            ..*before
-        })
+        true
     }
 
     /// Whether an offset that was estimated with the pose is determined by the data: it differs
@@ -385,8 +407,9 @@ impl<'a> Problem<'a> {
         state: &Refined,
         memory: &mut RefineMemory<'_>,
     ) -> Result<bool, RefineError> {
-        let seen = self.look(&mut { *state }, pass, memory)?;
-        Ok(seen.equations.supports_offset(state.offset_px))
+        let mut equations = Equations::new();
+        self.look(&mut equations, &mut { *state }, pass, memory)?;
+        Ok(equations.supports_offset(state.offset_px))
     }
 
     /// Draws the model in a view and measures how far its outline is from the target's. Afterwards

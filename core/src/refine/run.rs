@@ -9,6 +9,7 @@ use super::result::{Iterate, Refined};
 use super::stages::{Pass, STAGES};
 use super::view::CameraView;
 use crate::mesh::Model;
+use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 
 /// Refines `start` until the model's outline lies on those of `views`. `start` is `world_from_model`; with a single
@@ -29,6 +30,23 @@ pub fn refine(
     refine_traced(model, views, start, options, memory, &mut |_| ())
 }
 
+/// The same in slices, a drawing each ([`crate::pace`]); correction by a film is one of them.
+///
+/// # Errors
+/// [`RefineError`].
+pub async fn refine_paced(
+    model: &Model<'_>,
+    views: &[CameraView<'_>],
+    start: &Pose,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+    pace: &Pace,
+) -> Result<Refined, RefineError> {
+    let mut problem = Problem::refining(model, views, start, options, memory)?;
+    problem.pace = Some(pace);
+    from_start(&problem, start, options, memory, &mut |_| ()).await
+}
+
 /// As [`refine`]; calls `trace` with the start and with every pose that is accepted on the way.
 ///
 /// # Errors
@@ -42,9 +60,25 @@ pub fn refine_traced(
     trace: &mut dyn FnMut(&Iterate),
 ) -> Result<Refined, RefineError> {
     let problem = Problem::refining(model, views, start, options, memory)?;
-    let mut state = Refined::at(*start);
-    let seen = problem.run(&problem.first_pass(), &mut state, None, memory, trace)?;
-    go_on(&problem, options, state, Some(seen), memory, trace)
+    let work = from_start(&problem, start, options, memory, trace);
+    at_once(&Pace::new(), work)
+}
+
+/// All stages.
+async fn from_start(
+    problem: &Problem<'_>,
+    start: &Pose,
+    options: RefineOptions,
+    memory: &mut RefineMemory<'_>,
+    trace: &mut dyn FnMut(&Iterate),
+) -> Result<Refined, RefineError> {
+    let (mut state, mut seen) = (Refined::at(*start), Seen::new());
+    let first = problem.first_pass();
+    problem
+        .run(&first, &mut state, &mut seen, memory, trace)
+        .await?;
+    go_on(problem, options, &mut state, &mut seen, memory, trace).await?;
+    Ok(state)
 }
 
 /// The first stage of [`refine`]: where `start` leads; `None` as soon as a pose is reached from which that is `known`. The
@@ -52,18 +86,22 @@ pub fn refine_traced(
 ///
 /// # Errors
 /// [`RefineError`].
-pub(crate) fn begin(
+pub(crate) async fn begin(
     model: &Model<'_>,
     views: &[CameraView<'_>],
     start: &Pose,
     options: RefineOptions,
     known: &dyn Fn(&Pose) -> bool,
     memory: &mut RefineMemory<'_>,
+    pace: &Pace,
 ) -> Result<Option<Refined>, RefineError> {
     let mut problem = Problem::refining(model, views, start, options, memory)?;
-    problem.known = Some(known);
-    let mut state = Refined::at(*start);
-    problem.run(&problem.first_pass(), &mut state, None, memory, &mut |_| ())?;
+    (problem.known, problem.pace) = (Some(known), Some(pace));
+    let (mut state, mut seen) = (Refined::at(*start), Seen::new());
+    let first = problem.first_pass();
+    problem
+        .run(&first, &mut state, &mut seen, memory, &mut |_| ())
+        .await?;
     Ok((!problem.is_known(&state.pose)).then_some(state))
 }
 
@@ -71,26 +109,31 @@ pub(crate) fn begin(
 ///
 /// # Errors
 /// [`RefineError`].
-pub(crate) fn finish(
+pub(crate) async fn finish(
     model: &Model<'_>,
     views: &[CameraView<'_>],
     begun: &Refined,
     options: RefineOptions,
     memory: &mut RefineMemory<'_>,
+    pace: &Pace,
 ) -> Result<Refined, RefineError> {
-    let problem = Problem::refining(model, views, &begun.pose, options, memory)?;
-    go_on(&problem, options, *begun, None, memory, &mut |_| ())
+    let mut problem = Problem::refining(model, views, &begun.pose, options, memory)?;
+    problem.pace = Some(pace);
+    let (mut state, mut seen) = (*begun, Seen::new());
+    let trace = &mut |_: &Iterate| ();
+    go_on(&problem, options, &mut state, &mut seen, memory, trace).await?;
+    Ok(state)
 }
 
 /// All stages but the first, whose end `seen` is where it is at hand.
-fn go_on(
+async fn go_on(
     problem: &Problem<'_>,
     options: RefineOptions,
-    mut state: Refined,
-    mut seen: Option<Seen>,
+    state: &mut Refined,
+    seen: &mut Seen,
     memory: &mut RefineMemory<'_>,
     trace: &mut dyn FnMut(&Iterate),
-) -> Result<Refined, RefineError> {
+) -> Result<(), RefineError> {
     let Pass { drawn, .. } = problem.first_pass();
     let mut pass = problem.first_pass();
     for index in 1..STAGES {
@@ -102,52 +145,60 @@ fn go_on(
         };
         // An outline is weighed again, a frame would be looked at again.
         if !drawn || problem.steps(&pass) > 0 {
-            seen = Some(problem.run(&pass, &mut state, seen, memory, trace)?);
+            problem.run(&pass, state, seen, memory, trace).await?;
         }
     }
-    if let (false, Some(seen)) = (drawn, seen) {
-        problem.polish(&pass, &mut state, seen, memory, trace)?;
+    if !drawn {
+        problem.polish(&pass, state, seen, memory, trace).await?;
     } else if options.effort != Effort::Probe {
-        problem.correct(&pass, &mut state, memory, trace)?;
+        problem.correct(&pass, state, memory, trace)?;
     }
     if options.edge_offset {
         pass.free = true;
-        let mut with_offset = state;
-        let seen = problem.run(&pass, &mut with_offset, None, memory, trace)?;
-        problem.polish(&pass, &mut with_offset, seen, memory, trace)?;
+        let mut with_offset = *state;
+        seen.forget();
+        problem
+            .run(&pass, &mut with_offset, seen, memory, trace)
+            .await?;
+        problem
+            .polish(&pass, &mut with_offset, seen, memory, trace)
+            .await?;
         if problem.supports_offset(&pass, &with_offset, memory)? {
-            return Ok(with_offset);
+            *state = with_offset;
+        } else {
+            state.renders = with_offset.renders;
         }
-        state.renders = with_offset.renders;
     }
-    Ok(state)
+    Ok(())
 }
 
 /// A quick look at where `start` leads, by [`Effort::Probe`]; `None` as soon as a pose is reached from which that is `known`.
 ///
 /// # Errors
 /// [`RefineError`].
-pub(crate) fn probe(
+pub(crate) async fn probe(
     model: &Model<'_>,
     views: &[CameraView<'_>],
     start: &Pose,
     options: RefineOptions,
     known: &dyn Fn(&Pose) -> bool,
     memory: &mut RefineMemory<'_>,
+    pace: &Pace,
 ) -> Result<Option<Refined>, RefineError> {
     let mut problem = Problem::new(model, views, memory)?;
     problem.hold(options.locks, start);
     problem.effort = Effort::Probe;
-    problem.known = Some(known);
-    let mut state = Refined::at(*start);
-    let mut before = None;
+    (problem.known, problem.pace) = (Some(known), Some(pace));
+    let (mut state, mut seen) = (Refined::at(*start), Seen::new());
     for index in 0..STAGES {
         let pass = Pass {
             index,
             sigma_px: state.robust_sigma_px,
             ..Pass::default()
         };
-        before = Some(problem.run(&pass, &mut state, before, memory, &mut |_| ())?);
+        problem
+            .run(&pass, &mut state, &mut seen, memory, &mut |_| ())
+            .await?;
         if problem.is_known(&state.pose) {
             return Ok(None);
         }

@@ -177,7 +177,7 @@ impl Sums {
             let jacobian = sample.jacobian.map(f64::from);
             // Half of the sample's own part: every pair is met once and counts both ways.
             let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
-            for (other, _, bin) in after(border, index, reach) {
+            for (_, other, bin) in after(border, index, reach) {
                 let weight = f64::from(other.weight) * covariance.bins[bin];
                 for (sum, &value) in sum.iter_mut().zip(&other.jacobian) {
                     *sum += weight * f64::from(value);
@@ -238,18 +238,19 @@ const BIN_OF: [u8; (REACH * REACH) as usize] = {
 };
 
 /// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
-/// residual and the bin of their distance.
+/// places in the list and the bin of their distance.
 fn after(
     border: &[BorderPixel],
     index: usize,
     reach: i32,
-) -> impl Iterator<Item = (&BorderPixel, f64, usize)> {
+) -> impl Iterator<Item = (usize, &BorderPixel, usize)> {
     let sample = border[index];
     let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
     // They are listed row by row.
     let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
-    let rest = border[index + 1..].iter().take_while(close);
-    rest.filter_map(move |other| {
+    let rest = border.get(index + 1..).unwrap_or_default();
+    let rest = (index + 1..).zip(rest.iter().take_while(close));
+    rest.filter_map(move |(number, other)| {
         let right = offset(other.column, sample.column);
         if right.abs() >= reach {
             return None;
@@ -258,9 +259,49 @@ fn after(
         let bin = *BIN_OF.get((right * right + down * down) as usize)?;
         let [a, b] = [sample.normal, other.normal];
         let alike = a[0] * b[0] + a[1] * b[1] >= ALIKE;
-        let residual = other.residual_px().filter(|_| alike)?;
-        Some((other, residual, usize::from(bin)))
+        other.residual_px().filter(|_| alike)?;
+        Some((number, other, usize::from(bin)))
     })
+}
+
+/// Samples within reach, mostly: an outline has some four in a row.
+const KEPT: usize = 256;
+
+/// Derivatives of the loss at samples, each reckoned once: a sample has some hundred others near it.
+struct Pulls<'b> {
+    border: &'b [BorderPixel],
+    loss: Loss,
+    /// Of the last samples before [`Self::known`], by the remainder of their number.
+    last: [f64; KEPT],
+    known: usize,
+}
+
+impl<'b> Pulls<'b> {
+    fn new(border: &'b [BorderPixel], loss: Loss) -> Self {
+        Self {
+            border,
+            loss,
+            last: [0.0; KEPT],
+            known: 0,
+        }
+    }
+
+    /// That of a sample which does not come before `least`, which rises from call to call.
+    fn of(&mut self, number: usize, least: usize) -> f64 {
+        if number - least >= KEPT {
+            return self.reckoned(number);
+        }
+        while self.known <= number {
+            self.last[self.known % KEPT] = self.reckoned(self.known);
+            self.known += 1;
+        }
+        self.last[number % KEPT]
+    }
+
+    fn reckoned(&self, number: usize) -> f64 {
+        let residual = self.border.get(number).and_then(BorderPixel::residual_px);
+        residual.map_or(0.0, |residual| self.loss.pull(residual))
+    }
 }
 
 /// Covariance of `psi` over distance.
@@ -303,13 +344,14 @@ impl Correlation {
     /// The mean product of `psi` in every bin, and the length of the outline.
     fn raw(border: &[BorderPixel], loss: Loss) -> ([f64; BINS + 1], f64) {
         let (mut sums, mut weights) = ([0.0; BINS + 1], [0.0; BINS + 1]);
-        for (index, sample, residual) in found(border) {
-            let (l, own) = (f64::from(sample.weight), loss.pull(residual));
+        let mut pulls = Pulls::new(border, loss);
+        for (index, sample, _) in found(border) {
+            let (l, own) = (f64::from(sample.weight), pulls.of(index, index));
             sums[0] += l * own * own;
             weights[0] += l;
-            for (other, residual, bin) in after(border, index, REACH) {
+            for (number, other, bin) in after(border, index, REACH) {
                 let weight = l * f64::from(other.weight);
-                sums[bin] += weight * own * loss.pull(residual);
+                sums[bin] += weight * own * pulls.of(number, index);
                 weights[bin] += weight;
             }
         }
@@ -337,5 +379,36 @@ impl Correlation {
             return 1.0;
         }
         (2.0 * BIN * rest.iter().sum::<f64>() / own).max(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::refine::border::Residual;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    proptest! {
+        #[test]
+        fn derivatives_that_are_kept_are_those_that_are_reckoned(
+            residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),
+            every in 1usize..9, reach in 1usize..600,
+        ) {
+            let sample = |residual: &Option<f32>| BorderPixel {
+                residual: residual.map_or(Residual::Missing, Residual::Px),
+                ..BorderPixel::EMPTY
+            };
+            let border: Vec<BorderPixel> = residuals.iter().map(sample).collect();
+            let loss = Loss::Cauchy(1.5);
+            let mut pulls = Pulls::new(&border, loss);
+            for least in (0..residuals.len()).step_by(every) {
+                let near = residuals.iter().enumerate().skip(least).take(reach);
+                for (number, residual) in near {
+                    let own = residual.map_or(0.0, |px| loss.pull(f64::from(px)));
+                    prop_assert_eq!(pulls.of(number, least), own);
+                }
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use core::fmt::{self, Write};
 
+use fluoropose::camera::CameraError;
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::{Decision, FindError, Found, Goal, find_into};
 use fluoropose::image::contour::Outline;
@@ -9,7 +10,7 @@ use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::MaskError;
 use fluoropose::implant::{Aligned, ImplantError, ImplantFile};
 use fluoropose::pose::EulerPose;
-use fluoropose::{RefineOptions, Silhouette};
+use fluoropose::{Camera, RefineOptions, Silhouette};
 
 use crate::memory::{FRAME_SIDE, MAX_POINTS};
 use crate::proof::read_outline;
@@ -65,6 +66,8 @@ pub enum FindingFailure {
     Implant(ImplantError),
     /// The outline is none, or lies in no part of the frame that there is memory for.
     Outline,
+    /// The calibration is none, or that of other frames.
+    Camera(CameraError),
     /// The mask of it is none.
     Mask(MaskError),
     /// No pose explains it.
@@ -77,6 +80,7 @@ impl fmt::Display for FindingFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Implant(error) => write!(f, "{error}"),
+            Self::Camera(error) => write!(f, "{error}"),
             Self::Outline => write!(f, "the bytes in flash are no outline"),
             Self::Mask(error) => write!(f, "{error}"),
             Self::Find(error) => write!(f, "{error}"),
@@ -95,6 +99,12 @@ impl From<MaskError> for FindingFailure {
     fn from(error: MaskError) -> Self {
         Self::Mask(error)
     }
+}
+
+/// The device's camera: a detector of 512 x 512 pixels of 0.4 mm, 1000 mm from the focus. It sees what the library's camera does, and
+/// knows besides where its detector is, behind which nothing lies.
+fn calibrated() -> Result<Camera, CameraError> {
+    Camera::from_principal_distance(FRAME_SIDE, FRAME_SIDE, 1000.0, 0.4, [0.0; 2])
 }
 
 /// Finds the pose of `outline` (as in [`crate::OUTLINE`]) and writes candidates, choice and verdict to `out`, with every bit,
@@ -123,8 +133,8 @@ pub fn find_pose(
     let mask = crop.fill_outline(&outline, words)?;
     let silhouette = Silhouette::from(&mask).in_crop(&crop)?;
     stage("silhouette filled");
-    let camera = implant.library().info().camera;
-    let camera = camera.cropped(&crop).map_err(|_| FindingFailure::Outline)?;
+    let camera = calibrated().map_err(FindingFailure::Camera)?;
+    let camera = camera.cropped(&crop).map_err(FindingFailure::Camera)?;
     let component = implant.component();
     let options = RefineOptions::default();
     let found = &mut memory.found;

@@ -1,4 +1,4 @@
-//! A pose from an outline in static memory: what the Cortex-M4F and the host both run.
+//! A pose from an outline in static memory: what boards and the host both run.
 //!
 //! The board and the host call [`prove`] with the same bytes; each line it writes must be the same on both.
 #![no_std]

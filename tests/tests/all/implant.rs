@@ -1,6 +1,5 @@
 //! An implant in one file: what is found with it in a part of the frame, and what becomes of damaged bytes.
 
-use fluoropose::canonical::CanonicalSpec;
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::{FinderBuffers, Found, Goal, find};
 use fluoropose::image::crop::Crop;
@@ -9,95 +8,17 @@ use fluoropose::image::runs::{PixelRun, RunBuilder};
 use fluoropose::implant::{
     ArenaNeeds, HEADER_BYTES, ImplantCheck, ImplantError, ImplantFile, write_implant,
 };
-use fluoropose::library::ViewAxis;
 use fluoropose::mesh::OwnedModel;
 use fluoropose::mesh::symmetry::symmetry_planes;
-use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::render::{Projected, render, scratch_needed};
+use fluoropose::pose::geodesic_deg;
+use fluoropose::render::Projected;
 use fluoropose::search::kernels::Kernels;
-use fluoropose::{Camera, Mask, MaskMut, RefineOptions, Silhouette};
+use fluoropose::{Mask, RefineOptions, Silhouette};
 use fluoropose_laboratory::finding::{ViewOptions, build_library};
-use fluoropose_laboratory::options::Range;
-use fluoropose_phantom::implant::{Parameters, Triangles, femur, tibia};
-use fluoropose_tests::surface;
 
-const DISTANCE: f64 = 900.0;
-
-/// A small frame: 512 x 512 pixels of 0.6 mm.
-fn camera() -> Camera {
-    Camera::from_principal_distance(512, 512, 1000.0, 0.6, [3.0, -2.0]).expect("valid")
-}
-
-/// A coarse implant and its file: 64 x 64 pixels, every 5 degrees.
-fn made(make: impl Fn(&Parameters) -> Triangles) -> (OwnedModel, Words) {
-    let parameters = Parameters {
-        resolution: 0.5,
-        ..Parameters::default()
-    };
-    let owned = surface(make(&parameters));
-    let model = owned.as_model();
-    let axis = |reach: f64| {
-        Some(Range(ViewAxis {
-            first: -reach,
-            step: 5.0,
-            count: (reach / 2.5) as usize + 1,
-        }))
-    };
-    let views = ViewOptions {
-        x: axis(15.0),
-        y: axis(20.0),
-        area: Some(CanonicalSpec::COARSE.area()),
-        size: Some(CanonicalSpec::COARSE.size()),
-        ..ViewOptions::default()
-    };
-    let library = build_library(model, camera(), &views, DISTANCE).expect("built");
-    let planes = symmetry_planes(model.mesh());
-    let bytes = write_implant(&model, &library.bytes, &planes, 0.25).expect("they belong together");
-    (owned, Words::of(&bytes))
-}
-
-fn made_femur() -> (OwnedModel, Words) {
-    made(|parameters| femur(parameters).expect("possible"))
-}
-
-/// Bytes at an address that is a multiple of four.
-struct Words {
-    room: Vec<u8>,
-    first: usize,
-    length: usize,
-}
-
-impl Words {
-    fn of(bytes: &[u8]) -> Self {
-        let mut room = vec![0; bytes.len() + 3];
-        let first = room.as_ptr().align_offset(4);
-        room[first..first + bytes.len()].copy_from_slice(bytes);
-        let length = bytes.len();
-        Self {
-            room,
-            first,
-            length,
-        }
-    }
-
-    fn bytes(&self) -> &[u8] {
-        &self.room[self.first..self.first + self.length]
-    }
-
-    fn flip(&mut self, bit: usize) {
-        self.room[self.first + bit / 8] ^= 1 << (bit % 8);
-    }
-}
-
-/// A silhouette at a pose, in all of the frame.
-fn drawn(model: &OwnedModel, euler: EulerPose) -> Vec<u32> {
-    let (model, camera) = (model.as_model(), camera());
-    let mut words = vec![0; words_needed(512, 512)];
-    let mut mask = MaskMut::new(&mut words, 512, 512).expect("fits");
-    let mut scratch = vec![Projected::default(); scratch_needed(&model)];
-    render(&model, &camera, &Pose::from(euler), &mut scratch, &mut mask).expect("in front");
-    words
-}
+use crate::made_implant::{
+    DISTANCE, Words, camera, drawn, is_cut_off, made_femur, made_tibia, poses,
+};
 
 /// What is found of a silhouette in all of the frame, with a model that was linked here.
 fn in_frame(file: &ImplantFile<'_>, own: &OwnedModel, mask: &Mask<'_>) -> Found {
@@ -155,39 +76,19 @@ fn in_crop(file: &ImplantFile<'_>, mask: &Mask<'_>) -> Found {
     .expect("found")
 }
 
-/// Somewhere in the frame, at its border too.
-fn poses() -> impl Iterator<Item = EulerPose> {
-    (0..16).map(|k| {
-        let draw = |irrational: f64, reach: f64| {
-            reach * (2.0 * (irrational * f64::from(k + 1)).fract() - 1.0)
-        };
-        EulerPose {
-            x_mm: draw(2f64.sqrt(), 95.0),
-            y_mm: draw(3f64.sqrt(), 95.0),
-            z_mm: draw(5f64.sqrt(), 40.0) - DISTANCE,
-            z_rot_deg: draw(7f64.sqrt(), 180.0),
-            x_rot_deg: draw(11f64.sqrt(), 14.0),
-            y_rot_deg: draw(13f64.sqrt(), 19.0),
-        }
-    })
-}
-
 #[test]
 fn a_part_of_the_frame_leads_to_the_pose_that_the_frame_leads_to() {
     let mut at_border = 0;
-    for (own, words) in [
-        made_femur(),
-        made(|parameters| tibia(parameters).expect("possible")),
-    ] {
+    for (own, words) in [made_femur(), made_tibia()] {
         let file = ImplantFile::open(words.bytes()).expect("whole");
         for euler in poses() {
             let frame = drawn(&own, euler);
             let mask = Mask::new(&frame, 512, 512).expect("valid");
-            let (columns, rows) = mask.bounds();
-            if columns.start == 0 || rows.start == 0 || columns.end == 512 || rows.end == 512 {
+            if is_cut_off(&mask) {
                 // Cut off: pieces of its outline are looked for in the frame.
                 continue;
             }
+            let (columns, rows) = mask.bounds();
             let after = (512 - columns.end).min(512 - rows.end);
             let nearest = columns.start.min(rows.start).min(after);
             at_border += usize::from(nearest < Crop::MARGIN);
@@ -260,7 +161,7 @@ fn damaged_bytes_are_refused() {
         ImplantFile::open(&odd.bytes()[1..]).err(),
         Some(ImplantError::Place)
     );
-    let (tray, _) = made(|parameters| tibia(parameters).expect("possible"));
+    let (tray, _) = made_tibia();
     let library = build_library(
         tray.as_model(),
         camera(),

@@ -1,6 +1,7 @@
 //! Programs that tests drive: Chromium, Firefox, QEMU and Slurm.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use super::missing::Missing;
 use super::{command, debian};
@@ -43,6 +44,20 @@ const QEMU_ARM: Program = Program {
     variable: "FLUOROPOSE_QEMU_ARM",
 };
 
+const QEMU_RISCV: Program = Program {
+    what: "QEMU for RISC-V (qemu-system-riscv32)",
+    names: &["qemu-system-riscv32"],
+    packages: &["qemu-system-riscv", "qemu-system-misc"],
+    variable: "FLUOROPOSE_QEMU_RISCV",
+};
+
+const ARM_GCC: Program = Program {
+    what: "GCC for Arm (arm-none-eabi-gcc)",
+    names: &["arm-none-eabi-gcc"],
+    packages: &["gcc-arm-none-eabi"],
+    variable: "FLUOROPOSE_ARM_GCC",
+};
+
 const SLURM: Program = Program {
     what: "Slurm",
     names: &["slurmctld"],
@@ -76,6 +91,36 @@ pub(crate) fn firefox() -> Result<PathBuf, Missing> {
 /// QEMU's Arm machine emulator, installed if need be. `FLUOROPOSE_QEMU_ARM` names another one.
 pub(crate) fn qemu_arm() -> Result<PathBuf, Missing> {
     QEMU_ARM.ensure()
+}
+
+/// QEMU's RISC-V machine emulator, installed if need be. `FLUOROPOSE_QEMU_RISCV` names another one.
+pub(crate) fn qemu_riscv() -> Result<PathBuf, Missing> {
+    QEMU_RISCV.ensure()
+}
+
+/// A C compiler for Arm without an operating system, installed if need be. `FLUOROPOSE_ARM_GCC` names another one.
+pub(crate) fn arm_gcc() -> Result<PathBuf, Missing> {
+    ARM_GCC.ensure()
+}
+
+/// What programs of 32 bits are linked with on a machine of 64, installed if need be.
+pub(crate) fn linker_for_32_bits() -> Result<(), Missing> {
+    let is_there = || {
+        // A name without a folder where there is none.
+        let first = command::output(Command::new("cc").args(["-m32", "-print-file-name=crt1.o"]));
+        first.is_ok_and(|file| Path::new(file.trim()).is_file())
+    };
+    let what = "linker for 32 bits";
+    if is_there() {
+        return Ok(());
+    }
+    debian::install(what, &["gcc-multilib"])?;
+    is_there().then_some(()).ok_or_else(|| Missing {
+        what: what.into(),
+        why: "its package is installed but `cc -m32` finds nothing".into(),
+        remedy: "install what your distribution calls gcc-multilib".into(),
+        tried: true,
+    })
 }
 
 impl Program {

@@ -1,4 +1,4 @@
-//! Compilers for targets other than this machine: WASM and Cortex-M.
+//! Compilers for targets other than this machine: WASM, microcontrollers, 32 bits.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -12,6 +12,12 @@ use crate::workspace;
 pub(crate) const WASM: &str = "wasm32-unknown-unknown";
 /// The firmware's target: Cortex-M4F.
 pub(crate) const CORTEX_M4F: &str = "thumbv7em-none-eabihf";
+/// A processor without floating point, wide products and atomics: Cortex-M0+.
+pub(crate) const CORTEX_M0: &str = "thumbv6m-none-eabi";
+/// RISC-V without floating point.
+pub(crate) const RISCV32: &str = "riscv32imac-unknown-none-elf";
+/// This kind of machine with 32 bits.
+pub(crate) const I686: &str = "i686-unknown-linux-gnu";
 
 /// A compiler that has the standard (or core) library of a target, or builds it.
 #[derive(Debug, Clone, PartialEq, Eq)]

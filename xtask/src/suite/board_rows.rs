@@ -22,12 +22,12 @@ const TOLERANCE: u64 = 20;
 /// And by so much, whatever it is: one more call in a hundred.
 const SMALL: u64 = 100;
 
-/// The row in `info: WORK: VALUE UNIT`, of a program of this name.
-pub(crate) fn read(program: &str, line: &str) -> Option<Row> {
+/// The row in `info: WORK: VALUE UNIT`, of a program of this name on a board.
+pub(crate) fn read(board: &'static str, program: &str, line: &str) -> Option<Row> {
     let (work, figure) = line.strip_prefix("info: ")?.rsplit_once(": ")?;
     let (value, unit) = figure.split_once(' ')?;
     Some(Row {
-        board: "Cortex-M4F",
+        board,
         work: format!("{program}: {work}"),
         value: value.parse().ok()?,
         unit: unit.into(),
@@ -104,6 +104,23 @@ pub(crate) fn write_json(rows: &[Row], file: &Path) -> Result<()> {
     fs::write(file, text + "\n").with_context(|| format!("cannot write {}", file.display()))
 }
 
+/// Adds rows to those of a file that [`write_json`] wrote.
+///
+/// Errors where it is none, or cannot be written.
+pub(crate) fn add_json(rows: &[Row], file: &Path) -> Result<()> {
+    let text = fs::read_to_string(file).context("no figures were written")?;
+    let mut all: serde_json::Value = serde_json::from_str(&text)?;
+    let list = all
+        .get_mut("rows")
+        .and_then(serde_json::Value::as_array_mut);
+    let list = list.context("the figures have no rows")?;
+    for row in rows {
+        list.push(serde_json::to_value(row)?);
+    }
+    let text = serde_json::to_string_pretty(&all)?;
+    fs::write(file, text + "\n").with_context(|| format!("cannot write {}", file.display()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -111,13 +128,14 @@ mod tests {
     #[test]
     fn a_row_is_read_from_what_the_board_says() {
         let row = read(
+            "Cortex-M4F",
             "finder",
             "info: implant opened, checked: 4000123 instructions",
         )
         .unwrap();
         assert_eq!(row.work, "finder: implant opened, checked");
         assert_eq!((row.value, row.unit.as_str()), (4_000_123, "instructions"));
-        assert_eq!(read("finder", "x mm: 3.0"), None);
+        assert_eq!(read("Cortex-M4F", "finder", "x mm: 3.0"), None);
     }
 
     #[test]

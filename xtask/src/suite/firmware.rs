@@ -1,4 +1,4 @@
-//! The Cortex-M4F application under QEMU, compared with this machine line by line.
+//! The Cortex-M4F application under QEMU, compared with this machine line by line. Other boards: `boards.rs`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -49,9 +49,9 @@ pub(crate) fn figures() -> PathBuf {
 }
 
 /// One program for the board, and how near to the true pose it comes.
-struct Program {
-    name: &'static str,
-    features: &'static [&'static str],
+pub(super) struct Program {
+    pub(super) name: &'static str,
+    pub(super) features: &'static [&'static str],
     within: Within,
 }
 
@@ -68,7 +68,7 @@ const OF_A_VIEW: Within = Within {
     depth_mm: 6.0,
 };
 
-const LIBRARY: Program = Program {
+pub(super) const LIBRARY: Program = Program {
     name: "library",
     features: &[],
     within: OF_A_VIEW,
@@ -81,7 +81,7 @@ const MICROMATH: Program = Program {
 };
 
 /// Its surface is coarser than the one that was seen.
-const FINDER: Program = Program {
+pub(super) const FINDER: Program = Program {
     name: "finder",
     features: &["--features", "finder"],
     within: Within {
@@ -92,11 +92,11 @@ const FINDER: Program = Program {
 };
 
 /// Where all that belongs to the firmware goes.
-fn folder() -> PathBuf {
+pub(super) fn folder() -> PathBuf {
     workspace::target_dir().join("firmware")
 }
 
-fn inputs_folder() -> PathBuf {
+pub(super) fn inputs_folder() -> PathBuf {
     folder().join("inputs")
 }
 
@@ -143,7 +143,7 @@ fn compare(program: &Program, rows: &mut Vec<Row>) -> Result<Said> {
     let mut found = Vec::new();
     for line in information.chain(own.iter().map(String::as_str)) {
         say(line);
-        found.extend(board_rows::read(program.name, line));
+        found.extend(board_rows::read("Cortex-M4F", program.name, line));
     }
     let count = ensure_alike(&host, &board)?;
     check_pose(&host, &program.within)?;
@@ -156,7 +156,7 @@ fn compare(program: &Program, rows: &mut Vec<Row>) -> Result<Said> {
 }
 
 /// The number of lines, which must be the same but for the board's own information.
-fn ensure_alike(host: &str, board: &str) -> Result<usize> {
+pub(super) fn ensure_alike(host: &str, board: &str) -> Result<usize> {
     let expected: Vec<&str> = host.lines().collect();
     let found: Vec<&str> = board.lines().filter(|line| !is_information(line)).collect();
     for (expected, found) in expected.iter().zip(&found) {
@@ -186,7 +186,7 @@ const HOST: [&str; 8] = [
     "profile.release.codegen-units=16",
 ];
 
-fn on_host(features: &[&str]) -> Result<String> {
+pub(super) fn on_host(features: &[&str]) -> Result<String> {
     let mut cargo = own_cargo();
     at_firmware(cargo.args(["run", "--quiet", "--release"]).args(HOST)).args(features);
     cargo.arg("--target-dir").arg(folder());
@@ -194,7 +194,7 @@ fn on_host(features: &[&str]) -> Result<String> {
     command::output(&mut cargo)
 }
 
-fn build(toolchain: &Toolchain, features: &[&str]) -> Result<PathBuf> {
+pub(super) fn build(toolchain: &Toolchain, features: &[&str]) -> Result<PathBuf> {
     let mut cargo = toolchain.cargo("build", &folder());
     at_firmware(cargo.arg("--release")).args(features);
     // Debian's compiler brings no lints.
@@ -208,19 +208,24 @@ fn build(toolchain: &Toolchain, features: &[&str]) -> Result<PathBuf> {
 }
 
 /// Boards as QEMU calls them: a Cortex-M4F, a Cortex-M7.
-const M4F: &str = "mps2-an386";
+pub(super) const M4F: &str = "mps2-an386";
 const M7: &str = "mps2-an500";
 
-fn on_board(qemu: &Path, machine: &str, image: &Path) -> Result<String> {
+/// What an image for a board of the Cortex-M family writes.
+pub(super) fn on_board(qemu: &Path, machine: &str, image: &Path) -> Result<String> {
     let mut board = Command::new(qemu);
-    board.args(["-M", machine, "-nographic", "-icount", "shift=6"]);
-    board
-        .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
-        .arg(image);
-    command::output_within(QEMU_LIMIT, &mut board).context("the board did not finish its proof")
+    board.args(["-M", machine, "-icount", "shift=6"]);
+    board.args(["-semihosting-config", "enable=on,target=native"]);
+    emulated(&mut board, image)
 }
 
-fn is_information(line: &str) -> bool {
+/// What an image writes.
+pub(super) fn emulated(board: &mut Command, image: &Path) -> Result<String> {
+    board.args(["-nographic", "-kernel"]).arg(image);
+    command::output_within(QEMU_LIMIT, board).context("the board did not finish its proof")
+}
+
+pub(super) fn is_information(line: &str) -> bool {
     line.starts_with("info: ")
 }
 

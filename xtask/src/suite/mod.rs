@@ -1,6 +1,7 @@
 //! The suites of the verb `test`.
 
 mod board_rows;
+pub(crate) mod boards;
 mod browser;
 mod calls;
 pub(crate) mod changed;

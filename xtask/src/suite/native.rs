@@ -57,6 +57,7 @@ pub(crate) fn run(report: &mut Report) {
             "fluoropose-tracing",
             "fluoropose-distortion",
             "fluoropose-kernels",
+            "fluoropose-embedded",
         ];
         let packages = crates.iter().flat_map(|name| ["--package", name]);
         let mut cargo = own_cargo();

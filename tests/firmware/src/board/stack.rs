@@ -10,9 +10,16 @@ unsafe extern "C" {
     static __sdata: u32;
     /// First address after the statics, where the stack may grow down to.
     static __euninit: u32;
-    /// First address after code and constants, which begin at address 0.
+    /// First address after code and constants.
     static __erodata: u32;
 }
+
+/// Where code and constants begin.
+const CODE: usize = if cfg!(target_arch = "arm") {
+    0
+} else {
+    0x8000_0000
+};
 
 const PAINT: u32 = 0x5afe_57ac;
 /// Words painted: far more than the stack is expected to take, far fewer than there is room for.
@@ -23,7 +30,8 @@ const MARGIN: usize = 256;
 /// Paints the unused stack. Call it first of all.
 #[inline(never)]
 pub(crate) fn paint() {
-    let here = cortex_m::register::msp::read() as usize / 4 - MARGIN;
+    let local = 0u32;
+    let here = addr_of!(local) as usize / 4 - MARGIN;
     for word in bottom()..here {
         // SAFETY: between the statics and the live stack there is nothing else.
         unsafe { write_volatile((word * 4) as *mut u32, PAINT) };
@@ -49,7 +57,7 @@ pub(crate) fn statics() -> usize {
 
 /// Bytes of code and constants.
 pub(crate) fn code() -> usize {
-    addr_of!(__erodata) as usize
+    addr_of!(__erodata) as usize - CODE
 }
 
 fn top() -> usize {

@@ -1,0 +1,23 @@
+/* The board under the example. */
+#ifndef BOARD_H
+#define BOARD_H
+
+#include <stdint.h>
+
+/* Words of stack that are watched. */
+#define BOARD_STACK_WORDS (32u * 1024u)
+
+/* The program: gives 0 where it succeeded. */
+int application(void);
+
+/* Words for whoever watches. */
+void board_write(const char *words);
+/* Ends the program. */
+void board_exit(int failed) __attribute__((noreturn));
+/* Ticks of the clock. Under QEMU with `-icount shift=6` an instruction takes 1.6 of them. */
+uint64_t board_ticks(void);
+/* Bytes of stack that were used at its highest. */
+void board_paint_stack(void);
+uint32_t board_stack_used(void);
+
+#endif

@@ -1,0 +1,261 @@
+//! An implant that is looked for, frame after frame, in memory that was borrowed once.
+
+use fluoropose::film::LineMemory;
+use fluoropose::finder::choice::ChoiceContext;
+use fluoropose::finder::{Decision, Wanted, find_paced};
+use fluoropose::image::crop::Crop;
+use fluoropose::image::mask::{MaskError, Word};
+use fluoropose::image::runs::{PixelRun, RunBuilder};
+use fluoropose::implant::{ArenaNeeds, ImplantFile};
+use fluoropose::locate::partial::PartialMemory;
+use fluoropose::pace::Pace;
+use fluoropose::refine::BorderPixel;
+use fluoropose::render::Projected;
+use fluoropose::search::kernels::Kernels;
+use fluoropose::{
+    Camera, FinderMemory, Found, Goal, Mask, Outline, Point, RefineMemory, RefineOptions,
+    Silhouette, Workspace,
+};
+
+use crate::block::{Block, units_for};
+use crate::failure::Failure;
+use crate::layouts::{CandidateNumbers, FoundNumbers, Room};
+
+/// An implant, a camera, and all that is worked in.
+pub struct Session<'m> {
+    implant: ImplantFile<'m>,
+    camera: Camera,
+    memory: FinderMemory<'m>,
+    words: &'m mut [Word],
+    runs: RunBuilder<'m>,
+    seen: Seen,
+    found: Found,
+    decision: Option<Decision>,
+}
+
+/// What is known of the frame.
+#[derive(Clone, Copy)]
+enum Seen {
+    Nothing,
+    /// Rows come.
+    Rows,
+    /// The silhouette in a part of it, whose pixels are in memory.
+    Part(Crop),
+}
+
+/// Crossings of all rows that memory is reckoned for: 32 bits hold what follows from them.
+const CROSSINGS: usize = 1 << 26;
+
+/// Units of memory that a session of an implant takes; `None` for a room that no frame has.
+pub(crate) fn units_needed(implant: &ImplantFile<'_>, room: &Room) -> Option<usize> {
+    let needs = needs(implant, room)?;
+    let masks = units_for::<Word>(needs.words)?.checked_mul(2)?;
+    let canonical = units_for::<Word>(needs.canonical)?.checked_mul(2)?;
+    [
+        masks,
+        canonical,
+        units_for::<u32>(needs.scores)?,
+        units_for::<u8>(needs.bytes)?,
+        units_for::<Projected>(needs.projected)?,
+        units_for::<[Word; 2]>(needs.words)?,
+        units_for::<BorderPixel>(room.border as usize)?,
+        units_for::<PixelRun>(room.runs as usize)?,
+    ]
+    .into_iter()
+    .try_fold(0usize, usize::checked_add)
+}
+
+fn needs(implant: &ImplantFile<'_>, room: &Room) -> Option<ArenaNeeds> {
+    let (columns, rows) = (room.columns as usize, room.rows as usize);
+    Crop::whole(columns, rows).ok()?;
+    let crossings = rows.checked_mul(implant.contour_needs().crossings_a_row)?;
+    let needs = || ArenaNeeds::of(implant.bytes(), columns, rows);
+    (crossings < CROSSINGS).then(needs)
+}
+
+impl<'m> Session<'m> {
+    /// An implant that is looked for with the camera of its library, until another is set.
+    ///
+    /// # Errors
+    /// [`Failure::Memory`] where `memory` is too short for `room`.
+    pub(crate) fn new(
+        implant: ImplantFile<'m>,
+        room: &Room,
+        mut block: Block<'m>,
+    ) -> Result<Self, Failure> {
+        let camera = implant.library().info().camera;
+        let needs = needs(&implant, room).ok_or(Failure::Memory)?;
+        let runs = block.take(room.runs as usize, PixelRun::EMPTY);
+        let words = block.take(needs.words, 0);
+        let memory = finder_memory(&mut block, &needs, room);
+        Ok(Self {
+            runs: RunBuilder::new(
+                runs.ok_or(Failure::Memory)?,
+                camera.width(),
+                camera.height(),
+            )?,
+            words: words.ok_or(Failure::Memory)?,
+            memory: memory.ok_or(Failure::Memory)?,
+            implant,
+            camera,
+            seen: Seen::Nothing,
+            found: Found::NOTHING,
+            decision: None,
+        })
+    }
+
+    /// The camera that frames are looked at with.
+    #[must_use]
+    pub fn camera(&self) -> Camera {
+        self.camera
+    }
+
+    /// Looks at frames of another camera from now on.
+    pub fn set_camera(&mut self, camera: Camera) {
+        self.camera = camera;
+        self.forget();
+    }
+
+    fn forget(&mut self) {
+        self.seen = Seen::Nothing;
+        self.decision = None;
+    }
+
+    /// Takes an outline of the next frame.
+    ///
+    /// # Errors
+    /// [`Failure`] for points that are none, or more of the frame than there is memory for.
+    pub fn outline(&mut self, points: &[Point]) -> Result<(), Failure> {
+        self.forget();
+        let frame = [self.camera.width(), self.camera.height()];
+        let outline = Outline::new(points, frame[0], frame[1])?;
+        let crop = Crop::around_outline(&outline, Crop::MARGIN, frame)?;
+        let mask = crop.fill_outline(&outline, self.words)?;
+        if mask.area() == 0 {
+            return Err(MaskError::Empty.into());
+        }
+        self.seen = Seen::Part(crop);
+        Ok(())
+    }
+
+    /// Rows of the next frame's silhouette come.
+    ///
+    /// # Errors
+    /// None, of a camera that was set.
+    pub fn begin_rows(&mut self) -> Result<(), Failure> {
+        self.forget();
+        self.runs
+            .restart(self.camera.width(), self.camera.height())?;
+        self.seen = Seen::Rows;
+        Ok(())
+    }
+
+    /// Adds a row, pixel by pixel from the left: `true` is the silhouette.
+    ///
+    /// # Errors
+    /// [`Failure::Order`] before [`Self::begin_rows`]; [`Failure::Rows`] for rows that do not rise, reach beyond the frame or
+    /// have more runs than there is memory for: the silhouette is lost then.
+    pub fn row(
+        &mut self,
+        row: usize,
+        pixels: impl IntoIterator<Item = bool>,
+    ) -> Result<(), Failure> {
+        if !matches!(self.seen, Seen::Rows) {
+            return Err(Failure::Order);
+        }
+        let added = self.runs.add_row(row, pixels);
+        if added.is_err() {
+            self.forget();
+        }
+        Ok(added?)
+    }
+
+    /// Finds the poses that explain the silhouette, chooses among them and judges the choice; in slices.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    pub async fn find(&mut self, pace: &Pace) -> Result<(), Failure> {
+        self.decision = None;
+        let crop = self.part()?;
+        let words = self.words.get(..crop.words_needed()).unwrap_or_default();
+        let mask = Mask::new(words, crop.width(), crop.height())?;
+        let silhouette = Silhouette::from(&mask).in_crop(&crop)?;
+        let camera = self.camera.cropped(&crop)?;
+        let component = self.implant.component();
+        let (memory, found) = (&mut self.memory, &mut self.found);
+        let wanted = Wanted {
+            component: &component,
+            camera: &camera,
+            silhouette: &silhouette,
+            goal: Goal::Outline,
+            options: RefineOptions::default(),
+        };
+        find_paced(&wanted, memory, found, pace).await?;
+        self.decision = found.decide(&ChoiceContext::default());
+        Ok(())
+    }
+
+    /// The part of the frame with the silhouette, whose pixels are in memory then.
+    fn part(&mut self) -> Result<Crop, Failure> {
+        let crop = match self.seen {
+            Seen::Nothing => return Err(Failure::Order),
+            Seen::Part(crop) => return Ok(crop),
+            Seen::Rows => {
+                let runs = self.runs.runs();
+                let crop = runs.crop(Crop::MARGIN)?;
+                runs.draw(&crop, self.words)?;
+                crop
+            }
+        };
+        self.seen = Seen::Part(crop);
+        Ok(crop)
+    }
+
+    /// What was found, and the decision.
+    ///
+    /// # Errors
+    /// [`Failure::Order`] where nothing was.
+    pub fn decision(&self) -> Result<(FoundNumbers, &Decision), Failure> {
+        match (&self.decision, self.seen) {
+            (Some(decision), Seen::Part(crop)) => {
+                let count = self.found.candidates.len();
+                Ok((FoundNumbers::of(count, decision, &crop), decision))
+            }
+            _ => Err(Failure::Order),
+        }
+    }
+
+    /// One of the poses that explain the silhouette, the best is number 0.
+    ///
+    /// # Errors
+    /// [`Failure::Order`] where there are not so many.
+    pub fn candidate(&self, number: usize) -> Result<CandidateNumbers, Failure> {
+        self.decision()?;
+        let candidate = self.found.candidates.get(number);
+        candidate.map(CandidateNumbers::from).ok_or(Failure::Order)
+    }
+}
+
+fn finder_memory<'m>(
+    block: &mut Block<'m>,
+    needs: &ArenaNeeds,
+    room: &Room,
+) -> Option<FinderMemory<'m>> {
+    Some(FinderMemory {
+        workspace: Workspace {
+            canonical: block.take(needs.canonical, 0)?,
+            rotated: block.take(needs.canonical, 0)?,
+            scores: block.take(needs.scores, 0)?,
+            bytes: block.take(needs.bytes, 0)?,
+            kernels: Kernels::PORTABLE,
+        },
+        partial: PartialMemory::default(),
+        refine: RefineMemory {
+            projected: block.take(needs.projected, Projected::ZERO)?,
+            drawn: block.take(needs.words, 0)?,
+            places: block.take(needs.words, [0; 2])?,
+            border: block.take(room.border as usize, BorderPixel::EMPTY)?,
+            film: LineMemory::default(),
+        },
+    })
+}

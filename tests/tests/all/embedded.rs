@@ -1,0 +1,592 @@
+//! The C interface: its header is the library's, its answers are the finder's, and no pointer ends the program.
+#![expect(unsafe_code, reason = "functions for C are called as C calls them")]
+
+use std::collections::BTreeMap;
+use std::ptr::{null, null_mut};
+
+use fluoropose::finder::{FinderBuffers, Goal, find};
+use fluoropose::image::crop::Crop;
+use fluoropose::implant::ImplantFile;
+use fluoropose::search::kernels::Kernels;
+use fluoropose::{Mask, Point, RefineOptions, Silhouette};
+use fluoropose_embedded::exports::*;
+use fluoropose_embedded::{
+    CalibrationNumbers, CameraNumbers, CandidateNumbers, FoundNumbers, Room, Status,
+};
+
+use crate::made_implant::{camera, drawn, is_cut_off, made_femur, made_tibia, poses};
+
+const HEADER: &str = include_str!("../../../core/embedded/include/fluoropose.h");
+const EXPORTS: &str = include_str!("../../../core/embedded/src/exports.rs");
+
+const ROOM: Room = Room {
+    columns: 512,
+    rows: 512,
+    border: 3000,
+    runs: 2000,
+};
+
+/// A session as C has it.
+struct Opened {
+    finder: *mut fluoropose_embedded::exports::Opened,
+    _memory: Vec<u64>,
+}
+
+fn opened(implant: &[u8], room: &Room) -> Opened {
+    let (bytes, length) = (implant.as_ptr(), implant.len());
+    let mut finder = null_mut();
+    // SAFETY: all pointers lead to what is said with them; memory and implant outlive the session.
+    unsafe {
+        let needed = fluoropose_bytes_needed(bytes, length, room);
+        assert!(needed > 0 && needed.is_multiple_of(8));
+        let mut memory = vec![0u64; needed / 8];
+        let place = memory.as_mut_ptr().cast();
+        for short in [0, 7, 8, needed / 2, needed - 8] {
+            let status = fluoropose_open(&mut finder, bytes, length, 1, room, place, short);
+            assert_eq!(
+                (status, finder.is_null()),
+                (Status::Memory, true),
+                "{short} of {needed}"
+            );
+        }
+        let status = fluoropose_open(&mut finder, bytes, length, 0, room, place, needed);
+        assert_eq!((status, finder.is_null()), (Status::Ok, false));
+        Opened {
+            finder,
+            _memory: memory,
+        }
+    }
+}
+
+impl Opened {
+    fn rows(&self, mask: &Mask<'_>) {
+        // SAFETY: an open session; rows are as long as is said.
+        unsafe {
+            assert_eq!(fluoropose_begin_rows(self.finder), Status::Ok);
+            for row in 0..mask.height() {
+                let pixels = (0..mask.width()).map(|column| u8::from(mask.get(column, row)));
+                let pixels: Vec<u8> = pixels.collect();
+                let status = fluoropose_row(self.finder, row as u32, pixels.as_ptr(), pixels.len());
+                assert_eq!(status, Status::Ok);
+            }
+        }
+    }
+
+    fn found(&self) -> FoundNumbers {
+        let mut found = FoundNumbers::default();
+        // SAFETY: an open session, and room for it.
+        assert_eq!(
+            unsafe { fluoropose_found_of(self.finder, &mut found) },
+            Status::Ok
+        );
+        found
+    }
+
+    fn candidate(&self, number: u32) -> CandidateNumbers {
+        let mut candidate = CandidateNumbers::default();
+        // SAFETY: an open session, and room for it.
+        let status = unsafe { fluoropose_candidate_of(self.finder, number, &mut candidate) };
+        assert_eq!(status, Status::Ok);
+        candidate
+    }
+
+    fn sentence(&self) -> String {
+        let mut text = [1i8; 300];
+        // SAFETY: an open session, and as much room as is said.
+        let length = unsafe { fluoropose_sentence(self.finder, text.as_mut_ptr().cast(), 300) };
+        assert_eq!(text[length], 0);
+        text[..length]
+            .iter()
+            .map(|&byte| char::from(byte as u8))
+            .collect()
+    }
+}
+
+#[test]
+fn c_finds_what_the_finder_finds_and_so_in_slices() {
+    for (own, bytes) in [made_femur(), made_tibia()] {
+        let c = opened(bytes.bytes(), &ROOM);
+        let file = ImplantFile::open(bytes.bytes()).expect("whole");
+        let component = file.component();
+        for euler in poses().skip(2).step_by(6) {
+            let words = drawn(&own, euler);
+            let mask = Mask::new(&words, 512, 512).expect("valid");
+            if is_cut_off(&mask) {
+                continue;
+            }
+            let (columns, rows) = mask.bounds();
+            let crop = Crop::around(columns, rows, Crop::MARGIN, [512; 2]).expect("some");
+            let mut part = crop
+                .mask(vec![0; crop.words_needed()].leak())
+                .expect("fits");
+            for row in crop.rows() {
+                for column in crop.columns() {
+                    let at = (column - crop.columns().start, row - crop.rows().start);
+                    part.set(at.0, at.1, mask.get(column, row));
+                }
+            }
+            let part = part.into_mask();
+            let silhouette = Silhouette::from(&part).in_crop(&crop).expect("inside");
+            let camera = camera().cropped(&crop).expect("a part");
+            let mut buffers = FinderBuffers::default();
+            let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
+            memory.partial = Default::default();
+            let options = RefineOptions::default();
+            let own = find(
+                &component,
+                &camera,
+                &silhouette,
+                Goal::Outline,
+                options,
+                &mut memory,
+            );
+            let own = own.expect("found");
+            let decision = own.decide(&Default::default()).expect("some");
+            for slices in [u32::MAX, 1] {
+                c.rows(&mask);
+                // SAFETY: an open session.
+                let more = || unsafe { fluoropose_go_on(c.finder, slices) };
+                let calls = (1..).find(|_| more() != Status::More).expect("it ends");
+                assert!(calls > 10 || slices > 1, "{calls} calls");
+                let found = c.found();
+                assert_eq!(found.candidates as usize, own.candidates.len());
+                assert_eq!(found.chosen as usize, decision.choice.index);
+                assert_eq!(found.part[2..], [crop.width() as u32, crop.height() as u32]);
+                assert_eq!(c.sentence(), decision.verdict.to_string());
+                for (number, own) in own.candidates.iter().enumerate() {
+                    let there = c.candidate(number as u32);
+                    assert_eq!(
+                        (there.rotation, there.translation_mm),
+                        (own.pose.rotation, own.pose.translation)
+                    );
+                    let covariance = own.covariance.map(|own| own.matrix);
+                    assert_eq!(
+                        (there.has_covariance > 0).then_some(there.covariance),
+                        covariance
+                    );
+                    assert_eq!((there.misfit_px, there.met), (own.misfit(), own.fit.met));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_comes_in_a_wrong_order_is_refused() {
+    let (own, bytes) = made_femur();
+    let c = opened(bytes.bytes(), &ROOM);
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let (mut found, mut candidate) = (FoundNumbers::default(), CandidateNumbers::default());
+    // SAFETY: an open session; what is not null leads to what is said.
+    unsafe {
+        assert_eq!(fluoropose_row(c.finder, 0, [1].as_ptr(), 1), Status::Order);
+        assert_eq!(fluoropose_find(c.finder), Status::Order);
+        assert_eq!(fluoropose_found_of(c.finder, &mut found), Status::Order);
+        assert!(c.sentence().starts_with("a silhouette comes first"));
+        c.rows(&mask);
+        assert_eq!(fluoropose_go_on(c.finder, 3), Status::More);
+        // While it works nothing is told; what begins anew gives it up.
+        assert_eq!(fluoropose_found_of(c.finder, &mut found), Status::Order);
+        assert_eq!(
+            fluoropose_candidate_of(c.finder, 0, &mut candidate),
+            Status::Order
+        );
+        let mut camera = CameraNumbers::default();
+        assert_eq!(fluoropose_camera_of(c.finder, &mut camera), Status::Order);
+        assert_eq!(fluoropose_begin_rows(c.finder), Status::Ok);
+        assert_eq!(fluoropose_camera_of(c.finder, &mut camera), Status::Ok);
+        assert_eq!((camera.width, camera.height), (512, 512));
+        assert_eq!(fluoropose_find(c.finder), Status::Silhouette);
+        c.rows(&mask);
+        assert_eq!(fluoropose_row(c.finder, 5, [1].as_ptr(), 1), Status::Rows);
+        assert_eq!(fluoropose_find(c.finder), Status::Order);
+        c.rows(&mask);
+        assert_eq!(fluoropose_find(c.finder), Status::Ok);
+        assert_eq!(c.found().verdict, 0);
+        assert_eq!(
+            fluoropose_candidate_of(c.finder, 99, &mut candidate),
+            Status::Order
+        );
+        // Another camera: nothing is left of what was found, and impossible ones are refused.
+        camera.fx = f64::NAN;
+        assert_eq!(fluoropose_set_camera(c.finder, &camera), Status::Camera);
+        camera.fx = camera.fy;
+        assert_eq!(fluoropose_set_camera(c.finder, &camera), Status::Ok);
+        assert_eq!(fluoropose_found_of(c.finder, &mut found), Status::Order);
+        // That of the library, with a detector in front of the implant: what was good is doubtful.
+        let mut calibration = CalibrationNumbers {
+            width: 512,
+            height: 512,
+            distance_mm: 600.0,
+            pitch_mm: 0.36,
+            right_mm: 1.8,
+            up_mm: -1.2,
+        };
+        let set = fluoropose_set_calibration(c.finder, &calibration);
+        assert_eq!(set, Status::Ok);
+        c.rows(&mask);
+        assert_eq!(fluoropose_find(c.finder), Status::Ok);
+        assert_eq!(c.found().verdict, 1);
+        assert!(
+            c.sentence().contains("behind the detector"),
+            "{}",
+            c.sentence()
+        );
+        calibration.pitch_mm = 0.0;
+        let set = fluoropose_set_calibration(c.finder, &calibration);
+        assert_eq!(set, Status::Camera);
+    }
+}
+
+#[test]
+fn pointers_that_lead_nowhere_give_an_error() {
+    let (own, bytes) = made_femur();
+    let (file, length) = (bytes.bytes().as_ptr(), bytes.bytes().len());
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let c = opened(bytes.bytes(), &ROOM);
+    c.rows(&mask);
+    let (mut finder, mut memory) = (null_mut(), vec![0u64; 64]);
+    let place: *mut u8 = memory.as_mut_ptr().cast();
+    let room: *const Room = &ROOM;
+    // SAFETY: what is not null leads to as much as is said.
+    unsafe {
+        let odd = place.add(1);
+        for (status, file, length, room, place) in [
+            (Status::Pointer, file, length, null(), place),
+            (Status::Pointer, file, length, room, null_mut()),
+            (Status::Pointer, file, length, room, odd),
+            (Status::Pointer, file, length, odd.cast(), place),
+            (Status::Implant, null(), length, room, place),
+            (Status::Implant, file.add(1), length - 1, room, place),
+            (Status::Implant, file, 7, room, place),
+            (Status::Implant, file, usize::MAX, room, place),
+        ] {
+            for trusted in [0, 1] {
+                let opened = fluoropose_open(&mut finder, file, length, trusted, room, place, 504);
+                assert_eq!((opened, finder.is_null()), (status, true));
+            }
+        }
+        let opened = fluoropose_open(null_mut(), file, length, 1, &ROOM, place, 512);
+        assert_eq!(opened, Status::Pointer);
+        assert_eq!(fluoropose_bytes_needed(null(), length, &ROOM), 0);
+        assert_eq!(fluoropose_bytes_needed(file, length, null()), 0);
+        for impossible in [[0, 9], [9, 0], [u32::MAX; 2]] {
+            let [columns, rows] = impossible;
+            let room = Room {
+                columns,
+                rows,
+                ..ROOM
+            };
+            assert_eq!(fluoropose_bytes_needed(file, length, &room), 0);
+        }
+        for border in [u32::MAX, 1 << 31] {
+            // A list that no memory has on 32 bits; on 64, one that is longer than what is given.
+            let room = Room {
+                border,
+                runs: border,
+                ..ROOM
+            };
+            let opened = fluoropose_open(&mut finder, file, length, 1, &room, place, 512);
+            assert_eq!(opened, Status::Memory);
+        }
+        // No session: null, at an odd place, zeros, one that could not be opened.
+        for finder in [null_mut(), odd.cast(), place.cast()] {
+            assert_eq!(
+                fluoropose_camera_of(finder, &mut CameraNumbers::default()),
+                Status::Pointer
+            );
+            assert_eq!(
+                fluoropose_set_camera(finder, &CameraNumbers::default()),
+                Status::Pointer
+            );
+            assert_eq!(
+                fluoropose_outline(finder, [Point::new(0.0, 0.0)].as_ptr(), 1),
+                Status::Pointer
+            );
+            assert_eq!(
+                fluoropose_set_calibration(finder, &CalibrationNumbers::default()),
+                Status::Pointer
+            );
+            assert_eq!(fluoropose_begin_rows(finder), Status::Pointer);
+            assert_eq!(fluoropose_row(finder, 0, [1].as_ptr(), 1), Status::Pointer);
+            assert_eq!(fluoropose_find(finder), Status::Pointer);
+            assert_eq!(fluoropose_go_on(finder, 1), Status::Pointer);
+            assert_eq!(
+                fluoropose_found_of(finder, &mut FoundNumbers::default()),
+                Status::Pointer
+            );
+            assert_eq!(
+                fluoropose_candidate_of(finder, 0, &mut CandidateNumbers::default()),
+                Status::Pointer
+            );
+            assert_eq!(fluoropose_sentence(finder, null_mut(), 0), 0);
+        }
+        let finder = c.finder;
+        assert_eq!(fluoropose_outline(finder, null(), 5), Status::Pointer);
+        assert_eq!(fluoropose_outline(finder, null(), 0), Status::Outline);
+        assert_eq!(fluoropose_outline(finder, odd.cast(), 3), Status::Pointer);
+        assert_eq!(
+            fluoropose_outline(finder, place.cast(), usize::MAX),
+            Status::Pointer
+        );
+        c.rows(&mask);
+        assert_eq!(fluoropose_row(finder, 511, null(), 5), Status::Pointer);
+        assert_eq!(fluoropose_row(finder, 511, null(), 0), Status::Ok);
+        assert_eq!(fluoropose_find(finder), Status::Ok);
+        assert_eq!(fluoropose_set_camera(finder, null()), Status::Pointer);
+        assert_eq!(fluoropose_camera_of(finder, null_mut()), Status::Pointer);
+        assert_eq!(fluoropose_found_of(finder, null_mut()), Status::Pointer);
+        assert_eq!(
+            fluoropose_candidate_of(finder, 0, odd.cast()),
+            Status::Pointer
+        );
+        // A sentence is cut off, and ends where there is room for its end.
+        let whole = c.sentence();
+        let mut text = [1u8; 6];
+        assert_eq!(
+            fluoropose_sentence(finder, text.as_mut_ptr().cast(), 5),
+            whole.len()
+        );
+        assert_eq!(
+            (&text[..4], &text[4..]),
+            (&whole.as_bytes()[..4], &[0, 1][..])
+        );
+        assert_eq!(fluoropose_sentence(finder, null_mut(), 5), whole.len());
+        assert_eq!(
+            fluoropose_sentence(finder, text.as_mut_ptr().cast(), 0),
+            whole.len()
+        );
+    }
+}
+
+#[test]
+fn what_there_is_no_room_for_is_refused() {
+    let (own, bytes) = made_femur();
+    let words = drawn(&own, poses().nth(2).expect("some"));
+    let mask = Mask::new(&words, 512, 512).expect("valid");
+    let small = opened(
+        bytes.bytes(),
+        &Room {
+            columns: 64,
+            rows: 64,
+            ..ROOM
+        },
+    );
+    small.rows(&mask);
+    // SAFETY: open sessions; rows are as long as is said.
+    unsafe {
+        assert_eq!(fluoropose_find(small.finder), Status::Silhouette);
+        let short = opened(bytes.bytes(), &Room { border: 50, ..ROOM });
+        short.rows(&mask);
+        assert_eq!(fluoropose_find(short.finder), Status::NoPose);
+        assert!(
+            short.sentence().contains("50 were given"),
+            "{}",
+            short.sentence()
+        );
+        let few = opened(bytes.bytes(), &Room { runs: 1, ..ROOM });
+        assert_eq!(fluoropose_begin_rows(few.finder), Status::Ok);
+        assert_eq!(
+            fluoropose_row(few.finder, 0, [1, 0, 1].as_ptr(), 3),
+            Status::Rows
+        );
+        assert_eq!(fluoropose_begin_rows(few.finder), Status::Ok);
+        assert_eq!(
+            fluoropose_row(few.finder, 0, [1; 600].as_ptr(), 600),
+            Status::Rows
+        );
+        assert_eq!(
+            fluoropose_row(few.finder, 600, [1].as_ptr(), 1),
+            Status::Order
+        );
+    }
+}
+
+#[test]
+fn no_outline_ends_the_program() {
+    let (_, bytes) = made_femur();
+    let c = opened(
+        bytes.bytes(),
+        &Room {
+            columns: 250,
+            rows: 250,
+            ..ROOM
+        },
+    );
+    let mut state = 7u64;
+    let mut random = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / f64::from(1 << 24)
+    };
+    let mut reached = BTreeMap::new();
+    for _ in 0..100 {
+        let corners = 3 + (random() * 6.0) as usize;
+        let size = random() * 450.0;
+        let [left, top] = [(); 2].map(|()| 100.0 + random() * 312.0);
+        let mut points: Vec<Point> = (0..corners)
+            .map(|_| {
+                Point::new(
+                    left + size * (random() - 0.5),
+                    top + size * (random() - 0.5),
+                )
+            })
+            .collect();
+        if random() < 0.05 {
+            points[0].row = f64::NAN;
+        }
+        // SAFETY: an open session; as many points as are said.
+        let status = unsafe {
+            match fluoropose_outline(c.finder, points.as_ptr(), points.len()) {
+                Status::Ok => fluoropose_find(c.finder),
+                status => status,
+            }
+        };
+        *reached.entry(format!("{status:?}")).or_insert(0) += 1;
+        if status == Status::Ok {
+            assert!(c.found().candidates > 0);
+        } else {
+            assert!(!c.sentence().is_empty());
+        }
+    }
+    for status in ["Ok", "Outline", "Silhouette"] {
+        assert!(reached.contains_key(status), "{reached:?}");
+    }
+}
+
+/// The words between two others, over and over.
+fn between<'t>(text: &'t str, before: &'t str, after: &'t str) -> impl Iterator<Item = &'t str> {
+    text.split(before)
+        .skip(1)
+        .filter_map(move |rest| rest.split(after).next())
+}
+
+#[test]
+fn the_headers_functions_are_the_librarys() {
+    let parameters = |list: &str| {
+        let list = list.split(')').next().unwrap_or_default();
+        list.split(',').filter(|one| !one.trim().is_empty()).count()
+    };
+    let exported: BTreeMap<&str, usize> = between(EXPORTS, "pub unsafe extern \"C\" fn ", "->")
+        .filter_map(|one| one.split_once('('))
+        .map(|(name, rest)| (name, parameters(rest)))
+        .collect();
+    assert_eq!(EXPORTS.matches("no_mangle").count(), exported.len());
+    let code: String = HEADER
+        .split("/*")
+        .map(|rest| rest.split_once("*/").map_or(rest, |(_, code)| code))
+        .collect();
+    let declared: BTreeMap<&str, usize> = code
+        .split(';')
+        .filter_map(|one| one.split_once('('))
+        .filter_map(|(head, rest)| Some((head.rsplit_once("fluoropose_")?.1, parameters(rest))))
+        .collect();
+    let exported: BTreeMap<&str, usize> = exported
+        .into_iter()
+        .filter_map(|(name, count)| Some((name.strip_prefix("fluoropose_")?, count)))
+        .collect();
+    assert_eq!(declared, exported);
+    assert_eq!(declared.len(), 13);
+    for (name, status) in [
+        ("OK", Status::Ok),
+        ("POINTER", Status::Pointer),
+        ("MEMORY", Status::Memory),
+        ("IMPLANT", Status::Implant),
+        ("CAMERA", Status::Camera),
+        ("OUTLINE", Status::Outline),
+        ("ROWS", Status::Rows),
+        ("SILHOUETTE", Status::Silhouette),
+        ("NO_POSE", Status::NoPose),
+        ("ORDER", Status::Order),
+        ("MORE", Status::More),
+    ] {
+        let line = format!("#define FLUOROPOSE_{name} {}", status as i32);
+        let mut lines = code.lines().map(str::trim_end);
+        assert!(lines.any(|other| other == line), "{line}");
+    }
+}
+
+/// Names and places of a struct's fields, as C lays them out, and its length.
+fn layout(name: &str) -> (Vec<(String, usize)>, usize) {
+    let body = between(HEADER, "typedef struct {", "}")
+        .zip(between(HEADER, "typedef struct {", ";\n\n").map(|one| one.rsplit("} ").next()))
+        .find(|(_, own)| *own == Some(name));
+    let (body, _) = body.expect("it is declared");
+    let (mut at, mut fields, mut largest) = (0usize, Vec::new(), 1);
+    for line in body
+        .lines()
+        .filter_map(|line| line.trim().split(';').next())
+    {
+        let Some((kind, field)) = line.split_once(' ') else {
+            continue;
+        };
+        let size = if kind == "double" { 8 } else { 4 };
+        assert!(["double", "uint32_t"].contains(&kind), "{kind}");
+        let mut parts = field.split(['[', ']']).filter(|part| !part.is_empty());
+        let field = parts.next().expect("a name");
+        let count: usize = parts
+            .map(|part| part.parse::<usize>().expect("a number"))
+            .product();
+        at = at.next_multiple_of(size);
+        fields.push((field.to_string(), at));
+        at += size * count;
+        largest = largest.max(size);
+    }
+    (fields, at.next_multiple_of(largest))
+}
+
+macro_rules! laid_out {
+    ($name:literal, $type:ty, $($field:ident),*) => {
+        let fields = [$((stringify!($field).to_string(), std::mem::offset_of!($type, $field))),*];
+        assert_eq!(layout($name), (fields.to_vec(), size_of::<$type>()));
+    };
+}
+
+#[test]
+fn the_headers_structs_are_laid_out_as_the_librarys() {
+    laid_out!("fluoropose_room", Room, columns, rows, border, runs);
+    laid_out!(
+        "fluoropose_camera",
+        CameraNumbers,
+        width,
+        height,
+        fx,
+        fy,
+        cx,
+        cy
+    );
+    laid_out!(
+        "fluoropose_calibration",
+        CalibrationNumbers,
+        width,
+        height,
+        distance_mm,
+        pitch_mm,
+        right_mm,
+        up_mm
+    );
+    laid_out!("fluoropose_point", Point, column, row);
+    laid_out!(
+        "fluoropose_found",
+        FoundNumbers,
+        verdict,
+        candidates,
+        chosen,
+        part
+    );
+    laid_out!(
+        "fluoropose_candidate",
+        CandidateNumbers,
+        rotation,
+        translation_mm,
+        rotations_deg,
+        covariance,
+        misfit_px,
+        met,
+        drawings,
+        has_covariance
+    );
+}
