@@ -27,6 +27,8 @@ pub struct Limits {
     pub good_apart_px: f64,
     /// Least part of the outline that is known of a good fit.
     pub good_known: f64,
+    /// Least size of a good fit's silhouette, pixels ([`Fit::size_px`]): to a few pixels any outline fits, from some distance.
+    pub good_size_px: f64,
     /// Least part of the known outline that is met at any pose.
     pub least_met: f64,
 }
@@ -40,6 +42,7 @@ impl Limits {
         good_met: 0.9,
         good_apart_px: 1.5,
         good_known: 0.5,
+        good_size_px: 20.0,
         least_met: 0.45,
     };
 }
@@ -63,6 +66,11 @@ pub enum Doubt {
     Behind {
         /// How far, mm.
         mm: f64,
+    },
+    /// The silhouette has too few pixels to tell a pose.
+    Small {
+        /// Its size, pixels: the root of its area.
+        px: f64,
     },
     /// Too little of the outline is known.
     Unknown {
@@ -162,6 +170,10 @@ impl fmt::Display for Doubt {
                 f,
                 "it would lie {mm:.0} mm behind the detector: is the calibration of frames of another size, or the model in another unit?"
             ),
+            Self::Small { px } => write!(
+                f,
+                "the silhouette is {px:.0} pixels across: too few to tell a pose"
+            ),
             Self::Unknown { known } => {
                 let percent = 100.0 * known;
                 write!(f, "only {percent:.0} % of the model's outline is known")
@@ -259,6 +271,9 @@ fn doubt_of_fit(fit: &Fit, limits: &Limits) -> Option<Doubt> {
         let mm = fit.behind_mm;
         return Some(Doubt::Behind { mm });
     }
+    if fit.size_px < limits.good_size_px {
+        return Some(Doubt::Small { px: fit.size_px });
+    }
     if fit.known < limits.good_known {
         return Some(Doubt::Unknown { known: fit.known });
     }
@@ -284,5 +299,19 @@ mod tests {
             let doubt = Doubt::Open { turn_deg, other_px }.to_string();
             assert!(doubt.contains(words), "{doubt}");
         }
+    }
+    #[test]
+    fn what_has_few_pixels_is_no_good_fit() {
+        let judged = |size_px: f64| {
+            let fit = Fit {
+                size_px,
+                met: 1.0,
+                known: 1.0,
+                ..Fit::default()
+            };
+            judge_fit(&fit, true, &Limits::USUAL)
+        };
+        assert_eq!(judged(150.0), Verdict::Good);
+        assert_eq!(judged(7.0), Verdict::Doubtful(Doubt::Small { px: 7.0 }));
     }
 }
