@@ -1,4 +1,4 @@
-//! What `test --firmware` has beyond the Cortex-M4F: other processors under QEMU, the example in C, the core's tests on 32 bits.
+//! What `test --firmware` has beyond the Cortex-M4F's own lines: the fast approximations there, other processors under QEMU, the example in C, the core's tests on 32 bits.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -16,6 +16,7 @@ use crate::workspace;
 
 /// Runs the suite, after the firmware's own.
 pub(crate) fn run(report: &mut Report) {
+    firmware::run_with_micromath(report);
     let mut rows = Vec::new();
     for board in [&CORTEX_M0, &RISCV32] {
         for program in [&LIBRARY, &FINDER] {

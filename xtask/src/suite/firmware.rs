@@ -31,16 +31,20 @@ pub(crate) fn run(report: &mut Report) {
     report.step("firmware: linted; board and host agree", || {
         compare(&LIBRARY, &mut rows)
     });
-    report.step(
-        "firmware: linted; board and host agree with micromath",
-        || compare(&MICROMATH, &mut Vec::new()),
-    );
     report.step("firmware: linted; the finder on board and host", || {
         compare(&FINDER, &mut rows)
     });
     report.step("firmware: figures", || {
         write_json(&rows, &figures()).map(Said::from)
     });
+}
+
+/// Compares both with the fast approximations as well.
+pub(super) fn run_with_micromath(report: &mut Report) {
+    report.step(
+        "firmware: linted; board and host agree with micromath",
+        || compare(&MICROMATH, &mut Vec::new()),
+    );
 }
 
 /// Where the figures of the last run are, as JSON.
