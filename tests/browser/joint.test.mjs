@@ -174,6 +174,9 @@ async function otherForms(page) {
   const png = await forms(page, 'Figure', 'PNG');
   assert.deepEqual([...png.subarray(1, 4)], [...Buffer.from('PNG')]);
   assert.equal(png.readUInt32BE(16), Math.round((180 / 25.4) * 600));
+  const pdf = (await forms(page, 'Figure', 'PDF')).toString('latin1');
+  // 180 mm wide, letters as letters.
+  for (const part of ['%PDF-', '/MediaBox [0 0 510.2', '/BaseFont /Helvetica', '%%EOF']) assert(pdf.includes(part), part);
   const motion = (await forms(page, 'Joint numbers', 'MOT')).toString();
   assert.match(motion, /nRows=8\nnColumns=19\ninDegrees=yes/);
   const cycle = (await forms(page, 'Joint numbers', '101 points')).toString();

@@ -251,6 +251,8 @@ fn they_are_put_together(studies: &Studies) {
     let read = |name: &str| fs::read_to_string(studies.0.join("group").join(name)).expect("a file");
     assert!(read("groups.csv").contains("\n\"all\",\"mean of the group\",10,"));
     assert!(read("groups.svg").contains("all (n = 2)"));
+    let pdf = fs::read(studies.0.join("group/groups.pdf")).expect("a file");
+    assert!(pdf.starts_with(b"%PDF-"));
     assert_eq!(read("doubtful.csv").lines().count(), 1);
     let manifest = studies.0.join("whole/b/manifest.json");
     let text = fs::read_to_string(&manifest).expect("a manifest");

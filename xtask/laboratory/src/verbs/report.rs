@@ -20,13 +20,13 @@ use sources::Sources;
 /// Options of `report`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Files in the folder: joint.csv (every number of every frame, with standard deviations and doubts), figure.svg, report.html, \
+    after_help = "Files in the folder: joint.csv (every number of every frame, with standard deviations and doubts), figure.svg and figure.pdf, report.html, \
 COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number, for statistical parametric mapping), and joint.mot where the \
 frames a second are known.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
 COMPONENT.covariances.csv beside them, and doubts track.csv; `track` writes both.\n\n\
 Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \
-flexion, each knee first), figure.svg, and cycle (a row a film).\n\n\
+flexion, each knee first), figure.svg and figure.pdf, and cycle (a row a film).\n\n\
 Examples:\n  cargo xtask report --study study.toml --poses tracked --out report\n  \
 cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3\n  \
 cargo xtask report --group p1=a/joint.csv p1=b/joint.csv p2=c/joint.csv --out group"

@@ -131,6 +131,8 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
         assert!(report.contains(words), "{words}");
     }
     check_centre(&text("figure.svg"), column);
+    let pdf = std::fs::read(folder.join("out/figure.pdf")).unwrap();
+    assert!(pdf.starts_with(b"%PDF-"));
     check_group(&folder, column);
     read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
