@@ -49,6 +49,15 @@ fn grey() -> Vec<u8> {
     expose(&scene, &Physics::default(), 1, 0).expect("a film")
 }
 
+fn shown<'f>(frame: &'f Frame<'f, u8>) -> ImageTarget<'f> {
+    ImageTarget {
+        frame,
+        unknown: None,
+        polarity: Polarity::DarkImplant,
+        film: Some(film()),
+    }
+}
+
 /// Turned about the middle of the model, degrees about the axes of the image, and shifted, mm.
 fn moved(pose: &Pose, middle: &[f64; 3], [x, y]: [f64; 2], shift: [f64; 3]) -> Pose {
     let turn = rotation_by(&[radians(x), radians(y), 0.0]);
@@ -67,12 +76,8 @@ fn the_mirror_image_of_a_corrected_tray_is_looked_at() {
     let model = model.as_model();
     let planes = symmetry_planes(model.mesh());
     let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
-    let image = ImageTarget {
-        frame: &frame.expect("fits"),
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: Some(film()),
-    };
+    let frame = frame.expect("fits");
+    let image = shown(&frame);
     let (options, mut buffers) = (RefineOptions::default(), RefineBuffers::default());
     let mut memory = buffers.borrow(&model, &camera);
     let truth = Pose::from(TRUE);
@@ -106,12 +111,8 @@ fn what_is_given_up_on_the_way_would_have_left_more() {
     let (pixels, camera, model) = (grey(), camera(), surface(tibia()));
     let model = model.as_model();
     let frame = Frame::new(&pixels, camera.width(), camera.height(), camera.width());
-    let image = ImageTarget {
-        frame: &frame.expect("fits"),
-        unknown: None,
-        polarity: Polarity::DarkImplant,
-        film: Some(film()),
-    };
+    let frame = frame.expect("fits");
+    let image = shown(&frame);
     let subject = Subject::new(&model, &[], &camera);
     let mut buffers = RefineBuffers::default();
     let mut memory = buffers.borrow(&model, &camera);
