@@ -1,13 +1,12 @@
 //! What a call gives back: that it went well, or why not.
 
-use core::fmt;
-
 use fluoropose::camera::CameraError;
 use fluoropose::finder::FindError;
 use fluoropose::image::contour::OutlineError;
 use fluoropose::image::mask::MaskError;
 use fluoropose::image::runs::RunsError;
 use fluoropose::implant::ImplantError;
+use thiserror::Error;
 
 /// `fluoropose_status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,23 +37,31 @@ pub enum Status {
 }
 
 /// Why there is no answer; displayed, a sentence.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum Failure {
     /// Memory is too short for what was asked for.
+    #[error("memory is too short for the room that was asked for")]
     Memory,
     /// The bytes are no implant.
-    Implant(ImplantError),
+    #[error(transparent)]
+    Implant(#[from] ImplantError),
     /// The camera is none.
-    Camera(CameraError),
+    #[error(transparent)]
+    Camera(#[from] CameraError),
     /// The points are no outline.
-    Outline(OutlineError),
+    #[error(transparent)]
+    Outline(#[from] OutlineError),
     /// A row cannot be where it was said to be.
-    Rows(RunsError),
+    #[error(transparent)]
+    Rows(#[from] RunsError),
     /// The silhouette is empty, or larger than there is memory for.
-    Silhouette(MaskError),
+    #[error(transparent)]
+    Silhouette(#[from] MaskError),
     /// No pose explains it.
-    Find(FindError),
+    #[error(transparent)]
+    Find(#[from] FindError),
     /// A call came before the one that it goes on from.
+    #[error("a silhouette comes first, then the search, then what it found")]
     Order,
 }
 
@@ -72,58 +79,5 @@ impl Failure {
             Self::Find(_) => Status::NoPose,
             Self::Order => Status::Order,
         }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Memory => f.write_str("memory is too short for the room that was asked for"),
-            Self::Implant(error) => error.fmt(f),
-            Self::Camera(error) => error.fmt(f),
-            Self::Outline(error) => error.fmt(f),
-            Self::Rows(error) => error.fmt(f),
-            Self::Silhouette(error) => error.fmt(f),
-            Self::Find(error) => error.fmt(f),
-            Self::Order => {
-                f.write_str("a silhouette comes first, then the search, then what it found")
-            }
-        }
-    }
-}
-
-impl From<ImplantError> for Failure {
-    fn from(error: ImplantError) -> Self {
-        Self::Implant(error)
-    }
-}
-
-impl From<CameraError> for Failure {
-    fn from(error: CameraError) -> Self {
-        Self::Camera(error)
-    }
-}
-
-impl From<OutlineError> for Failure {
-    fn from(error: OutlineError) -> Self {
-        Self::Outline(error)
-    }
-}
-
-impl From<RunsError> for Failure {
-    fn from(error: RunsError) -> Self {
-        Self::Rows(error)
-    }
-}
-
-impl From<MaskError> for Failure {
-    fn from(error: MaskError) -> Self {
-        Self::Silhouette(error)
-    }
-}
-
-impl From<FindError> for Failure {
-    fn from(error: FindError) -> Self {
-        Self::Find(error)
     }
 }
