@@ -17,6 +17,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::failure::python_error;
+use crate::figure::Figure;
 use crate::model::Model;
 use crate::poses::poses_of;
 
@@ -139,6 +140,7 @@ impl Joint {
         let figure = figure(film);
         answer.set_item("svg", figure.svg())?;
         answer.set_item("pdf", PyBytes::new(py, &figure.pdf()))?;
+        answer.set_item("figure", Figure::of(figure))?;
         answer.set_item("axes", &self.axes)?;
         answer.set_item("remarks", &self.remarks)?;
         Ok(answer)

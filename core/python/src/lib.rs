@@ -8,6 +8,7 @@ mod camera;
 mod command;
 mod estimate;
 mod failure;
+mod figure;
 mod joint;
 mod model;
 mod pixels;
@@ -28,6 +29,8 @@ mod _native {
     use crate::command::command;
     #[pymodule_export]
     use crate::estimate::estimate;
+    #[pymodule_export]
+    use crate::figure::Figure;
     #[pymodule_export]
     use crate::joint::joint;
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import tracemalloc
 from collections.abc import Iterator
 
@@ -58,7 +59,10 @@ class SameNumbers(OnTheDemo):
         joint.to_mot(self.folder / "joint.mot")
         joint.to_svg(self.folder / "figure.svg")
         joint.to_pdf(self.folder / "figure.pdf")
-        for name in ("joint.csv", "joint.mot", "figure.svg", "figure.pdf"):
+        pickle.loads(pickle.dumps(joint)).to_png(self.folder / "again.png")
+        joint.to_png(self.folder / "figure.png")
+        self.assertEqual((self.folder / "again.png").read_bytes(), (self.folder / "figure.png").read_bytes())
+        for name in ("joint.csv", "joint.mot", "figure.svg", "figure.pdf", "figure.png"):
             self.assertEqual((self.folder / name).read_bytes(), (report / name).read_bytes(), name)
         cycle = (report / "cycle/flexion_deg.csv").read_text(encoding="utf-8").splitlines()[-1]
         np.testing.assert_array_equal(joint.cycle("flexion_deg"), [float(number) for number in cycle.split(",")])

@@ -1,4 +1,4 @@
-//! A drawing as it is put together: marks that are written as SVG or as PDF.
+//! A drawing as it is put together: marks that are written as SVG, PDF or pixels.
 //!
 //! Own code, some two hundred lines, instead of a plotting crate: `plotters` draws for pixels, so it has no groups, classes or
 //! titles, by which a page finds a frame's point and a printer a figure's parts, and it must measure fonts that an SVG does not have.
@@ -101,6 +101,7 @@ pub(crate) struct Words {
     pub(crate) bold: bool,
     /// Whether they run upwards.
     pub(crate) upwards: bool,
+    pub(crate) colour: Colour,
     pub(crate) text: String,
 }
 
@@ -173,6 +174,22 @@ impl Drawing {
         self.write(at, anchor, size, text, [false, false]);
     }
 
+    /// Words in a colour.
+    #[cfg(feature = "png")]
+    pub(crate) fn tinted(
+        &mut self,
+        at: [f64; 2],
+        anchor: Anchor,
+        size: f64,
+        colour: Colour,
+        text: &str,
+    ) {
+        self.words(at, anchor, size, text);
+        if let Some(Mark::Words(words)) = self.marks.last_mut() {
+            words.colour = colour;
+        }
+    }
+
     pub(crate) fn bold(&mut self, at: [f64; 2], size: f64, text: impl Display) {
         self.write(at, Anchor::Start, size, text, [true, false]);
     }
@@ -196,6 +213,7 @@ impl Drawing {
             size,
             bold,
             upwards,
+            colour: BLACK,
             text: text.to_string(),
         }));
     }
@@ -211,7 +229,7 @@ impl Drawing {
     }
 }
 
-/// A drawing that is finished, to be written as SVG or as PDF.
+/// A drawing that is finished, to be written as SVG, PDF or PNG.
 #[derive(Clone, Debug)]
 pub struct Figure {
     pub(crate) marks: Vec<Mark>,

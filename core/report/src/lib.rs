@@ -12,8 +12,14 @@ mod figure;
 mod film;
 mod group;
 mod html;
+#[cfg(feature = "png")]
+mod letters;
 pub mod levels;
+#[cfg(feature = "png")]
+pub mod overlay;
 mod pdf;
+#[cfg(feature = "png")]
+mod picture;
 pub mod read;
 mod svg;
 pub mod write;
@@ -25,3 +31,5 @@ pub use figure::{figure, group_figure};
 pub use film::{JointFilm, JointRow, Step, impossibilities};
 pub use group::{Group, Knee};
 pub use html::html;
+#[cfg(feature = "png")]
+pub use picture::Picture;

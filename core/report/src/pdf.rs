@@ -192,7 +192,7 @@ impl PageOf {
 
     fn write(&mut self, words: &Words) {
         let letters: Vec<u8> = words.text.chars().map(code).collect();
-        let length: f64 = letters.iter().map(|&letter| width(letter)).sum();
+        let length = width_of(&words.text);
         let before = match words.anchor {
             Anchor::Start => 0.0,
             Anchor::Middle => 0.5,
@@ -207,7 +207,7 @@ impl PageOf {
         };
         let font = if words.bold { BOLD } else { PLAIN };
         self.content.save_state();
-        self.fill(crate::drawing::BLACK);
+        self.fill(words.colour);
         self.content
             .begin_text()
             .set_font(font, words.size as f32)
@@ -235,6 +235,11 @@ fn code(letter: char) -> u8 {
         '\u{201d}' => 0x94,
         _ => b'?',
     }
+}
+
+/// How wide words are, in their size.
+pub(crate) fn width_of(text: &str) -> f64 {
+    text.chars().map(|letter| width(code(letter))).sum()
 }
 
 /// How wide a letter of Helvetica is, in the letters' size: from its metrics as they were published, others as wide as a digit.

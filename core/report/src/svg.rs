@@ -116,13 +116,18 @@ fn write_words(words: &Words, out: &mut String) -> std::fmt::Result {
     } else {
         ""
     };
+    let colour = match words.colour {
+        // The whole drawing's.
+        BLACK => String::new(),
+        other => format!(" fill=\"{}\"", hex(other)),
+    };
     let turned = match words.upwards {
         true => format!(" transform=\"rotate(-90 {x} {y})\""),
         false => String::new(),
     };
     writeln!(
         out,
-        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{bold}{turned}>{text}</text>"
+        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\"{bold}{colour}{turned}>{text}</text>"
     )
 }
 

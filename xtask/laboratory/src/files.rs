@@ -26,5 +26,6 @@ pub use poses::{read_poses, write_poses};
 pub use role::Role;
 pub use study::{Component, StatedFilm, Study};
 pub use text::{
-    csv_fields, files_in, name_of, read, read_text, sha256, write_figure, write_json, write_text,
+    csv_fields, files_in, name_of, read, read_text, sha256, write_bytes, write_figure, write_json,
+    write_text,
 };

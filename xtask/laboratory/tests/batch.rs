@@ -253,6 +253,8 @@ fn they_are_put_together(studies: &Studies) {
     assert!(read("groups.svg").contains("all (n = 2)"));
     let pdf = fs::read(studies.0.join("group/groups.pdf")).expect("a file");
     assert!(pdf.starts_with(b"%PDF-"));
+    let png = fs::read(studies.0.join("group/groups.png")).expect("a file");
+    assert!(png.starts_with(b"\x89PNG"));
     assert_eq!(read("doubtful.csv").lines().count(), 1);
     let manifest = studies.0.join("whole/b/manifest.json");
     let text = fs::read_to_string(&manifest).expect("a manifest");

@@ -64,6 +64,7 @@ class Kinematics(Alike):
     """The numbers at steps of flexion."""
     _cycles: NDArray[np.float64] = field(repr=False)
     _files: Mapping[str, str | bytes | None] = field(repr=False)
+    _figure: _native.Figure = field(repr=False, compare=False)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -91,6 +92,10 @@ class Kinematics(Alike):
     def to_pdf(self, path: _checks.PathLike) -> None:
         """Writes the published figure as PDF, 180 mm wide."""
         self._write(path, "pdf")
+
+    def to_png(self, path: _checks.PathLike) -> None:
+        """Writes the published figure as PNG, 180 mm wide at 600 dots an inch; it is drawn now."""
+        Path(_checks.path(path, "path")).write_bytes(self._figure.png())
 
     def _write(self, path: _checks.PathLike, kind: str) -> None:
         made = self._files[kind]
@@ -155,6 +160,7 @@ def kinematics(
         by_flexion=ByFlexion(steps["flexion_deg"], names, steps["mean"], steps["sd"], steps["n"]),
         _cycles=joint["cycles"],
         _files={"csv": joint["csv"], "mot": joint["mot"], "svg": joint["svg"], "pdf": joint["pdf"]},
+        _figure=joint["figure"],
     )
 
 

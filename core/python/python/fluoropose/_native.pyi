@@ -29,6 +29,10 @@ class Model:
     def doubt(self, role: str) -> str | None: ...
     def write(self, path: str) -> None: ...
 
+class Figure:
+    def __new__(cls, png: bytes) -> Figure: ...
+    def png(self) -> bytes: ...
+
 class Answer(TypedDict):
     pose: list[float]
     sd: list[float]
@@ -74,6 +78,7 @@ class Joint(TypedDict):
     mot: str | None
     svg: str
     pdf: bytes
+    figure: Figure
     axes: list[str]
     remarks: list[str]
 

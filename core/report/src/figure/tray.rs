@@ -120,7 +120,20 @@ fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &Vi
         drawing.square(lateral, 2.5, Dress::filled(LATERAL.colour));
     }
     // Beside the lateral ends, where lines are apart.
-    for &(level, medial, lateral) in [drawn.first(), drawn.last()].into_iter().flatten() {
+    let mut ends: Vec<_> = [drawn.first(), drawn.last()]
+        .into_iter()
+        .flatten()
+        .collect();
+    if drawn.len() == 1 {
+        ends.pop();
+    }
+    let apart = apart(
+        &ends
+            .iter()
+            .map(|(.., lateral)| lateral[1])
+            .collect::<Vec<_>>(),
+    );
+    for (&&(level, medial, lateral), y) in ends.iter().zip(apart) {
         let out = if lateral[0] < medial[0] { -7.0 } else { 7.0 };
         let anchor = if out < 0.0 {
             Anchor::End
@@ -128,8 +141,19 @@ fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &Vi
             Anchor::Start
         };
         let text = format!("{}\u{b0}", short(level));
-        drawing.words([lateral[0] + out, lateral[1] + 4.0], anchor, 10.5, text);
+        drawing.words([lateral[0] + out, y + 4.0], anchor, 10.5, text);
     }
+}
+
+/// Heights of two labels, moved away from each other as far as they would cover each other.
+fn apart(heights: &[f64]) -> Vec<f64> {
+    const LINE: f64 = 11.0;
+    let &[first, last] = heights else {
+        return heights.to_vec();
+    };
+    let missing = (LINE - (last - first).abs()).max(0.0) / 2.0;
+    let up = if first <= last { missing } else { -missing };
+    vec![first - up, last + up]
 }
 
 /// From light to dark with flexion, so that it can be read without colours.

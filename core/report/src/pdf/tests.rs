@@ -53,10 +53,7 @@ fn a_page_has_the_size_in_print_and_its_letters_stay_letters() {
 #[test]
 fn words_end_at_their_place() {
     // Minus, two digits, degree, space, brackets, x: widths of Helvetica.
-    let wide: f64 = "\u{2212}10\u{b0} (x)"
-        .chars()
-        .map(|letter| width(code(letter)))
-        .sum();
+    let wide = width_of("\u{2212}10\u{b0} (x)");
     assert!((wide - (3.0 * 0.556 + 0.4 + 0.278 + 2.0 * 0.333 + 0.5)).abs() < 1e-12);
     let text: String = drawn().pdf().iter().map(|&byte| char::from(byte)).collect();
     let x = 50.0 - 11.0 * wide;

@@ -55,17 +55,25 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
 /// # Errors
 /// Names the file.
 pub fn write_text(path: &Path, text: &str) -> Result<()> {
-    fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+    write_bytes(path, text.as_bytes())
 }
 
-/// Writes a figure as SVG and as PDF.
+/// Writes bytes.
+///
+/// # Errors
+/// Names the file.
+pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
+    fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// Writes a figure as SVG, as PDF and as PNG.
 ///
 /// # Errors
 /// Names the file.
 pub fn write_figure(folder: &Path, stem: &str, figure: &Figure) -> Result<()> {
     write_text(&folder.join(format!("{stem}.svg")), &figure.svg())?;
-    let path = folder.join(format!("{stem}.pdf"));
-    fs::write(&path, figure.pdf()).with_context(|| format!("cannot write {}", path.display()))
+    write_bytes(&folder.join(format!("{stem}.pdf")), &figure.pdf())?;
+    write_bytes(&folder.join(format!("{stem}.png")), &figure.png())
 }
 
 /// Writes a table as JSON where `--json` asked for it.

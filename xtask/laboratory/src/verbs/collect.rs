@@ -17,7 +17,7 @@ use crate::verbs::batch::{Entry, JOINT, Manifest, failure_of, read_list};
 #[derive(clap::Args)]
 #[command(
     after_help = "Of the list's studies that `batch` has done: groups.csv (each knee's mean over its films at steps of 10 degrees of flexion, and, \
-where the column knee says `mean of the group`, each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg and groups.pdf, and doubtful.csv (every frame \
+where the column knee says `mean of the group`, each group's mean and standard deviation over its knees: a knee counts once however many films it has), groups.svg, groups.pdf and groups.png, and doubtful.csv (every frame \
 that is not good, with its reason). Doubtful frames are in none of the means.\n\n\
 It exits with 0 where all studies of the list are in it, and with 6 where some have no results (not done, or failed: which, and why, is told): what \
 the others give is written then. With 1 and 2 nothing is written.\n\n\

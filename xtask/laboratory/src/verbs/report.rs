@@ -3,6 +3,7 @@
 mod group;
 pub mod knee;
 mod out;
+mod overlay;
 pub mod sources;
 
 use std::path::{Path, PathBuf};
@@ -20,15 +21,16 @@ use sources::Sources;
 /// Options of `report`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "Files in the folder: joint.csv (every number of every frame, with standard deviations and doubts), figure.svg and figure.pdf, report.html, \
+    after_help = "Files in the folder: joint.csv (every number of every frame, with standard deviations and doubts), the figure (figure.svg, .pdf and .png), report.html, \
 COMPONENT.jtak and joint.tra (the poses), cycle (a 101-point row of each number, for statistical parametric mapping), and joint.mot where the \
-frames a second are known.\n\n\
+frames a second are known. With --overlay a folder overlay of the frames with both outlines laid on and the curves beside, a PNG for each frame, and \
+overlay.mp4 where the program ffmpeg is installed.\n\n\
 Poses are COMPONENT.jts in the folder of --poses, as `track` writes them, or without it the study's references. Standard deviations need \
 COMPONENT.covariances.csv beside them, and doubts track.csv; `track` writes both.\n\n\
 Of a group, which is made from the joint.csv of several reports: group.csv (mean and standard deviation over knees at steps of 10 degrees of \
-flexion, each knee first), figure.svg and figure.pdf, and cycle (a row a film).\n\n\
+flexion, each knee first), the figure (figure.svg, .pdf and .png), and cycle (a row a film).\n\n\
 Examples:\n  cargo xtask report --study study.toml --poses tracked --out report\n  \
-cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3\n  \
+cargo xtask report --study study.toml --poses tracked --out report --fps 15 --cutoff 3 --overlay\n  \
 cargo xtask report --group p1=a/joint.csv p1=b/joint.csv p2=c/joint.csv --out group"
 )]
 pub struct Args {
@@ -50,6 +52,9 @@ pub struct Args {
     /// Cutoff of a filter whose numbers stand beside the others in joint.csv
     #[arg(long, value_name = "HZ")]
     pub cutoff: Option<f64>,
+    /// Also the frames with outlines and curves, as pictures and as a film; the study has to name its frames
+    #[arg(long, conflicts_with = "group")]
+    pub overlay: bool,
 }
 
 /// Runs the verb.
@@ -78,6 +83,9 @@ pub fn report(file: &Path, args: &Args) -> Result<JointFilm> {
     let facts = facts(&knee, &sources);
     make_folder(&args.out)?;
     write_all(&args.out, &film, &sources, &facts)?;
+    if args.overlay {
+        overlay::write(&args.out, &study, &film, &sources)?;
+    }
     Ok(film)
 }
 

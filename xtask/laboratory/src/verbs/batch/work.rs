@@ -97,6 +97,7 @@ fn found(entry: &Entry, settings: &Settings, aside: &Path) -> Result<(usize, usi
             out: aside.to_owned(),
             fps: settings.frames_per_s,
             cutoff: settings.cutoff_hz,
+            overlay: false,
         };
         report(&entry.study, &of_study)?;
     }

@@ -99,6 +99,7 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
         out: folder.join("out"),
         fps: Some(15.0),
         cutoff: Some(cutoff),
+        overlay: false,
     };
     run(args(3.0)).unwrap();
     let text = |name: &str| std::fs::read_to_string(folder.join("out").join(name)).unwrap();
@@ -136,8 +137,50 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     check_group(&folder, column);
     read_by_another_program(&folder.join("out"));
     assert!(run(args(7.5)).unwrap_err().to_string().contains("half"));
+    check_overlay(&folder, args(3.0));
     check_impossible(&folder);
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+/// Frames that the study names get their outlines and curves; as many as there are poses.
+fn check_overlay(folder: &Path, args: Args) {
+    const SIDE: usize = 300;
+    let frames = folder.join("frames");
+    std::fs::create_dir_all(&frames).unwrap();
+    let grey: Vec<u8> = (0..SIDE * SIDE).map(|k| (k % 100) as u8).collect();
+    for frame in 0..FRAMES {
+        let name = frames.join(format!("{frame:02}.png"));
+        fluoropose_phantom::picture::write_grey(&name, (SIDE, SIDE), &grey).unwrap();
+    }
+    let study = folder.join("study.toml");
+    let text = std::fs::read_to_string(&study).unwrap();
+    std::fs::write(&study, format!("frames = 'frames'\n{text}")).unwrap();
+    let again = || Args {
+        study: args.study.clone(),
+        group: Vec::new(),
+        poses: args.poses.clone(),
+        out: args.out.clone(),
+        overlay: true,
+        ..args
+    };
+    run(again()).unwrap();
+    let picture = |number: usize| {
+        let name = format!("out/overlay/frame_{number:04}.png");
+        fluoropose_decode::decode_frames(&std::fs::read(folder.join(name)).unwrap(), "picture")
+            .unwrap()
+            .remove(0)
+    };
+    let (whole, gap) = (picture(1), picture(7));
+    assert_eq!((whole.width, whole.height), (480 + 268, 480));
+    // The frame that has no femur has no outline of it.
+    assert_ne!(whole.pixels, gap.pixels);
+    std::fs::remove_file(frames.join("03.png")).unwrap();
+    assert!(
+        run(again())
+            .unwrap_err()
+            .to_string()
+            .contains("23 frames and 24 poses")
+    );
 }
 
 /// A tray upside down is told, a joint is not, nor anything of a study without one.
@@ -189,6 +232,7 @@ fn check_group(folder: &Path, column: impl Fn(&str) -> Vec<f64>) {
         out: folder.join("group"),
         fps: None,
         cutoff: None,
+        overlay: false,
     };
     run(args(vec![named("p1"), named("p2"), named("p2")])).unwrap();
     let text = std::fs::read_to_string(folder.join("group/group.csv")).unwrap();
