@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use crate::math::{sin_cos, sqrt};
+use crate::math::{Vector3, add, apply, multiply, rotation_by, sin_cos, sqrt, subtract};
 use crate::mesh::Mesh;
 use crate::mesh::edges::fake;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
@@ -138,5 +138,16 @@ pub(crate) fn covariance(factor: &Matrix6) -> PoseCovariance {
         matrix: core::array::from_fn(|a| {
             core::array::from_fn(|b| (0..6).map(|k| factor[a][k] * factor[b][k]).sum())
         }),
+    }
+}
+
+/// A pose after a step of its rotation about a middle, radians, and of its place, mm.
+pub(crate) fn moved(pose: &Pose, middle: &Vector3, step: &[f64; 6]) -> Pose {
+    let [a, b, c, shift @ ..] = *step;
+    let rotation = multiply(&rotation_by(&[a, b, c]), &pose.rotation);
+    let place = add(&pose.transform(middle), &shift);
+    Pose {
+        rotation,
+        translation: subtract(&place, &apply(&rotation, middle)),
     }
 }

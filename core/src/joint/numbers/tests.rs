@@ -1,6 +1,5 @@
 use super::*;
-use crate::joint::fake::{Normal, covariance, factor, femur, pose, times, tray};
-use crate::math::{add, apply, multiply, rotation_by, subtract};
+use crate::joint::fake::{Normal, covariance, factor, femur, moved, pose, times, tray};
 use std::vec;
 
 const FEMUR: ([f64; 3], [f64; 3]) = ([4.0, 13.0, -1083.0], [38.0, 1.5, -1.0]);
@@ -87,16 +86,6 @@ fn a_left_knee_and_its_mirror_image_have_the_same_numbers() {
         );
     }
     assert!(left[place::FLEXION] > 45.0, "{left:?}");
-}
-
-fn moved(pose: &Pose, middle: &Vector3, step: &[f64; 6]) -> Pose {
-    let [a, b, c, shift @ ..] = *step;
-    let rotation = multiply(&rotation_by(&[a, b, c]), &pose.rotation);
-    let place = add(&pose.transform(middle), &shift);
-    Pose {
-        rotation,
-        translation: subtract(&place, &apply(&rotation, middle)),
-    }
 }
 
 /// The band of one standard deviation holds the truth in 68 +- 8 percent of draws, of every number.
@@ -213,7 +202,7 @@ fn bands_hold_what_is_wrong_with_the_whole_film() {
     }
 }
 
-/// A lateral condyle 1 mm higher, its height known to 0.2 mm: found in as many draws as its probability says.
+/// A lateral condyle 1 mm higher: poses drawn from their covariances show it in as many draws as its probability says.
 #[test]
 fn a_lift_off_of_a_millimetre_is_found_as_often_as_stated() {
     let (femur_parts, tray_parts) = (femur(), tray());
@@ -236,14 +225,18 @@ fn a_lift_off_of_a_millimetre_is_found_as_often_as_stated() {
     );
     let deviation = frame.deviations.expect("covariances")[place::LIFT_OFF];
     let stated = frame.lift_off_probability(0.7).expect("covariances");
-    let mut random = Normal(21);
-    let found = (0..4000)
-        .filter(|_| (1.0 + deviation * random.next()).abs() > 0.7)
-        .count();
-    assert!(
-        (found as f64 / 4000.0 - stated).abs() < 0.025,
-        "{found} {stated}"
-    );
+    let (mut random, draws, mut found) = (Normal(21), 600, 0);
+    let one = factor(1.0);
+    for _ in 0..draws {
+        let moved = [(&femur, a), (&tibia, b)]
+            .map(|(truth, mesh)| moved(truth, &mesh.bounds().centre, &times(&one, &random.some())));
+        let relative = joint.relative(&moved[0].into(), &moved[1].into(), KnownTo::EXACTLY);
+        let drawn = joint.at(&relative, &mut memory).expect("room");
+        found += u32::from(drawn.numbers[place::LIFT_OFF].abs() > 0.7);
+    }
+    // Three standard deviations of the count.
+    let part = f64::from(found) / f64::from(draws);
+    assert!((part - stated).abs() < 0.055, "{part} {stated}");
     assert!(stated > 0.6 && stated < 0.95, "{stated}, {deviation}");
     assert_eq!(
         JointFrame {
