@@ -77,7 +77,9 @@ pub(crate) fn of_module() -> Result<Vec<Part>> {
 ///
 /// Errors as [`of_page`].
 pub(crate) fn of_wheel() -> Result<Vec<Part>> {
-    parts::compiled_into(&["fluoropose-python"], &parts::this_machine()?)
+    let mut parts = parts::compiled_into(&["fluoropose-python"], &parts::this_machine()?)?;
+    parts.push(parts::letters());
+    Ok(parts)
 }
 
 /// Every part, also what only builds and tests.

@@ -5,6 +5,7 @@ import { browser, openWindow, visit } from '../support/browser.mjs';
 import { following } from './following.mjs';
 import { dragging, wiring } from './interaction.mjs';
 import { libraries } from './libraries.mjs';
+import { long } from './long_film.mjs';
 import { firstLoad, warmStart } from './loading.mjs';
 import { newUser } from './new_user.mjs';
 import { speed } from './speed.mjs';
@@ -16,7 +17,7 @@ if (!file) throw new Error('the file to write is not named: run `cargo xtask ben
 
 /** @type {Row[]} */
 const rows = [];
-for (const measurement of [firstLoad, warmStart, libraries, newUser, dragging, wiring, following]) rows.push(...(await measured(measurement)));
+for (const measurement of [firstLoad, warmStart, libraries, newUser, dragging, wiring, following, long]) rows.push(...(await measured(measurement)));
 rows.push(...(await speed()));
 await writeFile(file, JSON.stringify({ rows: rows.map(rounded) }));
 await (await browser()).close();

@@ -153,6 +153,19 @@ fn rusts_library() -> Result<Part> {
     })
 }
 
+/// Letters of figures that are pictures: a part of a font, which stands in the repository with its licence.
+pub(crate) fn letters() -> Part {
+    Part {
+        kind: "generic",
+        name: "Arimo".to_owned(),
+        version: "1.33".to_owned(),
+        licence: "OFL-1.1".to_owned(),
+        digest: None,
+        folder: Some(workspace::root().join("core/report/fonts")),
+        from_registry: false,
+    }
+}
+
 /// The target that is this machine.
 ///
 /// Errors where the compiler does not say.

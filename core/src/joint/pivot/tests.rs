@@ -160,7 +160,7 @@ fn a_pivot_of_drawn_poses_lies_within_its_stated_error() {
     let mut memory = vec![0; joint.memory_needed()];
     let mut random = Normal(17);
     let mut film = |range: f64| {
-        let (frames, mut lines) = (20, Vec::new());
+        let (frames, mut lines) = (10, Vec::new());
         for k in 0..frames {
             let turn = range * (f64::from(k) / f64::from(frames - 1) - 0.5);
             let about = pose([0.0, 0.0, at[1]], [0.0, 0.0, turn]);
@@ -184,7 +184,7 @@ fn a_pivot_of_drawn_poses_lies_within_its_stated_error() {
         }
         pivot(lines.into_iter())
     };
-    let (films, mut held) = (250, [0; 2]);
+    let (films, mut held) = (200, [0; 2]);
     for _ in 0..films {
         let found = film(12.0).expect("a pivot");
         let place = [found.anterior_mm, found.medial_mm];
@@ -197,8 +197,8 @@ fn a_pivot_of_drawn_poses_lies_within_its_stated_error() {
         percent.iter().all(|p| (p - 68.0).abs() < 8.0),
         "{percent:?}"
     );
-    let called = (0..40).filter(|_| film(3.0).is_none_or(|found| found.is_ill_conditioned()));
-    assert!(called.count() >= 38);
+    let called = (0..20).filter(|_| film(3.0).is_none_or(|found| found.is_ill_conditioned()));
+    assert!(called.count() >= 19);
 }
 
 #[test]
