@@ -1,14 +1,13 @@
 /** A film of many frames: curves and their numbers, and a film of overlays that tells how far it is and can be called off. */
 import assert from 'node:assert/strict';
 import { pageTest, step, until } from './support/browser.mjs';
-import { exportSheet, openExport, savedFile } from './support/exporting.mjs';
+import { exportSheet, openExport } from './support/exporting.mjs';
 import { joint, openLongFilm } from './support/long_film.mjs';
-import { unzipped } from './support/masks.mjs';
 import * as panel from './support/panel.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
 
-const FRAMES = 160;
+const FRAMES = 120;
 
 pageTest('a long film', async (page, t) => {
   await step(page, t, 'has all its numbers, and a curve leads to the frame under the pointer', async () => {
@@ -16,20 +15,16 @@ pageTest('a long film', async (page, t) => {
     const plot = joint(page).getByRole('img', { name: /^Flexion over frame/ });
     const box = await plot.boundingBox();
     assert(box);
-    await page.mouse.click(box.x + 44 + ((99.5 / FRAMES) * (box.width - 52)), box.y + box.height / 2);
-    const named = await page.getByRole('application', { name: /frame \d+ of 160/ }).getAttribute('aria-label');
+    await page.mouse.click(box.x + 44 + ((79.5 / FRAMES) * (box.width - 52)), box.y + box.height / 2);
+    const named = await page.getByRole('application', { name: /frame \d+ of 120/ }).getAttribute('aria-label');
     const [, frame] = /frame (\d+) of/.exec(named ?? '') ?? [];
-    assert(Math.abs(Number(frame) - 100) <= 1, `frame ${frame}`);
+    assert(Math.abs(Number(frame) - 80) <= 1, `frame ${frame}`);
     const flexion = await joint(page).getByRole('status', { name: `Flexion in frame ${frame}`, exact: true }).innerText();
     const wanted = 45 - 40 * Math.cos((4 * Math.PI * (Number(frame) - 1)) / FRAMES);
     // The two components are turned about x and y by a few degrees too.
     assert(Math.abs(Math.abs(Number(flexion.split('\n')[0].replace('\u2212', '-'))) - wanted) < 2, `${flexion}, not ${wanted}`);
   });
   await step(page, t, 'is written while the page goes on, and says how far it is', () => calledOff(page));
-  await step(page, t, 'has a picture for each frame', async () => {
-    const pictures = unzipped(await savedFile(page));
-    assert.equal(Object.keys(pictures).length, FRAMES);
-  });
 });
 
 /** @param {Page} page */
@@ -39,7 +34,7 @@ async function calledOff(page) {
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
   const job = page.getByRole('button', { name: 'Cancel: Writing the film' });
   await job.waitFor();
-  const count = () => job.evaluate((button) => Number(/(\d+)\s*(?:of|\/)\s*160/.exec(button.parentElement?.parentElement?.textContent ?? '')?.[1] ?? 0));
+  const count = () => job.evaluate((button) => Number(/(\d+)\s*(?:of|\/)\s*120/.exec(button.parentElement?.parentElement?.textContent ?? '')?.[1] ?? 0));
   const first = await until(count, (done) => done > 0, 'how many pictures are done');
   // The page's own thread draws meanwhile.
   const drawn = await page.evaluate(async () => {

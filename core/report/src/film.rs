@@ -159,7 +159,7 @@ impl JointFilm {
     }
 
     /// The same numbers without those of doubtful frames: what steps, phases and centre are made from.
-    fn trusted(&self, mut numbers: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn trusted(&self, mut numbers: Vec<f64>) -> Vec<f64> {
         for (number, row) in numbers.iter_mut().zip(&self.rows) {
             if row.doubt.is_some() {
                 *number = f64::NAN;

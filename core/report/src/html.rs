@@ -40,6 +40,7 @@ pub fn html(film: &JointFilm, facts: &Facts) -> String {
         escaped(&caption(film))
     );
     steps(&mut out, film);
+    accuracy(&mut out, film);
     doubts(&mut out, film);
     limits(&mut out, film, facts);
     inputs(&mut out, facts);
@@ -110,8 +111,47 @@ fn with_deviation(value: f64, deviation: f64) -> String {
     }
 }
 
+/// What is rounded to zero has no sign.
 fn minus(number: &str) -> String {
+    let rest = number.strip_prefix("-0.0");
+    let rest = rest.filter(|rest| !rest.starts_with(|letter: char| letter.is_ascii_digit()));
+    let number = rest.map_or_else(|| number.to_owned(), |rest| format!("0.0{rest}"));
     number.replace('-', "\u{2212}")
+}
+
+/// What the poses themselves say of the numbers.
+fn accuracy(out: &mut String, film: &JointFilm) {
+    out.push_str("<h2>Accuracy to expect</h2>\n");
+    if !film.has_deviations() {
+        out.push_str("<p>Not known: the poses come without covariances.</p>\n");
+        return;
+    }
+    heading(
+        out,
+        &[
+            "one standard deviation",
+            "half of the frames",
+            "every frame",
+        ],
+    );
+    let flexion = (place::FLEXION, "flexion, \u{b0}");
+    let others = [
+        (place::MEDIAL, "mediolateral translation, mm"),
+        (place::LIFT_OFF, "lift-off, mm"),
+    ];
+    for (number, word) in [flexion].into_iter().chain(SHOWN).chain(others) {
+        let mut known = film.trusted(film.deviations(number));
+        known.retain(|deviation| deviation.is_finite());
+        known.sort_by(f64::total_cmp);
+        let (middle, last) = (known.get(known.len() / 2), known.last());
+        let cell = |deviation: Option<&f64>| match deviation {
+            Some(deviation) => format!("<td>at most {deviation:.1}</td>"),
+            None => "<td>\u{2013}</td>".to_owned(),
+        };
+        let (word, middle, last) = (escaped(word), cell(middle), cell(last));
+        let _ = writeln!(out, "<tr><td>{word}</td>{middle}{last}</tr>");
+    }
+    out.push_str("</tbody></table>\n<p>As carried from the covariances of both poses, without doubtful frames; what they do not know of is among the limits.</p>\n");
 }
 
 fn steps(out: &mut String, film: &JointFilm) {

@@ -396,7 +396,15 @@ fn the_report_names_inputs_settings_doubts_and_limits() {
         settings: vec![("poses".to_owned(), "of a <hand>".to_owned())],
         remarks: vec!["The front is <guessed>.".to_owned()],
     };
-    let page = html(&film(12.0), &facts);
+    let mut turning = film(12.0);
+    if let Some(joint) = &mut turning.rows[0].joint {
+        joint.numbers[place::LIFT_OFF] = -0.04;
+        joint.numbers[place::ROTATION] = -0.06;
+    }
+    let page = html(&turning, &facts);
+    assert!(!page.contains("\u{2212}0.0<") && page.contains("\u{2212}0.1<"));
+    let unknown = html(&without_deviations(film(12.0)), &facts);
+    assert!(unknown.contains("Not known: the poses come without covariances"));
     for words in [
         "a &amp; b: joint motion",
         "30 frames: 29 with a pose of both components, 1 doubtful",
@@ -407,6 +415,7 @@ fn the_report_names_inputs_settings_doubts_and_limits() {
         "\"rim&quot; &lt;inner&gt;".trim_start_matches('"'),
         "empty everywhere: 19",
         "Lowest points are not contact",
+        "<tr><td>lift-off, mm</td><td>at most 0.5</td><td>at most 0.5</td></tr>",
         "<svg",
     ] {
         assert!(page.contains(words), "{words}");
@@ -415,6 +424,13 @@ fn the_report_names_inputs_settings_doubts_and_limits() {
         !page.contains("http://")
             || page.matches("http://").count() == page.matches("http://www.w3.org").count()
     );
+}
+
+fn without_deviations(mut film: JointFilm) -> JointFilm {
+    for joint in film.rows.iter_mut().filter_map(|row| row.joint.as_mut()) {
+        joint.deviations = None;
+    }
+    film
 }
 
 /// What a spreadsheet that takes commas, semicolons or tabs for separators would calculate: cells that begin with a sign and are no number.

@@ -1,5 +1,5 @@
 /** A film of 2000 frames with its joint: how soon the curves answer, and what the page's thread does while a film of it is written. */
-import { until } from '../support/browser.mjs';
+import { atRest, until } from '../support/browser.mjs';
 import { exportSheet, openExport } from '../support/exporting.mjs';
 import { joint, openLongFilm } from '../support/long_film.mjs';
 import * as panel from '../support/panel.mjs';
@@ -12,6 +12,7 @@ const FRAMES = 2000;
 /** @param {Page} page @returns {Promise<import('./main.mjs').Row[]>} */
 export async function long(page) {
   const seconds = await openLongFilm(page, FRAMES);
+  await atRest(page);
   const plot = joint(page).getByRole('img', { name: /^Flexion over frame/ });
   const box = await plot.boundingBox();
   if (!box) throw new Error('no curve is in sight');

@@ -1,5 +1,5 @@
 /** A film of as many frames as one likes, of a knee that flexes and extends, with its poses: small frames, and nothing is to be found in them. */
-import { atRest, drawn } from './browser.mjs';
+import { drawn } from './browser.mjs';
 import { choose, file } from './files.mjs';
 import * as panel from './panel.mjs';
 import { demoFile } from './study.mjs';
@@ -23,7 +23,6 @@ export async function openLongFilm(page, frames) {
   await choose(page, film.frames, film.calibration, await demoFile('femur.stl'), await demoFile('tibia.stl'));
   await panel.waitForFrames(page, frames);
   await choose(page, film.femur, film.tibia);
-  await atRest(page);
   await page.keyboard.press('Shift+K');
   const left = joint(page).getByRole('button', { name: 'Left', exact: true });
   await left.or(joint(page).getByRole('img').first()).first().waitFor();
