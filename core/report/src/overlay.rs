@@ -2,16 +2,15 @@
 
 mod curve;
 mod ground;
+mod inks;
 
 use crate::drawing::{Anchor, Colour, Drawing, Dress, Stroke};
 use crate::film::JointFilm;
 use crate::letters::Font;
 use crate::picture::Picture;
 use curve::Curve;
+use inks::{GROUND, QUIET, TEXT};
 
-const GROUND: Colour = Colour([0x16, 0x18, 0x1a]);
-const TEXT: Colour = Colour([0xe4, 0xe7, 0xea]);
-const QUIET: Colour = Colour([0x9a, 0xa1, 0xa8]);
 /// Okabe and Ito's: told apart by colour-blind people, and the same in the page.
 const COMPONENTS: [Colour; 2] = [Colour([0x56, 0xb4, 0xe9]), Colour([0xe6, 0x9f, 0x00])];
 /// Rows of a picture: frames that are larger are drawn smaller, much smaller ones larger.

@@ -2,7 +2,7 @@
 
 use fluoropose::joint::numbers::place;
 
-use super::{QUIET, TEXT};
+use super::inks::{QUIET, TEXT};
 use crate::axes::Scale;
 use crate::drawing::{Anchor, Colour, Drawing, Dress, Stroke};
 use crate::film::JointFilm;
