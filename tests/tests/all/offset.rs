@@ -2,7 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Mask;
-use fluoropose::image::silhouette::{CommonOffset, Silhouette};
+use fluoropose::image::silhouette::{CommonOffset, OutlineOrigin, Silhouette};
 use fluoropose::mesh::Model;
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{EulerPose, Pose};
@@ -65,7 +65,7 @@ fn a_common_offset_is_found_taken_away_and_told() {
     let px = px.expect("met");
     assert!((0.6..1.1).contains(&px), "{px}");
 
-    let [off, told] = depth(&model, &camera, wide);
+    let [off, told] = depth(&model, &camera, wide.laid_by(OutlineOrigin::Drawn));
     assert!(off > 3.0, "{off}");
     let unknown = CommonOffset {
         px: 0.0,
