@@ -416,6 +416,44 @@ mod tests {
     use proptest::prelude::*;
     use std::vec::Vec;
 
+    /// Of six stretches each holds one number by itself; the first is met badly.
+    fn stretches(badly_px: f32) -> Vec<BorderPixel> {
+        let sample = |number: u16| {
+            let (held, swing) = (usize::from(number / 100), f32::from(number % 2) - 0.5);
+            let mut jacobian = [0.0; 6];
+            jacobian[held] = 1.0;
+            BorderPixel {
+                // Far from each other, so that none errs like another.
+                column: 60 * (number % 100),
+                row: 60 * (number / 100),
+                normal: [1.0, 0.0],
+                weight: 1.0,
+                residual: Residual::Px(swing * if held == 0 { badly_px } else { 0.2 }),
+                jacobian,
+                ..BorderPixel::EMPTY
+            }
+        };
+        (0..600).map(sample).collect()
+    }
+
+    #[test]
+    fn a_stretch_that_is_met_badly_holds_its_number_less() {
+        let deviations = |badly_px: f32| -> [f64; 6] {
+            let mut sums = Sums::default();
+            sums.add(&stretches(badly_px), Loss::Tukey(2.5), 0.0);
+            let matrix = sums.covariance().expect("determined").matrix;
+            core::array::from_fn(|k| matrix[k][k].sqrt())
+        };
+        let (alike, badly) = (deviations(0.2), deviations(2.0));
+        assert!((alike[0] / alike[1] - 1.0).abs() < 1e-9);
+        // psi' at 1 px of 2.5 is 0.17, where it is 0.99 elsewhere.
+        assert!((badly[0] / badly[1] - 0.99 / 0.25).abs() < 0.3, "{badly:?}");
+        // Where psi' is negative it must not hold the wrong way.
+        let off = deviations(3.4);
+        assert!(off.iter().all(|x| x.is_finite() && *x > 0.0), "{off:?}");
+        assert!(off[0] / off[1] < 4.0 * (0.99 / 0.85), "{off:?}");
+    }
+
     proptest! {
         #[test]
         fn derivatives_that_are_kept_are_those_that_are_reckoned(
