@@ -3,10 +3,11 @@
 //! Residuals along an outline are not independent: a hand, a network and a grey edge err over
 //! many pixels alike. The covariance is that of an M-estimate (Huber, *Robust Statistics*, 6.3)
 //! whose influences are correlated along the outline (Conley, J. Econometrics 92, 1999, for
-//! errors correlated in space): `H^-1 M H^-1` with `H = mean(psi') sum(l J J')` and
+//! errors correlated in space): `H^-1 M H^-1` with `H = sum(l psi' J J')` and
 //! `M = sum(l_i l_j g(d_ij) J_i J_j')`, where `psi` is the derivative of the loss, `l` arc
 //! length, and `g` the covariance of `psi` over the distance `d` between samples, estimated from
-//! the residuals themselves.
+//! the residuals themselves. `psi'` stands within the sum: where a stretch of outline fits badly it
+//! holds the pose less than the rest, and often it is the one stretch that holds a number.
 
 use super::border::BorderPixel;
 use super::edge_bias::EdgeBias;
@@ -20,6 +21,7 @@ use super::result::Refined;
 use super::stages::{Pass, STAGES, Stage};
 use super::view::CameraView;
 use crate::film::PathLine;
+use crate::math::inverse_spd;
 use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
@@ -37,6 +39,11 @@ const ALIKE: f32 = 0.5;
 const GRAIN: f64 = 0.25 / 12.0;
 /// Least mean of `psi'`, which may be small where the loss was cut close.
 const LEAST_CURVATURE: f64 = 0.2;
+/// No combination of the six parameters is held less than this part of what it were with the mean of `psi'` everywhere:
+/// four standard deviations instead of one.
+const LEAST_HOLD: f64 = 0.25;
+/// Mixtures with that mean, one after the other, until it is so.
+const MIXTURES: u32 = 8;
 /// Independent stretches beyond the six parameters that are supposed at least.
 const LEAST_FREEDOM: f64 = 4.0;
 
@@ -155,6 +162,8 @@ pub fn uncertainty(
 struct Sums {
     /// `sum(l J J')`
     information: Matrix6,
+    /// `sum(l psi' J J')`
+    holding: Matrix6,
     /// `sum(l_i l_j g(d_ij) J_i J_j')`
     spread: Matrix6,
     /// `sum(l psi')`
@@ -173,7 +182,8 @@ impl Sums {
         for (index, sample, residual) in found(border) {
             let l = f64::from(sample.weight);
             length += l;
-            self.curvature += l * loss.curvature(residual);
+            let curvature = loss.curvature(residual);
+            self.curvature += l * curvature;
             let jacobian = sample.jacobian.map(f64::from);
             // Half of the sample's own part: every pair is met once and counts both ways.
             let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
@@ -187,7 +197,9 @@ impl Sums {
                 for column in 0..6 {
                     let both = jacobian[row] * sum[column] + sum[row] * jacobian[column];
                     self.spread[row][column] += l * both;
-                    self.information[row][column] += l * jacobian[row] * jacobian[column];
+                    let own = l * jacobian[row] * jacobian[column];
+                    self.information[row][column] += own;
+                    self.holding[row][column] += curvature * own;
                 }
             }
         }
@@ -195,11 +207,26 @@ impl Sums {
         self.stretches += length / covariance.stretch_px();
     }
 
-    fn covariance(&self) -> Option<PoseCovariance> {
+    /// `H`, with as much of what it were with the mean of `psi'` everywhere as it needs: where residuals are large `psi'` is
+    /// negative, and a part of the outline that lies on something else would hold a number the wrong way.
+    fn bread(&self) -> Matrix6 {
         let curvature = (self.curvature / self.length.max(1.0)).max(LEAST_CURVATURE);
-        let bread = self
-            .information
-            .map(|row| row.map(|value| value * curvature));
+        let sum = |even: f64, own: f64| -> Matrix6 {
+            core::array::from_fn(|row| {
+                core::array::from_fn(|column| {
+                    even * curvature * self.information[row][column]
+                        + own * self.holding[row][column]
+                })
+            })
+        };
+        let holds = |even: &f64| inverse_spd(&sum(even - LEAST_HOLD, 1.0 - even)).is_some();
+        let mixtures = (0..=MIXTURES).map(|k| f64::from(k) / f64::from(MIXTURES));
+        let even = mixtures.into_iter().find(holds).unwrap_or(1.0);
+        sum(even, 1.0 - even)
+    }
+
+    fn covariance(&self) -> Option<PoseCovariance> {
+        let bread = self.bread();
         let freedom = (self.stretches - 6.0).max(LEAST_FREEDOM);
         // 6 F(6, n) / chi^2(6) at 95 %, within 1 % for n of 10 and more (Abramowitz and Stegun,
         // table 26.9).
@@ -388,6 +415,44 @@ mod tests {
     use crate::refine::border::Residual;
     use proptest::prelude::*;
     use std::vec::Vec;
+
+    /// Of six stretches each holds one number by itself; the first is met badly.
+    fn stretches(badly_px: f32) -> Vec<BorderPixel> {
+        let sample = |number: u16| {
+            let (held, swing) = (usize::from(number / 100), f32::from(number % 2) - 0.5);
+            let mut jacobian = [0.0; 6];
+            jacobian[held] = 1.0;
+            BorderPixel {
+                // Far from each other, so that none errs like another.
+                column: 60 * (number % 100),
+                row: 60 * (number / 100),
+                normal: [1.0, 0.0],
+                weight: 1.0,
+                residual: Residual::Px(swing * if held == 0 { badly_px } else { 0.2 }),
+                jacobian,
+                ..BorderPixel::EMPTY
+            }
+        };
+        (0..600).map(sample).collect()
+    }
+
+    #[test]
+    fn a_stretch_that_is_met_badly_holds_its_number_less() {
+        let deviations = |badly_px: f32| -> [f64; 6] {
+            let mut sums = Sums::default();
+            sums.add(&stretches(badly_px), Loss::Tukey(2.5), 0.0);
+            let matrix = sums.covariance().expect("determined").matrix;
+            core::array::from_fn(|k| matrix[k][k].sqrt())
+        };
+        let (alike, badly) = (deviations(0.2), deviations(2.0));
+        assert!((alike[0] / alike[1] - 1.0).abs() < 1e-9);
+        // psi' at 1 px of 2.5 is 0.17, where it is 0.99 elsewhere.
+        assert!((badly[0] / badly[1] - 0.99 / 0.25).abs() < 0.3, "{badly:?}");
+        // Where psi' is negative it must not hold the wrong way.
+        let off = deviations(3.4);
+        assert!(off.iter().all(|x| x.is_finite() && *x > 0.0), "{off:?}");
+        assert!(off[0] / off[1] < 4.0 * (0.99 / 0.85), "{off:?}");
+    }
 
     proptest! {
         #[test]

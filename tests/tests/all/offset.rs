@@ -2,7 +2,7 @@
 
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Mask;
-use fluoropose::image::silhouette::{CommonOffset, Silhouette};
+use fluoropose::image::silhouette::{CommonOffset, OutlineOrigin, Silhouette};
 use fluoropose::mesh::Model;
 use fluoropose::pose::covariance::Deviations;
 use fluoropose::pose::{EulerPose, Pose};
@@ -65,8 +65,11 @@ fn a_common_offset_is_found_taken_away_and_told() {
     let px = px.expect("met");
     assert!((0.6..1.1).contains(&px), "{px}");
 
-    let [off, told] = depth(&model, &camera, wide);
+    let [off, told] = depth(&model, &camera, wide.laid_by(OutlineOrigin::Drawn));
     assert!(off > 3.0, "{off}");
+    let [_, of_a_mask] = depth(&model, &camera, wide);
+    assert!(off > 5.0 * told, "{off} {told}");
+    assert!(off < 2.0 * of_a_mask, "{off} {of_a_mask}");
     let unknown = CommonOffset {
         px: 0.0,
         deviation_px: px,

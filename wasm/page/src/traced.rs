@@ -62,8 +62,8 @@ impl Traced {
         })
     }
 
-    /// Says who laid the outline on the frame: a `hand`, a `tool` that follows edges, or both (`mixed`). What a tool laid lies off
-    /// the implant's outline by a distance that nobody knows, and poses from it say so.
+    /// Says who laid the outline on the frame: a `hand`, a `tool` that follows edges, or both (`mixed`); or a program `drawn` it from
+    /// the model itself. All but the last lie off the implant's outline by a distance that nobody knows, and poses from it say so.
     ///
     /// # Errors
     /// A sentence about another word.
@@ -71,7 +71,7 @@ impl Traced {
     pub fn laid_by(&mut self, word: &str) -> Result<(), JsError> {
         self.origin = OutlineOrigin::of_word(word).ok_or_else(|| {
             JsError::new(&format!(
-                "An outline is laid by a hand, by a tool, or mixed, not by '{word}'"
+                "An outline is laid by a hand, drawn, laid by a tool, or mixed, not '{word}'"
             ))
         })?;
         Ok(())

@@ -100,10 +100,11 @@ export interface Hints {
   /** Sides of the outline that are not to be trusted, from 0: side `i` runs from point `i` to the next. */
   readonly unknownSides?: readonly number[];
   /**
-   * Who laid the outline on the frame; left out, a hand. What a tool laid lies on the frame's edges, off the implant's outline by a
-   * distance that nobody knows, and depth is then uncertain by millimetres: with `image` and `film` it is not.
+   * Who laid the outline on the frame; left out, a hand or a network. It lies off the implant's outline everywhere alike by a distance
+   * that nobody knows, a tool's, on the frame's edges, more than a hand's, and depth is uncertain by millimetres: with `image` and
+   * `film` it is not. An outline that was `drawn` from the model itself lies on it.
    */
-  readonly laidBy?: 'hand' | 'tool' | 'mixed';
+  readonly laidBy?: 'hand' | 'drawn' | 'tool' | 'mixed';
   /** Pose of the femoral component in the same frame, for a tibial one. */
   readonly femur?: Pose;
   /** Pose of the tibial component in the same frame, for a femoral one. */

@@ -5,7 +5,7 @@
 use anyhow::{Result, ensure};
 use fluoropose::image::contour::Point;
 use fluoropose::image::mask::{MAX_SIDE, Mask};
-use fluoropose::image::silhouette::Silhouette;
+use fluoropose::image::silhouette::{OutlineOrigin, Silhouette};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -73,6 +73,8 @@ pub struct Disturbed {
     pub unknown: Option<MaskBuffer>,
     /// Pixels that say nothing, told or not.
     pub hidden: Option<MaskBuffer>,
+    /// Who laid the outline, before the disturbance.
+    pub origin: OutlineOrigin,
 }
 
 impl Disturbed {
@@ -83,8 +85,8 @@ impl Disturbed {
     pub fn see<T>(&self, look: impl FnOnce(Silhouette<'_>) -> Result<T>) -> Result<T> {
         let mask = self.mask.mask();
         match &self.unknown {
-            None => look(Silhouette::from(&mask)),
-            Some(unknown) => look(Silhouette::new(&mask, &unknown.mask())?),
+            None => look(Silhouette::from(&mask).laid_by(self.origin)),
+            Some(unknown) => look(Silhouette::new(&mask, &unknown.mask())?.laid_by(self.origin)),
         }
     }
 }
@@ -161,6 +163,7 @@ impl DisturbanceOptions {
         frame: u64,
     ) -> Result<Disturbed> {
         let mut disturbed = self.disturb_drawn(mask, 1, frame)?;
+        disturbed.origin = OutlineOrigin::Hand;
         if let Some(unknown) = unknown.map(MaskBuffer::copy_of) {
             let with = |mask: Option<MaskBuffer>| match mask {
                 Some(mask) => mask.combined(&unknown, |a, b| a | b),
@@ -187,6 +190,7 @@ impl DisturbanceOptions {
                 mask,
                 unknown: None,
                 hidden,
+                origin: OutlineOrigin::Drawn,
             });
         }
         let curves = self.curves(fine, factor)?;
@@ -204,6 +208,7 @@ impl DisturbanceOptions {
             mask,
             unknown: hidden.clone().filter(|_| !self.unmarked),
             hidden,
+            origin: OutlineOrigin::Drawn,
         })
     }
 
