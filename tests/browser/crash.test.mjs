@@ -1,14 +1,11 @@
 /** Kept in the browser: a tab that dies in the middle of a trace comes back with everything. */
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
-import { readFile } from 'node:fs/promises';
-import { join } from 'node:path';
-import { after, test } from 'node:test';
-import { chromium } from 'playwright-core';
-import { ADDRESS, ARGUMENTS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
+import { test } from 'node:test';
+import { ADDRESS, drawn, IN_FIREFOX, pageTest, PATIENCE, screenshot, step, until } from './support/browser.mjs';
 import { openExport } from './support/exporting.mjs';
 import { choose, temporaryFolder } from './support/files.mjs';
 import { png } from './support/frames.mjs';
+import { startBrowser } from './support/own_browser.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { demoFile, framePath } from './support/study.mjs';
@@ -244,45 +241,4 @@ function noteField(page) {
 /** Waits for what the top bar says of saving. @param {Page} page @param {RegExp} words */
 function saved(page, words) {
   return until(() => page.getByRole('group', { name: 'Saved state' }).innerText(), (text) => words.test(text), `the top bar to say ${words}`);
-}
-
-/** @type {(() => Promise<void>)[]} */
-const running = [];
-after(() => Promise.all(running.map((kill) => kill())));
-
-/** A browser of its own on a profile, as a person starts it, to be killed. @param {string} profile */
-async function startBrowser(profile) {
-  const program = /** @type {string} */ (process.env.FLUOROPOSE_CHROMIUM);
-  const address = [...ARGUMENTS, '--headless=new', '--remote-debugging-port=0', `--user-data-dir=${profile}`, 'about:blank'];
-  const child = spawn(program, address, { detached: true, stdio: 'ignore' });
-  const gone = new Promise((resolve) => child.once('exit', resolve));
-  // The whole group: a crash spares nobody.
-  const kill = async () => {
-    if (child.exitCode === null && child.signalCode === null && child.pid) process.kill(-child.pid, 'SIGKILL');
-    await gone;
-  };
-  running.push(kill);
-  const port = await until(() => portOf(profile, child.pid), (found) => found !== null, 'the browser to listen');
-  const connected = await chromium.connectOverCDP(`http://127.0.0.1:${port}`);
-  const page = async () => {
-    const context = connected.contexts()[0];
-    const tab = await context.newPage();
-    await tab.setViewportSize({ width: 1440, height: 900 });
-    tab.setDefaultTimeout(PATIENCE);
-    await tab.goto(ADDRESS);
-    return tab;
-  };
-  return { page, kill };
-}
-
-/** Ports that a killed browser left behind are not taken for the new one's. @type {Map<string, string>} */
-const seen = new Map();
-
-/** @param {string} profile @param {number | undefined} pid */
-async function portOf(profile, pid) {
-  const text = await readFile(join(profile, 'DevToolsActivePort'), 'utf8').catch(() => null);
-  if (!text || seen.get(profile) === text) return null;
-  seen.set(profile, text);
-  assert(pid);
-  return Number(text.split('\n')[0]);
 }

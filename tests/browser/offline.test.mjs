@@ -1,13 +1,13 @@
 /** Without a network after the first load, from a sub-folder of a host without headers; newer versions wait. */
 import assert from 'node:assert/strict';
-import { createHash } from 'node:crypto';
-import { cp, readFile, writeFile } from 'node:fs/promises';
+import { cp } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { openWindow, PATIENCE, setting, step, visit, watch } from './support/browser.mjs';
 import { temporaryFolder } from './support/files.mjs';
 import { Host } from './support/host.mjs';
 import * as panel from './support/panel.mjs';
+import { newerVersion } from './support/version.mjs';
 import { fromOpeningToPose } from './support/workflow.mjs';
 
 /** @typedef {import('playwright-core').Page} Page */
@@ -66,21 +66,6 @@ async function isInstallable(page) {
   // Test windows keep nothing, and nothing can be installed from such a window.
   assert.deepEqual(obstacles.filter((id) => id !== 'in-incognito'), []);
   await browser.detach();
-}
-
-/** What a build with another index.html would leave on the host. @param {string} folder */
-async function newerVersion(folder) {
-  const [page, worker] = [join(folder, 'index.html'), join(folder, 'service_worker.js')];
-  const [before, list] = await Promise.all([readFile(page, 'utf8'), readFile(worker, 'utf8')]);
-  const after = before.replace('</title>', '</title><meta name="edition" content="second">');
-  assert(list.includes(digest(before)), 'the worker names the page by its digest');
-  await writeFile(page, after);
-  await writeFile(worker, list.replace(digest(before), digest(after)));
-}
-
-/** @param {string} text */
-function digest(text) {
-  return `sha256-${createHash('sha256').update(text).digest('base64')}`;
 }
 
 /** @param {Page} page */

@@ -1,5 +1,7 @@
 //! Shared helpers of the tests that cross crates.
 
+pub mod fuzz;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 

@@ -28,7 +28,7 @@ import { restoreWork, workToRestore } from './keep/restore';
 import { tellLostJobs } from './keep/lost_jobs';
 import { keepForOffline } from './keep/offline';
 import { Poser } from './jobs/poser';
-import type { Services } from './jobs/services';
+import { sentenceOf, type Services } from './jobs/services';
 import { frameDecoder } from './films/decoding';
 import { Studio } from './films/studio';
 import { FramesAhead } from './jobs/frames_ahead';
@@ -55,7 +55,10 @@ async function start(root: HTMLElement): Promise<void> {
   const calibrator = new Calibrator(services);
   new FramesAhead(services);
   const keeper = new Keeper(services);
-  const kept = await workToRestore(keeper).catch(() => null);
+  const kept = await workToRestore(keeper).catch((error: unknown) => {
+    services.store.say('error', texts.keep.notLookedAt(sentenceOf(error)));
+    return null;
+  });
   const poser = new Poser(services.store, matcher);
   new Anatomist(services, matcher);
   new Chooser(services.store, matcher);

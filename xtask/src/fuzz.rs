@@ -1,4 +1,4 @@
-//! Verb `fuzz`: changed files to every reader of frames, masks and models.
+//! Verb `fuzz`: changed bytes to every reader, and to the way from an outline to a pose.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};
@@ -6,19 +6,25 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 use crate::conformance;
+use crate::output::announce;
 use crate::setup::rust_target::own_cargo;
+use crate::setup::{command, node};
 use crate::workspace;
 
 /// Options of `fuzz`.
 #[derive(clap::Args)]
 #[command(
-    after_help = "The files are those of `conformance`, and small models; each is changed at random in one to six places. Arithmetic is checked for \
-overflow. What panics, or takes longer than 20 s, is kept below target/fuzz, and the verb fails."
+    after_help = "Targets, by turns: frames (images, DICOM, models: the files of `conformance`), libraries with right checksums, implants in one file, pose files \
+beside a second reader, calibrations, outlines to poses, and sessions. What is kept in tests/corpus, golden files and more are changed at random in one to six places. \
+Arithmetic is checked for overflow. What panics, or takes longer than 20 s, is kept below target/fuzz, and the verb fails; it prints how often each target ran since its last crash."
 )]
 pub(crate) struct Args {
     /// How long
     #[arg(long, value_name = "MINUTES", default_value_t = 1.0)]
     minutes: f64,
+    /// Instead: flip every single bit of libraries, a firmware image and a session, some minutes
+    #[arg(long, conflicts_with = "minutes")]
+    flips: bool,
     /// Other changes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -29,15 +35,26 @@ pub(crate) struct Args {
 /// # Errors
 /// For what cannot be installed or built, and where a file ends the program or takes too long.
 pub(crate) fn run(args: Args) -> Result<()> {
-    let seeds = conformance::seeds()?;
-    let mut build = own_cargo();
-    build.args(["build", "-p", "fluoropose-decode", "--example", "mutated"]);
-    if !build.status()?.success() {
-        bail!("the program that reads changed files could not be built");
+    if args.flips {
+        return flips();
     }
-    let program = format!("mutated{}", std::env::consts::EXE_SUFFIX);
+    // Without the other readers there is the corpus alone.
+    let seeds = conformance::seeds().unwrap_or_else(|error| {
+        announce(&format!(
+            "the files of other readers are left out: {error:#}"
+        ));
+        String::new()
+    });
+    let mut build = own_cargo();
+    build.args(["build", "-p", "fluoropose-tests", "--example", "fuzz"]);
+    if !build.status()?.success() {
+        bail!("the program that changes bytes could not be built");
+    }
+    let program = format!("fuzz{}", std::env::consts::EXE_SUFFIX);
+    // The others and sessions have the same time each.
+    let seconds = (60.0 * args.minutes).max(1.0);
     let mut reading = Command::new(workspace::target_dir().join("debug/examples").join(program))
-        .arg(((60.0 * args.minutes).max(1.0) as u64).to_string())
+        .arg((seconds * 6.0 / 7.0).ceil().to_string())
         .arg(args.seed.to_string())
         .arg(workspace::target_dir().join("fuzz"))
         .stdin(Stdio::piped())
@@ -45,8 +62,30 @@ pub(crate) fn run(args: Args) -> Result<()> {
     let mut paths = reading.stdin.take().context("the program reads no paths")?;
     paths.write_all(seeds.as_bytes())?;
     drop(paths);
-    match reading.wait()?.success() {
-        true => Ok(()),
-        false => bail!("a file ended the program or took too long"),
+    if !reading.wait()?.success() {
+        bail!("bytes ended the program or took too long");
     }
+    sessions(seconds / 7.0, args.seed)
+}
+
+/// Session files, which the page reads: changed for so long, and then each single bit flipped.
+fn sessions(seconds: f64, seed: u64) -> Result<()> {
+    let web = workspace::root().join("web");
+    node::install(&web)?;
+    let mut tests = node::script(&web, "test")?;
+    tests
+        .args(["--", "tests/document/changed_sessions.test.ts"])
+        .env("FLUOROPOSE_FUZZ_SECONDS", seconds.to_string())
+        .env("FLUOROPOSE_FUZZ_SEED", seed.to_string());
+    command::run(&mut tests)
+}
+
+fn flips() -> Result<()> {
+    let mut tests = own_cargo();
+    tests
+        .args(["test", "-p", "fluoropose-tests", "--test", "all", "flips::"])
+        .args(["--", "--nocapture"])
+        .env("FLUOROPOSE_EVERY_BIT", "1");
+    command::run(&mut tests)?;
+    sessions(1.0, 1)
 }

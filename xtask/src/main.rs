@@ -6,8 +6,10 @@ mod ci;
 mod clock;
 mod conformance;
 mod demo;
+mod driver;
 mod firmware;
 mod fuzz;
+mod kill;
 mod laboratory;
 mod models;
 mod options;
@@ -49,6 +51,8 @@ enum Verb {
     Conformance(conformance::Args),
     /// Give changed files to every reader, until one panics or the time is over
     Fuzz(fuzz::Args),
+    /// End work in the page in every way, and tell what was lost
+    Kill(kill::Args),
     /// Check the layout of the sources: layers, cycles between files, words
     Tidy(tidy::Args),
     /// Check what comes from elsewhere: licences, sources, what was taken back
@@ -124,6 +128,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Bench(args) => bench::run(args),
         Verb::Conformance(args) => conformance::run(args),
         Verb::Fuzz(args) => fuzz::run(args),
+        Verb::Kill(args) => kill::run(args),
         Verb::Tidy(args) => tidy::run(args),
         Verb::Supply(args) => supply::run(args),
         Verb::Ci(args) => ci::run(args),

@@ -5,6 +5,8 @@ mod anatomy;
 mod biplane;
 mod calibration;
 mod embedded;
+mod flips;
+mod fuzz;
 mod golden;
 mod implant;
 mod joint;

@@ -12,10 +12,18 @@ import { Shelf, type CellChange, type KeptWork } from './shelf';
 /** A change waits this long for others to be written with it, ms: what a crash may cost. */
 export const WAIT = 400;
 
-/** What a work was like when it was last written. */
-interface Written {
+/** A work and where the person looked in it. */
+interface Seen {
   readonly doc: Doc;
   readonly view: string;
+}
+
+/** What a work was like when it was last written. */
+interface Written extends Seen {
+  /** By this the storage is known to hold that still. */
+  readonly savedAt: number;
+  /** All files that it names are there. */
+  readonly hasFiles: boolean;
 }
 
 /**
@@ -29,15 +37,16 @@ export class Keeper {
   readonly #open: () => Promise<Shelf>;
   #shelf: Promise<Shelf> | null = null;
   readonly #written = new Map<string, Written>();
-  readonly #filesHere = new Set<string>();
-  #current = '';
+  /** Work that was left for other work before all of it was written. */
+  readonly #left = new Map<string, Seen>();
+  #latest = EMPTY_DOC;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #saving: Promise<void> | null = null;
 
   constructor(services: Pick<Services, 'store' | 'assets'>, claims = new Claims(), open?: () => Promise<Shelf>) {
     this.#services = services;
     this.#claims = claims;
-    this.#open = open ?? (() => Shelf.open(() => (this.#shelf = null)));
+    this.#open = open ?? (() => Shelf.open(() => this.lost()));
     services.store.subscribe(() => this.#notice());
   }
 
@@ -54,6 +63,13 @@ export class Keeper {
     return this.#shelf;
   }
 
+  /** The browser took the storage away: what was written there may be gone, and is written again. */
+  lost(): void {
+    this.#shelf = null;
+    this.#written.clear();
+    this.#notice();
+  }
+
   /** True if this tab has the work now. */
   claim(id: string): Promise<boolean> {
     return this.#claims.claim(id);
@@ -65,16 +81,14 @@ export class Keeper {
     const shelf = await this.shelf();
     await shelf.delete(id);
     this.#written.delete(id);
+    this.#left.delete(id);
     await shelf.sweep();
-    // What was swept away is written again when it is next needed.
-    this.#filesHere.clear();
   }
 
   /** A document that was just read from the storage is written there already. */
-  adopt(doc: Doc): void {
-    this.#written.set(doc.work, { doc, view: this.#view() });
-    this.#current = doc.work;
-    for (const { sha256 } of filesOf(doc)) this.#filesHere.add(sha256);
+  adopt(doc: Doc, savedAt: number): void {
+    this.#written.set(doc.work, { doc, view: this.#view(), savedAt, hasFiles: false });
+    this.#latest = doc;
     const at = Date.now();
     this.#show({ state: 'kept', at });
   }
@@ -91,7 +105,9 @@ export class Keeper {
   #notice(): void {
     const { doc } = this.#store;
     if (doc.work === '' && hasSomething(doc)) return this.#name();
-    if (doc.work !== this.#current) this.#turnTo(doc.work);
+    const before = this.#latest;
+    this.#latest = doc;
+    if (doc.work !== before.work) this.#turn(before, doc);
     if (this.#isPending()) this.#schedule();
   }
 
@@ -102,28 +118,32 @@ export class Keeper {
   }
 
   /** Other work is on view: what was there before is not what the next page begins with. */
-  #turnTo(work: string): void {
-    const before = this.#current;
-    this.#current = work;
-    if (this.#written.has(before)) {
-      this.shelf().then((shelf) => shelf.putAside(before, true)).catch((error: unknown) => this.#refuse(error));
-    }
-    if (work === '') this.#show({ state: 'nothing' });
+  #turn(before: Doc, { work }: Doc): void {
+    if (this.#written.get(before.work)?.doc === before) {
+      this.shelf().then((shelf) => shelf.putAside(before.work, true)).catch((error: unknown) => this.#refuse(error));
+    } else if (before.work !== '') this.#left.set(before.work, { doc: before, view: this.#view() });
+    this.#left.delete(work);
+    if (work === '' && this.#left.size === 0) this.#show({ state: 'nothing' });
     // What comes back by undo is written anew, no longer put aside.
-    else if (this.#written.has(work)) this.#written.set(work, { doc: this.#written.get(work)!.doc, view: '' });
+    const written = this.#written.get(work);
+    if (written) this.#written.set(work, { ...written, view: '' });
   }
 
   #isPending(): boolean {
+    return this.#left.size > 0 || !this.#isWritten(this.#view());
+  }
+
+  /** `view`: where the person looks; without it the work alone counts. */
+  #isWritten(view?: string): boolean {
     const { doc } = this.#store;
-    if (doc.work === '') return false;
     const written = this.#written.get(doc.work);
-    return written?.doc !== doc || written.view !== this.#view();
+    return doc.work === '' || (written?.doc === doc && (view === undefined || written.view === view));
   }
 
   #schedule(): void {
     const { keeping } = this.#store.ui;
     // Where the person looks is kept too, but it is no work: nobody has to be told that it waits.
-    const isWork = this.#written.get(this.#store.doc.work)?.doc !== this.#store.doc;
+    const isWork = this.#left.size > 0 || !this.#isWritten();
     if (isWork && keeping.state !== 'pending' && keeping.state !== 'refused') this.#show({ state: 'pending', since: Date.now() });
     if (this.#timer === undefined && !this.#saving) this.#timer = setTimeout(() => this.flush(), WAIT);
   }
@@ -145,15 +165,14 @@ export class Keeper {
 
   async #write(): Promise<void> {
     const { doc, ui } = this.#store;
-    const view = this.#view();
     try {
-      if (!(await this.#claims.claim(doc.work))) throw new Error(texts.keep.elsewhere);
-      const shelf = await this.shelf();
-      const written = this.#written.get(doc.work);
-      await shelf.write(this.#record(doc), changedCells(written?.doc ?? EMPTY_DOC, doc));
-      await this.#addFiles(shelf, doc);
-      this.#written.set(doc.work, { doc, view });
-      if (this.#store.doc.work === doc.work) this.#show({ state: 'kept', at: Date.now() });
+      // What is on view comes first: the page may be about to go.
+      if (doc.work !== '') await this.#put({ doc, view: this.#view() }, false);
+      for (const [id, left] of [...this.#left]) {
+        await this.#put(left, true);
+        if (this.#left.get(id) === left) this.#left.delete(id);
+      }
+      if (this.#store.doc.work === doc.work && this.#left.size === 0) this.#show(doc.work === '' ? { state: 'nothing' } : { state: 'kept', at: Date.now() });
       if (ui.keeping.state === 'refused') this.#store.say('info', texts.keep.again);
     } catch (error) {
       this.#refuse(error);
@@ -162,32 +181,31 @@ export class Keeper {
     }
   }
 
-  #record(doc: Doc): KeptWork {
-    const { cells: _, ...document } = plainDoc({ ...doc, cells: Cells.NONE });
-    return {
-      id: doc.work,
-      name: doc.name,
-      frames: doc.frames.length,
-      savedAt: Date.now(),
-      putAside: false,
-      program: PROGRAM,
-      version: SESSION_VERSION,
-      document,
-      view: JSON.parse(this.#view()) as KeptWork['view'],
-      files: filesOf(doc),
-    };
+  /** Writes a work with its files: of its cells those that changed, where the storage still has the others. */
+  async #put(seen: Seen, putAside: boolean): Promise<void> {
+    const { doc } = seen;
+    if (!(await this.#claims.claim(doc.work))) throw new Error(texts.keep.elsewhere);
+    const shelf = await this.shelf();
+    const written = this.#written.get(doc.work);
+    const record = recordOf(seen, putAside);
+    const goesOn = written !== undefined && (await shelf.write(record, changedCells(written.doc, doc))) === written.savedAt;
+    if (!goesOn) await shelf.writeWhole(record, changedCells(EMPTY_DOC, doc));
+    const namesTheSame = written?.doc.frames === doc.frames && written.doc.components === doc.components;
+    const hasFiles = (goesOn && namesTheSame && written.hasFiles) || (await this.#addFiles(shelf, doc));
+    this.#written.set(doc.work, { ...seen, savedAt: record.savedAt, hasFiles });
   }
 
-  /** Their bytes, once: a file never changes, it is named by what is in it. */
-  async #addFiles(shelf: Shelf, doc: Doc): Promise<void> {
+  /** Bytes of files that are not there yet; a file never changes, it is named by what is in it. True if all are there now. */
+  async #addFiles(shelf: Shelf, doc: Doc): Promise<boolean> {
+    const there = new Set(await shelf.fileDigests());
     for (const { sha256, name } of filesOf(doc)) {
-      if (this.#filesHere.has(sha256)) continue;
       const asset = this.#services.assets.get(sha256);
       // A session may name files that nobody has opened yet.
-      if (!asset) continue;
-      if (!(await shelf.hasFile(sha256))) await shelf.addFile({ sha256, name, blob: asset.blob });
-      this.#filesHere.add(sha256);
+      if (there.has(sha256) || !asset) continue;
+      await shelf.addFile({ sha256, name, blob: asset.blob });
+      there.add(sha256);
     }
+    return filesOf(doc).every(({ sha256 }) => there.has(sha256));
   }
 
   #refuse(error: unknown): void {
@@ -200,6 +218,22 @@ export class Keeper {
   #show(keeping: Keeping): void {
     this.#store.show({ keeping });
   }
+}
+
+function recordOf({ doc, view }: Seen, putAside: boolean): KeptWork {
+  const { cells: _, ...document } = plainDoc({ ...doc, cells: Cells.NONE });
+  return {
+    id: doc.work,
+    name: doc.name,
+    frames: doc.frames.length,
+    savedAt: Date.now(),
+    putAside,
+    program: PROGRAM,
+    version: SESSION_VERSION,
+    document,
+    view: JSON.parse(view) as KeptWork['view'],
+    files: filesOf(doc),
+  };
 }
 
 /** After a refusal, ms. */

@@ -32,7 +32,7 @@ export async function restoreWork(services: Services, keeper: Keeper, work: Kept
   const { store } = services;
   try {
     const doc = await docOf(keeper, work);
-    keeper.adopt(doc);
+    keeper.adopt(doc, work.savedAt);
     store.amend(() => doc);
     store.settle();
     showView(services, work);

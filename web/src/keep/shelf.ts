@@ -90,18 +90,35 @@ export class Shelf {
     return Object.fromEntries(keys.map(([, cell], index) => [cell, values[index]]));
   }
 
-  /** All of it or nothing: a page that is killed in between leaves what was there before. */
-  async write(work: KeptWork, changes: readonly CellChange[]): Promise<void> {
+  /**
+   * All of it or nothing: a page that is killed in between leaves what was there before. Says when that was saved: where it
+   * is not what the changes are changes of, somebody else wrote it or the browser cleared it. All is asked for at once,
+   * because a page that goes hears no answers.
+   */
+  async write(work: KeptWork, changes: readonly CellChange[]): Promise<number | null> {
+    return this.#writeCells(work, changes, false);
+  }
+
+  /** The same with all cells, whatever was there. */
+  async writeWhole(work: KeptWork, cells: readonly CellChange[]): Promise<void> {
+    await this.#writeCells(work, cells, true);
+  }
+
+  async #writeCells(work: KeptWork, changes: readonly CellChange[], anew: boolean): Promise<number | null> {
     const transaction = this.#database.transaction(['works', 'cells'], 'readwrite', { durability: 'relaxed' });
-    const cells = transaction.objectStore('cells');
+    const [works, cells] = [transaction.objectStore('works'), transaction.objectStore('cells')];
+    const before = works.get(work.id);
     await settled(transaction, () => {
-      const writes: Promise<unknown>[] = [transaction.objectStore('works').put(work)];
+      const writes: Promise<unknown>[] = [before, works.put(work)];
+      if (anew) writes.push(cells.delete(ofWork(work.id)));
       for (const { key, cell } of changes) {
         const place: [string, string] = [work.id, key];
         writes.push(cell === null ? cells.delete(place) : cells.put(cell, place));
       }
+      transaction.commit();
       return writes;
     });
+    return (await before)?.savedAt ?? null;
   }
 
   async putAside(id: string, putAside: boolean): Promise<void> {
@@ -120,8 +137,9 @@ export class Shelf {
 
   // --- Files ----------------------------------------------------------------------------------------------------
 
-  async hasFile(sha256: string): Promise<boolean> {
-    return (await this.#database.count('files', sha256)) > 0;
+  /** SHA-256 of each. */
+  fileDigests(): Promise<string[]> {
+    return this.#database.getAllKeys('files');
   }
 
   /** Those of them that are here. */

@@ -215,6 +215,7 @@ export const en = {
     opened: (name: string) => `Opened ${name || 'the work'} as it was left.`,
     restored: (name: string, at: number) => `${name || 'The work'} is back as it was at ${new Date(at).toLocaleTimeString()}.`,
     notRestored: (name: string, why: string) => `${name || 'The work'} of last time could not be brought back: ${why}. It stays in this browser, under Save, Earlier work.`,
+    notLookedAt: (why: string) => `The browser does not say what it keeps of earlier work (${why.replace(/\.$/, '')}): reload the page to try again.`,
     newer: (program: string) => `it was written by ${program}, which is newer than this page: reload the page`,
     place: 'kept work',
     lost: (titles: string) => `The page was left while this was under way, and it came to no end: ${titles}.`,

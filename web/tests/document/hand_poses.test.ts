@@ -106,7 +106,7 @@ describe('a session', () => {
     const { doc } = readSession(text);
     expect(cellOf(doc, 'f', 'femur').result).toEqual(cell(store).result);
     expect(doc.reference).toEqual({ name: 'before', poses: { 'f/femur': POSE } });
-    expect(readSession(text.replace(/"reference":.*?}},/, '')).doc.reference).toBeNull();
+    expect(readSession(text.replace(/"reference":.*?}},/, '').replace(/"checksum":\d+,/, '')).doc.reference).toBeNull();
   });
 });
 

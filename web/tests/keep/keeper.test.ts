@@ -18,24 +18,30 @@ function memory() {
   const cells = new Map<string, Map<string, unknown>>();
   const files = new Set<string>();
   const writes: { work: KeptWork; changes: readonly CellChange[] }[] = [];
-  const trouble: { refuse: Error | null } = { refuse: null };
+  const trouble: { refuse: Error | null; only?: string } = { refuse: null };
+  const put = (work: KeptWork, changes: readonly CellChange[], anew: boolean) => {
+    if (trouble.refuse && (trouble.only ?? work.name) === work.name) throw trouble.refuse;
+    const before = works.get(work.id)?.savedAt ?? null;
+    writes.push({ work, changes });
+    works.set(work.id, work);
+    const of = (!anew && cells.get(work.id)) || new Map<string, unknown>();
+    for (const { key, cell } of changes) cell === null ? of.delete(key) : of.set(key, cell);
+    cells.set(work.id, of);
+    return before;
+  };
   const shelf = {
-    write: async (work: KeptWork, changes: readonly CellChange[]) => {
-      if (trouble.refuse) throw trouble.refuse;
-      writes.push({ work, changes });
-      works.set(work.id, work);
-      const of = cells.get(work.id) ?? new Map<string, unknown>();
-      for (const { key, cell } of changes) cell === null ? of.delete(key) : of.set(key, cell);
-      cells.set(work.id, of);
-    },
+    write: async (work: KeptWork, changes: readonly CellChange[]) => put(work, changes, false),
+    writeWhole: async (work: KeptWork, changes: readonly CellChange[]) => void put(work, changes, true),
     putAside: async (id: string, putAside: boolean) => {
       const work = works.get(id);
       if (work) works.set(id, { ...work, putAside });
     },
-    hasFile: async (sha256: string) => files.has(sha256),
+    fileDigests: async () => [...files],
     addFile: async ({ sha256 }: { sha256: string }) => void files.add(sha256),
   };
-  return { shelf: shelf as unknown as Shelf, works, cells, files, writes, trouble };
+  /** As a browser does whose disk is full. */
+  const evict = () => [works, cells, files].forEach((store) => store.clear());
+  return { shelf: shelf as unknown as Shelf, evict, works, cells, files, writes, trouble };
 }
 
 /** Locks of a browser with as many tabs as ask. */
@@ -171,6 +177,84 @@ describe('keeper', () => {
     expect(other.writes).toEqual([]);
     expect(other.store.ui.keeping).toMatchObject({ state: 'refused' });
     expect(other.store.ui.notice?.text).toMatch(/open in another tab/);
+  });
+
+  const START_ANEW = { label: 'start anew', apply: () => EMPTY_DOC };
+  const named = (name: string) => ({ label: 'name', apply: (doc: typeof EMPTY_DOC) => ({ ...doc, name }) });
+
+  it('writes all of it again where the browser says that it took the storage away', async () => {
+    const { store, keeper, open, works, cells, files, evict, sha256 } = await bench();
+    open();
+    store.perform(point(1));
+    await passes(WAIT + SETTLE);
+    evict();
+    keeper.lost();
+    expect(store.ui.keeping.state).toBe('pending');
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(cells.get(store.doc.work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1]] } });
+    expect([...works.keys()]).toEqual([store.doc.work]);
+    expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('writes all of it again where it is gone without a word', async () => {
+    const { store, open, cells, files, evict, sha256 } = await bench();
+    open();
+    store.perform(point(1));
+    await passes(WAIT + SETTLE);
+    evict();
+    store.perform(named('goes on'));
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(cells.get(store.doc.work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1]] } });
+    expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('adds a file again that another tab swept away while no work named it', async () => {
+    const { store, open, files, sha256 } = await bench();
+    open();
+    await passes(WAIT + SETTLE);
+    store.perform({ label: 'no frames', apply: (doc) => ({ ...doc, frames: [], name: 'without' }) });
+    await passes(WAIT + SETTLE);
+    files.clear();
+    store.undo();
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(files).toEqual(new Set([sha256]));
+  });
+
+  it('writes the last of what is left for other work, aside', async () => {
+    const { store, open, works, cells } = await bench();
+    open();
+    await passes(WAIT + SETTLE);
+    store.perform(point(1));
+    const { work } = store.doc;
+    store.perform(START_ANEW);
+    expect(store.ui.keeping.state).toBe('pending');
+    await passes(WAIT + SETTLE);
+    expect(store.ui.keeping.state).toBe('nothing');
+    expect(cells.get(work)?.get('f/femur')).toMatchObject({ outline: { points: [[1, 1]] } });
+    expect(works.get(work)?.putAside).toBe(true);
+  });
+
+  it('what was left and finds no room is said, holds up nothing else, and is written when there is room', async () => {
+    const { store, open, works, trouble } = await bench();
+    trouble.refuse = new DOMException('no room', 'QuotaExceededError');
+    trouble.only = 'large';
+    open();
+    store.perform(named('large'));
+    await passes(WAIT + SETTLE);
+    const { work } = store.doc;
+    store.perform(START_ANEW);
+    expect(store.ui.keeping.state).toBe('refused');
+    store.perform(named('small'));
+    await passes(10_000);
+    expect(works.get(store.doc.work)?.name).toBe('small');
+    expect(store.ui.keeping.state).toBe('refused');
+    trouble.refuse = null;
+    await passes(10_000);
+    expect(store.ui.keeping.state).toBe('kept');
+    expect(works.get(work)).toMatchObject({ name: 'large', putAside: true });
   });
 
   it('is no unit of undo', async () => {

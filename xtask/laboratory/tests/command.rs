@@ -142,9 +142,8 @@ fn every_verbs_help_ends_with_the_codes() {
     assert!(said.contains("with --status too: 0 all done;"), "{said}");
 }
 
-#[test]
-fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
-    let folder = Folder::new("swapped");
+/// Models of a knee, and poses of so many frames: the tray lies below the femoral component, and both are upright.
+fn knee(folder: &Folder, frames: usize) {
     for name in ["femur", "tibia"] {
         let made = match name {
             "femur" => implant::femur(&Parameters::default()),
@@ -153,27 +152,83 @@ fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
         let path = folder.0.join(format!("{name}.stl"));
         stl::write_file(&made.expect("usual"), &path).expect("a file");
     }
-    // The tray lies below the femoral component, and both are upright.
-    let jts = |y: f64| format!("JT_EULER_312\n0,{y},-1000,0,0,0\n0,{y},-1000,0,0,0\n");
+    let jts = |y: f64| {
+        format!(
+            "JT_EULER_312\n{}",
+            format!("0,{y},-1000,0,0,0\n").repeat(frames)
+        )
+    };
     folder.write("above.jts", &jts(0.0));
     folder.write("below.jts", &jts(-30.0));
-    let joint = |femur: &str, tibia: &str| {
-        folder.run(&[
-            "kinematics",
-            "--femur",
-            femur,
-            "--tibia",
-            tibia,
-            "--side",
-            "left",
-            "--femur-model",
-            "femur.stl",
-            "--tibia-model",
-            "tibia.stl",
-            "--out",
-            "joint.csv",
-        ])
-    };
+}
+
+/// The verb that turns two files of poses into a joint's table.
+fn joint<'a>(femur: &'a str, tibia: &'a str, out: &'a str) -> Vec<&'a str> {
+    let poses = ["kinematics", "--femur", femur, "--tibia", tibia];
+    let models = ["--femur-model", "femur.stl", "--tibia-model", "tibia.stl"];
+    [&poses[..], &models, &["--side", "left", "--out", out]].concat()
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_is_the_old_one_or_the_new_one_whenever_the_command_is_killed() {
+    use std::time::{Duration, Instant};
+    let folder = Folder::new("killed");
+    knee(&folder, 400);
+    let begun = Instant::now();
+    assert_eq!(
+        folder.run(&joint("above.jts", "below.jts", "joint.csv")).0,
+        0
+    );
+    let took = begun.elapsed();
+    let new = folder.read("joint.csv");
+    // Later and later, up to its usual end and beyond.
+    for twelfth in 1..=14 {
+        folder.write("joint.csv", "old");
+        let words = joint("above.jts", "below.jts", "joint.csv");
+        let mut command = folder.command(&words);
+        let mut child = command.stdout(Stdio::null()).spawn().expect("it runs");
+        std::thread::sleep(took * twelfth / 12 + Duration::from_micros(70 * u64::from(twelfth)));
+        // It may have ended.
+        let _ = child.kill();
+        child.wait().expect("it ends");
+        let found = folder.read("joint.csv");
+        assert!(found == "old" || found == new, "{} bytes", found.len());
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_is_said_and_leaves_what_was_there() {
+    let folder = Folder::new("full");
+    knee(&folder, 200);
+    folder.write("joint.csv", "old");
+    // A file may have 512 bytes, and who writes more is told so rather than ended.
+    let shell = "trap '' XFSZ; ulimit -f 1; exec \"$@\"";
+    for out in ["joint.csv", "other.csv", "/proc/joint.csv", "no/joint.csv"] {
+        let mut command = Command::new("sh");
+        command.args(["-c", shell, "sh", env!("CARGO_BIN_EXE_fluoropose")]);
+        command.args(joint("above.jts", "below.jts", out));
+        let output = command.current_dir(&folder.0).output().expect("it runs");
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains(&format!("cannot write {out}")), "{said}");
+    }
+    assert_eq!(folder.read("joint.csv"), "old");
+    let mut names: Vec<_> = fs::read_dir(&folder.0)
+        .expect("a folder")
+        .map(|entry| entry.expect("a name").file_name())
+        .collect();
+    names.sort();
+    let models = ["femur.stl", "joint.csv", "tibia.stl"];
+    assert_eq!(names, [&["above.jts", "below.jts"][..], &models].concat());
+}
+
+#[test]
+fn a_joint_that_no_knee_has_is_told_by_code_and_table() {
+    let folder = Folder::new("swapped");
+    knee(&folder, 2);
+    let joint = |femur: &str, tibia: &str| folder.run(&joint(femur, tibia, "joint.csv"));
     let (code, said) = joint("above.jts", "below.jts");
     assert_eq!(code, 0, "{said}");
     assert!(folder.read("joint.csv").starts_with("frame,rel_x_mm"));

@@ -10,5 +10,6 @@ pub mod film;
 
 pub mod picture;
 pub mod stl;
+pub mod whole;
 
 pub mod sequence;

@@ -3,9 +3,9 @@
 use anyhow::{Context, Result};
 use fluoropose::image::mask::Mask;
 use png::{BitDepth, ColorType, Compression, Encoder, Filter};
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::Path;
+
+use crate::whole;
 
 /// Columns and rows of a picture.
 pub type Size = (usize, usize);
@@ -57,18 +57,21 @@ pub fn write_colour(path: &Path, size: Size, pixels: &[[u8; 3]]) -> Result<()> {
 }
 
 fn write(path: &Path, size: Size, kind: (ColorType, BitDepth), bytes: &[u8]) -> Result<()> {
-    let encoded = || -> Result<()> {
+    let encoded = || -> Result<Vec<u8>> {
+        let mut file = Vec::new();
         let (width, height) = (u32::try_from(size.0)?, u32::try_from(size.1)?);
-        let mut encoder = Encoder::new(BufWriter::new(File::create(path)?), width, height);
+        let mut encoder = Encoder::new(&mut file, width, height);
         encoder.set_color(kind.0);
         encoder.set_depth(kind.1);
         encoder.set_compression(Compression::Balanced);
         encoder.set_filter(Filter::Adaptive);
         let mut writer = encoder.write_header()?;
         writer.write_image_data(bytes)?;
-        Ok(writer.finish()?)
+        writer.finish()?;
+        Ok(file)
     };
-    encoded().with_context(|| format!("cannot write {}", path.display()))
+    let file = encoded().with_context(|| format!("cannot write {}", path.display()))?;
+    whole::write(path, file)
 }
 
 #[cfg(test)]
@@ -79,7 +82,7 @@ mod tests {
     fn pictures_are_read_back_as_they_were_written() {
         let path = std::env::temp_dir().join(format!("fluoropose-png-{}.png", std::process::id()));
         let read = || {
-            let file = std::io::BufReader::new(File::open(&path).unwrap());
+            let file = std::io::BufReader::new(std::fs::File::open(&path).unwrap());
             let mut reader = png::Decoder::new(file).read_info().unwrap();
             let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
             let info = reader.next_frame(&mut bytes).unwrap();

@@ -6,6 +6,7 @@ use crate::film::{self, Motion, Physics, Placed, Scene};
 use crate::implant::{self, Parameters, Side, Size, Triangles};
 use crate::picture::{write_grey, write_mask};
 use crate::stl;
+use crate::whole;
 use anyhow::{Context, Result, ensure};
 use fluoropose::camera::Camera;
 use fluoropose::image::mask::Mask;
@@ -196,7 +197,7 @@ fn frame_name(index: usize) -> String {
 fn write_texts(options: &Options, positions: &[Position], out: &Path) -> Result<()> {
     let save = |name: &str, text: &str| {
         let path = out.join(name);
-        fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))
+        whole::write(&path, text)
     };
     save(
         "calibration.txt",

@@ -1,10 +1,10 @@
 //! Writes binary STL.
 
 use crate::implant::Triangles;
+use crate::whole;
 use anyhow::{Context, Result};
 use glam::Vec3;
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Writes a mesh as binary STL, in the units of its vertices (mm).
@@ -35,9 +35,7 @@ pub fn write(mesh: &Triangles, out: &mut impl Write) -> io::Result<()> {
 
 /// Writes a mesh to a file as binary STL.
 pub fn write_file(mesh: &Triangles, path: &Path) -> Result<()> {
-    let file = File::create(path).with_context(|| format!("cannot write {}", path.display()))?;
-    let mut out = BufWriter::new(file);
-    write(mesh, &mut out)
-        .and_then(|()| out.flush())
-        .with_context(|| format!("cannot write {}", path.display()))
+    let mut bytes = Vec::new();
+    write(mesh, &mut bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    whole::write(path, bytes)
 }

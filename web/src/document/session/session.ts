@@ -2,6 +2,7 @@ import { framePoint, type FramePoint } from '../../geometry/points';
 import { COMPONENT_NAMES } from '../../terms/component';
 import { readAudit, type Audit } from './audit';
 import { readAxes } from '../axes';
+import { checksum } from './checksum';
 import { Cells } from '../cells';
 import { readDistortion } from '../distortion';
 import { readFilm } from '../film';
@@ -77,7 +78,8 @@ export function writeSession(session: Session, program: string, savedAt: Date): 
     audit: session.audit,
     document: plainDoc(session.doc),
   };
-  const opening = `${JSON.stringify(head).slice(0, -1)},\n"files":[`;
+  const json = JSON.stringify(head);
+  const opening = `${json.slice(0, -1)},\n"checksum":${checksum(json + namesOf(session.files))},\n"files":[`;
   const files = session.files.map((file, index) => `${index === 0 ? '' : ','}\n${writeFile(file)}`);
   return [opening, ...files, '\n]}\n'];
 }
@@ -91,12 +93,28 @@ export function readSession(json: string): Session {
       `this session has version ${version}; this page reads versions ${OLDEST_VERSION} to ${SESSION_VERSION}: open it with a newer page`,
     );
   }
-  return {
+  const session = {
     doc: readDoc(value['document'], 'document'),
     view: readView(value['view'], 'view'),
     files: list(readFile)(value['files'], 'files'),
     audit: optional(readAudit)(value['audit'], 'audit'),
   };
+  // Last: what is wrong in itself is told by its place.
+  if (value['checksum'] !== undefined) checkWhole(value, session.files);
+  return session;
+}
+
+/**
+ * Bits that were flipped on the way make other numbers, which nothing else would tell. Bytes of files have their SHA-256.
+ * Sessions that were written before there was a checksum, or by others, have none.
+ */
+function checkWhole({ checksum: written, files: _, ...head }: Record<string, unknown>, files: readonly SessionFile[]): void {
+  if (written === checksum(JSON.stringify(head) + namesOf(files))) return;
+  throw new ReadError('the session was changed since it was saved (its checksum differs); whoever changes one on purpose takes the entry "checksum" out');
+}
+
+function namesOf(files: readonly SessionFile[]): string {
+  return JSON.stringify(files.map(({ name, sha256 }) => [name, sha256]));
 }
 
 function parse(json: string): Record<string, unknown> {

@@ -1,18 +1,46 @@
 //! Files and folders as they are: bytes, text, JSON, names.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
+use fluoropose_phantom::whole;
 use fluoropose_report::Figure;
 use sha2::{Digest, Sha256};
 
 /// Reads a whole file.
 ///
 /// # Errors
-/// Names the file.
+/// Names the file; also where somebody wrote it meanwhile, because what was read may be half of each.
 pub fn read(path: &Path) -> Result<Vec<u8>> {
-    fs::read(path).with_context(|| format!("cannot read {}", path.display()))
+    let cannot = || format!("cannot read {}", path.display());
+    let mut file = File::open(path).with_context(cannot)?;
+    let whole = |file: &mut File| {
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map(|_| bytes)
+    };
+    match at_rest(&mut file, whole).with_context(cannot)? {
+        Some(bytes) => Ok(bytes),
+        None => bail!("{} was written while it was read", path.display()),
+    }
+}
+
+/// What `reading` gives; `None` where the file was written meanwhile, as far as its length and time tell.
+fn at_rest(
+    file: &mut File,
+    reading: impl FnOnce(&mut File) -> io::Result<Vec<u8>>,
+) -> io::Result<Option<Vec<u8>>> {
+    let state = |file: &File| -> io::Result<_> {
+        let there = file.metadata()?;
+        Ok((there.is_file(), there.len(), there.modified().ok()))
+    };
+    let before = state(file)?;
+    let bytes = reading(file)?;
+    let (is_file, length, _) = before;
+    let is_same = state(file)? == before && bytes.len() as u64 == length;
+    // Pipes have no length, and what a system makes up as it is read says that it has none.
+    Ok((is_same || !is_file || length == 0).then_some(bytes))
 }
 
 /// Reads a text file.
@@ -55,7 +83,7 @@ pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>> {
 /// # Errors
 /// Names the file.
 pub fn write_text(path: &Path, text: &str) -> Result<()> {
-    write_bytes(path, text.as_bytes())
+    whole::write(path, text)
 }
 
 /// Writes bytes.
@@ -63,7 +91,7 @@ pub fn write_text(path: &Path, text: &str) -> Result<()> {
 /// # Errors
 /// Names the file.
 pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
-    fs::write(path, bytes).with_context(|| format!("cannot write {}", path.display()))
+    whole::write(path, bytes)
 }
 
 /// Writes a figure as SVG, as PDF and as PNG.
@@ -72,8 +100,8 @@ pub fn write_bytes(path: &Path, bytes: &[u8]) -> Result<()> {
 /// Names the file.
 pub fn write_figure(folder: &Path, stem: &str, figure: &Figure) -> Result<()> {
     write_text(&folder.join(format!("{stem}.svg")), &figure.svg())?;
-    write_bytes(&folder.join(format!("{stem}.pdf")), &figure.pdf())?;
-    write_bytes(&folder.join(format!("{stem}.png")), &figure.png())
+    whole::write(&folder.join(format!("{stem}.pdf")), figure.pdf())?;
+    whole::write(&folder.join(format!("{stem}.png")), figure.png())
 }
 
 /// Writes a table as JSON where `--json` asked for it.
@@ -124,5 +152,25 @@ mod tests {
             fields.iter().map(|field| plain(field)).collect::<Vec<_>>(),
             texts
         );
+    }
+
+    #[test]
+    fn what_is_written_while_it_is_read_is_no_file() {
+        let name = format!("fluoropose-rest-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        for more in ["", "more"] {
+            fs::write(&path, "text").unwrap();
+            let found = at_rest(&mut File::open(&path).unwrap(), |file| {
+                let mut bytes = vec![0; 4];
+                file.read_exact(&mut bytes)?;
+                if !more.is_empty() {
+                    fs::write(&path, more.repeat(2))?;
+                }
+                Ok(bytes)
+            });
+            assert_eq!(found.unwrap().is_some(), more.is_empty(), "{more}");
+        }
+        assert_eq!(read(&path).unwrap(), b"moremore");
+        fs::remove_file(path).unwrap();
     }
 }

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use fluoropose::image::mask::WORD_BITS;
 use fluoropose::library::Library;
 use fluoropose_phantom::picture::write_grey;
+use fluoropose_phantom::whole;
 
 use crate::files::{camera_for, read_calibration, read_model};
 
@@ -80,8 +81,7 @@ pub fn run(args: Args) -> Result<()> {
         return firmware::run(&order, &args.out);
     }
     let built = build_library(model.as_model(), camera, &args.views, distance)?;
-    std::fs::write(&args.out, &built.bytes)
-        .with_context(|| format!("cannot write {}", args.out.display()))?;
+    whole::write(&args.out, &built.bytes)?;
     let library = Library::open(&built.bytes)?;
     if let Some(sheet) = &args.sheet {
         write_sheet(&library, sheet)?;

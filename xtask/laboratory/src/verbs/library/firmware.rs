@@ -18,6 +18,7 @@ use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose::{Mask, RefineOptions, Silhouette};
 use fluoropose_kernels::fastest;
+use fluoropose_phantom::whole;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -138,7 +139,7 @@ pub(super) fn run(order: &Order<'_>, out: &Path) -> Result<()> {
         print(&trials, chosen, order.flash);
         if let Some(chosen) = chosen {
             let file = &trials[chosen].file;
-            std::fs::write(out, file).with_context(|| format!("cannot write {}", out.display()))?;
+            whole::write(out, file)?;
             println!("{}: {} bytes", out.display(), file.len());
             return Ok(());
         }

@@ -1,0 +1,150 @@
+//! Files that are whole or absent, whenever the program ends and however full the disk is.
+
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use anyhow::{Context, Result};
+
+/// Writes a file beside the wanted one and gives it its name when all of it is on the disk: until then there is what was there
+/// before. What a link names is written, not the link; what is no file (a pipe, a terminal) is written as it is.
+///
+/// # Errors
+/// Names the file.
+pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
+    let cannot = || format!("cannot write {}", path.display());
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    match fs::symlink_metadata(&place) {
+        // Also a link that leads nowhere yet, or in a circle: the system follows it, or says why not.
+        Ok(there) if !there.is_file() => fs::write(&place, bytes).with_context(cannot),
+        there => {
+            let permissions = there.ok().map(|there| there.permissions());
+            if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+                // A new name would go past the wish that it stays as it is.
+                return Err(io::Error::from(io::ErrorKind::PermissionDenied)).with_context(cannot);
+            }
+            put(&place, bytes.as_ref(), permissions).with_context(cannot)
+        }
+    }
+}
+
+fn put(place: &Path, bytes: &[u8], permissions: Option<fs::Permissions>) -> io::Result<()> {
+    let beside = Beside::of(place);
+    let mut file = File::create_new(&beside.0)?;
+    file.write_all(bytes)?;
+    if let Some(permissions) = permissions {
+        file.set_permissions(permissions)?;
+    }
+    // Some systems tell only now that there is no room.
+    file.sync_all()?;
+    drop(file);
+    fs::rename(&beside.0, place)
+}
+
+/// The file while it is written; nothing is left of it where that fails.
+struct Beside(PathBuf);
+
+impl Beside {
+    /// With a point before its name, so that a folder of frames is not one longer by it.
+    fn of(place: &Path) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let count = COUNT.fetch_add(1, Ordering::Relaxed);
+        let name = format!(".fluoropose-{}-{count}.part", std::process::id());
+        Self(place.with_file_name(name))
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // It has its name by now, or was never there.
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let name = format!("fluoropose-whole-{name}-{}", std::process::id());
+            let folder = std::env::temp_dir().join(name);
+            fs::create_dir_all(&folder).unwrap();
+            Self(folder)
+        }
+
+        fn names(&self) -> Vec<String> {
+            let entries = fs::read_dir(&self.0).unwrap();
+            let name = |entry: io::Result<fs::DirEntry>| entry.unwrap().file_name();
+            let mut names: Vec<String> = entries
+                .map(|entry| name(entry).to_string_lossy().into_owned())
+                .collect();
+            names.sort();
+            names
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    #[test]
+    fn a_file_is_written_and_written_over() {
+        let folder = Folder::new("over");
+        let path = folder.0.join("a");
+        write(&path, "first").unwrap();
+        write(&path, "second").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "second");
+        assert_eq!(folder.names(), ["a"]);
+    }
+
+    #[test]
+    fn where_it_cannot_be_written_nothing_is_left_and_the_old_one_stays() {
+        let folder = Folder::new("cannot");
+        let error = write(&folder.0.join("no/a"), "x").unwrap_err();
+        assert!(format!("{error:#}").contains("no"), "{error:#}");
+        let path = folder.0.join("kept");
+        fs::write(&path, "old").unwrap();
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        assert!(write(&path, "new").is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(folder.names(), ["kept"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_links_and_modes_stay_as_they_were() {
+        use std::os::unix::fs::{PermissionsExt as _, symlink};
+        let folder = Folder::new("links");
+        let (file, link) = (folder.0.join("file"), folder.0.join("link"));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+        symlink("file", &link).unwrap();
+        write(&link, "new").unwrap();
+        assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        let mode = fs::metadata(&file).unwrap().permissions().mode() & 0o777;
+        assert_eq!(mode, 0o640);
+        write(Path::new("/dev/null"), "nothing").unwrap();
+        let circle = folder.0.join("circle");
+        symlink("circle", &circle).unwrap();
+        assert!(write(&circle, "x").is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_nowhere_yet_is_followed() {
+        use std::os::unix::fs::symlink;
+        let folder = Folder::new("dangling");
+        symlink("later", folder.0.join("link")).unwrap();
+        write(&folder.0.join("link"), "text").unwrap();
+        assert_eq!(fs::read_to_string(folder.0.join("later")).unwrap(), "text");
+    }
+}
