@@ -11,11 +11,14 @@ import { HAND_TRACED, polygonWithin, readJts, trueOutline, truePose } from './su
 
 /** A hand's polygon errs beyond this many standard deviations hardly ever. */
 const HARDLY_EVER = 4;
-/** What a traced femur is surely known to, and surely no better: mm and degrees. */
+/**
+ * What a traced femur is surely known to, and surely no better: mm and degrees. Half a pixel by which a hand's whole outline may lie
+ * outside is 7 mm of depth where the frame cuts a part of it off.
+ */
 const LEAST = 0.002;
-const MOST = /** @type {Pose} */ ({ x: 0.25, y: 0.25, z: 4, zRot: 0.4, xRot: 0.8, yRot: 0.8 });
+const MOST = /** @type {Pose} */ ({ x: 0.25, y: 0.25, z: 9, zRot: 0.4, xRot: 0.8, yRot: 0.8 });
 /** With a tenth of the outline hidden the pose is a little less sure. */
-const PARTLY_HIDDEN = /** @type {Pose} */ ({ x: 0.4, y: 0.4, z: 6, zRot: 0.8, xRot: 1, yRot: 1 });
+const PARTLY_HIDDEN = /** @type {Pose} */ ({ x: 0.4, y: 0.4, z: 12, zRot: 0.8, xRot: 1, yRot: 1 });
 
 pageTest('how sure a pose is', async (page, t) => {
   const stage = new Stage(page);
