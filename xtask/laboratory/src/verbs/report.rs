@@ -143,6 +143,9 @@ fn facts(knee: &Knee, sources: &Sources) -> Facts {
     facts.set_axes("femoral", &knee.femur_axes);
     facts.set_axes("tibial", &knee.tibia_axes);
     facts.set("poses", sources.whose.as_str());
+    for (component, words) in &sources.film {
+        facts.set(&format!("film, {component}"), words.as_str());
+    }
     facts
 }
 

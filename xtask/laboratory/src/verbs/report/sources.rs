@@ -45,6 +45,8 @@ pub struct Sources {
     pub tibia: Body,
     /// Why a frame is doubtful, by its number from 0.
     pub doubts: BTreeMap<usize, String>,
+    /// The constants of the film by which poses were found, in words: a component and what it is seen with.
+    pub film: Vec<(String, String)>,
     /// Where the poses come from, in words.
     pub whose: String,
     /// Files and their digests.
@@ -76,6 +78,14 @@ impl Sources {
             }
             None => BTreeMap::new(),
         };
+        let constants = poses.map(|folder| folder.join("film.csv"));
+        let film = match constants.filter(|table| table.is_file()) {
+            Some(table) => {
+                inputs.push(digest("constants of the film", &table)?);
+                constants_of_film(&read_text(&table)?)
+            }
+            None => Vec::new(),
+        };
         let whose = match poses {
             Some(folder) => format!("those of the folder {}", name_of(folder)),
             None => "the study's references".to_owned(),
@@ -84,10 +94,38 @@ impl Sources {
             femur,
             tibia,
             doubts,
+            film,
             whose,
             inputs,
         })
     }
+}
+
+/// What [`crate::verbs::track`] wrote of a film; rows that are none of it are passed over.
+fn constants_of_film(table: &str) -> Vec<(String, String)> {
+    let row = |line: &str| {
+        let fields = csv_fields(line);
+        let [name, numbers @ ..] = fields.as_slice() else {
+            return None;
+        };
+        let numbers: Vec<f64> = numbers.iter().flat_map(|one| one.parse()).collect();
+        let [
+            curvature,
+            sd_curvature,
+            blur,
+            sd_blur,
+            attenuation,
+            sd_attenuation,
+        ] = numbers[..]
+        else {
+            return None;
+        };
+        let words = format!(
+            "display bent by {curvature:.4} ±{sd_curvature:.4} a grey value, blur {blur:.2} ±{sd_blur:.2} px, metal {attenuation:.2} ±{sd_attenuation:.2} a mm"
+        );
+        Some((plain(name).to_owned(), words))
+    };
+    table.lines().skip(1).filter_map(row).collect()
 }
 
 impl Body {

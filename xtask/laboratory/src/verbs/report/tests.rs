@@ -77,6 +77,8 @@ fn write_study(folder: &Path) {
     }
     let track = "frame,component,state,verdict,because\n3,\"femur\",followed,good,\"fits\"\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\"\n";
     std::fs::write(folder.join("track.csv"), track).unwrap();
+    let film = "component,and so on\n\"femur\",0.0062,0.001,1.4,0.07,1.83,0.18\n\"tibia\",odd\n";
+    std::fs::write(folder.join("film.csv"), film).unwrap();
     std::fs::write(
         folder.join("calibration.txt"),
         "JT_INTCALIB\n1000\n0\n0\n0.3\n",
@@ -127,6 +129,8 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
         "tibia doubtful: a rim, perhaps",
         "empty everywhere: 7",
         "femoral covariances",
+        "film, femur",
+        "blur 1.40 ±0.07 px",
         "3 Hz",
     ] {
         assert!(report.contains(words), "{words}");

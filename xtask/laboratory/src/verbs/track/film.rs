@@ -22,7 +22,7 @@ use super::part::{Part, read_models};
 use super::request::{Request, Told};
 use super::run::Run;
 use super::sides::{Margins, settle};
-use super::table::{HEADING, Row, covariance_table};
+use super::table::{HEADING, Row, covariance_table, film_table};
 use crate::files::{
     Film, Role, Study, camera_of_frames, read, read_calibration, write_poses, write_text,
 };
@@ -242,6 +242,8 @@ fn finish(
         }
     }
     write_text(&out.join("track.csv"), &text)?;
+    let constants = parts.iter().map(|part| (part.name(), part.film()));
+    write_text(&out.join("film.csv"), &film_table(constants))?;
     run.say_done();
     Ok(tracked)
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use fluoropose::film::FilmModel;
 use fluoropose::follow::{Cell, Conclusion, State};
 use fluoropose::math::Vector3;
 use fluoropose::pose::EulerPose;
@@ -30,6 +31,28 @@ pub struct Row {
 /// First line of the table.
 pub(super) const HEADING: &str = "frame,component,state,verdict,because,x_mm,y_mm,z_mm,z_rot_deg,x_rot_deg,y_rot_deg,\
 sd_x_mm,sd_y_mm,sd_z_mm,sd_z_rot_deg,sd_x_rot_deg,sd_y_rot_deg,misfit_px,badness,file,frame_of_file\n";
+
+/// The constants of the film as each component is seen on it, those of which they are known, with one standard deviation of each.
+pub(super) fn film_table<'p>(films: impl Iterator<Item = (&'p str, Option<FilmModel>)>) -> String {
+    let mut text = String::from(
+        "component,curvature_a_grey_value,sd_curvature,blur_px,sd_blur_px,attenuation_a_mm,sd_attenuation_a_mm\n",
+    );
+    for (name, film) in films {
+        let Some(film) = film else { continue };
+        let values = [
+            film.constants.curvature,
+            film.constants.blur_px,
+            film.attenuation,
+        ];
+        text.push_str(&quoted(name));
+        for (k, value) in values.into_iter().enumerate() {
+            let deviation = film.covariance[k][k].max(0.0).sqrt();
+            text.push_str(&format!(",{value},{deviation}"));
+        }
+        text.push('\n');
+    }
+    text
+}
 
 /// The covariance of each pose that has one, a row a frame: the frame, and 36 numbers row by row, of a turn about the middle of
 /// the model (radians) and a shift (mm), both in camera axes; then how the pose moves with one standard deviation of each of two constants
