@@ -37,7 +37,7 @@ pub use table::Row;
     after_help = format!("Poses that are known in some frames are followed to both ends of the film on its grey frames: those of --fixed, which \
 never change, and those that a click leads to. A component without either is looked for in whole frames.\n\n\
 Files in the folder: COMPONENT.jts (a row a frame, NaN where nothing was found), track.csv (frame, component, state, verdict, reason, the six \
-numbers and one standard deviation of each, and last the name of the frame's file and the frame's number in it), COMPONENT.covariances.csv, film.csv (the constants of the
+numbers and one standard deviation of each, and last the name of the frame's file and the frame's number in it), COMPONENT.covariances.csv, film.csv (the constants of the \
 film), and journal.txt, which is written after every frame: a run that was stopped goes on from there, \
 and after other clicks or fixed poses only what lies between them is done again.\n\n\
 States: fixed (a person gave the pose), followed, interpolated (see --interpolate), doubtful (look at it: the reason is told), untrackable \
