@@ -64,6 +64,7 @@ pub(crate) fn joint<'py>(
         femur: body(py, "femur", femur),
         tibia: body(py, "tibia", tibia),
         doubts,
+        film: Vec::new(),
         whose: "those of a Python program".to_owned(),
         inputs: Vec::new(),
     };
