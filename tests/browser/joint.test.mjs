@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { bringAxe, isAccessible } from './support/axe.mjs';
 import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
-import { exportSheet, openExport, savedFile } from './support/exporting.mjs';
+import { exportSheet, openExport, savedFile, slowPictures } from './support/exporting.mjs';
 import { choose, file } from './support/files.mjs';
 import { leftKnee } from './support/joint.mjs';
 import { unzipped } from './support/masks.mjs';
@@ -197,14 +197,7 @@ async function otherForms(page) {
 async function calledOff(page) {
   const sheet = await openExport(page, 'Overlay film', 'PNG series');
   // Eight pictures are written in a moment, sooner than a slow machine finds the button: each waits for a second here.
-  await page.evaluate(() => {
-    const own = window.createImageBitmap.bind(window);
-    const slow = async (/** @type {ImageBitmapSource} */ source) => {
-      await new Promise((resolve) => setTimeout(resolve, 1000));
-      return own(source);
-    };
-    Object.assign(window, { createImageBitmap: slow, atOnce: own });
-  });
+  await slowPictures(page, 1000);
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
   await page.getByRole('button', { name: 'Cancel: Writing the film' }).click();
   await panel.waitForWords(page, /^Called off: \S+ was not written/);

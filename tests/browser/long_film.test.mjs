@@ -1,7 +1,7 @@
 /** A film of many frames: curves and their numbers, and a film of overlays that tells how far it is and can be called off. */
 import assert from 'node:assert/strict';
 import { pageTest, step, until } from './support/browser.mjs';
-import { exportSheet, openExport } from './support/exporting.mjs';
+import { exportSheet, openExport, slowPictures } from './support/exporting.mjs';
 import { joint, openLongFilm } from './support/long_film.mjs';
 import * as panel from './support/panel.mjs';
 
@@ -31,6 +31,8 @@ pageTest('a long film', async (page, t) => {
 async function calledOff(page) {
   const sheet = await openExport(page, 'Overlay film', 'PNG series');
   await sheet.getByRole('img', { name: 'Preview' }).waitFor();
+  // All of them may be written in two seconds, sooner than a busy machine asks twice how far it is.
+  await slowPictures(page, 100);
   await sheet.getByRole('button', { name: /^Save \S+\.zip$/ }).click();
   const job = page.getByRole('button', { name: 'Cancel: Writing the film' });
   await job.waitFor();

@@ -35,3 +35,15 @@ export async function exported(page, kind, ...choices) {
   await sheet.waitFor({ state: 'detached' });
   return saved;
 }
+
+/** Lets each picture of a film wait before it is made; `atOnce` of the window makes them as before. @param {Page} page @param {number} ms */
+export async function slowPictures(page, ms) {
+  await page.evaluate((ms) => {
+    const own = window.createImageBitmap.bind(window);
+    const slow = async (/** @type {ImageBitmapSource} */ source) => {
+      await new Promise((resolve) => setTimeout(resolve, ms));
+      return own(source);
+    };
+    Object.assign(window, { createImageBitmap: slow, atOnce: own });
+  }, ms);
+}
