@@ -49,6 +49,8 @@ pageTest('the joint', async (page, t) => {
     await until(shownNow, (now) => now !== before, 'another frame');
     await until(line, (now) => now !== first, 'its line on the tray');
     await page.getByRole('button', { name: 'Stop the film' }).click();
+    // The frame that was on its way is shown yet.
+    await drawn(page);
     const still = await shownNow();
     await page.waitForTimeout(300);
     assert.equal(await shownNow(), still);
