@@ -36,14 +36,15 @@ export async function exported(page, kind, ...choices) {
   return saved;
 }
 
-/** Lets each picture of a film wait before it is made; `atOnce` of the window makes them as before. @param {Page} page @param {number} ms */
+/** Lets each picture of a film wait before a worker gets it; `atOnce` of the window sends them as before. @param {Page} page @param {number} ms */
 export async function slowPictures(page, ms) {
   await page.evaluate((ms) => {
-    const own = window.createImageBitmap.bind(window);
-    const slow = async (/** @type {ImageBitmapSource} */ source) => {
-      await new Promise((resolve) => setTimeout(resolve, ms));
-      return own(source);
+    const own = Worker.prototype.postMessage;
+    const slow = /** @this {Worker} @param {any} message @param {any} transfer */ function (message, transfer) {
+      if (message?.method === 'add') setTimeout(() => own.call(this, message, transfer), ms);
+      else own.call(this, message, transfer);
     };
-    Object.assign(window, { createImageBitmap: slow, atOnce: own });
+    Worker.prototype.postMessage = slow;
+    Object.assign(window, { atOnce: () => (Worker.prototype.postMessage = own) });
   }, ms);
 }

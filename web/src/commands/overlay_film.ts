@@ -1,15 +1,15 @@
 import { COMPONENT_COLOURS } from '../controls/colours';
+import { distortionKey, fits, numbersOf } from '../document/distortion';
 import { cellOf, chosenCandidate, type Doc } from '../document/types';
 import { asJob, type Services } from '../jobs/services';
 import type { JointNumbers } from '../results/joint_curves';
 import { cameraOf } from '../results/keys';
 import { doubtOf } from '../results/motion';
-import { COMPONENT_NAMES, type ComponentName, titleOf } from '../terms/component';
+import { COMPONENT_NAMES, titleOf } from '../terms/component';
 import { formatNumber } from '../texts/numbers';
 import { later } from '../texts/later';
-import type { Bridge } from '../workers/bridge';
 import { overlayWorker } from '../workers/start';
-import type { FilmType, OverlayCurve, OverlayFrame, OverlayLook, OverlayProtocol } from '../workers/protocol/overlay';
+import type { FilmType, OverlayCurve, OverlayFrame, OverlayLook } from '../workers/protocol/overlay';
 
 /** Pictures a second where nobody said how fast the film was taken. */
 export const USUAL_RATE = 10;
@@ -41,47 +41,91 @@ function curvesOf({ frames }: Doc, { of, impossible, columns, hasPlate }: JointN
   ];
 }
 
-/** Frames of the film with the outlines of the models at their poses, one after the other, for a worker. */
-export class OverlayFrames {
+/** Pictures of the film with the outlines of the models at their poses. A worker paints and writes them; here they are only named. */
+export class OverlayPictures {
   readonly #services: Services;
-  readonly #canvas = document.createElement('canvas');
-  readonly #spare = document.createElement('canvas');
+  readonly #worker = overlayWorker();
+  /** Models that the worker has. */
+  #models: string | null = null;
 
   constructor(services: Services) {
     this.#services = services;
   }
 
-  async frame(index: number): Promise<OverlayFrame> {
+  /** Which film this browser can write. */
+  type(look: OverlayLook): Promise<FilmType | null> {
+    return this.#worker.call('type', { ...look, curves: [] });
+  }
+
+  /** One frame, as PNG. */
+  async still(look: OverlayLook, index: number): Promise<Blob> {
+    await this.#bringModels();
+    const frame = await this.#frame(index, new AbortController().signal);
+    return await this.#worker.call('still', { look, frame }, { transfer: [frame.frame.pixels.buffer] });
+  }
+
+  /** All of them. */
+  async write(look: OverlayLook, form: FilmType | 'pictures', signal: AbortSignal, report: (done: number, total: number) => void): Promise<Blob> {
+    await this.#bringModels();
+    await this.#worker.call('begin', { look, form }, { signal });
+    let coming = this.#coming(0, look, signal);
+    for (let index = 0; index < look.frames; index++) {
+      const frame = await coming;
+      // The next one is read while this one is drawn.
+      coming = this.#coming(index + 1, look, signal);
+      await this.#worker.call('add', frame!, { signal, transfer: [frame!.frame.pixels.buffer] });
+      report(index + 1, look.frames);
+    }
+    return await this.#worker.call('finish', null, { signal });
+  }
+
+  dispose(): void {
+    this.#worker.dispose();
+  }
+
+  async #bringModels(): Promise<void> {
+    const { store, studio } = this.#services;
+    const models = COMPONENT_NAMES.flatMap((component) => {
+      const { model } = store.doc.components[component];
+      const mesh = model && studio.meshOf(model.sha256);
+      return mesh ? [{ component, colour: COMPONENT_COLOURS[component].css, mesh, sha256: model.sha256 }] : [];
+    });
+    const key = models.map(({ component, sha256 }) => `${component} ${sha256}`).join();
+    if (key === this.#models) return;
+    await this.#worker.call('models', models);
+    this.#models = key;
+  }
+
+  #coming(index: number, { frames }: OverlayLook, signal: AbortSignal): Promise<OverlayFrame | null> {
+    const coming = index < frames ? this.#frame(index, signal) : Promise.resolve(null);
+    // Whoever waits for it hears of it; nobody does where the one before it fails.
+    coming.catch(() => null);
+    return coming;
+  }
+
+  async #frame(index: number, signal: AbortSignal): Promise<OverlayFrame> {
     const { studio, store } = this.#services;
     const { doc, ui } = store;
-    const frame = doc.frames[index];
-    const facts = frame && studio.frameFacts(frame.id);
-    if (!frame || !facts) throw new Error(later.exporting.film.absent(index + 1));
-    this.#canvas.width = this.#spare.width = frame.width;
-    this.#canvas.height = this.#spare.height = frame.height;
-    studio.paintFrame(contextOf(this.#canvas), frame.id, doc.window ?? facts.window, ui.seeing.preprocessing);
+    const entry = doc.frames[index];
+    const frame = entry ? await studio.decoded(entry.id, signal) : null;
+    if (!entry || !frame) throw new Error(later.exporting.film.absent(index + 1));
     const { heading, time } = later.exporting.film;
+    const { distortion } = doc;
     return {
       index,
-      picture: await createImageBitmap(this.#canvas),
-      outlines: COMPONENT_NAMES.flatMap((component) => {
-        const corners = this.#corners(doc, index, component);
-        return corners ? [{ colour: COMPONENT_COLOURS[component].css, corners }] : [];
+      frame,
+      window: doc.window,
+      preprocessing: ui.seeing.preprocessing,
+      undistorted: distortion?.appliesTo === 'frames' && fits(distortion, frame) ? { key: distortionKey(distortion), numbers: numbersOf(distortion) } : null,
+      camera: cameraOf(doc, entry),
+      poses: COMPONENT_NAMES.flatMap((component) => {
+        const candidate = chosenCandidate(cellOf(doc, entry.id, component));
+        return candidate ? [{ component, pose: candidate.pose }] : [];
       }),
       heading: heading(index + 1, doc.frames.length),
       time: doc.rate === null ? '' : time(formatNumber(index / doc.rate, 2)),
       notes: notesOn(doc, index),
     };
-  }
-
-  #corners(doc: Doc, index: number, component: ComponentName): Float64Array<ArrayBuffer> | null {
-    const frame = doc.frames[index] ?? null;
-    const { model } = doc.components[component];
-    const candidate = chosenCandidate(cellOf(doc, frame?.id, component));
-    const camera = cameraOf(doc, frame);
-    if (!model || !candidate || !camera) return null;
-    const painted = this.#services.studio.paintSilhouette(() => contextOf(this.#spare), model.sha256, camera, candidate.pose, COMPONENT_COLOURS[component].rgb);
-    return painted && Float64Array.from(painted.border);
   }
 }
 
@@ -97,32 +141,15 @@ function notesOn(doc: Doc, index: number): string[] {
   });
 }
 
-function contextOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
-  const context = canvas.getContext('2d');
-  if (!context) throw new Error('this browser has no 2-D canvas');
-  return context;
-}
-
 /** Writes all frames. It stands among the page's jobs, and can be called off; then nothing is written. */
 export async function writeOverlayFilm(services: Services, look: OverlayLook, form: FilmType | 'pictures'): Promise<Blob> {
-  const worker = overlayWorker();
+  const pictures = new OverlayPictures(services);
   const { title, unit } = later.exporting.film;
   const abort = new AbortController();
   const job = { title, unit, total: look.frames, cancel: () => abort.abort() };
   try {
-    return await asJob(services.store, job, (report) => allFrames(services, worker, look, form, abort.signal, report));
+    return await asJob(services.store, job, (report) => pictures.write(look, form, abort.signal, report));
   } finally {
-    worker.dispose();
+    pictures.dispose();
   }
-}
-
-async function allFrames(services: Services, worker: Bridge<OverlayProtocol>, look: OverlayLook, form: FilmType | 'pictures', signal: AbortSignal, report: (done: number, total: number) => void): Promise<Blob> {
-  const frames = new OverlayFrames(services);
-  await worker.call('begin', { look, form }, { signal });
-  for (let index = 0; index < look.frames; index++) {
-    const frame = await frames.frame(index);
-    await worker.call('add', frame, { signal, transfer: [frame.picture] });
-    report(index + 1, look.frames);
-  }
-  return await worker.call('finish', null, { signal });
 }

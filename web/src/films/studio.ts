@@ -24,7 +24,9 @@ import type { Size } from '../geometry/viewport';
 import type { Motion, PlacedInJoint } from '../results/motion';
 import { Aborted } from '../workers/bridge';
 import { poseArray, poseFrom } from '../workers/protocol/pose_array';
-import { paintPreprocessed } from './preprocessing';
+import { followBorder } from '../painting/border';
+import { paintPreprocessed } from '../painting/preprocessing';
+import { numbersAt } from '../painting/wasm_view';
 import type { Preprocessing } from '../terms/seeing';
 import type { FramePixels } from '../workers/protocol/frame_pixels';
 import type { Picture } from '../workers/protocol/match';
@@ -33,7 +35,6 @@ import type { DistortionInput, CalibrationFacts, CameraInput } from '../workers/
 import type { DecodeFrame, FrameSource } from './decoding';
 import { type Held, LeasedFrames } from './leased_frames';
 import { OverlayDistorter, UndistortedFrames } from './undistorted';
-import { numbersAt } from './wasm_view';
 
 /** Grey values of a frame, and the window to begin with. */
 export interface FrameFacts {
@@ -88,6 +89,7 @@ export class Studio {
   /** By what frames that look alike have in common. */
   readonly #known = new Map<string, KnownFrame>();
   readonly #frames: LeasedFrames<HeldFrame>;
+  readonly #decode: DecodeFrame;
   /** Called when a frame has come into memory that was expected. */
   onArrival: () => void = () => undefined;
   /** Called when one could not be read. */
@@ -99,6 +101,7 @@ export class Studio {
 
   private constructor(memory: WebAssembly.Memory, decode: DecodeFrame) {
     this.#memory = memory;
+    this.#decode = decode;
     this.#frames = new LeasedFrames(BUDGET, async (id, signal) => {
       const known = this.#known.get(id);
       const frame = known ? await decode(known.source, signal) : null;
@@ -221,6 +224,12 @@ export class Studio {
     return pixelsOf(this.#frames.get(pictureOf(id))?.image ?? null);
   }
 
+  /** A frame anew from its file, as it was taken, for a worker to have; null where its file is not at hand. */
+  async decoded(id: string, signal: AbortSignal): Promise<DecodedFrame | null> {
+    const known = this.#known.get(pictureOf(id));
+    return known ? this.#decode(known.source, signal) : null;
+  }
+
   greyAt(id: string, column: number, row: number): number | null {
     if (column < 0 || row < 0) return null;
     return this.#shown(id)?.greyAt(Math.floor(column), Math.floor(row)) ?? null;
@@ -265,11 +274,9 @@ export class Studio {
   ): PaintedSilhouette | null {
     const model = this.#models.get(sha256)?.model;
     if (!model) return null;
-    const { text, width, height, distortion } = camera;
-    model.project(text, width, height, Float64Array.from(poseArray(pose)));
-    model.followBorder(width, height);
+    const { distortion } = camera;
     const distorter = distortion ? this.#distorterOf(distortion) : null;
-    distorter?.border(model);
+    followBorder(model, camera, pose, distorter);
     const box = model.borderIsWhole ? null : paintPicture(model, context(), camera, rgb, distorter);
     return { border: numbersAt(this.#memory, model.borderAddress, model.borderLength), box };
   }

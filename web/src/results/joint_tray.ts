@@ -25,7 +25,7 @@ export interface TrayDrawing {
 }
 
 /** Round the plate, mm. */
-const MARGIN = 7;
+const MARGIN = 3;
 
 /** Null where the tray or the side is not known. Frames with numbers that no knee has have no line. */
 export function trayOf(doc: Doc, { columns, of, plate, impossible }: JointNumbers): TrayDrawing | null {

@@ -1,5 +1,11 @@
 import type { CurveName } from '../terms/joint';
 
+interface CurveWords {
+  readonly title: string;
+  readonly short?: string;
+  readonly sign: string;
+}
+
 /** English of the joint's curves. */
 export const curves = {
   convention: 'Convention of the translations',
@@ -13,8 +19,8 @@ export const curves = {
   overUnits: { frame: 'frame', time: 'time s', flexion: 'flex. °' },
   tray: {
     title: 'Tray from above',
+    short: 'Tray',
     anterior: 'anterior',
-    medial: 'medial',
     here: (frame: number) => `The tray from above with the line between the lowest points of both condyles in frame ${frame}`,
     none: (frame: number) => `The tray from above; frame ${frame} has no lowest points`,
   },
@@ -24,22 +30,23 @@ export const curves = {
   saveTitle: 'Numbers, figure, report and film; what is unrefined, unchecked, doubtful or missing is said before',
   large: 'Large curves',
   size: 'Height of the curves',
-  /** Name of a curve, and what its positive numbers mean. */
+  /** Name of a curve, also where there is little room, and what its positive numbers mean. */
   curves: {
     flexion: { title: 'Flexion', sign: 'flexion +' },
     abduction: { title: 'Abduction', sign: 'tibia abducted +' },
-    internal: { title: 'Internal rotation', sign: 'tibia internal +' },
+    internal: { title: 'Internal rotation', short: 'Int. rotation', sign: 'tibia internal +' },
     anterior: { title: 'Anterior', sign: 'femur anterior +' },
     superior: { title: 'Superior', sign: 'femur superior +' },
     medial: { title: 'Medial', sign: 'femur medial +' },
-    gsAnterior: { title: 'Anterior drawer', sign: 'tibia anterior +' },
+    gsAnterior: { title: 'Anterior drawer', short: 'Ant. drawer', sign: 'tibia anterior +' },
     gsDistraction: { title: 'Distraction', sign: 'distracted +' },
     gsLateral: { title: 'Lateral shift', sign: 'tibia lateral +' },
     lowest: { title: 'Lowest AP', sign: 'anterior +' },
     liftOff: { title: 'Lift-off', sign: 'lateral up +' },
-  } satisfies Record<CurveName, { title: string; sign: string }>,
+  } satisfies Record<CurveName, CurveWords> as Record<CurveName, CurveWords>,
   beyond: (percent: string) => `P(> 1 mm) ${percent} %`,
   of: { medial: 'medial', lateral: 'lateral' },
+  ofShort: { medial: 'M', lateral: 'L' },
   here: (title: string, frame: number) => `${title} in frame ${frame}`,
   chart: (title: string, frames: number, least: string, most: string, over: string) =>
     `${title} over ${over} in ${frames} ${frames === 1 ? 'frame' : 'frames'}, ${least} to ${most}`,

@@ -26,7 +26,7 @@ interface CurvePanelProps {
 /** One curve with its name, its unit and what it is in one frame. */
 export function CurvePanel({ name, doc, numbers, along, theme, shown, current, alone, onAlone, onHover, onPick }: CurvePanelProps) {
   const words = later.curves;
-  const { title, sign } = words.curves[name];
+  const { title, short = title, sign } = words.curves[name];
   const { columns, unit } = CURVES[name];
   const { cells, marks, frames } = doc;
   const lines = useMemo(
@@ -38,12 +38,12 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
     <section class="joint-panel" aria-label={title}>
       <div class="joint-panel-head">
         <h3>
-          {title} <span class="unit">{unit}</span>
+          <InWords full={title} short={short} /> <span class="unit">{unit}</span>
         </h3>
         <output class="joint-here" aria-label={words.here(title, shown + 1)}>
           {lines.map(({ points, ink }) => (
             <span key={ink} class={`joint-value ${ink}`}>
-              {ink !== 'only' && `${words.of[ink]} `}
+              {ink !== 'only' && <InWords full={words.of[ink]} short={words.ofShort[ink]} />} 
               {shownValue(points.find(({ index }) => index === shown))}
             </span>
           ))}
@@ -66,6 +66,20 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
         onPick={onPick}
       />
     </section>
+  );
+}
+
+/** The one of them that there is room for. */
+export function InWords({ full, short }: { full: string; short: string }) {
+  return full === short ? (
+    full
+  ) : (
+    <>
+      <span class="in-full">{full}</span>
+      <abbr class="in-short" title={full}>
+        {short}
+      </abbr>
+    </>
   );
 }
 

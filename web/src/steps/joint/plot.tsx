@@ -75,7 +75,7 @@ function optionsOf(now: Now, inks: Inks, size: { width: number; height: number }
     series: [{}, { scale: 'y', paths: () => null, points: { show: false } }],
     axes: [
       { ...axis, size: 24, gap: 2, space: 42, incrs: now.current.over === 'frame' ? WHOLE : undefined } as uPlot.Axis,
-      { ...axis, size: 44, gap: 2, space: 26, scale: 'y' },
+      { ...axis, size: 44, gap: 2, space: (_, __, ___, ____, rows) => (rows < LOW ? 16 : 26), scale: 'y' },
     ],
     hooks: {
       draw: [
@@ -94,6 +94,9 @@ function optionsOf(now: Now, inks: Inks, size: { width: number; height: number }
 
 /** Frames are whole. */
 const WHOLE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+
+/** Rows of a plot that has its ticks nearer to each other, px. */
+const LOW = 90;
 
 /** Room above a plot for what its positive numbers mean, px. */
 const SIGN = 16;

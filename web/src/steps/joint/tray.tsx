@@ -3,6 +3,7 @@ import type { Doc } from '../../document/types';
 import type { JointNumbers } from '../../results/joint_curves';
 import { trayOf, type TrayLine } from '../../results/joint_tray';
 import { later } from '../../texts/later';
+import { InWords } from './curve_panel';
 
 interface TrayProps {
   readonly doc: Doc;
@@ -14,7 +15,7 @@ interface TrayProps {
 
 /** The tray from above, anterior up: the line between the lowest points in the frame at hand, and those of the film faintly behind it. */
 export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
-  const words = later.curves.tray;
+  const { of, tray: words } = later.curves;
   const tray = useMemo(() => trayOf(doc, numbers), [doc.frames, doc.side, numbers]);
   if (!tray) return null;
   const { border, lines, middle, reach } = tray;
@@ -24,10 +25,15 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
     <section class="joint-panel joint-tray" aria-label={words.title}>
       <div class="joint-panel-head">
         <h3>
-          {words.title} <span class="unit">mm</span>
+          <InWords full={words.title} short={words.short} /> <span class="unit">mm</span>
         </h3>
       </div>
-      <svg viewBox={`${low} ${high} ${2 * reach[0]} ${2 * reach[1]}`} role="img" aria-label={here ? words.here(shown + 1) : words.none(shown + 1)}>
+      <div class="tray-words" aria-hidden="true">
+        {(tray.medialSide > 0 ? [of.lateral, words.anterior, of.medial] : [of.medial, words.anterior, of.lateral]).map((word) => (
+          <span key={word}>{word}</span>
+        ))}
+      </div>
+      <svg preserveAspectRatio="xMidYMin" viewBox={`${low} ${high} ${2 * reach[0]} ${2 * reach[1]}`} role="img" aria-label={here ? words.here(shown + 1) : words.none(shown + 1)}>
         <polygon class="tray-border" points={border.map((point) => point.join()).join(' ')} />
         <Fan lines={lines} onPick={onPick} />
         {here && (
@@ -37,12 +43,6 @@ export function Tray({ doc, numbers, shown, onPick }: TrayProps) {
             <rect class="tray-lateral" x={here.lateral[0] - 1.4} y={here.lateral[1] - 1.4} width="2.8" height="2.8" />
           </>
         )}
-        <text class="tray-word" x={middle[0]} y={high + 4}>
-          {words.anterior}
-        </text>
-        <text class="tray-word" x={tray.medialSide > 0 ? middle[0] + reach[0] - 9 : low + 9} y={middle[1] + reach[1] - 2}>
-          {words.medial}
-        </text>
       </svg>
     </section>
   );

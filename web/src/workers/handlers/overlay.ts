@@ -2,6 +2,7 @@ import { Zip, ZipPassThrough } from 'fflate';
 import { BufferTarget, CanvasSource, getFirstEncodableVideoCodec, Mp4OutputFormat, Output, QUALITY_HIGH, WebMOutputFormat } from 'mediabunny';
 import type { FilmType, OverlayFrame, OverlayProtocol } from '../protocol/overlay';
 import { OverlayDrawing } from './overlay_drawing';
+import { OverlayFrames } from './overlay_frames';
 import { serve } from './serve';
 
 /** Draws the frames of a film with what was found in them, and writes them as a film or as pictures. */
@@ -10,10 +11,15 @@ interface Writer {
   finish(): Promise<Blob>;
 }
 
+let frames: OverlayFrames | null = null;
 let open: { readonly drawing: OverlayDrawing; readonly writer: Writer } | null = null;
 
 serve<OverlayProtocol>({
   type: async (look) => (await encodable(new OverlayDrawing(look)))?.type ?? null,
+  models: async (models) => {
+    frames = await OverlayFrames.open(models);
+    return null;
+  },
   begin: async ({ look, form }) => {
     open = null;
     const drawing = new OverlayDrawing(look);
@@ -44,8 +50,8 @@ function working(): NonNullable<typeof open> {
 }
 
 function draw(drawing: OverlayDrawing, frame: OverlayFrame): void {
-  drawing.draw(frame);
-  frame.picture.close();
+  if (!frames) throw new Error('no models were brought');
+  drawing.draw(frame, frames.shown(frame));
 }
 
 /** MP4 with H.264 is what every player and slide program shows; what a browser cannot write goes into WebM. */

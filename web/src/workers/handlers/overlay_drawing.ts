@@ -1,3 +1,4 @@
+import type { ShownFrame } from './overlay_frames';
 import type { OverlayCurve, OverlayFrame, OverlayLine, OverlayLook } from '../protocol/overlay';
 
 type Context = OffscreenCanvasRenderingContext2D;
@@ -47,7 +48,7 @@ export class OverlayDrawing {
     if (look.curves.length === 0) words(still, look.noCurves, beside.left, beside.top + 3 * unit, { size: 2.2 * unit, colour: INK.quiet, width: beside.width });
   }
 
-  draw({ index, picture, outlines, heading, time, notes }: OverlayFrame): void {
+  draw({ index, heading, time, notes }: OverlayFrame, { picture, outlines }: ShownFrame): void {
     const context = this.#context;
     const { width, height } = this.#look;
     context.drawImage(this.#still, 0, 0);

@@ -1,3 +1,10 @@
+import type { GreyWindow } from '../../document/types';
+import type { PoseNumbers } from '../../geometry/pose_numbers';
+import type { ComponentName } from '../../terms/component';
+import type { Preprocessing } from '../../terms/seeing';
+import type { CameraInput, DistortionInput } from './camera';
+import type { DecodedFrame, ModelMesh } from './decode';
+
 /** A film of frames with what was found in them, as it is written. */
 
 /** A number over the film, NaN where there is none, with one standard deviation of each. */
@@ -29,13 +36,27 @@ export interface OverlayLook {
   readonly noCurves: string;
 }
 
+/** A model whose outline is laid on. */
+export interface OverlayModel {
+  readonly component: ComponentName;
+  readonly colour: string;
+  readonly mesh: ModelMesh;
+}
+
 /** One picture. */
 export interface OverlayFrame {
   /** Of the film, from 0. */
   readonly index: number;
-  readonly picture: ImageBitmap;
-  /** Columns and rows of an outline's corners by turns. */
-  readonly outlines: readonly { readonly colour: string; readonly corners: Float64Array<ArrayBuffer> }[];
+  /** As it was taken. */
+  readonly frame: DecodedFrame;
+  /** Null: the one that the frame suggests. */
+  readonly window: GreyWindow | null;
+  readonly preprocessing: Preprocessing;
+  /** Where frames are shown undistorted. */
+  readonly undistorted: DistortionInput | null;
+  /** Null without a calibration: then there are no outlines. */
+  readonly camera: CameraInput | null;
+  readonly poses: readonly { readonly component: ComponentName; readonly pose: PoseNumbers }[];
   /** The frame's number in the film it comes from, its time where that is known, and what is to be said of it. */
   readonly heading: string;
   readonly time: string;
@@ -47,6 +68,8 @@ export type FilmType = 'mp4' | 'webm';
 export interface OverlayProtocol {
   /** Which film this browser can write; null where none. */
   type: { input: OverlayLook; output: FilmType | null; progress: never };
+  /** The models of all that follows. */
+  models: { input: readonly OverlayModel[]; output: null; progress: never };
   /** `pictures`: a zip of PNGs instead of a film. What was begun before is let go. */
   begin: { input: { readonly look: OverlayLook; readonly form: FilmType | 'pictures' }; output: null; progress: never };
   add: { input: OverlayFrame; output: null; progress: never };

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { numbersAt } from '../../src/films/wasm_view';
+import { numbersAt } from '../../src/painting/wasm_view';
 
 it('shows numbers where they lie, for as long as the memory does not grow', () => {
   const memory = new WebAssembly.Memory({ initial: 1 });
