@@ -4,5 +4,7 @@ export const joint = {
   title: 'Joint curves',
   open: 'Show how the joint moves',
   close: 'Hide the joint’s curves',
+  save: 'Export…',
+  saveTitle: 'Numbers, figure, report and film; what is unrefined, unchecked, doubtful or missing is said before',
   undecided: 'another pose fits as well',
 };

@@ -26,8 +26,6 @@ export const curves = {
   },
   rate: 'Frames a second',
   rateNeeded: 'Say how many frames there are in a second.',
-  save: 'Export…',
-  saveTitle: 'Numbers, figure, report and film; what is unrefined, unchecked, doubtful or missing is said before',
   large: 'Large curves',
   size: 'Height of the curves',
   /** Name of a curve, also where there is little room, and what its positive numbers mean. */

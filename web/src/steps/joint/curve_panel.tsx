@@ -43,7 +43,11 @@ export function CurvePanel({ name, doc, numbers, along, theme, shown, current, a
         <output class="joint-here" aria-label={words.here(title, shown + 1)}>
           {lines.map(({ points, ink }) => (
             <span key={ink} class={`joint-value ${ink}`}>
-              {ink !== 'only' && <InWords full={words.of[ink]} short={words.ofShort[ink]} />} 
+              {ink !== 'only' && (
+                <>
+                  <InWords full={words.of[ink]} short={words.ofShort[ink]} />{' '}
+                </>
+              )}
               {shownValue(points.find(({ index }) => index === shown))}
             </span>
           ))}

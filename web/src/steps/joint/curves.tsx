@@ -6,7 +6,6 @@ import type { Doc } from '../../document/types';
 import { curvesShown, impossibilitiesOf, type JointNumbers } from '../../results/joint_curves';
 import { inRuns } from '../../results/joint_faults';
 import { jointTrusts, motionNeeds } from '../../results/motion';
-import { standingOf } from '../../results/steps';
 import { CONVENTIONS, DOCK, OVERS } from '../../terms/joint';
 import { later } from '../../texts/later';
 import { CurvePanel } from './curve_panel';
@@ -20,7 +19,6 @@ export function JointTools({ state }: { state: State }) {
   const { store } = useApp().services;
   const { convention, over, height } = state.ui.joint;
   const words = later.curves;
-  const isNext = standingOf(state.history.present).step === 'joint';
   return (
     <>
       <Segments
@@ -46,16 +44,6 @@ export function JointTools({ state }: { state: State }) {
         onClick={() => store.setJoint({ height: height >= DOCK.large ? DOCK.usual : DOCK.large })}
       >
         {words.large}
-      </button>
-      <button
-        type="button"
-        class={isNext ? 'button small primary' : 'button small'}
-        title={words.saveTitle}
-        aria-haspopup="dialog"
-        aria-expanded={state.ui.popover === 'export'}
-        onClick={() => store.show({ popover: state.ui.popover === 'export' ? null : 'export', exporting: { ...state.ui.exporting, kind: 'joint' } })}
-      >
-        {words.save}
       </button>
     </>
   );

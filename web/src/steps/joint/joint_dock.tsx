@@ -2,6 +2,7 @@ import { useLater } from '../../commands/later';
 import { useApp } from '../../commands/app';
 import type { State } from '../../document/store';
 import { cellOf, chosenCandidate, type Doc } from '../../document/types';
+import { standingOf } from '../../results/steps';
 import { COMPONENT_NAMES } from '../../terms/component';
 import { texts } from '../../texts/texts';
 
@@ -18,6 +19,7 @@ function hasBothComponents(doc: Doc): boolean {
 /** How the joint moves: one line until somebody opens it, then curves. */
 export function JointDock({ state }: { state: State }) {
   const { services } = useApp();
+  const { popover, exporting } = state.ui;
   const { open, height } = state.ui.joint;
   const loaded = useLater(open, load);
   if (!hasBothComponents(state.history.present)) return null;
@@ -36,6 +38,16 @@ export function JointDock({ state }: { state: State }) {
           <span class="joint-sign" aria-hidden="true" /> {words.title}
         </button>
         {open && loaded && <loaded.JointTools state={state} />}
+        <button
+          type="button"
+          class={open && standingOf(state.history.present).step === 'joint' ? 'button small primary' : 'button small'}
+          title={words.saveTitle}
+          aria-haspopup="dialog"
+          aria-expanded={popover === 'export'}
+          onClick={() => services.store.show({ popover: popover === 'export' ? null : 'export', exporting: { ...exporting, kind: 'joint' } })}
+        >
+          {words.save}
+        </button>
       </div>
       {open && loaded && <loaded.Curves state={state} />}
     </section>
