@@ -3,6 +3,7 @@
 use fluoropose::film::profile::PROFILE_NUMBERS;
 use fluoropose::film::{
     DisplayKind, FilmConstants, FilmEstimate, FilmModel, FilmPool, FilmProfile, GivenFilm,
+    MetalContrast, Sharpening,
 };
 use fluoropose::finder::FilmMisfits;
 use wasm_bindgen::prelude::*;
@@ -72,7 +73,7 @@ fn kind(word: &str) -> Result<DisplayKind, JsError> {
 #[wasm_bindgen(js_name = statedFilmWords)]
 #[must_use]
 pub fn stated_film_words(curvature: f64, blur_px: f64) -> String {
-    FilmConstants { curvature, blur_px }.to_string()
+    FilmConstants::plain(curvature, blur_px).to_string()
 }
 
 /// The constants of a film.
@@ -112,8 +113,9 @@ impl FilmFacts {
         self.estimate.profiles
     }
 
-    /// Twelve numbers: curvature, blur, a component's attenuation, and their covariance row by row. Nothing where no frame of
-    /// that component was read.
+    /// Sixteen numbers: curvature, blur, a component's attenuation, and their covariance row by row; amount and radius (px) of
+    /// enhanced edges, and what the component's metal shows: grey values between both of its sides and the part that passes it.
+    /// Nothing where no frame of that component was read.
     #[must_use]
     pub fn model(&self, component: usize) -> Option<Vec<f64>> {
         let known = self.knows.get(component).copied().unwrap_or(false);
@@ -122,17 +124,23 @@ impl FilmFacts {
 }
 
 fn numbers_of(model: &FilmModel) -> Vec<f64> {
-    let FilmConstants { curvature, blur_px } = model.constants;
+    let FilmConstants {
+        curvature,
+        blur_px,
+        sharpening: Sharpening { amount, radius_px },
+    } = model.constants;
+    let MetalContrast { grey, passed } = model.contrast;
     let constants = [curvature, blur_px, model.attenuation];
     constants
         .iter()
         .chain(model.covariance.as_flattened())
+        .chain(&[amount, radius_px, grey, passed])
         .copied()
         .collect()
 }
 
-/// What a film makes of a component: twelve numbers as [`FilmFacts::model`] has them, or the first three, which are then taken
-/// as they are. Nothing where there are none.
+/// What a film makes of a component: sixteen numbers as [`FilmFacts::model`] has them, the first twelve where no edges were
+/// enhanced, or the first three, which are then taken as they are. Nothing where there are none.
 pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> {
     let (constants, covariance) = match *numbers {
         [] => return Ok(None),
@@ -150,10 +158,16 @@ pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> 
         ));
     }
     let [curvature, blur_px, attenuation] = constants;
-    let mut model = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
+    let mut model = FilmModel::certain(FilmConstants::plain(curvature, blur_px), attenuation);
     match covariance.as_chunks::<3>() {
         ([], []) => {}
-        (&[a, b, c], []) => model.covariance = [a, b, c],
+        ([a, b, c], []) => model.covariance = [*a, *b, *c],
+        ([a, b, c, [amount, radius_px, grey]], [passed]) => {
+            model.covariance = [*a, *b, *c];
+            let [amount, radius_px, grey, passed] = [*amount, *radius_px, *grey, *passed];
+            model.constants.sharpening = Sharpening { amount, radius_px };
+            model.contrast = MetalContrast { grey, passed };
+        }
         _ => return Err(wrong_count(numbers)),
     }
     Ok(Some(model))
@@ -161,7 +175,7 @@ pub(crate) fn film_model(numbers: &[f64]) -> Result<Option<FilmModel>, JsError> 
 
 fn wrong_count(numbers: &[f64]) -> JsError {
     JsError::new(&format!(
-        "A film has 3 or 12 numbers, but {} were given",
+        "A film has 3, 12 or 16 numbers, but {} were given",
         numbers.len()
     ))
 }
@@ -172,13 +186,22 @@ mod tests {
 
     #[test]
     fn a_model_of_a_film_survives_the_way_through_numbers() {
-        let constants = FilmConstants {
-            curvature: 0.02,
-            blur_px: 1.3,
-        };
+        let constants = FilmConstants::plain(0.02, 1.3);
         let mut model = FilmModel::certain(constants, 0.4);
         assert_eq!(film_model(&[0.02, 1.3, 0.4]).ok(), Some(Some(model)));
         model.covariance = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+        assert_eq!(
+            film_model(&numbers_of(&model)[..12]).ok(),
+            Some(Some(model))
+        );
+        model.constants.sharpening = Sharpening {
+            amount: 0.8,
+            radius_px: 3.0,
+        };
+        model.contrast = MetalContrast {
+            grey: 60.0,
+            passed: 0.2,
+        };
         assert_eq!(film_model(&numbers_of(&model)).ok(), Some(Some(model)));
         assert_eq!(film_model(&[]).ok(), Some(None));
     }

@@ -2,8 +2,10 @@
 //! made ready for many lines.
 
 use super::lines::{INNER, POINTS, STEP};
-use super::model::{Blur, DRAWN_RANGE, FilmModel, MOST_BLUR_REACH, transmission};
-use crate::image::profile::{DERIVATIVE, HALF_FILTER, NormalReading, READING_STEP, strongest};
+use super::model::{Blur, DRAWN_RANGE, Drawn, FilmModel, MOST_BLUR_REACH, at, transmission};
+use crate::image::profile::{
+    DERIVATIVE, HALF_FILTER, NormalReading, READING_STEP, steepest_rise, strongest,
+};
 
 /// Places of a line to a reading of the filter.
 const PLACES: usize = (READING_STEP / STEP) as usize;
@@ -23,6 +25,8 @@ pub(crate) struct EdgeFilter {
     /// Of the places at 1, 2 and so on places after the middle; those before it count as much less. The others are zero.
     weights: [f32; MOST_REACH],
     reach: usize,
+    /// Where edges were enhanced no one filter does it.
+    enhanced: Option<FilmModel>,
 }
 
 impl From<&FilmModel> for EdgeFilter {
@@ -42,6 +46,7 @@ impl From<&FilmModel> for EdgeFilter {
             attenuation: film.attenuation,
             weights,
             reach: (blur.reach + HALF_FILTER * PLACES).min(MOST_REACH),
+            enhanced: (film.constants.sharpening.amount > 0.0).then_some(*film),
         }
     }
 }
@@ -53,6 +58,9 @@ impl EdgeFilter {
         let Some(paths) = paths else {
             return NormalReading::Unknown;
         };
+        if let Some(film) = &self.enhanced {
+            return edge_of(&film.shown(paths), expected);
+        }
         let long = continued(&transmission(paths, self.attenuation));
         let first = (expected + INNER) / STEP - (HALF * PLACES) as f64;
         // Nothing changes beyond.
@@ -81,6 +89,18 @@ impl EdgeFilter {
     }
 }
 
+/// The edge of what is drawn of a line.
+#[inline(never)]
+fn edge_of(drawn: &Drawn, expected: f64) -> NormalReading {
+    steepest_rise(expected, DRAWN_RANGE, |middle, profile| {
+        for (k, value) in profile.iter_mut().enumerate() {
+            let t = expected + READING_STEP * (k as f64 - middle as f64);
+            *value = f64::from(at(drawn, t));
+        }
+        Some(())
+    })
+}
+
 /// What passes at the places of a line, and beyond both ends as there.
 type Continued = [f32; POINTS + 2 * BEYOND];
 
@@ -95,21 +115,11 @@ fn continued(drawn: &[f32; POINTS]) -> Continued {
 mod tests {
     use super::*;
     use crate::film::FilmConstants;
-    use crate::film::model::{at, blurred};
-    use crate::image::profile::steepest_rise;
     use proptest::prelude::*;
 
     /// Oracle: blurred, read and differentiated one after the other.
     fn one_by_one(film: &FilmModel, paths: &[f32; POINTS], expected: f64) -> NormalReading {
-        let blur_px = film.constants.blur_px;
-        let drawn = blurred(&transmission(paths, film.attenuation), blur_px);
-        steepest_rise(expected, DRAWN_RANGE, |middle, profile| {
-            for (k, value) in profile.iter_mut().enumerate() {
-                let t = expected + READING_STEP * (k as f64 - middle as f64);
-                *value = f64::from(at(&drawn, t));
-            }
-            Some(())
-        })
+        edge_of(&film.shown(paths), expected)
     }
 
     proptest! {
@@ -124,8 +134,7 @@ mod tests {
             for (to, more) in steps {
                 paths[..to].iter_mut().for_each(|path| *path += more);
             }
-            let constants = FilmConstants { curvature: 0.0, blur_px };
-            let film = FilmModel::certain(constants, attenuation);
+            let film = FilmModel::certain(FilmConstants::plain(0.0, blur_px), attenuation);
             let (quick, slow) = (
                 EdgeFilter::from(&film).edge(Some(&paths), expected),
                 one_by_one(&film, &paths, expected),
@@ -142,11 +151,7 @@ mod tests {
 
     #[test]
     fn a_line_without_metal_or_far_from_it_has_no_edge() {
-        let constants = FilmConstants {
-            curvature: 0.0,
-            blur_px: 1.0,
-        };
-        let filter = EdgeFilter::from(&FilmModel::certain(constants, 0.3));
+        let filter = EdgeFilter::from(&FilmModel::certain(FilmConstants::plain(0.0, 1.0), 0.3));
         let mut paths = [0.0; POINTS];
         assert_eq!(filter.edge(Some(&paths), 0.4), NormalReading::Nothing);
         paths[..10].fill(9.0);

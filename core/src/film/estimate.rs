@@ -6,23 +6,29 @@
 
 mod equations;
 mod guards;
+mod sharpen;
 mod solver;
 mod unknowns;
 
 use core::fmt;
 
 use guards::Confirmed;
-use solver::Fit;
-use unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
+use solver::{Fit, sharpening};
+use unknowns::{AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, RADIUS, UNKNOWNS};
 pub use unknowns::{DisplayKnowledge, MOST_COMPONENTS};
 
 use super::given::{DisplayKind, GivenFilm};
 use super::model::{FilmConstants, FilmModel};
 use super::profile::FilmProfile;
+use super::sharpening::{MetalContrast, Sharpening};
 use crate::math::{exp, sqrt};
 
 /// Errors that formal ones do not know of: for the physics left out. Of the curvature for each contrast, and of logarithms.
 const LEAST_DEVIATION: [f64; 3] = [0.06, 0.05, 0.1];
+/// The same of the curvature where edges were enhanced: so much, and this part of it, because what an enhanced edge looks like
+/// behind a curved display depends on scattered light, which edges tell roughly. Of two synthetic films with a square-root display
+/// depth was 3 mm off where 0.8 mm was told without this.
+const SHARPENED_DEVIATION: [f64; 2] = [0.15, 0.2];
 /// The same of the curvature where no two components tell it alike.
 const UNTOLD_DEVIATION: f64 = 0.6;
 
@@ -33,7 +39,10 @@ pub struct FilmEstimate {
     pub constants: FilmConstants,
     /// Attenuation of each component's metal, per mm.
     pub attenuation: [f64; MOST_COMPONENTS],
-    /// Covariance of the curvature, the logarithm of the blur, and those of the attenuations.
+    /// What the profiles of each component show beside its metal and behind it.
+    pub metal: [MetalContrast; MOST_COMPONENTS],
+    /// Covariance of the curvature, the logarithm of the blur, those of the attenuations, of the amount by which edges were
+    /// enhanced and of the logarithm of its radius.
     pub covariance: [[f64; UNKNOWNS]; UNKNOWNS],
     /// What is known of the display.
     pub display: DisplayKnowledge,
@@ -54,6 +63,7 @@ impl FilmEstimate {
         FilmModel {
             constants: self.constants,
             attenuation: self.attenuation[component],
+            contrast: self.metal[component],
             covariance: of.map(|row| of.map(|column| self.covariance[row][column])),
         }
     }
@@ -62,7 +72,11 @@ impl FilmEstimate {
 /// As a person would say it, without a full stop.
 impl fmt::Display for FilmEstimate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let FilmConstants { curvature, blur_px } = self.constants;
+        let FilmConstants {
+            curvature,
+            blur_px,
+            sharpening,
+        } = self.constants;
         let kind = DisplayKind::of(curvature * self.contrast);
         f.write_str(match (self.display, kind) {
             (DisplayKnowledge::Untold, _) => {
@@ -79,7 +93,15 @@ impl fmt::Display for FilmEstimate {
         if kind == DisplayKind::Logarithmic && self.display != DisplayKnowledge::Either {
             write!(f, ", {:.0} grey values for a factor of e", 1.0 / curvature)?;
         }
-        write!(f, ", blur {blur_px:.1} px")
+        write!(f, ", blur {blur_px:.1} px")?;
+        if sharpening.amount > 0.0 {
+            let Sharpening { amount, radius_px } = sharpening;
+            write!(
+                f,
+                ", edges enhanced {amount:.1} times within {radius_px:.1} px"
+            )?;
+        }
+        Ok(())
     }
 }
 
@@ -106,6 +128,7 @@ pub fn estimate_with(
         only: None,
         every: 1,
         hold: false,
+        sharpened: false,
         given,
     };
     let mut at = fit.begin()?;
@@ -113,6 +136,7 @@ pub fn estimate_with(
     if fit.leave_out_costly(&at) {
         fit.improve(&mut at, 6)?;
     }
+    fit.sharpen(&mut at)?;
     let Confirmed { display, half } = fit.confirmed(&mut at)?;
     let sums = fit.look(&at)?;
     if sums.count < LEAST_PROFILES {
@@ -121,6 +145,11 @@ pub fn estimate_with(
     let mut covariance = sums.covariance()?;
     let least = |k: usize| match (k, display) {
         (CURVATURE, DisplayKnowledge::Untold) => UNTOLD_DEVIATION,
+        (CURVATURE, _) if fit.sharpened => {
+            let [least, part] = SHARPENED_DEVIATION;
+            least + part * at[CURVATURE].abs()
+        }
+        (AMOUNT | RADIUS, _) if !fit.sharpened => 0.0,
         _ => LEAST_DEVIATION[k.min(2)],
     };
     (0..UNKNOWNS).for_each(|k| covariance[k][k] += least(k) * least(k));
@@ -132,21 +161,22 @@ pub fn estimate_with(
         }
     }
     Some(FilmEstimate {
-        constants: constants(&at, contrast),
+        constants: FilmConstants {
+            curvature: at[CURVATURE] / contrast,
+            blur_px: exp(at[BLUR]),
+            sharpening: match fit.sharpened {
+                true => sharpening(&at),
+                false => Sharpening::default(),
+            },
+        },
         attenuation: core::array::from_fn(|component| exp(at[2 + component])),
+        metal: core::array::from_fn(|component| fit.metal(component, &at)),
         covariance,
         display,
         contrast,
         profiles: sums.count,
         residual: sqrt(sums.squares / (sums.count * super::profile::READINGS) as f64),
     })
-}
-
-fn constants(at: &Vector, contrast: f64) -> FilmConstants {
-    FilmConstants {
-        curvature: at[CURVATURE] / contrast,
-        blur_px: exp(at[BLUR]),
-    }
 }
 
 /// The mean difference between grey values beside metal and behind it; `None` where metal is not darker.

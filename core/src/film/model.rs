@@ -2,7 +2,10 @@
 
 use core::fmt;
 
+pub(crate) use super::drawn::Drawn;
+use super::drawn::convolved;
 use super::lines::{INNER, POINTS, STEP};
+use super::sharpening::{MetalContrast, Sharpening};
 use crate::image::display::DisplayCurve;
 use crate::image::profile::FILTER_REACH;
 use crate::math::exp;
@@ -14,12 +17,28 @@ pub struct FilmConstants {
     pub curvature: f64,
     /// Standard deviation of everything that blurs: focal spot, detector, pixels, motion. Pixels.
     pub blur_px: f64,
+    /// How edges were enhanced.
+    pub sharpening: Sharpening,
+}
+
+impl FilmConstants {
+    /// Those of a film whose edges nobody enhanced.
+    #[must_use]
+    pub fn plain(curvature: f64, blur_px: f64) -> Self {
+        Self {
+            curvature,
+            blur_px,
+            sharpening: Sharpening::default(),
+        }
+    }
 }
 
 /// As a person who stated them would say it.
 impl fmt::Display for FilmConstants {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { curvature, blur_px } = self;
+        let Self {
+            curvature, blur_px, ..
+        } = self;
         match *curvature > 0.0 {
             true => write!(
                 f,
@@ -42,6 +61,8 @@ pub struct FilmModel {
     pub constants: FilmConstants,
     /// Attenuation of the component's metal for thin layers, per mm.
     pub attenuation: f64,
+    /// What its profiles show: behind a curved display it tells how edges were enhanced.
+    pub contrast: MetalContrast,
     /// Covariance of curvature, the logarithm of the blur and that of the attenuation.
     pub covariance: [[f64; CONSTANTS]; CONSTANTS],
 }
@@ -53,6 +74,7 @@ impl FilmModel {
         Self {
             constants,
             attenuation,
+            contrast: MetalContrast::default(),
             covariance: [[0.0; CONSTANTS]; CONSTANTS],
         }
     }
@@ -72,6 +94,17 @@ impl FilmModel {
         }
         self
     }
+
+    /// What a line looks like, read through the display's curve.
+    pub(crate) fn shown(&self, paths: &[f32; POINTS]) -> Drawn {
+        let FilmConstants {
+            curvature,
+            blur_px,
+            sharpening,
+        } = self.constants;
+        let drawn = blurred(&transmission(paths, self.attenuation), blur_px);
+        sharpening.of(&drawn, self.contrast.over_veil(curvature))
+    }
 }
 
 /// How far from an outline its edge may seem to be, pixels.
@@ -79,9 +112,6 @@ pub const DRAWN_RANGE: f64 = 3.0;
 
 // What the filter reads of a line lies on it, or beyond its ends where nothing changes.
 const _: () = assert!(DRAWN_RANGE + FILTER_REACH < INNER);
-
-/// Parts of intensity that pass, one for each place of a line.
-pub(crate) type Drawn = [f32; POINTS];
 
 /// Beam hardening: metal takes the soft part of the beam first, so that thicker layers attenuate less for each mm,
 /// `(1 + v mu L)^(-1 / v)` with this `v`; 0 would be one energy alone, `exp(-mu L)`.
@@ -104,6 +134,8 @@ pub(crate) const MOST_BLUR_REACH: usize = 40;
 
 /// Weights of a Gaussian.
 pub(crate) struct Blur {
+    /// Standard deviation, places.
+    width: f32,
     /// At the places of a line from the middle to one side.
     pub(crate) weights: [f32; MOST_BLUR_REACH + 1],
     /// Places to each side that have any.
@@ -117,6 +149,7 @@ impl Blur {
     pub(crate) fn of(blur_px: f64) -> Self {
         let width = (blur_px.clamp(LEAST_BLUR, MOST_BLUR) / STEP) as f32;
         let mut blur = Self {
+            width,
             weights: [0.0; MOST_BLUR_REACH + 1],
             reach: ((3.2 * width) as usize + 1).min(MOST_BLUR_REACH),
             sum: 0.0,
@@ -132,25 +165,8 @@ impl Blur {
 
 /// Convolved with a Gaussian of this width, pixels; both ends are continued.
 pub(crate) fn blurred(drawn: &Drawn, blur_px: f64) -> Drawn {
-    const MOST: usize = MOST_BLUR_REACH;
-    let Blur {
-        weights,
-        reach,
-        sum,
-    } = Blur::of(blur_px);
-    // Continued on both sides, so that all places are summed alike, several at once.
-    let mut long = [0.0; POINTS + 2 * MOST];
-    for (k, value) in long.iter_mut().enumerate() {
-        *value = drawn[k.saturating_sub(MOST).min(POINTS - 1)];
-    }
-    let mut totals = drawn.map(|value| weights[0] * value);
-    for (j, weight) in weights.iter().enumerate().take(reach + 1).skip(1) {
-        let (before, after) = (&long[MOST - j..], &long[MOST + j..]);
-        for ((total, before), after) in totals.iter_mut().zip(before).zip(after) {
-            *total += weight * (before + after);
-        }
-    }
-    let mut blurred = totals.map(|total| total / sum);
+    let Blur { width, reach, .. } = Blur::of(blur_px);
+    let mut blurred = convolved::<MOST_BLUR_REACH>(drawn, width, reach);
     keep_level(drawn, reach, &mut blurred);
     blurred
 }
@@ -209,11 +225,7 @@ mod tests {
     }
 
     fn edge(paths: &[f32; POINTS], blur_px: f64, attenuation: f64) -> f64 {
-        let constants = FilmConstants {
-            curvature: 0.0,
-            blur_px,
-        };
-        let model = FilmModel::certain(constants, attenuation);
+        let model = FilmModel::certain(FilmConstants::plain(0.0, blur_px), attenuation);
         match EdgeFilter::from(&model).edge(Some(paths), 0.0) {
             NormalReading::At(edge) => edge,
             other => panic!("{other:?}"),

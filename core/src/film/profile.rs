@@ -2,12 +2,15 @@
 //! estimated from.
 
 use super::lines::POINTS;
+use super::model::{Drawn, at};
 
 /// Distance between readings, pixels; the first is this far inside the outline.
 pub(crate) const READING_STEP: f64 = 0.5;
 pub(crate) const FIRST_READING: f64 = -6.0;
 /// Readings of a profile: to 5 pixels outside.
 pub const READINGS: usize = 23;
+/// Readings at each end that tell how bright it is there.
+const SIDE: usize = 4;
 
 /// Numbers that a profile is made of, without the names of its component and frame.
 pub const PROFILE_NUMBERS: usize = 2 * READINGS + POINTS + 1;
@@ -104,6 +107,12 @@ impl FilmProfile {
     /// How much brighter it is outside than inside, grey values.
     pub(crate) fn contrast(&self) -> f32 {
         let mean = |readings: &[f32]| readings.iter().sum::<f32>() / readings.len() as f32;
-        mean(&self.mean[READINGS - 4..]) - mean(&self.mean[..4])
+        mean(&self.mean[READINGS - SIDE..]) - mean(&self.mean[..SIDE])
+    }
+
+    /// The mean of what is drawn of it where that reads inside.
+    pub(crate) fn inside(&self, drawn: &Drawn) -> f32 {
+        let place = |k: usize| f64::from(self.outline) + Self::along(k);
+        (0..SIDE).map(|k| at(drawn, place(k))).sum::<f32>() / SIDE as f32
     }
 }

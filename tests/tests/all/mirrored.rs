@@ -28,11 +28,7 @@ const TRUE: EulerPose = EulerPose {
 
 /// What the built-in film makes of titanium.
 fn film() -> FilmModel {
-    let constants = FilmConstants {
-        curvature: 1.0 / 38.0,
-        blur_px: 0.7,
-    };
-    FilmModel::certain(constants, 0.2)
+    FilmModel::certain(FilmConstants::plain(1.0 / 38.0, 0.7), 0.2)
 }
 
 fn grey() -> Vec<u8> {

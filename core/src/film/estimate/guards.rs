@@ -1,4 +1,5 @@
-//! What is not believed: frames that fit worse than the others, and a curved display that one component alone tells of.
+//! What is not believed: frames that fit worse than the others, and a curved display that one component alone tells of
+//! where enhanced edges would explain it as well.
 
 use heapless::Vec;
 
@@ -63,8 +64,9 @@ impl Fit<'_> {
         sum / count.max(1.0)
     }
 
-    /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike. Where they contradict
-    /// each other the film is taken to be linear; where there is one alone, to be in the middle between that and what it tells.
+    /// Whether the curvature is believed: a small one is, and a large one where two components tell it alike, or one alone tells it
+    /// from enhanced edges. Where components contradict each other the film is taken to be linear; where one alone does not tell,
+    /// to be in the middle between that and what it tells.
     pub(super) fn confirmed(&mut self, at: &mut Vector) -> Option<Confirmed> {
         if self.given.display.is_some() {
             return Some(Confirmed::by(DisplayKnowledge::Stated));
@@ -78,6 +80,9 @@ impl Fit<'_> {
         });
         if told.len() >= 2 && most - least <= AGREE * most {
             self.find_shifts(at);
+            return Some(Confirmed::by(DisplayKnowledge::Told));
+        }
+        if told.len() < 2 && self.beats_linear(at) {
             return Some(Confirmed::by(DisplayKnowledge::Told));
         }
         let curved = *at;

@@ -3,11 +3,14 @@
 use heapless::Vec;
 
 use super::equations::{Sums, product};
-use super::unknowns::{BLUR, CURVATURE, LEAST_PROFILES, UNKNOWNS, Vector};
+use super::unknowns::{
+    AMOUNT, BLUR, CURVATURE, LEAST_PROFILES, OF_A_PROFILE, RADIUS, UNKNOWNS, Vector,
+};
 use crate::film::fit::{Developed, Explained, Residuals, explain, search};
 use crate::film::given::GivenFilm;
-use crate::film::model::{CONSTANTS, Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
+use crate::film::model::{Drawn, LEAST_BLUR, MOST_BLUR, blurred, transmission};
 use crate::film::profile::{FilmProfile, READINGS};
+use crate::film::sharpening::{MOST_AMOUNT, MetalContrast, RADII, Sharpening};
 use crate::math::{exp, ln, solve_spd};
 
 /// Curvatures to start from, for each contrast, and logarithms of attenuations.
@@ -17,6 +20,8 @@ const ATTENUATIONS: [f64; 2] = [-1.8, -0.4];
 /// the attenuation of metal that lets nothing pass.
 const EXPECTED_BLUR: [f64; 2] = [-0.1, 0.8];
 const EXPECTED_ATTENUATION: [f64; 2] = [-1.2, 1.0];
+const EXPECTED_AMOUNT: [f64; 2] = [0.0, 0.8];
+const EXPECTED_RADIUS: [f64; 2] = [1.0, 0.6];
 /// Changes over which derivatives are taken.
 const CHANGE: f64 = 0.03;
 /// Residual of a profile, as a part of the contrast, from which on it counts less: films are shown in any units.
@@ -25,9 +30,17 @@ const NOISE: f64 = 0.035;
 /// What a profile costs that nothing explains.
 pub(super) const UNEXPLAINED: f64 = 4.6;
 /// Profiles that starts are compared on.
-const FEW: usize = 320;
+pub(super) const FEW: usize = 320;
 /// Consecutive profiles that err alike.
 const TOGETHER: usize = 8;
+
+/// How edges are enhanced.
+pub(super) fn sharpening(at: &Vector) -> Sharpening {
+    Sharpening {
+        amount: at[AMOUNT],
+        radius_px: exp(at[RADIUS]),
+    }
+}
 
 fn ln_of_blur(blur_px: f64) -> f64 {
     ln(blur_px.clamp(LEAST_BLUR, MOST_BLUR))
@@ -44,6 +57,8 @@ pub(super) struct Fit<'p> {
     pub(super) every: usize,
     /// Whether the curvature stays as it is.
     pub(super) hold: bool,
+    /// Whether edges are taken to be enhanced.
+    pub(super) sharpened: bool,
     /// What is not estimated.
     pub(super) given: GivenFilm,
 }
@@ -63,6 +78,8 @@ impl Fit<'_> {
         match number {
             CURVATURE => None,
             BLUR => Some(EXPECTED_BLUR),
+            AMOUNT => Some(EXPECTED_AMOUNT),
+            RADIUS => Some(EXPECTED_RADIUS),
             _ => Some(EXPECTED_ATTENUATION),
         }
     }
@@ -82,6 +99,7 @@ impl Fit<'_> {
             let from = ATTENUATIONS.iter().filter_map(|&attenuation| {
                 let mut at = [attenuation; UNKNOWNS];
                 (at[CURVATURE], at[BLUR]) = (curvature, blur);
+                (at[AMOUNT], at[RADIUS]) = (0.0, EXPECTED_RADIUS[0]);
                 self.find_shifts(&at);
                 let cost = self.improve(&mut at, 8)?;
                 Some((cost, at))
@@ -97,8 +115,34 @@ impl Fit<'_> {
     }
 
     fn drawn(&self, profile: &FilmProfile, at: &Vector) -> Drawn {
+        let drawn = self.before_sharpening(profile, at);
+        if !self.sharpened {
+            return drawn;
+        }
+        let contrast = MetalContrast {
+            grey: f64::from(profile.contrast()),
+            passed: f64::from(profile.inside(&drawn)),
+        };
+        sharpening(at).of(&drawn, contrast.over_veil(at[CURVATURE] / self.contrast))
+    }
+
+    /// What a profile is drawn as, but for enhanced edges.
+    pub(super) fn before_sharpening(&self, profile: &FilmProfile, at: &Vector) -> Drawn {
         let passed = transmission(&profile.paths, exp(at[2 + usize::from(profile.component)]));
         blurred(&passed, exp(at[BLUR]))
+    }
+
+    /// The unknowns that a profile depends on.
+    fn of_profile(&self, profile: &FilmProfile) -> Vec<usize, OF_A_PROFILE> {
+        let all = [
+            CURVATURE,
+            BLUR,
+            2 + usize::from(profile.component),
+            AMOUNT,
+            RADIUS,
+        ];
+        let known = if self.sharpened { all.len() } else { 3 };
+        all.into_iter().take(known).collect()
     }
 
     fn is_wanted(&self, number: usize, profile: &FilmProfile) -> bool {
@@ -135,6 +179,8 @@ impl Fit<'_> {
             let [least, most] = self.given.range();
             next[CURVATURE] = next[CURVATURE].clamp(least, most);
             next[BLUR] = next[BLUR].clamp(ln(LEAST_BLUR), ln(MOST_BLUR));
+            next[AMOUNT] = next[AMOUNT].clamp(0.0, MOST_AMOUNT);
+            next[RADIUS] = next[RADIUS].clamp(ln(RADII[0]), ln(RADII[1]));
             let there = self.look(&next)?;
             if there.cost < seen.cost {
                 let settled = step.iter().all(|x| x.abs() < 2e-3);
@@ -174,13 +220,12 @@ impl Fit<'_> {
                 continue;
             };
             let squares = explained.squares();
-            let component = 2 + usize::from(profile.component);
+            let of = self.of_profile(profile);
             self.profiles[number].shift = explained.shift as f32;
             sums.cost += self.cost(squares);
             sums.squares += squares;
             sums.count += 1;
             let weight = 1.0 / (self.noise() + squares);
-            let of = [CURVATURE, BLUR, component];
             for (a, &row) in of.iter().enumerate() {
                 let pull = -weight * product(&slopes[a], &explained.residuals);
                 sums.right[row] += pull;
@@ -220,30 +265,34 @@ impl Fit<'_> {
         if self.given.blur_px.is_some() {
             sums.hold(BLUR);
         }
+        if !self.sharpened {
+            sums.hold(AMOUNT);
+            sums.hold(RADIUS);
+        }
     }
 
-    /// A profile explained, and, where it is `wanted`, how its residuals change with curvature, blur and attenuation.
+    /// A profile explained, and, where it is `wanted`, how its residuals change with each unknown that it depends on.
     pub(super) fn explained(
         &self,
         profile: &FilmProfile,
         at: &Vector,
         wanted: bool,
-    ) -> Option<(Explained, [Residuals; CONSTANTS])> {
+    ) -> Option<(Explained, [Residuals; OF_A_PROFILE])> {
         let film = Developed::of(profile, at[CURVATURE] / self.contrast);
         let start = f64::from(profile.shift);
         let explained = explain(profile, &film, &self.drawn(profile, at), start)?;
-        let mut slopes = [[0.0; READINGS]; CONSTANTS];
+        let mut slopes = [[0.0; READINGS]; OF_A_PROFILE];
         if wanted {
-            let of = [CURVATURE, BLUR, 2 + usize::from(profile.component)];
-            for (slopes, number) in slopes.iter_mut().zip(of) {
+            for (slopes, number) in slopes.iter_mut().zip(self.of_profile(profile)) {
                 let mut near = *at;
                 near[number] += CHANGE;
+                let drawn = self.drawn(profile, &near);
                 let other = match number {
                     CURVATURE => {
                         let film = Developed::of(profile, near[CURVATURE] / self.contrast);
-                        explain(profile, &film, &self.drawn(profile, at), explained.shift)?
+                        explain(profile, &film, &drawn, explained.shift)?
                     }
-                    _ => explain(profile, &film, &self.drawn(profile, &near), explained.shift)?,
+                    _ => explain(profile, &film, &drawn, explained.shift)?,
                 };
                 for (k, slope) in slopes.iter_mut().enumerate() {
                     *slope = (other.residuals[k] - explained.residuals[k]) / CHANGE as f32;

@@ -3,10 +3,15 @@
 /// Most components of a film.
 pub const MOST_COMPONENTS: usize = 4;
 
-/// Contrast times curvature, the logarithm of the blur, and those of the attenuations.
-pub(super) const UNKNOWNS: usize = 2 + MOST_COMPONENTS;
+/// Contrast times curvature, the logarithm of the blur, those of the attenuations, by how much edges were enhanced, and the
+/// logarithm of the radius.
+pub(super) const UNKNOWNS: usize = 4 + MOST_COMPONENTS;
 pub(super) const CURVATURE: usize = 0;
 pub(super) const BLUR: usize = 1;
+pub(super) const AMOUNT: usize = 2 + MOST_COMPONENTS;
+pub(super) const RADIUS: usize = AMOUNT + 1;
+/// Unknowns that one profile depends on.
+pub(super) const OF_A_PROFILE: usize = 5;
 
 pub(super) type Vector = [f64; UNKNOWNS];
 pub(super) type Matrix = [[f64; UNKNOWNS]; UNKNOWNS];

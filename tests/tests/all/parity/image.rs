@@ -76,7 +76,7 @@ fn look(part: &Part, mask: &Mask<'_>) -> OnFrame {
     let mut memory = buffers.borrow(&component, &camera, Kernels::PORTABLE);
     let (silhouette, options) = (Silhouette::from(mask), RefineOptions::default());
     let [curvature, blur_px, attenuation] = GIVEN;
-    let given = FilmModel::certain(FilmConstants { curvature, blur_px }, attenuation);
+    let given = FilmModel::certain(FilmConstants::plain(curvature, blur_px), attenuation);
     let goal = Goal::Image(image(Some(given)));
     let found = find(&component, &camera, &silhouette, goal, options, &mut memory);
     let first = found.expect("candidates").candidates[0];
@@ -125,7 +125,9 @@ pub(super) fn found(part: &Part, case: &Case) -> String {
     let points = case.outline.iter();
     let points = points.map(|p| format!("[{}, {}]", p.column, p.row));
     let constants = film.model(0);
-    let FilmConstants { curvature, blur_px } = constants.constants;
+    let FilmConstants {
+        curvature, blur_px, ..
+    } = constants.constants;
     let constants = [curvature, blur_px, constants.attenuation];
     let mut text = String::new();
     let _ = writeln!(text, "    \"name\": \"{}\",", case.name);

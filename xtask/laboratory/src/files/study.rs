@@ -76,7 +76,7 @@ impl StatedFilm {
     /// The constants, where all are stated.
     pub fn constants(&self) -> Option<FilmConstants> {
         let (curvature, blur_px) = self.curvature.zip(self.blur_px)?;
-        Some(FilmConstants { curvature, blur_px })
+        Some(FilmConstants::plain(curvature, blur_px))
     }
 
     /// What is taken as stated while the rest is estimated.

@@ -1,6 +1,6 @@
 //! What was found in a frame as numbers, so that a file can keep it to the last bit.
 
-use fluoropose::film::{FilmConstants, FilmModel};
+use fluoropose::film::{FilmConstants, FilmModel, MetalContrast, Sharpening};
 use fluoropose::follow::{Contrast, FramePose, Looked, Missing};
 use fluoropose::pose::Pose;
 use fluoropose::pose::covariance::PoseCovariance;
@@ -148,14 +148,20 @@ impl Record for Looked {
 pub(super) struct Films(pub(super) Vec<FilmModel>);
 
 /// Numbers of a component.
-const OF_A_FILM: usize = 12;
+const OF_A_FILM: usize = 16;
 
 impl Record for Films {
     fn numbers(&self) -> Vec<f64> {
         let of = |film: &FilmModel| {
-            let mut numbers = vec![film.constants.curvature, film.constants.blur_px];
-            numbers.push(film.attenuation);
+            let FilmConstants {
+                curvature,
+                blur_px,
+                sharpening: Sharpening { amount, radius_px },
+            } = film.constants;
+            let MetalContrast { grey, passed } = film.contrast;
+            let mut numbers = vec![curvature, blur_px, film.attenuation];
             numbers.extend(film.covariance.iter().flatten());
+            numbers.extend([amount, radius_px, grey, passed]);
             numbers
         };
         self.0.iter().flat_map(of).collect()
@@ -166,9 +172,15 @@ impl Record for Films {
             let mut reader = Reader(numbers);
             let [curvature, blur_px, attenuation] = reader.some()?;
             let covariance: [f64; 9] = reader.some()?;
+            let [amount, radius_px, grey, passed] = reader.some()?;
             Some(FilmModel {
-                constants: FilmConstants { curvature, blur_px },
+                constants: FilmConstants {
+                    curvature,
+                    blur_px,
+                    sharpening: Sharpening { amount, radius_px },
+                },
                 attenuation,
+                contrast: MetalContrast { grey, passed },
                 covariance: std::array::from_fn(|row| {
                     std::array::from_fn(|k| covariance[3 * row + k])
                 }),
