@@ -43,7 +43,7 @@ pageTest('a new user with one click', async (page, t) => {
 /** The film that both components tell corrects the pose that was there. @param {Page} page @param {import('node:test').TestContext} t */
 async function withTheOther(page, t) {
   const film = page.getByRole('region', { name: 'Film' });
-  await film.getByText(/^Film linear with enhanced edges or logarithmic, which one component alone does not tell: depth lies between the two, blur 0\.\d px\.$/).waitFor();
+  await film.getByText(/^Logarithmic film, \d\d grey values for a factor of e, blur 0\.\d px\.$/).waitFor();
   // The femur's own pose follows from that first.
   await atRest(page);
   await page.getByRole('radio', { name: 'Tibia' }).click();

@@ -12,10 +12,10 @@ import { polygonWithin, trueOutline } from './study.mjs';
 const QUICK_HAND = 2.5;
 
 /**
- * One click into the femur alone, or an outline that a tool laid on its edges: its profiles are those of a sharpened picture as well as of a logarithmic display, and the
- * film is taken to be in the middle (seen: 5.3 mm; threshold 5.0, live-wire 5.3, snapped 6.1).
+ * One click into the femur alone, or an outline that a tool laid on its edges (seen in z: 1.6 mm; threshold and live-wire 1.6, snapped 1.8): its profiles tell the
+ * display from a sharpened picture.
  */
-export const BY_ONE_CLICK = { x: 0.1, y: 0.1, z: 6.5, zRot: 0.2, xRot: 0.2, yRot: 0.5 };
+export const BY_ONE_CLICK = { x: 0.1, y: 0.1, z: 2.5, zRot: 0.2, xRot: 0.2, yRot: 0.5 };
 
 /**
  * One click into each component: both tell the display alike. Seen, in either order: 1.6 mm of the femur (shown as +-1.7), 1.4 of the tibia (+-2.0),

@@ -81,9 +81,8 @@ impl Fit<'_> {
 
     /// What the profiles of a component show beside metal and behind it.
     pub(super) fn metal(&self, component: usize, at: &Vector) -> MetalContrast {
-        let is_of = |profile: &&FilmProfile| {
-            profile.used && usize::from(profile.component) == component
-        };
+        let is_of =
+            |profile: &&FilmProfile| profile.used && usize::from(profile.component) == component;
         let (mut grey, mut passed, mut count) = (0.0, 0.0, 0.0);
         for profile in self.profiles.iter().filter(is_of) {
             grey += f64::from(profile.contrast());
