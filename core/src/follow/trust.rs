@@ -91,6 +91,8 @@ pub enum Distrust {
     Ways(f64),
     /// It lies off the way between the frames on both sides: degrees, mm.
     Jump(f64, f64),
+    /// The frames on both sides may be another pose's themselves, so that it says little that they agree.
+    Beside,
     /// The edges are fainter than elsewhere in the film: part of the usual strength.
     Faint(f64),
     /// The edges lie farther off than elsewhere: pixels, and the usual.
@@ -119,6 +121,7 @@ impl Distrust {
             Self::Side(_) => "ambiguous",
             Self::Ways(_) => "two ways",
             Self::Jump(..) => "jump",
+            Self::Beside => "beside doubt",
             Self::Faint(_) => "faint",
             Self::Apart(..) | Self::Unmet(_) => "residual",
             Self::Cut(_) => "cut off",
@@ -143,6 +146,9 @@ impl fmt::Display for Distrust {
             Self::Jump(deg, mm) => write!(
                 f,
                 "it lies {deg:.1} degrees and {mm:.1} mm off the way between the frames beside it"
+            ),
+            Self::Beside => f.write_str(
+                "the frames on both sides are doubtful themselves, so that it says little that they agree",
             ),
             Self::Faint(part) => {
                 let percent = 100.0 * part;
@@ -237,6 +243,21 @@ pub fn judge_film(
     for (at, trust) in trusts.iter_mut().enumerate().take(film.len()) {
         *trust = judge(film, at, limits, middle, &usual);
     }
+    doubt_between(film, trusts);
+}
+
+/// A pose between two that may be others is no better than they are.
+fn doubt_between(film: &[FrameEvidence], trusts: &mut [Trust]) {
+    let mut before = Trust::default();
+    for at in 0..trusts.len().min(film.len()) {
+        let own = trusts[at];
+        let after = trusts.get(at + 1).copied().unwrap_or_default();
+        let stands = film[at].found.is_some() && !film[at].fixed && own.distrust.is_none();
+        if stands && before.may_be_another() && after.may_be_another() {
+            trusts[at].weigh(before.badness.min(after.badness), Distrust::Beside);
+        }
+        before = own;
+    }
 }
 
 fn misfit(one: &FrameEvidence) -> Option<f64> {
@@ -310,6 +331,12 @@ fn judge(
 }
 
 impl Trust {
+    /// Whether its reason is that another pose may be the right one.
+    fn may_be_another(&self) -> bool {
+        use Distrust::{Jump, Side, Ways};
+        matches!(self.distrust, Some(Side(_) | Ways(_) | Jump(..)))
+    }
+
     /// Takes the worse reason.
     fn weigh(&mut self, badness: f64, distrust: Distrust) {
         if badness > self.badness {
@@ -369,5 +396,37 @@ mod tests {
         };
         assert_eq!(told(0.0), Some(Distrust::Unmet(0.5)));
         assert_eq!(told(980.0), Some(Distrust::Behind(980.0)));
+    }
+
+    #[test]
+    fn a_pose_between_two_that_may_be_others_is_as_doubtful() {
+        let judged = |others: [f64; 3]| {
+            let seen = |(k, off): (usize, &f64)| FrameEvidence {
+                found: Some(turned(k as f64, 0.1)),
+                other_way: (*off != 0.0).then(|| turned(k as f64 + off, 0.1).pose),
+                ..FrameEvidence::default()
+            };
+            let film: std::vec::Vec<FrameEvidence> = others.iter().enumerate().map(seen).collect();
+            let (mut sorted, mut trusts) = ([0.0; 3], [Trust::default(); 3]);
+            let middle = [0.0; 3];
+            judge_film(
+                &film,
+                &TrustLimits::USUAL,
+                &middle,
+                &mut sorted,
+                &mut trusts,
+            );
+            trusts.map(|trust| (trust.distrust.map(|why| why.word()), trust.badness))
+        };
+        let [before, own, after] = judged([8.0, 0.0, 6.0]);
+        assert_eq!(
+            [before.0, own.0, after.0],
+            [Some("two ways"), Some("beside doubt"), Some("two ways")]
+        );
+        assert!(
+            own.1 > 1.0 && own.1 == after.1 && after.1 < before.1,
+            "{own:?}"
+        );
+        assert_eq!(judged([8.0, 0.0, 0.0])[1].0, None);
     }
 }
