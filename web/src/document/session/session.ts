@@ -235,7 +235,7 @@ const readPlainCell = object<{ outline: Outline | null; result: Result | null; r
 const readCell: Reader<Cell> = (value, path) => {
   const { outline: read, result, resultIsCurrent } = readPlainCell(value, path);
   const outline = read && resultIsCurrent && !read.laidBy && isOfClick(result) ? { ...read, laidBy: 'click' as const } : read;
-  return { outline, result, resultOf: resultIsCurrent ? outline : null };
+  return { outline, result, resultOf: result !== null && resultIsCurrent ? outline : null };
 };
 
 /** Before outlines kept who laid them, those of poses that were found on a frame came of one click. */
