@@ -9,7 +9,8 @@
 //! stand out are looked at once more from where those beside them lead (`second_looks`, feature `alloc`).
 //! [`judge_film`] says at the end how far each frame is to be trusted, and [`Conclusion`] in which state it is and why.
 //!
-//! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for.
+//! [`Following`] (feature `alloc`) does all of it for a caller that gives frames when they are asked for; before it, [`FilmReading`] reads
+//! what the constants of the film are estimated from.
 //!
 //! Nothing here knows files, threads or time: whoever calls gives frames one by one, in the order that he likes.
 
@@ -25,6 +26,8 @@ mod elsewhere;
 mod fake;
 #[cfg(feature = "alloc")]
 mod false_minimum;
+#[cfg(feature = "alloc")]
+mod film_reading;
 #[cfg(feature = "alloc")]
 mod following;
 mod frame_pose;
@@ -54,6 +57,8 @@ pub use crossing::{Crossing, frames_to_cross_from};
 pub use elsewhere::elsewhere;
 #[cfg(feature = "alloc")]
 pub use false_minimum::{ROUNDS, elsewhere_margins, leaves_less, runs_elsewhere};
+#[cfg(feature = "alloc")]
+pub use film_reading::FilmReading;
 #[cfg(feature = "alloc")]
 pub use following::{Following, KnownFemur};
 pub use frame_pose::{

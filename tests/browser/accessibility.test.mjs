@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { bringAxe, isAccessible } from './support/axe.mjs';
 import { pageTest, screenshot, step } from './support/browser.mjs';
+import { focused } from './support/focus.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { trueOutline } from './support/study.mjs';
@@ -83,14 +84,6 @@ pageTest('accessibility', async (page, t) => {
     }
   });
 });
-
-/** The name of what has the keyboard's focus. @param {Page} page @returns {Promise<string>} */
-function focused(page) {
-  return page.evaluate(() => {
-    const element = document.activeElement;
-    return element?.getAttribute('aria-label') ?? element?.textContent?.replace(/\s+/g, ' ').trim() ?? '';
-  });
-}
 
 /** Names of everything that Tab reaches, from the first control to the last. @param {Page} page */
 async function tabThrough(page) {

@@ -58,11 +58,11 @@ pageTest('which way a component lies', async (page, t) => {
     await space.getByText('x anterior, y superior, \u2212z lateral').waitFor();
     const canvas = space.getByRole('application');
     const look = async (/** @type {string} */ from) => {
-      await space.getByRole('button', { name: from }).click();
+      await space.getByRole('button', { name: from, exact: true }).click();
       await drawn(page);
       return canvas.screenshot();
     };
-    const [front, side, above] = [await look('From the front'), await look('From the side'), await look('From above')];
+    const [front, side, above] = [await look('Front'), await look('Side'), await look('Above')];
     assert(!front.equals(side) && !side.equals(above), 'each side looks otherwise');
     await screenshot(page, 'axes space');
   });

@@ -1,17 +1,18 @@
 //! A component followed through a film: frames come one by one, as they are asked for.
 
-use fluoropose::camera::Camera;
+mod film_reader;
+mod seen;
+
 use fluoropose::film::FilmModel;
-use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur, Subject};
-use fluoropose::mesh::OwnedModel;
-use fluoropose::mesh::symmetry::{SymmetryPlane, symmetry_planes};
+use fluoropose::follow::{Conclusion, Following, FramePose, KnownFemur};
 use fluoropose::pose::{EulerPose, Pose};
-use fluoropose::refine::{ImageTarget, Polarity, RefineBuffers, polarity_at};
+use seen::Seen;
 use wasm_bindgen::prelude::*;
+
+pub use film_reader::FilmReader;
 
 use crate::film::film_model;
 use crate::found::{Uncertainty, uncertainty};
-use fluoropose_page::calibration::camera;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 use fluoropose_page::pose_numbers::{axes_from, from_numbers, to_numbers};
@@ -23,14 +24,10 @@ const NUMBERS: usize = 6;
 #[wasm_bindgen]
 pub struct FilmFollower {
     following: Following,
-    model: OwnedModel,
-    planes: Vec<SymmetryPlane>,
-    camera: Camera,
+    seen: Seen,
     /// Poses that were given: the first one that is looked at tells whether the implant is dark.
     given: Vec<(usize, Pose)>,
-    polarity: Option<Polarity>,
     film: Option<FilmModel>,
-    buffers: RefineBuffers,
 }
 
 #[wasm_bindgen]
@@ -56,18 +53,12 @@ impl FilmFollower {
         last: usize,
         film: &[f64],
     ) -> Result<FilmFollower, JsError> {
-        let model = OwnedModel::new(vertices, triangles).map_err(sentence)?;
-        let middle = model.as_model().bounds().centre;
-        let planes = symmetry_planes(model.as_model().mesh()).to_vec();
+        let seen = Seen::new((vertices, triangles), calibration, (width, height))?;
         Ok(Self {
-            following: Following::new(middle, frames, first..last + 1),
-            model,
-            planes,
-            camera: camera(calibration, width, height)?,
+            following: Following::new(seen.middle(), frames, first..last + 1),
+            seen,
             given: Vec::new(),
-            polarity: None,
             film: film_model(film)?,
-            buffers: RefineBuffers::default(),
         })
     }
 
@@ -114,34 +105,16 @@ impl FilmFollower {
     /// # Errors
     /// The core's sentence about a pose that was given and cannot be drawn.
     pub fn take(&mut self, frame: &FrameImage) -> Result<Option<Vec<f64>>, JsError> {
-        let model = self.model.as_model();
-        let subject = Subject::new(&model, &self.planes, &self.camera);
-        let mut memory = self.buffers.borrow(&model, &self.camera);
-        let (following, polarity) = (&mut self.following, &mut self.polarity);
-        let given = self
-            .given
-            .iter()
-            .find(|(at, _)| Some(*at) == following.wanted());
-        frame.look(|frame| {
-            let image = ImageTarget {
-                frame,
-                unknown: None,
-                polarity: Polarity::DarkImplant,
-                film: self.film,
-            };
-            if let (None, Some((_, pose))) = (&polarity, given) {
-                let told = polarity_at(&model, &self.camera, pose, frame, &mut memory);
-                *polarity = Some(told.map_err(sentence)?);
-            }
-            let image = ImageTarget {
-                polarity: polarity.unwrap_or(Polarity::DarkImplant),
-                ..image
-            };
-            let found = following
-                .take(&subject, &image, &mut memory)
-                .map_err(sentence)?;
-            Ok(found.map(|found| to_numbers(&EulerPose::from(found.pose)).to_vec()))
-        })
+        let following = &mut self.following;
+        let wanted = following.wanted();
+        let given = self.given.iter().find(|(at, _)| Some(*at) == wanted);
+        let given = given.map(|(_, pose)| pose);
+        let found = self
+            .seen
+            .look(frame, (given, self.film), |subject, image, memory| {
+                following.take(subject, image, memory).map_err(sentence)
+            })??;
+        Ok(found.map(|found| to_numbers(&EulerPose::from(found.pose)).to_vec()))
     }
 
     /// Begins to look at frames from both sides of the mirror, which `chooseSides` goes on from.
@@ -203,7 +176,7 @@ impl FilmFollower {
         let depths: Vec<Option<f64>> = depths.collect();
         let cells = self.following.cells();
         let frames = self.following.conclude(&depths);
-        let middle = self.model.as_model().bounds().centre;
+        let middle = self.seen.middle();
         let uncertainties = cells.iter().map(|cell| {
             let found = cell.found()?;
             Some(uncertainty(

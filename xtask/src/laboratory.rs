@@ -2,11 +2,14 @@
 
 use std::ffi::OsString;
 use std::ops::Deref;
+use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result};
 
+use crate::setup::command as commands;
 use crate::setup::rust_target::own_cargo;
+use crate::workspace;
 
 /// Whatever follows the verb; the laboratory reads it.
 #[derive(clap::Args)]
@@ -44,13 +47,23 @@ pub(crate) fn run(verb: &str, words: &[OsString]) -> Result<()> {
     Err(failed).context("cannot start cargo")
 }
 
+/// The program, compiled if need be.
+///
+/// # Errors
+/// Where it does not compile.
+pub(crate) fn program() -> Result<PathBuf> {
+    commands::run(own_cargo().args(["build", "--release", "--package", "fluoropose-laboratory"]))?;
+    let name = format!("release/fluoropose{}", std::env::consts::EXE_SUFFIX);
+    Ok(workspace::target_dir().join(name))
+}
+
 fn command(verb: &str, words: &[OsString]) -> Result<Command> {
     let mut cargo = own_cargo();
     // Paths among the words are meant from where the person is.
     cargo.current_dir(std::env::current_dir()?);
     cargo
         .args(["run", "--release", "--manifest-path"])
-        .arg(crate::workspace::root().join("xtask/laboratory/Cargo.toml"))
+        .arg(workspace::root().join("xtask/laboratory/Cargo.toml"))
         .args(["--", verb])
         .args(words)
         // As its examples name it.

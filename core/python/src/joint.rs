@@ -1,6 +1,6 @@
 //! How a knee moves.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use fluoropose::Side;
@@ -64,6 +64,7 @@ pub(crate) fn joint<'py>(
         femur: body(py, "femur", femur),
         tibia: body(py, "tibia", tibia),
         doubts,
+        checked: BTreeSet::new(),
         film: Vec::new(),
         whose: "those of a Python program".to_owned(),
         inputs: Vec::new(),

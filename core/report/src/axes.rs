@@ -32,16 +32,29 @@ impl Scale {
         }
     }
 
+    /// An axis from the one number to the other, with some `marks` marks between them.
+    pub(crate) fn between([low, high]: [f64; 2], marks: f64, from: f64, to: f64) -> Self {
+        Self {
+            low,
+            high,
+            from,
+            to,
+            step: step_for((high - low).max(1e-3) / marks),
+        }
+    }
+
     pub(crate) fn at(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
 
     pub(crate) fn marks(&self) -> impl Iterator<Item = (f64, String)> {
-        let count = ((self.high - self.low) / self.step).round() as i32;
         let places = if self.step < 1.0 { 1 } else { 0 };
-        let Self { low, step, .. } = *self;
-        (0..=count).map(move |k| {
-            let value = low + f64::from(k) * step;
+        let Self { step, .. } = *self;
+        // Ends that are marks themselves are so up to rounding.
+        let first = (self.low / step - 1e-6).ceil() as i32;
+        let last = (self.high / step + 1e-6).floor() as i32;
+        (first..=last).map(move |k| {
+            let value = f64::from(k) * step;
             let value = if value.abs() < 1e-9 { 0.0 } else { value };
             (value, format!("{value:.places$}").replace('-', "\u{2212}"))
         })
@@ -68,7 +81,7 @@ impl Plot {
         [self.x.at(x), self.y.at(y)]
     }
 
-    /// Axes with marks and labels; `below` says whether the numbers of the x axis are written.
+    /// Axes with marks and labels; `below` says whether the numbers of the x axis are written. The label beside may have two lines.
     pub(crate) fn axes(&self, drawing: &mut Drawing, labels: [&str; 2], below: bool) {
         const INK: Stroke = Stroke::of(BLACK, 0.8);
         let (left, right, bottom, top) = (self.x.from, self.x.to, self.y.from, self.y.to);
@@ -95,7 +108,11 @@ impl Plot {
             let middle = (left + right) / 2.0;
             drawing.words([middle, bottom + 33.0], Anchor::Middle, 12.0, labels[0]);
         }
-        drawing.upwards([left - 36.0, (top + bottom) / 2.0], 12.0, labels[1]);
+        let middle = (top + bottom) / 2.0;
+        for (line, text) in labels[1].rsplit('\n').enumerate() {
+            let x = left - 36.0 - 14.0 * line as f64;
+            drawing.upwards([x, middle], 12.0, text);
+        }
         drawing.close();
     }
 }

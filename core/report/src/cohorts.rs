@@ -65,7 +65,7 @@ const PANELS: [(usize, &str); 4] = [
     (place::MEDIAL_AP, "Medial AP position (mm, anterior +)"),
     (place::LATERAL_AP, "Lateral AP position (mm, anterior +)"),
     (place::ROTATION, "Tibial rotation (\u{b0}, internal +)"),
-    (place::ABDUCTION, "Abduction (\u{b0})"),
+    (place::ABDUCTION, "Abduction (\u{b0}, abducted +)"),
 ];
 
 /// The groups against flexion: means, and bands of one standard deviation between knees.

@@ -62,10 +62,10 @@ fn against_flexion(drawing: &mut Drawing, mut draw: impl FnMut(&mut Drawing, &Pa
 
     letter(drawing, "d", RIGHT[0], 346.0);
     let abduction = [(place::ABDUCTION, PLAIN)];
-    let labels = ["", "Abduction (\u{b0})"];
+    let labels = ["", "Abduction (\u{b0},\nabducted +)"];
     panel(drawing, RIGHT, [464.0, 360.0], &abduction, labels);
     let lift_off = [(place::LIFT_OFF, PLAIN)];
-    let labels = [FLEXION, "Lift-off (mm)"];
+    let labels = [FLEXION, "Lift-off (mm,\nlateral +)"];
     let plot = panel(drawing, RIGHT, [606.0, 496.0], &lift_off, labels);
     thresholds(drawing, &plot);
 }

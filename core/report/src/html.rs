@@ -16,9 +16,9 @@ const STYLE: &str = "\
 :root{color-scheme:light}body{font:10.5pt/1.45 Helvetica,Arial,'Liberation Sans',sans-serif;color:#111;background:#fff;max-width:190mm;margin:8mm auto;padding:0 4mm}\
 h1{font-size:17pt;margin:0 0 1mm}h2{font-size:12.5pt;margin:7mm 0 2mm;break-after:avoid}p{margin:0 0 2mm;max-width:165mm}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:8.5pt;width:100%}\
-th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word,td.frames{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom}\
+th,td{padding:.7mm 1.2mm;text-align:right;vertical-align:top}td{white-space:nowrap}td.word,td.frames{white-space:normal}th{border-bottom:.3mm solid #111;font-weight:600;vertical-align:bottom;white-space:nowrap}\
 td{border-bottom:.1mm solid #ccc}th:first-child,td:first-child,td.word,th.word{text-align:left}td.digest{font-family:monospace;font-size:7pt;white-space:normal;overflow-wrap:anywhere;text-align:left}\
-thead{display:table-header-group}tr{break-inside:avoid}figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto}\
+thead{display:table-header-group}tr{break-inside:avoid}table.short{break-inside:avoid}h2+p{break-after:avoid}h2.frames{break-before:page}figure{margin:0;break-inside:avoid}figure svg{width:100%;height:auto}\
 figcaption{font-size:9pt;margin-top:1mm}.doubtful td{background:#f6efe2}\
 @media print{body{margin:0;padding:0;max-width:none}@page{size:A4;margin:14mm 12mm}}";
 
@@ -79,8 +79,8 @@ fn caption(film: &JointFilm) -> String {
         "Joint motion of one knee. Thin lines and small points: frames, unfiltered; hollow points: doubtful frames, left out of all that follows{not_drawn}; large marks: linear \
          interpolation at steps of 10\u{b0} of flexion within monotonic phases, mean over the phases that pass it. {bands} a, lowest points of \
          the medial and lateral condyle above the tray, from the middle of the tray. b, rotation of the tibia. c, the tray from above \
-         with the line between the lowest points at each step, light to dark with flexion, and the centre of rotation with one standard \
-         deviation. d, abduction, and height of the lateral condyle above the medial one; dotted: 1 mm."
+         with the line between the lowest points at each step (of each frame, where there is no step), light to dark with flexion, and the centre of rotation with one standard \
+         deviation. d, abduction of the tibia, negative where it is adducted, and height of the lateral condyle above the medial one; dotted: 1 mm."
     )
 }
 
@@ -94,10 +94,17 @@ const SHOWN: [(usize, &str); 6] = [
     (place::LATERAL_AP + 2, "lateral AP, % of tray"),
 ];
 
-fn heading(out: &mut String, words: &[&str]) {
-    out.push_str("<table><thead><tr>");
+/// Tables that stay on one page, and those that may not.
+const SHORT: &str = "short";
+const LONG: &str = "long";
+
+/// The head of a table; what is not long stays on one page. A unit stands below its number's name.
+fn heading(out: &mut String, length: &str, words: &[&str]) {
+    let _ = write!(out, "<table class=\"{length}\"><thead><tr>");
     for word in words {
-        let _ = write!(out, "<th>{}</th>", escaped(word));
+        let (name, unit) = word.rsplit_once(", ").unwrap_or((word, ""));
+        let line = if unit.is_empty() { "" } else { ",<br>" };
+        let _ = write!(out, "<th>{}{line}{}</th>", escaped(name), escaped(unit));
     }
     out.push_str("</tr></thead><tbody>\n");
 }
@@ -126,8 +133,10 @@ fn accuracy(out: &mut String, film: &JointFilm) {
         out.push_str("<p>Not known: the poses come without covariances.</p>\n");
         return;
     }
+    out.push_str("<p>As carried from the covariances of both poses, without doubtful frames; what they do not know of is among the limits.</p>\n");
     heading(
         out,
+        SHORT,
         &[
             "one standard deviation",
             "half of the frames",
@@ -151,17 +160,23 @@ fn accuracy(out: &mut String, film: &JointFilm) {
         let (word, middle, last) = (escaped(word), cell(middle), cell(last));
         let _ = writeln!(out, "<tr><td>{word}</td>{middle}{last}</tr>");
     }
-    out.push_str("</tbody></table>\n<p>As carried from the covariances of both poses, without doubtful frames; what they do not know of is among the limits.</p>\n");
+    out.push_str("</tbody></table>\n");
 }
 
 fn steps(out: &mut String, film: &JointFilm) {
     out.push_str("<h2>At steps of flexion</h2>\n");
+    let levels = film.levels();
+    if levels.is_empty() {
+        out.push_str("<p>None: no run of frames without doubt, bending or stretching only, passes a multiple of 10\u{b0}. Nothing is extrapolated, nor drawn across doubtful frames.</p>\n");
+        return;
+    }
+    out.push_str("<p>n: monotonic phases that pass this flexion, without doubtful frames. Nothing is extrapolated.</p>\n");
     let mut words = vec!["flexion, \u{b0}", "n"];
     words.extend(SHOWN.map(|(_, word)| word));
     words.push("lift-off, mm");
-    heading(out, &words);
+    heading(out, SHORT, &words);
     let phases = film.phases();
-    for level in film.levels() {
+    for level in levels {
         let numbers = SHOWN
             .iter()
             .map(|(number, _)| *number)
@@ -182,7 +197,7 @@ fn steps(out: &mut String, film: &JointFilm) {
         }
         out.push_str("</tr>\n");
     }
-    out.push_str("</tbody></table>\n<p>n: monotonic phases that pass this flexion, without doubtful frames. Nothing is extrapolated.</p>\n");
+    out.push_str("</tbody></table>\n");
 }
 
 fn doubts(out: &mut String, film: &JointFilm) {
@@ -292,7 +307,7 @@ fn limits(out: &mut String, film: &JointFilm, facts: &Facts) {
 }
 
 fn inputs(out: &mut String, facts: &Facts) {
-    out.push_str("<h2>Made from</h2>\n<table><thead><tr><th>what</th><th class=\"word\">file</th><th class=\"word\">SHA-256</th></tr></thead><tbody>\n");
+    out.push_str("<h2>Made from</h2>\n<table class=\"short\"><thead><tr><th>what</th><th class=\"word\">file</th><th class=\"word\">SHA-256</th></tr></thead><tbody>\n");
     for input in &facts.inputs {
         let _ = writeln!(
             out,
@@ -306,7 +321,7 @@ fn inputs(out: &mut String, facts: &Facts) {
 }
 
 fn settings(out: &mut String, film: &JointFilm, facts: &Facts) {
-    out.push_str("<h2>Settings and conventions</h2>\n<table><tbody>\n");
+    out.push_str("<h2>Settings and conventions</h2>\n<table class=\"short\"><tbody>\n");
     let (times, filter) = (times(film), filter(film));
     let always = [
         ("six numbers", CONVENTIONS),
@@ -326,11 +341,15 @@ fn settings(out: &mut String, film: &JointFilm, facts: &Facts) {
 }
 
 fn frames(out: &mut String, film: &JointFilm) {
-    out.push_str("<h2>Frame by frame</h2>\n");
+    let _ = writeln!(
+        out,
+        "<h2 class=\"frames\">Frame by frame</h2>\n<p>All {} numbers, unrounded, are in joint.csv. ML: the femoral origin to medial of the tibial one, in tibial axes.</p>",
+        COLUMNS.len()
+    );
     let mut words = vec!["frame", "flexion, \u{b0}"];
     words.extend(SHOWN.iter().take(4).map(|(_, word)| *word));
-    words.extend(["ML, mm", "lift-off, mm", "P(lift-off > 1 mm)"]);
-    heading(out, &words);
+    words.extend(["ML, mm", "lift-off, mm", "P(lift-off, > 1 mm)"]);
+    heading(out, LONG, &words);
     for row in &film.rows {
         let class = if row.doubt.is_some() {
             " class=\"doubtful\""
@@ -355,9 +374,5 @@ fn frames(out: &mut String, film: &JointFilm) {
         let text = probability.map_or("\u{2013}".to_owned(), |p| format!("{p:.2}"));
         let _ = writeln!(out, "<td>{text}</td></tr>");
     }
-    let _ = writeln!(
-        out,
-        "</tbody></table>\n<p>All {} numbers, unrounded, are in joint.csv. ML: the femoral origin to medial of the tibial one, in tibial axes.</p>",
-        COLUMNS.len()
-    );
+    out.push_str("</tbody></table>\n");
 }

@@ -288,8 +288,57 @@ fn the_figure_has_four_panels_and_tells_its_centre() {
     assert!(!picture.contains("NaN") && !picture.contains("inf"));
     // Levels at 0, 10, .. 50 degrees: a line on the tray for each but 10, whose frame is doubtful.
     assert_eq!(picture.matches("stroke-width=\"1.5\"").count(), 5);
+    assert!(!picture.contains("each line is a frame"));
     let little = figure(&film(2.0)).svg();
     assert!(little.contains("the condyle lines turn by 2.0\u{b0} only"));
+}
+
+/// Every second frame is doubtful, so that nothing is passed: there are lines of frames, bars instead of bands, and words instead of a table.
+#[test]
+fn a_film_without_steps_shows_its_frames() {
+    let mut gapped = film(12.0);
+    for row in gapped.rows.iter_mut().step_by(2) {
+        row.doubt = Some("a rim".to_owned());
+    }
+    let picture = figure(&gapped).svg();
+    assert!(picture.contains("each line is a frame"));
+    // 15 frames are left, of which one is doubtful by itself.
+    let lines = picture.lines().filter(|line| {
+        line.contains("<polyline") && line.contains("\"0.8\"") && !line.contains("#111111")
+    });
+    assert_eq!(lines.count(), 14);
+    let report = html(&gapped, &Facts::default());
+    assert!(report.contains("<p>None: no run of frames without doubt"));
+    assert!(!report.contains("n: monotonic phases"));
+}
+
+/// A centre known to 200 mm: its bars end where the panel does.
+#[test]
+fn bars_of_the_centre_stay_in_their_panel() {
+    let mut vague = film(12.0);
+    for row in &mut vague.rows {
+        for joint in row.joint.iter_mut() {
+            joint.deviations = Some([0.5; NUMBERS]);
+            joint.shared[0][place::MEDIAL_ACROSS] = 300.0;
+            joint.shared[0][place::LATERAL_ACROSS] = 300.0;
+        }
+    }
+    let picture = figure(&vague).svg();
+    let bars: Vec<Vec<f64>> = picture
+        .lines()
+        .filter(|line| line.contains("<polyline") && line.contains("\"1.4\""))
+        .filter_map(|line| line.split("points=\"").nth(1)?.split('"').next())
+        .map(|points| points.split([' ', ',']).flat_map(str::parse).collect())
+        .collect();
+    assert_eq!(bars.len(), 2, "{picture}");
+    // Where the tray is drawn, its words left out.
+    for bar in &bars {
+        let ends = bar.as_chunks::<2>().0;
+        let is_inside =
+            |&[x, y]: &[f64; 2]| (34.0..=354.0).contains(&x) && (360.0..=578.0).contains(&y);
+        assert!(ends.len() == 2 && ends.iter().all(is_inside), "{bar:?}");
+    }
+    assert!(bars.iter().any(|bar| bar[0] == 34.0 && bar[2] == 354.0));
 }
 
 #[test]

@@ -37,6 +37,7 @@ export function fileName({ name, frames }: Doc, { kind, forms, component, column
     case 'poses':
       if (forms.poses === 'tra') return `${stem}.tra`;
       if (forms.poses === 'jtap') return `${stem}_${component}_frame_${String(Math.min(frameIndex, frames.length - 1) + 1).padStart(4, '0')}.jtap`;
+      if (forms.poses === 'folder') return `${stem}_poses.zip`;
       return `${stem}_${component}.${forms.poses}`;
     case 'joint':
       return { csv: `${stem}_joint.csv`, mot: `${stem}.mot`, cycle: `${stem}_cycle_${column}.csv` }[forms.joint];
@@ -69,6 +70,7 @@ export async function textOf(app: App, { kind, forms, component, column }: Expor
       if (forms.outlines === 'masks') return null;
       return forms.outlines === 'coco' ? writeCoco(doc, PROGRAM) : writeOutlines(doc, PROGRAM);
     case 'poses':
+      if (forms.poses === 'folder') return (await import('../exchange/tracked')).statesOf(doc);
       if (forms.poses === 'jts') return studio.writePoses(posesOf(doc, component));
       if (forms.poses === 'csv') return poseTable(doc, component);
       if (forms.poses === 'jtak') return app.joint.poseText({ form: 'jtak', poses: posesOf(doc, component) });
@@ -103,13 +105,18 @@ export async function write(app: App, exporting: Exporting, film: FilmType | nul
 async function makeFile(app: App, exporting: Exporting, film: FilmType | null): Promise<Made | null> {
   const { kind, forms } = exporting;
   const { services } = app;
+  const { doc } = services.store;
   if (kind === 'film') return makeFilm(app, forms.film === 'pictures' ? 'pictures' : film);
   if (kind === 'outlines' && forms.outlines === 'masks') {
     const zip = await exportMasks(services);
     return zip && { part: zip, type: 'application/zip' };
   }
   if (kind === 'figure' && forms.figure === 'pdf') {
-    return { part: await app.joint.figurePdf(await publishedFilm(services.store.doc, app.joint.numbers)), type: 'application/pdf' };
+    return { part: await app.joint.figurePdf(await publishedFilm(doc, app.joint.numbers)), type: 'application/pdf' };
+  }
+  if (kind === 'poses' && forms.poses === 'folder') {
+    const jts = (component: ComponentName) => services.studio.writePoses(posesOf(doc, component));
+    return { part: (await import('../exchange/tracked')).zipOf(doc, { femur: jts('femur'), tibia: jts('tibia') }), type: 'application/zip' };
   }
   const text = (await textOf(app, exporting)) ?? '';
   if (kind === 'figure' && forms.figure === 'png') return { part: await pngOf(text), type: 'image/png' };
@@ -125,7 +132,7 @@ async function makeFilm({ services, joint }: App, form: FilmType | 'pictures' | 
 
 function savedWords(doc: Doc, exporting: Exporting, name: string): string {
   const { kind, component, forms } = exporting;
-  if (kind === 'poses' && forms.poses !== 'jtap' && forms.poses !== 'tra') {
+  if (kind === 'poses' && (forms.poses === 'csv' || forms.poses === 'jts' || forms.poses === 'jtak')) {
     const poses = posesOf(doc, component);
     const missing = poses.filter((pose) => !pose).length;
     return forms.poses === 'csv' ? texts.said.tableSaved(texts.component[component], poses.length) : texts.said.posesSaved(texts.component[component], poses.length, missing);

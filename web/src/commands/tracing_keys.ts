@@ -66,6 +66,7 @@ export const TRACING_KEYS: readonly TracingKey[] = [
   hidden('arrowup', 'ctrl', ['transform'], { what: 'scale', factor: PERCENT }),
   hidden('arrowdown', 'ctrl', ['transform'], { what: 'scale', factor: 1 / PERCENT }),
   hidden('enter', 'none', ['threshold', 'wire'], { what: 'accept' }),
+  hidden('enter', 'none', ['one-click'], { what: 'press' }),
   hidden('backspace', 'none', ['wire'], { what: 'take-back' }),
 ];
 

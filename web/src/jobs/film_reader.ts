@@ -35,6 +35,8 @@ export class FilmReader {
   readonly #poses: Pick<Bridge<PoseProtocol>, 'call'>;
   readonly #films: Pick<Bridge<FilmProtocol>, 'call'>;
   readonly #entries = new Map<string, Entry>();
+  /** The worker has profiles of them, of a work that is shown no more. */
+  readonly #left = new Map<string, Witness>();
   /** What the page worked out itself, or adopted. */
   readonly #taken = new WeakSet<KnownFilm>();
   /** They cannot be corrected. */
@@ -78,17 +80,24 @@ export class FilmReader {
   #adopt(): boolean {
     const { store } = this.#services;
     const { known, stated } = store.doc.film;
-    const here = this.#witnesses();
     if (known && !this.#taken.has(known)) {
       this.#taken.add(known);
       this.#last = known;
       this.#asked = JSON.stringify(known.stated);
-      for (const witness of here) this.#entries.set(witness.key, { witness, isRead: false });
+      this.#leave();
+      // Its frames and libraries may be on their way yet.
+      for (const witness of this.#witnesses(() => true)) this.#entries.set(witness.key, { witness, isRead: false });
       return false;
     }
-    const isBehind = stated.constants === null && known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(here);
+    const isBehind = stated.constants === null && known !== this.#last && JSON.stringify(stated) === this.#asked && !this.#isOpen(this.#witnesses());
     if (isBehind) store.amend((doc) => withKnownFilm(doc, this.#last));
     return isBehind;
+  }
+
+  /** Profiles of another work tell nothing of this one. */
+  #leave(): void {
+    for (const { witness, isRead } of this.#entries.values()) if (isRead) this.#left.set(witness.key, witness);
+    this.#entries.clear();
   }
 
   #task(): (() => Promise<void>) | null {
@@ -147,9 +156,8 @@ export class FilmReader {
     return MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || doc.film.stated.constants !== null || meetsFrames(doc);
   }
 
-  #witnesses(): readonly Witness[] {
-    const { doc } = this.#services.store;
-    return witnesses(doc, (component, frame) => this.#isReady(component, frame), (key) => this.#entries.has(key));
+  #witnesses(isReady = (component: ComponentName, frame: FrameEntry) => this.#isReady(component, frame)): readonly Witness[] {
+    return witnesses(this.#services.store.doc, isReady, (key) => this.#entries.has(key));
   }
 
   #isReady(component: ComponentName, frame: FrameEntry): boolean {
@@ -165,7 +173,7 @@ export class FilmReader {
     const fresh = here.filter(({ key }) => !this.#entries.has(key));
     const isFirst = ({ component }: Witness) => !entries.some(({ witness }) => witness.component === component);
     const isEnough = fresh.length > 0 && fresh.length >= MORE * entries.length;
-    return isEnough || fresh.some(isFirst) || (this.#turns < TURNS && here.some(isMoved)) || this.#gone(here).length > 0;
+    return isEnough || fresh.some(isFirst) || (this.#turns < TURNS && here.some(isMoved)) || this.#gone(this.#witnesses(() => true)).length > 0;
   }
 
   #gone(here: readonly Witness[]): readonly Witness[] {
@@ -195,10 +203,9 @@ export class FilmReader {
     const read: ReadProfiles[] = [];
     const gone = stated.constants ? [] : this.#gone(here);
     this.#turns = gone.length > 0 || here.some(({ key }) => !this.#entries.has(key)) ? 1 : this.#turns + 1;
-    for (const witness of gone) {
-      this.#entries.delete(witness.key);
-      read.push({ ...namesOf(witness), profiles: new Float32Array() });
-    }
+    for (const { key } of gone) this.#entries.delete(key);
+    for (const witness of [...this.#left.values(), ...gone]) read.push({ ...namesOf(witness), profiles: new Float32Array() });
+    this.#left.clear();
     for (const witness of here) {
       const entry = this.#entries.get(witness.key);
       if (entry?.isRead && isNear(entry.witness.pose, witness.pose)) continue;

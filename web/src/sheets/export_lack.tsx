@@ -7,6 +7,7 @@ import { motionNeeds } from '../results/motion';
 import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import type { FilmType } from '../workers/protocol/overlay';
+import { isOfBoth } from '../terms/exporting';
 import { Needs } from '../steps/joint/needs';
 
 /** Why there is nothing to write yet, and what to do; null where there is. `film`: what kind this browser writes. */
@@ -46,5 +47,5 @@ function posesLack({ ui, history }: State): string | null {
   const named = texts.component[component];
   if (forms.poses === 'jtap') return chosenCandidate(cellOf(doc, doc.frames[ui.frameIndex]?.id, component)) ? null : nothing.pose(named);
   const some = (one: typeof component) => posesOf(doc, one).some((pose) => pose !== null);
-  return (forms.poses === 'tra' ? some('femur') || some('tibia') : some(component)) ? null : nothing.poses(named);
+  return (isOfBoth(forms.poses) ? some('femur') || some('tibia') : some(component)) ? null : nothing.poses(named);
 }

@@ -4,7 +4,7 @@ import { useApp } from '../commands/app';
 import { Segments } from '../controls/segments';
 import type { State } from '../document/store';
 import { COMPONENT_NAMES, titleOf } from '../terms/component';
-import { EXPORTS, type Exporting, FORMS } from '../terms/exporting';
+import { EXPORTS, type Exporting, FORMS, isOfBoth } from '../terms/exporting';
 import { later } from '../texts/later';
 import { texts } from '../texts/texts';
 import { EarlierWork } from '../steps/open/earlier_work';
@@ -32,13 +32,13 @@ export function ExportSheet({ state }: { state: State }) {
       <div class="export-pane">
         <p class="sheet-text">{words.meaning[exporting.kind]}</p>
         <Options state={state} />
-        <Contents state={state} />
         {exporting.kind === 'session' && (
           <>
             <p class="sheet-text quiet">{texts.keep.meaning}</p>
             <EarlierWork state={state} />
           </>
         )}
+        <Contents state={state} />
       </div>
     </div>
   );
@@ -53,7 +53,9 @@ function Contents({ state }: { state: State }) {
   const doc = state.history.present;
   const lack = lackOf(state, app.joint.numbers, film);
   const name = fileName(doc, exporting, frameIndex, film ?? null);
+  const isOff = lack !== null || busy;
   const save = async () => {
+    if (isOff) return;
     setBusy(true);
     await write(app, exporting, film ?? null).finally(() => setBusy(false));
   };
@@ -62,7 +64,8 @@ function Contents({ state }: { state: State }) {
       <ExportFaults state={state} />
       {lack ? <div class="sheet-text">{lack}</div> : <ExportPreview state={state} film={film} />}
       <div class="sheet-buttons export-write">
-        <button type="button" class="button primary" disabled={lack !== null || busy} onClick={() => void save()}>
+        {/* Keys reach it, and stay on it, also while there is nothing to write yet. */}
+        <button type="button" class="button primary" aria-disabled={isOff} onClick={() => void save()}>
           {later.exporting.write(name)}
         </button>
       </div>
@@ -84,7 +87,7 @@ function Options({ state }: { state: State }) {
   return (
     <div class="export-options">
       {options.length > 1 && <Segments label={words.form} options={options} value={forms[kind]} onChoose={(form) => set({ forms: { ...forms, [kind]: form } })} />}
-      {kind === 'poses' && forms.poses !== 'tra' && (
+      {kind === 'poses' && !isOfBoth(forms.poses) && (
         <Segments label={words.component} options={COMPONENT_NAMES.map((value) => ({ value, title: titleOf(value) }))} value={component} onChoose={(value) => set({ component: value })} />
       )}
       {kind === 'joint' && forms.joint === 'cycle' && (

@@ -22,7 +22,7 @@ export function pointByKey(
   const to = canvasFromFrame(viewport, framePoint(column + by.columns, row + by.rows));
   const kept = canvasPoint(within(to.x, width), within(to.y, height));
   send(app, view, controller, 'move', kept);
-  view.setPointer(kept);
+  view.setPointer(kept, 'keys');
 }
 
 /** A click; where a stretch or a stroke has to be drawn, the next press lets go. */

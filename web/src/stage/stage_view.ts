@@ -12,7 +12,7 @@ import { canvasFromFrame, fit, frameFromCanvas, type Size, type Viewport } from 
 import { handleAt } from '../interaction/adjust';
 import type { HandSituation } from '../interaction/hand_situation';
 import { hitDraft, hitTest, type Hit } from '../interaction/hit';
-import { drawBrush, drawHold, drawPreview, drawTransformBox } from './tracing_drawing';
+import { drawBrush, drawCross, drawHold, drawPreview, drawTransformBox } from './tracing_drawing';
 import { drawMeasuring } from './calibrate_drawing';
 import { drawOutline, drawRubberBand, drawSilhouette } from './drawing';
 import { COMPONENT_COLOURS } from '../controls/colours';
@@ -47,6 +47,7 @@ export class StageView {
   readonly #overlays = COMPONENT_NAMES.map((component) => new OverlayLayer(component));
   /** Where the pointer is; what lies under it is found anew whenever something changes. */
   #pointer: CanvasPoint | null = null;
+  #byKeys = false;
   #size: Size = { width: 1, height: 1 };
   #drawnFrame = '';
   #scheduled = 0;
@@ -79,8 +80,10 @@ export class StageView {
     this.draw();
   }
 
-  setPointer(pointer: CanvasPoint | null): void {
+  /** Of who moves it by keys the system shows none. */
+  setPointer(pointer: CanvasPoint | null, by: 'mouse' | 'keys' = 'mouse'): void {
     this.#pointer = pointer;
+    this.#byKeys = by === 'keys';
     this.schedule();
   }
 
@@ -150,7 +153,7 @@ export class StageView {
     points.push(...pointsOfPreview(preview));
     const drawn = points.map((point) => canvasFromFrame(view, point));
     // A draft's last side ends at the pointer.
-    if (tool === 'trace' && this.#pointer) drawn.push(this.#pointer);
+    if ((tool === 'trace' || this.#byKeys) && this.#pointer) drawn.push(this.#pointer);
     return boxRound(drawn, this.#size);
   }
 
@@ -191,6 +194,7 @@ export class StageView {
     if (tool === 'transform' && outline) drawTransformBox(context, view, component, outline, this.#pointer);
     if (tool === 'stretch' && outline?.closed) drawHold(context, view, component, outline, this.#pointer);
     if (tool === 'brush' && this.#pointer) drawBrush(context, component, this.#pointer, tracing.radius * view.scale, tracing.erase);
+    else if (this.#byKeys && this.#pointer) drawCross(context, component, this.#pointer);
   }
 
   #hit(state: State, view: Viewport): Hit {

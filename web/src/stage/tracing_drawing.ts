@@ -113,6 +113,19 @@ export function drawBrush(context: Context, component: ComponentName, { x, y }: 
   context.restore();
 }
 
+/** Where keys point; its middle is open, so that what lies there is seen. */
+export function drawCross(context: Context, component: ComponentName, { x, y }: CanvasPoint): void {
+  const [from, to] = [4, 14];
+  const arms = new Path2D();
+  for (const sign of [-1, 1]) {
+    arms.moveTo(x + sign * from, y);
+    arms.lineTo(x + sign * to, y);
+    arms.moveTo(x, y + sign * from);
+    arms.lineTo(x, y + sign * to);
+  }
+  strokeTwice(context, arms, COMPONENT_COLOURS[component].light, 1.5);
+}
+
 function pathOf(view: Viewport, points: readonly FramePoint[], closed: boolean): Path2D {
   const path = new Path2D();
   for (const { column, row } of points) path.lineTo(column * view.scale + view.left, row * view.scale + view.top);

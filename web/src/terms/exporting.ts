@@ -7,7 +7,7 @@ export type ExportKind = (typeof EXPORTS)[number];
 /** Forms of each, the usual one first. */
 export const FORMS = {
   session: ['whole', 'without files', 'study'],
-  poses: ['jts', 'csv', 'jtak', 'jtap', 'tra'],
+  poses: ['jts', 'csv', 'jtak', 'jtap', 'tra', 'folder'],
   joint: ['csv', 'mot', 'cycle'],
   figure: ['svg', 'pdf', 'png'],
   report: ['html'],
@@ -15,6 +15,11 @@ export const FORMS = {
   outlines: ['outlines', 'coco', 'masks'],
 } as const satisfies Record<ExportKind, readonly string[]>;
 export type FormOf<K extends ExportKind> = (typeof FORMS)[K][number];
+
+/** One file has the poses of both components. */
+export function isOfBoth(form: FormOf<'poses'>): boolean {
+  return form === 'tra' || form === 'folder';
+}
 
 /** What the export sheet shows, and would write. */
 export interface Exporting {

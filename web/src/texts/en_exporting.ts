@@ -16,7 +16,7 @@ export const exporting = {
   form: 'Form',
   forms: {
     session: { whole: 'With images and models', 'without files': 'Without (named by SHA-256)', study: 'Study file' },
-    poses: { jts: 'JTS', csv: 'CSV', jtak: 'JTAK', jtap: 'JTAP', tra: 'TRA' },
+    poses: { jts: 'JTS', csv: 'CSV', jtak: 'JTAK', jtap: 'JTAP', tra: 'TRA', folder: 'For commands' },
     joint: { csv: 'CSV', mot: 'MOT', cycle: '101 points' },
     figure: { svg: 'SVG', pdf: 'PDF', png: 'PNG' },
     report: { html: 'HTML' },
@@ -31,6 +31,7 @@ export const exporting = {
     'poses jtak': 'A row a frame; NOT_OPTIMIZED where there is no pose',
     'poses jtap': 'The pose of the frame on view alone',
     'poses tra': 'Both components side by side: 16 numbers each, a row a frame',
+    'poses folder': 'As the command track writes them, packed: both components with covariances, states, reasons and checks. Unpacked, it is the folder of report --poses',
     'joint csv': 'Both conventions, lowest points, lift-off and its probability, doubts and checks; NaN where there is no number',
     'joint mot': 'OpenSim: time first, then all numbers',
     'joint cycle': 'One number from the first to the last frame at 101 points, for statistical parametric mapping',

@@ -39,7 +39,7 @@ export const curves = {
     gsAnterior: { title: 'Anterior drawer', short: 'Ant. drawer', sign: 'tibia anterior +' },
     gsDistraction: { title: 'Distraction', sign: 'distracted +' },
     gsLateral: { title: 'Lateral shift', sign: 'tibia lateral +' },
-    lowest: { title: 'Lowest AP', sign: 'anterior +' },
+    lowest: { title: 'Lowest AP', short: 'Low. AP', sign: 'anterior +' },
     liftOff: { title: 'Lift-off', sign: 'lateral up +' },
   } satisfies Record<CurveName, CurveWords> as Record<CurveName, CurveWords>,
   beyond: (percent: string) => `P(> 1 mm) ${percent} %`,

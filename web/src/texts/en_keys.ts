@@ -53,7 +53,7 @@ export const keys = {
     smaller: 'Smaller brush, lower threshold',
     larger: 'Larger brush, higher threshold',
     erase: 'Brush erases, or adds again',
-    press: 'Press at the pointer, as a click does; the brush lets go with the next',
+    press: 'Press at the pointer, as a click does (with One click Enter too); the brush lets go with the next',
     rows: [
       { shown: ['Arrows'], does: 'Move the pointer, left and right once others have; the selected point with Edit points; the outline with its own tool (Shift: 10 px)' },
       { shown: ['Ctrl + arrows'], does: 'Turn the outline by 1 degree, scale it by 1 % (its own tool)' },

@@ -44,7 +44,7 @@ export const seeing = {
     none: 'A model with a pose is shown here.',
     failed: (why: string) => `The 3-D view cannot be shown: ${why}`,
     noWebgl: 'this browser draws no 3-D pictures (WebGL is off or missing)',
-    views: { camera: 'As the camera', front: 'From the front', side: 'From the side', above: 'From above' },
+    views: { camera: 'Camera', front: 'Front', side: 'Side', above: 'Above' },
     looking: 'Look from',
     large: 'Beside the frame',
   },

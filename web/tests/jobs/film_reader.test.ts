@@ -220,6 +220,29 @@ describe('the reader of the film', () => {
     expect(asked.map(({ read }) => read.map(({ frame }) => frame))).toEqual([[0, 1]]);
   });
 
+  it('takes it also where frames and libraries come later, or after another work', async () => {
+    const first = bench();
+    first.store.perform(clicked(first.store.doc));
+    await rest();
+    const saved = first.store.doc;
+    const { store, asked, corrected } = bench();
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    expect(asked.length).toBe(1);
+    for (const component of ['femur', 'tibia'] as const) store.setLibrary(component, { state: 'none' });
+    const before = corrected.length;
+    store.perform({ label: 'open', apply: () => saved });
+    await rest();
+    for (const component of ['femur', 'tibia'] as const) store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
+    await rest();
+    expect([asked.length, corrected.length]).toEqual([1, before]);
+    expect(store.doc).toBe(saved);
+    store.perform(clicked(store.doc, 'b'));
+    await rest();
+    // The other work's pose in frame b is forgotten before that of this work is read.
+    expect(asked[1]?.read.map(({ frame, profiles }) => [frame, profiles.length])).toEqual([[1, 0], [0, 128], [1, 128]]);
+  });
+
   it('leaves a pose as it is where the film does not tell', async () => {
     const { store, corrected, z } = bench([null]);
     store.perform(clicked(store.doc));

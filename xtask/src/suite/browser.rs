@@ -10,7 +10,7 @@ use super::report::{Report, Said};
 use crate::page::{self, Build};
 use crate::setup::{command, node, programs};
 use crate::static_server::Server;
-use crate::{package, workspace};
+use crate::{laboratory, package, workspace};
 
 const TYPES: &str = "browser: types of the page";
 const UNITS: &str = "browser: unit tests of the page";
@@ -61,9 +61,12 @@ pub(crate) fn run(report: &mut Report) {
 }
 
 fn in_chromium(dist: &Path) -> Result<Said> {
-    let chromium = programs::chromium()?;
+    let (chromium, laboratory) = (programs::chromium()?, laboratory::program()?);
     drive(dist, |tests| {
-        tests.env("FLUOROPOSE_CHROMIUM", chromium);
+        // What the page writes is compared with what the command does.
+        tests
+            .env("FLUOROPOSE_CHROMIUM", chromium)
+            .env("FLUOROPOSE_LABORATORY", laboratory);
     })
 }
 

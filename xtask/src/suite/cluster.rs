@@ -11,9 +11,8 @@ use anyhow::{Context, Result, bail, ensure};
 use fluoropose_phantom::sequence::{self, Options};
 
 use super::report::{Report, Said};
-use crate::setup::rust_target::own_cargo;
 use crate::setup::{command, programs};
-use crate::workspace;
+use crate::{laboratory, workspace};
 
 /// Studies, of which the last is broken, and tasks.
 const STUDIES: usize = 12;
@@ -228,12 +227,7 @@ struct Batch {
 
 impl Batch {
     fn make(folder: &Path) -> Result<Self> {
-        command::run(own_cargo().args([
-            "build",
-            "--release",
-            "--package",
-            "fluoropose-laboratory",
-        ]))?;
+        let program = laboratory::program()?;
         let mut list = String::from("study,name,fixed\n");
         for study in 0..3 {
             let options = Options {
@@ -253,7 +247,7 @@ impl Batch {
         fs::write(folder.join("studies.csv"), list)?;
         Ok(Self {
             folder: folder.to_owned(),
-            program: workspace::target_dir().join("release/fluoropose"),
+            program,
         })
     }
 

@@ -168,6 +168,24 @@ impl<'f> Course<'f> {
                 drawing.shape(&around, fill);
             }
         }
+        self.alone(drawing, plot, number, ink);
+    }
+
+    /// A bar of one standard deviation to either side of frames that no band reaches: they stand between doubtful ones.
+    fn alone(&self, drawing: &mut Drawing, plot: &Plot, number: usize, ink: &Ink) {
+        let (values, deviations) = (self.film.values(number), self.film.deviations(number));
+        let stroke = Stroke::of(ink.colour, 2.0).fainter(0.25);
+        for (k, row) in self.film.rows.iter().enumerate() {
+            let in_band = self
+                .phases
+                .iter()
+                .any(|phase| (phase.first..=phase.last).contains(&k) && phase.first < phase.last);
+            if in_band || row.doubt.is_some() || !deviations[k].is_finite() {
+                continue;
+            }
+            let end = |sign: f64| plot.place(self.flexion[k], values[k] + sign * deviations[k]);
+            drawing.line(&[end(-1.0), end(1.0)], stroke);
+        }
     }
 
     /// Every frame: a thin line through unbroken runs, and a point, hollow where it is doubtful.

@@ -1,6 +1,8 @@
 //! The tray from above: a condyle line for each 10 degrees of flexion, and the centre of rotation.
 
-use fluoropose::joint::numbers::place;
+use core::array;
+
+use fluoropose::joint::numbers::{NUMBERS, place};
 use fluoropose::joint::pivot::Pivot;
 
 use super::course::{Course, LATERAL, MEDIAL};
@@ -11,6 +13,9 @@ use crate::svg::short;
 /// The panel's size, and what its words take of it.
 const WIDTH: f64 = 320.0;
 const HEIGHT: f64 = 250.0;
+
+/// Frames whose lines are drawn where there are no steps.
+const FRAMES: usize = 24;
 
 /// From positions on the plate (anterior, medial; mm) to the drawing: anterior is up, and left and right are the patient's as the
 /// tray is seen from above.
@@ -40,8 +45,21 @@ impl View {
         ]
     }
 
-    fn holds(&self, [x, y]: [f64; 2]) -> bool {
-        (x - self.middle[0]).abs() < WIDTH / 2.0 && (y - self.middle[1]).abs() < HEIGHT / 2.0 - 16.0
+    /// How far the panel reaches to either side of its middle.
+    const REACH: [f64; 2] = [WIDTH / 2.0, HEIGHT / 2.0 - 16.0];
+
+    fn holds(&self, at: [f64; 2]) -> bool {
+        (0..2).all(|k| (at[k] - self.middle[k]).abs() < Self::REACH[k])
+    }
+
+    /// The nearest place that is in the panel.
+    fn within(&self, at: [f64; 2]) -> [f64; 2] {
+        array::from_fn(|k| {
+            at[k].clamp(
+                self.middle[k] - Self::REACH[k],
+                self.middle[k] + Self::REACH[k],
+            )
+        })
     }
 }
 
@@ -96,29 +114,69 @@ fn directions(drawing: &mut Drawing, film: &JointFilm, view: &View) {
     drawing.words([x + half + 6.0, y + 4.0], Anchor::Start, 11.0, "10 mm");
 }
 
+/// A condyle line: its flexion, and its medial and lateral end on the plate.
+type Line = (f64, [f64; 2], [f64; 2]);
+
+/// At steps of flexion; frame by frame where no step is passed. Those of the frames are thinner.
 fn lines(drawing: &mut Drawing, film: &JointFilm, course: &Course<'_>, view: &View) {
-    let drawn: Vec<(f64, [f64; 2], [f64; 2])> = course
-        .levels
-        .iter()
-        .filter_map(|&level| {
-            let at = |number| film.at(number, &course.phases, level);
-            let point = |ap, across| [at(ap).mean, at(across).mean];
-            let medial = point(place::MEDIAL_AP, place::MEDIAL_ACROSS);
-            let lateral = point(place::LATERAL_AP, place::LATERAL_ACROSS);
-            let known = medial.iter().chain(&lateral).all(|x| x.is_finite());
-            known.then_some((level, view.place(medial), view.place(lateral)))
-        })
-        .collect();
+    let mut drawn = steps(film, course);
+    let is_by_steps = !drawn.is_empty();
+    if !is_by_steps {
+        drawn = frames(film);
+    }
     let Some((&(low, ..), &(high, ..))) = drawn.first().zip(drawn.last()) else {
         return;
     };
+    let (width, size) = if is_by_steps { (1.5, 2.8) } else { (0.8, 1.8) };
     let span = (high - low).max(1.0);
-    for &(level, medial, lateral) in &drawn {
-        let colour = ramp((level - low) / span);
-        drawing.line(&[medial, lateral], Stroke::of(colour, 1.5));
-        drawing.point(medial, 2.8, Dress::filled(MEDIAL.colour), "");
-        drawing.square(lateral, 2.5, Dress::filled(LATERAL.colour));
+    for (level, medial, lateral) in &mut drawn {
+        (*medial, *lateral) = (view.place(*medial), view.place(*lateral));
+        let colour = ramp((*level - low) / span);
+        drawing.line(&[*medial, *lateral], Stroke::of(colour, width));
+        drawing.point(*medial, size, Dress::filled(MEDIAL.colour), "");
+        drawing.square(*lateral, 0.9 * size, Dress::filled(LATERAL.colour));
     }
+    if !is_by_steps {
+        let at = [view.middle[0], view.middle[1] - View::REACH[1] - 10.0];
+        let told = "no step of 10\u{b0} without doubt: each line is a frame";
+        drawing.words(at, Anchor::Middle, 10.5, told);
+    }
+    flexions(drawing, &drawn);
+}
+
+fn steps(film: &JointFilm, course: &Course<'_>) -> Vec<Line> {
+    let line = |&level: &f64| {
+        let at = |number| film.at(number, &course.phases, level).mean;
+        line_of(level, at)
+    };
+    course.levels.iter().filter_map(line).collect()
+}
+
+/// Those that are not doubtful, from the least to the most flexion, at most [`FRAMES`] of them.
+fn frames(film: &JointFilm) -> Vec<Line> {
+    let trusted = film.rows.iter().filter(|row| row.doubt.is_none());
+    let numbers = trusted.filter_map(|row| Some(row.joint?.numbers));
+    let line = |numbers: [f64; NUMBERS]| {
+        let flexion = numbers[place::FLEXION];
+        line_of(flexion.round(), |number| numbers[number])
+    };
+    let mut all: Vec<Line> = numbers.filter_map(line).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let each = all.len().div_ceil(FRAMES).max(1);
+    all.into_iter().step_by(each).collect()
+}
+
+/// None where a number is not known.
+fn line_of(flexion: f64, at: impl Fn(usize) -> f64) -> Option<Line> {
+    let medial = [place::MEDIAL_AP, place::MEDIAL_ACROSS].map(&at);
+    let lateral = [place::LATERAL_AP, place::LATERAL_ACROSS].map(&at);
+    let known = [flexion].into_iter().chain(medial).chain(lateral);
+    let is_known = known.into_iter().all(f64::is_finite);
+    is_known.then_some((flexion, medial, lateral))
+}
+
+/// The first and the last one's, beside the lateral ends.
+fn flexions(drawing: &mut Drawing, drawn: &[Line]) {
     // Beside the lateral ends, where lines are apart.
     let mut ends: Vec<_> = [drawn.first(), drawn.last()]
         .into_iter()
@@ -177,7 +235,7 @@ fn cross(drawing: &mut Drawing, view: &View, pivot: &Pivot) {
         let end = |sign: f64| {
             let mut end = at;
             end[k] += sign * pivot.deviation_mm[k].max(0.8);
-            view.place(end)
+            view.within(view.place(end))
         };
         drawing.line(&[end(-1.0), end(1.0)], INK);
     }

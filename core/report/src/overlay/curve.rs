@@ -68,7 +68,7 @@ pub(super) fn of(film: &JointFilm, across: [f64; 2], down: [f64; 2], unit: f64) 
                 to: across[1],
                 step: 1.0,
             },
-            y: Scale::over(reach(&lines).into_iter(), 4.0, bottom, top + 4.0 * unit),
+            y: Scale::between(reach(&lines), 4.0, bottom, top + 4.0 * unit),
             lines,
             ends: [film.rows.first(), film.rows.last()]
                 .map(|row| row.map_or(String::new(), |row| row.number.to_string())),
@@ -79,8 +79,8 @@ pub(super) fn of(film: &JointFilm, across: [f64; 2], down: [f64; 2], unit: f64) 
     all.into_iter().enumerate().map(curve).collect()
 }
 
-/// What hardly changes is drawn flat.
-fn reach(lines: &[Line]) -> Vec<f64> {
+/// From the least number to the most, with a margin, as the page's film has it; what hardly changes is drawn flat.
+fn reach(lines: &[Line]) -> [f64; 2] {
     let values = lines.iter().flat_map(|line| &line.values);
     let known: Vec<f64> = values.copied().filter(|value| value.is_finite()).collect();
     let (low, high) = known
@@ -88,13 +88,11 @@ fn reach(lines: &[Line]) -> Vec<f64> {
         .fold((f64::MAX, f64::MIN), |(low, high), &value| {
             (low.min(value), high.max(value))
         });
-    match known.is_empty() {
-        true => known,
-        false => {
-            let (middle, half) = ((low + high) / 2.0, ((high - low) / 2.0).max(1.0));
-            vec![middle - half, middle + half]
-        }
+    if known.is_empty() {
+        return [0.0, 1.0];
     }
+    let (middle, half) = ((low + high) / 2.0, (0.6 * (high - low)).max(1.0));
+    [middle - half, middle + half]
 }
 
 impl Curve {
@@ -170,6 +168,8 @@ impl Curve {
         for line in self.lines.iter().rev() {
             let value = line.values.get(index).copied().unwrap_or(f64::NAN);
             let text = match value.is_finite() {
+                // Not minus nothing.
+                true if value.abs() < 0.05 => "0.0".to_owned(),
                 true => format!("{value:.1}").replace('-', "\u{2212}"),
                 false => "\u{2013}".to_owned(),
             };

@@ -1,3 +1,4 @@
+import { formatNumber } from '../../texts/numbers';
 import type { ShownFrame } from './overlay_frames';
 import type { OverlayCurve, OverlayFrame, OverlayLine, OverlayLook } from '../protocol/overlay';
 
@@ -142,7 +143,7 @@ class Plot {
     let right = box.left + box.width;
     for (const { values, colour, label } of [...curve.lines].reverse()) {
       const value = values[index] ?? NaN;
-      const shown = Number.isFinite(value) ? value.toFixed(1).replace('-', '\u2212') : '\u2013';
+      const shown = Number.isFinite(value) ? formatNumber(value, 1) : '\u2013';
       const text = label ? `${label} ${shown}` : shown;
       words(context, text, right, box.top + 2.4 * unit, { size: 2 * unit, colour, width: 0.4 * box.width, align: 'right' });
       right -= context.measureText(text).width + 2 * unit;

@@ -119,6 +119,7 @@ impl<'s> Knee<'s> {
             };
             rows.push(JointRow {
                 filtered: filtered.get(frame).copied().flatten(),
+                checked: sources.checked.contains(&frame),
                 ..JointRow::new(frame + 1, joint, sources.doubts.get(&frame).cloned())
             });
         }

@@ -1,6 +1,6 @@
 //! What a report is made from: models, poses, their covariances, what is doubtful, and the digests of all of these.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -45,6 +45,8 @@ pub struct Sources {
     pub tibia: Body,
     /// Why a frame is doubtful, by its number from 0.
     pub doubts: BTreeMap<usize, String>,
+    /// Frames, from 0, in which a person has checked both poses.
+    pub checked: BTreeSet<usize>,
     /// The constants of the film by which poses were found, in words: a component and what it is seen with.
     pub film: Vec<(String, String)>,
     /// Where the poses come from, in words.
@@ -71,12 +73,12 @@ impl Sources {
             bail!("there are {a} femoral and {b} tibial poses: both must be of the same film");
         }
         let table = poses.map(|folder| folder.join("track.csv"));
-        let doubts = match table.filter(|table| table.is_file()) {
+        let states = match table.filter(|table| table.is_file()) {
             Some(table) => {
                 inputs.push(digest("states of the frames", &table)?);
-                doubts(&read_text(&table)?)
+                read_text(&table)?
             }
-            None => BTreeMap::new(),
+            None => String::new(),
         };
         let constants = poses.map(|folder| folder.join("film.csv"));
         let film = match constants.filter(|table| table.is_file()) {
@@ -93,7 +95,8 @@ impl Sources {
         Ok(Self {
             femur,
             tibia,
-            doubts,
+            doubts: doubts(&states),
+            checked: checked(&states),
             film,
             whose,
             inputs,
@@ -206,6 +209,26 @@ pub fn covariances(text: &str) -> Result<BTreeMap<usize, Uncertain>> {
         all.insert((numbers[0] as usize).saturating_sub(1), uncertain);
     }
     Ok(all)
+}
+
+/// The frames, from 0, of which both components' rows say so in a column `checked`: the page writes it.
+fn checked(text: &str) -> BTreeSet<usize> {
+    let mut lines = text.lines();
+    let heading = csv_fields(lines.next().unwrap_or_default());
+    let Some(column) = heading.iter().position(|name| name == "checked") else {
+        return BTreeSet::new();
+    };
+    let (mut once, mut both) = (BTreeSet::new(), BTreeSet::new());
+    for fields in lines.map(csv_fields) {
+        let Some(Ok(frame)) = fields.first().map(|frame| frame.parse::<usize>()) else {
+            continue;
+        };
+        let is_checked = fields.get(column).is_some_and(|word| word == "1");
+        if is_checked && !once.insert(frame.saturating_sub(1)) {
+            both.insert(frame.saturating_sub(1));
+        }
+    }
+    both
 }
 
 /// The reasons of `track.csv` (frame, component, state, verdict, reason) for what is not good, by frame, from 0.

@@ -75,7 +75,8 @@ fn write_study(folder: &Path) {
         }
         std::fs::write(folder.join(format!("{name}.covariances.csv")), table).unwrap();
     }
-    let track = "frame,component,state,verdict,because\n3,\"femur\",followed,good,\"fits\"\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\"\n";
+    let track = "frame,component,state,verdict,because,checked\n3,\"femur\",followed,good,\"fits\",1\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\",0\n\
+        5,femur,fixed,good,fits,1\r\n5,tibia,fixed,good,fits,1\r\n";
     std::fs::write(folder.join("track.csv"), track).unwrap();
     let film = "component,and so on\n\"femur\",0.0062,0.001,1.4,0.07,1.83,0.18\n\"tibia\",odd\n";
     std::fs::write(folder.join("film.csv"), film).unwrap();
@@ -110,6 +111,8 @@ fn a_known_pivot_a_gap_and_a_doubt_come_through() {
     assert_eq!(table.rows.len(), FRAMES);
     let (flexion, gap) = (column("flexion_deg"), 6);
     assert!((flexion[0] - 30.0).abs() < 0.1 && (flexion[20] - 30.0).abs() < 0.1);
+    let checked: Vec<f64> = (0..FRAMES).map(|frame| f64::from(frame == 4)).collect();
+    assert_eq!(column("checked"), checked);
     assert!(flexion[gap].is_nan() && column("lift_off_mm")[gap].is_nan());
     assert!(
         column("sd_field_medial_mm")

@@ -3,22 +3,15 @@
 use anyhow::Result;
 use fluoropose::film::estimate::MOST_COMPONENTS;
 use fluoropose::film::{FilmPool, FilmProfile};
-use fluoropose::follow::Anchor;
-use fluoropose::refine::film_profiles;
+use fluoropose::follow::{Anchor, FilmReading};
+use rayon::prelude::*;
 
-use super::follow::beside;
 use super::part::Part;
 use super::record::Films;
 use super::run::Run;
 use crate::finding::Stated;
 
-/// Anchors of a component that are looked at, and frames to each side of them.
-const ANCHORS: usize = 3;
-const BESIDE: usize = 6;
-/// Profiles of each frame and component.
-const PROFILES: usize = 96;
-
-/// Takes the constants as they are stated, or estimates them from the anchors and the frames beside them, and tells the parts. They are estimated once for a
+/// Takes the constants as they are stated, or estimates them from the frames around the anchors, and tells the parts. They are estimated once for a
 /// folder, so that a correction of one frame does not change all others.
 pub(super) fn learn_film(
     run: &Run<'_>,
@@ -39,24 +32,14 @@ pub(super) fn learn_film(
         }
     };
     let films = run.journal.step("film", || {
+        let each = parts.par_iter().zip(anchors).take(MOST_COMPONENTS);
+        let read: Vec<_> = each
+            .map(|(part, anchors)| profiles(run, part, anchors))
+            .collect::<Result<_>>()?;
         let mut pool = FilmPool::default();
-        for (number, part) in parts.iter().enumerate().take(MOST_COMPONENTS) {
-            for anchor in anchors[number].iter().take(ANCHORS) {
-                for (frame, pose) in beside(run, part, anchor, BESIDE)? {
-                    let name = part.name();
-                    run.say(format!(
-                        "{name} frame {}: profiles of the film are read",
-                        frame + 1
-                    ));
-                    let names = (number as u8, frame as u16);
-                    let mut read = vec![FilmProfile::default(); PROFILES];
-                    let count = part.see(run.film, frame, |subject, image, memory| {
-                        let (model, camera) = (subject.model, subject.camera);
-                        film_profiles(model, camera, &pose, image, names, memory, &mut read)
-                    })?;
-                    read.truncate(count.unwrap_or(0));
-                    pool.take(names.0, names.1, read);
-                }
+        for (number, frames) in (0..).zip(read) {
+            for (frame, profiles) in frames {
+                pool.take(number, frame as u16, profiles);
             }
         }
         run.say("film: its constants are estimated".to_owned());
@@ -72,4 +55,30 @@ pub(super) fn learn_film(
         part.set_film(film);
     }
     Ok(())
+}
+
+/// Profiles of a component in the frames around its anchors.
+fn profiles(
+    run: &Run<'_>,
+    part: &Part<'_>,
+    anchors: &[Anchor],
+) -> Result<Vec<(usize, Vec<FilmProfile>)>> {
+    let mut reading = FilmReading::new(part.middle(), run.film.count(), part.number as u8);
+    for anchor in anchors {
+        reading.give(anchor.frame, anchor.found.pose);
+    }
+    let mut read = Vec::new();
+    while let Some(frame) = reading.wanted() {
+        run.request.stop.check()?;
+        let name = part.name();
+        run.say(format!(
+            "{name} frame {}: profiles of the film are read",
+            frame + 1
+        ));
+        let profiles = part.see(run.film, frame, |subject, image, memory| {
+            reading.take(subject, image, memory)
+        })?;
+        read.push((frame, profiles));
+    }
+    Ok(read)
 }

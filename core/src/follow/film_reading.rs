@@ -1,0 +1,146 @@
+//! Profiles of a film around the frames in which a component's pose is known, for the film's constants.
+//!
+//! One frame tells little of a film: its metal lies where it lies, and its blur is that of one place. What lies beside it is near enough to
+//! be reached without the constants.
+
+use alloc::boxed::Box;
+use alloc::collections::VecDeque;
+use alloc::vec;
+use alloc::vec::Vec;
+
+use super::cell::Anchor;
+use super::frame_pose::{From, refined_on_frame};
+use super::look::look;
+use super::subject::Subject;
+use super::way::Way;
+use crate::film::FilmProfile;
+use crate::film::pool::profiles_of_each;
+use crate::math::Vector3;
+use crate::pose::Pose;
+use crate::refine::{ImageTarget, RefineMemory, film_profiles};
+
+/// Known poses of a component that are looked at, and frames to each side of them.
+const POSES: usize = 3;
+const BESIDE: usize = 6;
+
+/// Reads profiles of a film at the first poses of a component that are known, and in the frames beside those as far as a way without the
+/// film's constants leads. [`Self::wanted`] says which frame is to be looked at, [`Self::take`] looks at it.
+///
+/// What a person placed by hand may lie off by more than a film's blur: profiles are read where the frame itself puts the outline.
+#[derive(Debug)]
+pub struct FilmReading {
+    middle: Vector3,
+    frames: usize,
+    /// The number that its profiles bear.
+    component: u8,
+    poses: usize,
+    tasks: VecDeque<Task>,
+}
+
+#[derive(Debug)]
+enum Task {
+    At(usize, Pose),
+    Beside(Box<Way>, usize),
+}
+
+impl FilmReading {
+    /// Of a film of `frames`; `middle` is the middle of the model's box, `component` the number that profiles bear.
+    #[must_use]
+    pub fn new(middle: Vector3, frames: usize, component: u8) -> Self {
+        Self {
+            middle,
+            frames,
+            component,
+            poses: 0,
+            tasks: VecDeque::new(),
+        }
+    }
+
+    /// Gives a pose that is known, before the first frame is asked for; in the order of frames. More than three are left out, as are
+    /// frames outside of the film.
+    pub fn give(&mut self, frame: usize, pose: Pose) {
+        if frame < self.frames && self.poses < POSES {
+            self.poses += 1;
+            self.tasks.push_back(Task::At(frame, pose));
+        }
+    }
+
+    /// The frame that is to be looked at; `None` where all is read.
+    pub fn wanted(&mut self) -> Option<usize> {
+        loop {
+            let next = match self.tasks.front()? {
+                Task::At(frame, _) => Some(*frame),
+                Task::Beside(way, to) => way.next(*to),
+            };
+            if next.is_some() {
+                return next;
+            }
+            self.tasks.pop_front();
+        }
+    }
+
+    /// Looks at the frame that [`Self::wanted`] asked for; gives its profiles, none where the component is not found there. What is
+    /// known of the film is not used, so that the order of work does not matter.
+    pub fn take(
+        &mut self,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Vec<FilmProfile> {
+        let Some(frame) = self.wanted() else {
+            return Vec::new();
+        };
+        let bare = ImageTarget {
+            film: None,
+            ..*image
+        };
+        match self.look(frame, subject, &bare, memory) {
+            Some(pose) => self.read(frame, &pose, subject, &bare, memory),
+            None => Vec::new(),
+        }
+    }
+
+    fn look(
+        &mut self,
+        frame: usize,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Option<Pose> {
+        match self.tasks.front_mut()? {
+            Task::Beside(way, _) => {
+                let looked = look(subject, image, frame, way.trail(), memory);
+                way.take(frame, &looked, &self.middle);
+                looked.found.ok().map(|found| found.pose)
+            }
+            Task::At(_, pose) => {
+                let start = (&*pose, From::Near);
+                let found = refined_on_frame(subject, image, start, memory);
+                self.tasks.pop_front();
+                let anchor = Anchor::found(frame, found.ok()?);
+                let last = (frame + BESIDE).min(self.frames - 1);
+                for to in [frame.saturating_sub(BESIDE), last] {
+                    let way = Way::begin(&anchor, to >= frame);
+                    self.tasks.push_front(Task::Beside(Box::new(way), to));
+                }
+                Some(anchor.found.pose)
+            }
+        }
+    }
+
+    fn read(
+        &self,
+        frame: usize,
+        pose: &Pose,
+        subject: &Subject<'_>,
+        image: &ImageTarget<'_>,
+        memory: &mut RefineMemory<'_>,
+    ) -> Vec<FilmProfile> {
+        let names = (self.component, u16::try_from(frame).unwrap_or(u16::MAX));
+        let mut read = vec![FilmProfile::default(); profiles_of_each(1)];
+        let (model, camera) = (subject.model, subject.camera);
+        let count = film_profiles(model, camera, pose, image, names, memory, &mut read);
+        read.truncate(count.unwrap_or(0));
+        read
+    }
+}

@@ -1,0 +1,26 @@
+/** What has the keyboard's focus, and the way to it. */
+
+/** @typedef {import('playwright-core').Page} Page */
+
+/** More presses than this are no way that somebody goes. */
+const MOST = 60;
+
+/** The name of what has the focus. @param {Page} page @returns {Promise<string>} */
+export function focused(page) {
+  return page.evaluate(() => {
+    const element = document.activeElement;
+    return element?.getAttribute('aria-label') ?? element?.textContent?.replace(/\s+/g, ' ').trim() ?? '';
+  });
+}
+
+/** Presses Tab until something has the focus; says how often. @param {Page} page @param {string | RegExp} name @param {'Tab' | 'Shift+Tab'} [key] */
+export async function tabTo(page, name, key = 'Tab') {
+  const passed = [];
+  while (passed.length < MOST) {
+    await page.keyboard.press(key);
+    const here = await focused(page);
+    passed.push(here);
+    if (typeof name === 'string' ? here === name : name.test(here)) return passed.length;
+  }
+  throw new Error(`${name} is not reached: ${passed.join(' | ')}`);
+}

@@ -1,0 +1,74 @@
+import { strToU8, zipSync } from 'fflate';
+import { checkState, markOf } from '../document/marks';
+import { methodOf, tableOf } from '../document/session/table';
+import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc } from '../document/types';
+import { doubtOf } from '../results/motion';
+import { COMPONENT_NAMES, type ComponentName } from '../terms/component';
+
+/** Poses as `track` writes them: a folder that the commands take, with what a person did as two columns more. */
+
+/** A row for each cell with a pose, or that was looked for one: what became of it. */
+export function statesOf(doc: Doc): string {
+  const rows = doc.frames.flatMap((frame, index) =>
+    COMPONENT_NAMES.flatMap((component) => {
+      const cell = cellOf(doc, frame.id, component);
+      if (!cell.result) return [];
+      const isChecked = checkState(cell, markOf(doc, { frameId: frame.id, component })) === 'yes';
+      const { residual = null } = chosenCandidate(cell) ?? {};
+      const found = [...stateOf(cell, isChecked), ...numbersOf(chosenCandidate(cell)), residual, null, frame.name, frame.indexInSource + 1];
+      const method = cell.result.kind === 'posed' ? methodOf(cell.result) : null;
+      return [[index + 1, component, ...found, method, Number(isChecked)]];
+    }),
+  );
+  return tableOf([HEAD, ...rows]);
+}
+
+/** All files of the folder, packed. `jts`: the poses of each component. */
+export function zipOf(doc: Doc, jts: Readonly<Record<ComponentName, string>>): Uint8Array<ArrayBuffer> {
+  const files = COMPONENT_NAMES.flatMap((component) => [
+    [`${component}.jts`, jts[component]],
+    [`${component}.covariances.csv`, covariancesOf(doc, component)],
+  ]);
+  const texts = [...files, ['track.csv', statesOf(doc)]] as const;
+  return zipSync(Object.fromEntries(texts.map(([name, text]) => [name, strToU8(text!)]))) as Uint8Array<ArrayBuffer>;
+}
+
+const FIELDS = ['x', 'y', 'z', 'zRot', 'xRot', 'yRot'] as const;
+const UNITS = ['x_mm', 'y_mm', 'z_mm', 'z_rot_deg', 'x_rot_deg', 'y_rot_deg'];
+const HEAD = ['frame', 'component', 'state', 'verdict', 'because', ...UNITS, ...UNITS.map((name) => `sd_${name}`), 'misfit_px', 'badness', 'file', 'frame_of_file', 'method', 'checked'];
+
+/** State, verdict and reason. */
+function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
+  const { result } = cell;
+  if (result?.kind !== 'posed') return ['no pose', 'none', result?.sentence ?? ''];
+  const doubt = doubtOf(cell);
+  if (doubt !== null) return ['doubtful', 'doubtful', doubt];
+  return [isChecked || result.from !== 'film' ? 'fixed' : 'followed', 'good', result.verdict?.because ?? ''];
+}
+
+function numbersOf(candidate: Candidate | null): readonly (number | null)[] {
+  return [candidate?.pose, candidate?.deviations].flatMap((numbers) => FIELDS.map((field) => numbers?.[field] ?? null));
+}
+
+const SIX = [0, 1, 2, 3, 4, 5] as const;
+/** Numbers of the upper half of a covariance, and of what is the film's. */
+const UPPER = 21;
+const FILM = 12;
+
+/** Rows of frames whose covariance is kept: 36 numbers, and how the pose moves with each of two constants of the film. */
+function covariancesOf(doc: Doc, component: ComponentName): string {
+  const head = ['frame', ...SIX.flatMap((row) => SIX.map((column) => `c${row + 1}${column + 1}`)), ...[1, 2].flatMap((constant) => SIX.map((k) => `film${constant}_${k + 1}`))];
+  const rows = doc.frames.flatMap(({ id }, index) => {
+    const covariance = chosenCandidate(cellOf(doc, id, component))?.deviations?.covariance ?? [];
+    const [upper, film] = [covariance.slice(0, UPPER), covariance.slice(UPPER, UPPER + FILM)];
+    if (upper.length < UPPER || !upper.every(Number.isFinite)) return [];
+    return [[index + 1, ...wholeOf(upper), ...(film.length === FILM && film.every(Number.isFinite) ? film : [])]];
+  });
+  return tableOf([head, ...rows]);
+}
+
+/** A symmetric matrix, row by row, of its upper half. */
+function wholeOf(upper: readonly number[]): readonly number[] {
+  const at = (row: number, column: number) => upper[row * 6 - (row * (row - 1)) / 2 + column - row]!;
+  return SIX.flatMap((row) => SIX.map((column) => at(Math.min(row, column), Math.max(row, column))));
+}

@@ -1,0 +1,54 @@
+import { strFromU8, unzipSync } from 'fflate';
+import { describe, expect, it } from 'vitest';
+import { addFrames, withCell } from '../../src/document/commands';
+import { bare } from '../../src/document/hand_poses';
+import { toggleChecked } from '../../src/document/marks';
+import { Store } from '../../src/document/store';
+import type { Candidate, Posed, Result } from '../../src/document/types';
+import { statesOf, zipOf } from '../../src/exchange/tracked';
+import type { ComponentName } from '../../src/terms/component';
+
+const POSE = { x: 1, y: 2, z: -1000, zRot: 3, xRot: 4, yRot: 5 };
+/** As the core has it: row by row from the diagonal, here 11, 12 ... 16, 22, 23 ... 66. */
+const UPPER = [11, 12, 13, 14, 15, 16, 22, 23, 24, 25, 26, 33, 34, 35, 36, 44, 45, 46, 55, 56, 66];
+const WHOLE = [11, 12, 13, 14, 15, 16, 12, 22, 23, 24, 25, 26, 13, 23, 33, 34, 35, 36, 14, 24, 34, 44, 45, 46, 15, 25, 35, 45, 55, 56, 16, 26, 36, 46, 56, 66];
+const FILM = [0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6];
+
+function posed(covariance: readonly number[], change: Partial<Posed> = {}): Posed {
+  const candidate: Candidate = { ...bare(POSE), residual: 0.2, deviations: { ...POSE, covariance } };
+  return { kind: 'posed', from: 'film', origin: 'o', candidates: [candidate], chosen: 0, reason: null, decided: true, verdict: { word: 'good', because: 'it fits' }, ...change };
+}
+
+function film(): Store {
+  const store = new Store();
+  store.perform(addFrames(['a', 'b', 'c'].map((id) => ({ id, name: `${id}.png`, source: id, indexInSource: 0, width: 8, height: 8 }))));
+  const set = (frameId: string, component: ComponentName, result: Result) => store.amend((doc) => withCell(doc, { frameId, component }, { outline: null, result, resultOf: null }));
+  set('a', 'femur', posed([...UPPER, ...FILM]));
+  set('a', 'tibia', posed(UPPER, { verdict: { word: 'doubtful', because: 'a rim, "perhaps"' } }));
+  set('b', 'femur', posed([...UPPER, ...FILM.map(() => NaN)]));
+  set('b', 'tibia', { kind: 'failed', origin: 'o', sentence: 'It is not there.' });
+  store.perform(toggleChecked({ frameId: 'a', component: 'femur' }));
+  return store;
+}
+
+describe('poses as the commands take them', () => {
+  it('say of each cell that was looked at what became of it', () => {
+    const [head, ...rows] = statesOf(film().doc).trimEnd().split('\r\n');
+    expect(head).toMatch(/^frame,component,state,verdict,because,x_mm,.*,file,frame_of_file,method,checked$/);
+    expect(rows).toEqual([
+      '1,femur,fixed,good,it fits,1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,a.png,1,followed through the film,1',
+      '1,tibia,doubtful,doubtful,"a rim, ""perhaps""",1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,a.png,1,followed through the film,0',
+      '2,femur,followed,good,it fits,1,2,-1000,3,4,5,1,2,-1000,3,4,5,0.2,,b.png,1,followed through the film,0',
+      '2,tibia,no pose,none,It is not there.,,,,,,,,,,,,,,,b.png,1,,0',
+    ]);
+  });
+
+  it('have whole covariances, and what of them is the film\u2019s where that is known', () => {
+    const files = unzipSync(zipOf(film().doc, { femur: 'F', tibia: 'T' }));
+    expect(Object.keys(files)).toEqual(['femur.jts', 'femur.covariances.csv', 'tibia.jts', 'tibia.covariances.csv', 'track.csv']);
+    const rows = (name: string) => strFromU8(files[name]!).trimEnd().split('\r\n').slice(1).map((row) => row.split(',').map(Number));
+    expect(rows('femur.covariances.csv')).toEqual([[1, ...WHOLE, ...FILM], [2, ...WHOLE]]);
+    expect(rows('tibia.covariances.csv')).toEqual([[1, ...WHOLE]]);
+    expect(strFromU8(files['tibia.jts']!)).toBe('T');
+  });
+});
