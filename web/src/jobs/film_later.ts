@@ -1,4 +1,6 @@
 import { work } from '../workers/activity';
+import type { ComponentName } from '../terms/component';
+import type { Beside } from './film_beside';
 import type { FilmReader } from './film_reader';
 import type { Services } from './services';
 
@@ -19,6 +21,14 @@ export class FilmLater {
   /** When all that is there to be known is known. */
   async ready(): Promise<void> {
     await (await this.#load())?.ready();
+  }
+
+  async knowsBeside(component: ComponentName): Promise<boolean> {
+    return (await this.#load())?.knowsBeside(component) ?? false;
+  }
+
+  async takeBeside(component: ComponentName, beside: Beside): Promise<void> {
+    (await this.#load())?.takeBeside(component, beside);
   }
 
   #load(): Promise<FilmReader> | null {

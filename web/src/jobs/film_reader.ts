@@ -13,6 +13,7 @@ import { work } from '../workers/activity';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { Corrected, FilmFacts, FilmProtocol, ReadProfiles } from '../workers/protocol/film';
 import type { PoseProtocol } from '../workers/protocol/pose';
+import { type Beside, ReadBeside } from './film_beside';
 import { onFrameInput } from './from_here';
 import { sentenceOf, type Services } from './services';
 
@@ -37,6 +38,7 @@ export class FilmReader {
   readonly #entries = new Map<string, Entry>();
   /** The worker has profiles of them, of a work that is shown no more. */
   readonly #left = new Map<string, Witness>();
+  readonly #beside = new ReadBeside();
   /** What the page worked out itself, or adopted. */
   readonly #taken = new WeakSet<KnownFilm>();
   /** They cannot be corrected. */
@@ -66,9 +68,21 @@ export class FilmReader {
     return new Promise((go) => this.#waiting.push(go));
   }
 
+  /** Was the film read beside poses of the component, as they are? */
+  knowsBeside(component: ComponentName): boolean {
+    this.#beside.keepTo(this.#services.store.doc);
+    return this.#beside.has(component);
+  }
+
+  takeBeside(component: ComponentName, beside: Beside): void {
+    this.#beside.set(component, beside);
+    this.#consider();
+  }
+
   #consider(): void {
     clearTimeout(this.#timer);
     this.#pauseIsOver();
+    this.#beside.keepTo(this.#services.store.doc);
     if (this.#busy || this.#adopt()) return;
     const task = this.#task();
     if (!task) return void this.#waiting.splice(0).forEach((go) => go());
@@ -105,8 +119,9 @@ export class FilmReader {
     if (!this.#isWanted()) return null;
     const here = this.#witnesses();
     if (doc.film.stated.constants) return this.#isTaken() ? this.#correction() : this.#taking();
-    const isStated = JSON.stringify(doc.film.stated) !== this.#asked && (here.length > 0 || doc.film.known !== null);
-    if (this.#isOpen(here) || isStated) return () => this.#estimate(here);
+    const tells = here.length > 0 || !this.#beside.isEmpty || doc.film.known !== null;
+    const isStated = JSON.stringify(doc.film.stated) !== this.#asked && tells;
+    if (this.#isOpen(here) || this.#beside.isNews || isStated) return () => this.#estimate(here);
     return this.#correction();
   }
 
@@ -153,7 +168,7 @@ export class FilmReader {
   /** Traced outlines do without it: it is asked once a pose meets a frame, or is about to. */
   #isWanted(): boolean {
     const { doc, ui } = this.#services.store;
-    return MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || doc.film.stated.constants !== null || meetsFrames(doc);
+    return !this.#beside.isEmpty || this.#beside.isNews || MEETING_FRAMES.includes(ui.tool) || doc.film.known !== null || doc.film.stated.constants !== null || meetsFrames(doc);
   }
 
   #witnesses(isReady = (component: ComponentName, frame: FrameEntry) => this.#isReady(component, frame)): readonly Witness[] {
@@ -204,8 +219,12 @@ export class FilmReader {
     const gone = stated.constants ? [] : this.#gone(here);
     this.#turns = gone.length > 0 || here.some(({ key }) => !this.#entries.has(key)) ? 1 : this.#turns + 1;
     for (const { key } of gone) this.#entries.delete(key);
-    for (const witness of [...this.#left.values(), ...gone]) read.push({ ...namesOf(witness), profiles: new Float32Array() });
+    for (const { component, frame } of [...this.#left.values(), ...gone]) read.push(this.#beside.inPlaceOf(component, frame));
     this.#left.clear();
+    if (!stated.constants) {
+      const own = new Set(here.map(({ component, frame }) => `${component} ${frame}`));
+      read.push(...this.#beside.handOver((component, frame) => own.has(`${component} ${frame}`)));
+    }
     for (const witness of here) {
       const entry = this.#entries.get(witness.key);
       if (entry?.isRead && isNear(entry.witness.pose, witness.pose)) continue;
@@ -218,6 +237,7 @@ export class FilmReader {
     } catch (error) {
       // What the worker knew may be gone with it.
       for (const [key, { witness }] of this.#entries) this.#entries.set(key, { witness, isRead: false });
+      this.#beside.forgotten();
       throw error;
     }
   }

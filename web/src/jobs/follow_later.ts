@@ -3,6 +3,7 @@ import type { Bridge } from '../workers/bridge';
 import { followWorker } from '../workers/start';
 import type { PoseProtocol } from '../workers/protocol/pose';
 import type { Clicks } from './first_poses';
+import type { FilmLater } from './film_later';
 import type { Follower } from './follower';
 import type { Services } from './services';
 
@@ -11,7 +12,7 @@ export class FollowLater {
   readonly #make: () => Promise<Follower>;
   #made: Promise<Follower> | null = null;
 
-  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks, film: { ready(): Promise<void> }) {
+  constructor(services: Services, poser: Pick<Bridge<PoseProtocol>, 'call'>, clicks: Clicks, film: Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside'>) {
     this.#make = async () => {
       const [{ Follower }, { FirstPoses }] = await Promise.all([import('./follower'), import('./first_poses')]);
       const workers = { femur: followWorker(), tibia: followWorker() };

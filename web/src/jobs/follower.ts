@@ -10,12 +10,15 @@ import { cameraOf } from '../results/keys';
 import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/component';
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
-import type { CameraInput } from '../workers/protocol/camera';
 import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/follow';
+import { counting, frameAt, readBeside, subjectOf, unlessAborted } from './beside_poses';
+import type { FilmLater } from './film_later';
 import type { FirstPoses } from './first_poses';
 import { asJob, sentenceOf, type Services } from './services';
 
 type Worker = Pick<Bridge<FollowProtocol>, 'call'>;
+
+type Film = Pick<FilmLater, 'ready' | 'knowsBeside' | 'takeBeside'>;
 
 /** A component with the frames that it is followed over. */
 interface Part {
@@ -33,11 +36,11 @@ interface Part {
 export class Follower {
   readonly #services: Services;
   readonly #first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>;
-  readonly #film: { ready(): Promise<void> };
+  readonly #film: Film;
   readonly #workers: Readonly<Record<ComponentName, Worker>>;
   #abort: AbortController | null = null;
 
-  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>, film: { ready(): Promise<void> }) {
+  constructor(services: Services, workers: Readonly<Record<ComponentName, Worker>>, first: Pick<FirstPoses, 'open' | 'find' | 'findBeside'>, film: Film) {
     this.#services = services;
     this.#workers = workers;
     this.#first = first;
@@ -54,6 +57,7 @@ export class Follower {
     store.show({ following: true });
     try {
       const missing = await this.#begin(abort);
+      if (!abort.signal.aborted) await this.#readFilm(abort);
       if (!abort.signal.aborted) await this.#follow(missing, abort);
     } catch (error) {
       if (!(error instanceof Aborted)) store.say('error', sentenceOf(error));
@@ -78,6 +82,22 @@ export class Follower {
       else missing.push(component);
     }
     return missing;
+  }
+
+  /** Reads the film beside the poses that components are followed from all through, so that the way does not depend on a single frame. */
+  async #readFilm(abort: AbortController): Promise<void> {
+    const { doc } = this.#services.store;
+    if (doc.film.stated.constants) return;
+    const lacking: Part[] = [];
+    for (const part of this.#parts()) {
+      const { free, given, isDoubtful } = part.span;
+      const isAnew = free + given.length === doc.frames.length || filmNumbers(doc, part.component) === null;
+      if (isAnew && !isDoubtful && !(await this.#film.knowsBeside(part.component))) lacking.push(part);
+    }
+    if (lacking.length === 0) return;
+    const read = await readBeside(this.#services, lacking, abort);
+    for (const [component, beside] of read) await this.#film.takeBeside(component, beside);
+    await this.#film.ready();
   }
 
   async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
@@ -163,12 +183,9 @@ export class Follower {
   /** From the frames that are set over all others. */
   async #through(part: Part, signal: AbortSignal, looked: () => void): Promise<void> {
     const { component, worker, span } = part;
-    const { store, studio } = this.#services;
+    const { store } = this.#services;
     const { doc } = store;
-    const { sha256 } = doc.components[component].model ?? { sha256: '' };
-    const mesh = studio.meshOf(sha256);
-    const camera: CameraInput | null = cameraOf(doc, doc.frames[0] ?? null);
-    if (!mesh || !camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
+    const { mesh, camera } = subjectOf(this.#services, component);
     const { first, last, given } = span;
     const searches = (await this.#first.open(component, worker)).length > 0;
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
@@ -183,17 +200,13 @@ export class Follower {
 
   /** Shows the frames that the worker asks for; stops between two of them. What is found fills its cell at once. */
   async #look(part: Part, first: number | null, signal: AbortSignal, looked: () => void): Promise<void> {
-    const { store, studio } = this.#services;
     for (let next = first; next !== null && !signal.aborted; ) {
-      const frame = store.doc.frames[next];
-      const pixels = frame && (await studio.framePixels(frame.id));
-      if (!frame || !pixels) throw new Error(texts.follow.gone(next + 1));
-      const { width, height } = frame;
       const at = next;
-      const seen = await part.worker.call('look', { pixels, width, height }, { signal, transfer: [pixels.buffer] }).catch(unlessAborted);
+      const { frameId, ...input } = await frameAt(this.#services, at);
+      const seen = await part.worker.call('look', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
       if (!seen) return;
       next = seen.next;
-      if (seen.pose) this.#fill(part, at, frame.id, seen.pose);
+      if (seen.pose) this.#fill(part, at, frameId, seen.pose);
       looked();
     }
   }
@@ -239,17 +252,6 @@ export class Follower {
       return [{ place, pose, deviations, residual, badness, rival, because, doubtful: isLed || one.state === 'doubtful', from: span.key(index) }];
     });
   }
-}
-
-function counting(report: (done: number, total: number) => void, total: number): () => void {
-  let done = 0;
-  return () => report(Math.min(++done, total), total);
-}
-
-/** Who stops keeps what there is. */
-function unlessAborted(error: unknown): null {
-  if (error instanceof Aborted) return null;
-  throw error;
 }
 
 function isDoubtful({ pose, doubtful }: Followed): boolean {

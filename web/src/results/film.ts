@@ -77,7 +77,19 @@ function toldBy({ result, outline, resultOf }: Cell, key: string | null): Candid
 const NEAR: PoseNumbers = { x: 0.2, y: 0.2, z: 2, zRot: 0.2, xRot: 0.2, yRot: 0.2 };
 
 export function isNear(a: PoseNumbers, b: PoseNumbers): boolean {
-  return (Object.keys(NEAR) as (keyof PoseNumbers)[]).every((field) => Math.abs(a[field] - b[field]) <= NEAR[field]);
+  return isWithin(NEAR, a, b);
+}
+
+/** From poses this near the frame itself leads to the same one: a hand that corrects so much changes nothing that was read from there. */
+const REACH: PoseNumbers = { x: 3, y: 3, z: 40, zRot: 3, xRot: 3, yRot: 3 };
+
+/** Does a frame lead from both poses to the same one? */
+export function isSamePlace(a: PoseNumbers, b: PoseNumbers): boolean {
+  return isWithin(REACH, a, b);
+}
+
+function isWithin(bounds: PoseNumbers, a: PoseNumbers, b: PoseNumbers): boolean {
+  return (Object.keys(bounds) as (keyof PoseNumbers)[]).every((field) => Math.abs(a[field] - b[field]) <= bounds[field]);
 }
 
 /** A constant has changed by more than this part of its standard deviation, */

@@ -5,6 +5,7 @@ export const follow = {
   title: 'Follow both components through the film from the frames that are set; what is set in none is looked for first (Shift+G)',
   stopTitle: 'Stop following, and keep what was found (Shift+G)',
   job: 'Following the film',
+  reading: 'Reading the film beside the frames that are set',
   looking: (component: string, frame: number) => `Looking for the ${component} in frame ${frame}`,
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,

@@ -3,9 +3,11 @@ import { addFrames, deleteOutline, setCalibration, setModel, withCell } from '..
 import type { Command } from '../../src/document/command';
 import { stateFilm } from '../../src/document/film';
 import { isSurpassed } from '../../src/document/laid_by';
+import { setPoseByHand } from '../../src/document/hand_poses';
 import { Store } from '../../src/document/store';
 import { cellOf, chosenCandidate, type Doc, NOTHING_STATED, type Outline, type Posed } from '../../src/document/types';
 import { framePoint } from '../../src/geometry/points';
+import type { Beside } from '../../src/jobs/film_beside';
 import { FILM_REST, FilmReader } from '../../src/jobs/film_reader';
 import { poseKey } from '../../src/results/keys';
 import type { OnFrame } from '../../src/workers/protocol/by_hand';
@@ -49,14 +51,14 @@ function bench(curvatures: (number | null)[] = [0.026], facts: Partial<FilmFacts
   };
   const studio = { framePixels: () => new Uint8Array(64), hasFrame: () => true };
   const bridges = [{ call: poses }, { call: films }] as unknown as [ConstructorParameters<typeof FilmReader>[1], ConstructorParameters<typeof FilmReader>[2]];
-  new FilmReader({ store, studio } as unknown as ConstructorParameters<typeof FilmReader>[0], ...bridges);
+  const reader = new FilmReader({ store, studio } as unknown as ConstructorParameters<typeof FilmReader>[0], ...bridges);
   store.perform(addFrames(['a', 'b'].map((id) => ({ id, name: id, source: id, indexInSource: 0, width: 8, height: 8 }))));
   store.perform(setCalibration({ name: 'c', text: 'c' }));
   for (const component of ['femur', 'tibia'] as const) {
     store.perform(setModel(component, { name: component, sha256: component }));
     store.setLibrary(component, { state: 'ready', key: 'k', views: 1, bytes: 1, seconds: null });
   }
-  return { store, asked, corrected, hidden, starts, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
+  return { store, reader, asked, corrected, hidden, starts, z: (frameId = 'a') => chosenCandidate(cellOf(store.doc, frameId, 'femur'))?.pose.z };
 }
 
 /** A pose as a click finds it. */
@@ -73,6 +75,59 @@ const rest = () => vi.advanceTimersByTimeAsync(20 * FILM_REST);
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
+
+/** What a follower read beside a femur in frame a. */
+const BESIDE: Beside = {
+  model: 'femur',
+  anchors: [{ frameId: 'a', pose: { x: 0, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 } }],
+  read: [0, 1].map((frame) => ({ component: 'femur' as const, frame, profiles: new Float32Array(64) })),
+};
+const sizes = ({ read }: Estimate) => read.map(({ frame, profiles }) => [frame, profiles.length]);
+
+describe('what is read beside a pose', () => {
+  const placed = (x: number) => setPoseByHand({ frameId: 'a', component: 'femur' }, { ...BESIDE.anchors[0]!.pose, x });
+
+  it('tells the film where no pose itself does, and stays when the pose is corrected', async () => {
+    const { store, reader, asked } = bench();
+    store.perform(placed(0));
+    await rest();
+    expect([asked.length, reader.knowsBeside('femur')]).toEqual([0, false]);
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    expect(asked.map(sizes)).toEqual([[[0, 64], [1, 64]]]);
+    expect(store.doc.film.known).not.toBeNull();
+    store.perform(placed(2));
+    await rest();
+    expect([asked.length, reader.knowsBeside('femur')]).toEqual([1, true]);
+  });
+
+  it('goes with the pose, and with the model', async () => {
+    const { store, reader, asked } = bench();
+    store.perform(placed(0));
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    store.perform(placed(5));
+    await rest();
+    expect(asked.map(sizes).at(-1)).toEqual([[0, 0], [1, 0]]);
+    reader.takeBeside('femur', { ...BESIDE, anchors: [] });
+    expect(reader.knowsBeside('femur')).toBe(true);
+    store.perform(setModel('femur', { name: 'another', sha256: 'another' }));
+    expect(reader.knowsBeside('femur')).toBe(false);
+  });
+
+  it('gives way to a pose that tells itself, and takes its frame back', async () => {
+    const { store, reader, asked } = bench();
+    store.perform(clicked(store.doc));
+    await rest();
+    const before = asked.length;
+    reader.takeBeside('femur', BESIDE);
+    await rest();
+    expect(sizes(asked[before]!)).toEqual([[1, 64]]);
+    store.perform(placed(0));
+    await rest();
+    expect(sizes(asked.at(-1)!)).toEqual([[0, 64]]);
+  });
+});
 
 describe('the reader of the film', () => {
   it('learns from the first pose on a frame, and corrects it with its outline; no units of undo', async () => {

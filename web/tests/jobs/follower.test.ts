@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { addFrames, setCalibration, setModel, withCell } from '../../src/document/commands';
+import { stateFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
 import { bare, setPoseByHand } from '../../src/document/hand_poses';
 import { isSoFar } from '../../src/document/followed';
@@ -8,7 +9,9 @@ import { Store } from '../../src/document/store';
 import { cellOf, chosenCandidate, type Posed, verdictOf } from '../../src/document/types';
 import type { PoseNumbers } from '../../src/geometry/pose_numbers';
 import { Follower } from '../../src/jobs/follower';
-import type { FollowInput, FollowedFrame } from '../../src/workers/protocol/follow';
+import type { Beside } from '../../src/jobs/film_beside';
+import type { ComponentName } from '../../src/terms/component';
+import type { FilmReading, FollowInput, FollowedFrame } from '../../src/workers/protocol/follow';
 
 const FRAMES = 6;
 const poseOf = (x: number): PoseNumbers => ({ x, y: 0, z: -1000, zRot: 0, xRot: 0, yRot: 0 });
@@ -20,6 +23,7 @@ function worker(missing: readonly number[]) {
   let input: FollowInput | null = null;
   let seen: number[] = [];
   let compared: readonly number[] = [];
+  let toRead: number[] = [];
   const rest = () => {
     const { first, last, given } = input!;
     const isOpen = (frame: number) => !seen.includes(frame) && !given.some((one) => one.frame === frame);
@@ -42,6 +46,14 @@ function worker(missing: readonly number[]) {
       const frame = rest()!;
       seen.push(frame);
       return { pose: poseOf(10 + frame), next: rest() };
+    },
+    readFilm: ({ given }: FilmReading) => {
+      toRead = [given[0]!.frame, given[0]!.frame + 1].filter((frame) => frame < FRAMES);
+      return toRead[0]!;
+    },
+    lookFilm: () => {
+      const frame = toRead.shift()!;
+      return { profiles: Float32Array.of(frame), next: toRead[0] ?? null };
     },
     seeSides: () => null,
     sides: () => null,
@@ -91,9 +103,15 @@ function bench(missing: readonly number[] = []) {
   };
   const beside: { femur?: number; tibia?: number } = {};
   const discoveries: { femur?: number; tibia?: number } = {};
-  const follower = new Follower({ store, studio } as never, workers as never, first, { ready: async () => undefined });
+  const taken: [ComponentName, Beside][] = [];
+  const film = {
+    ready: async () => undefined,
+    knowsBeside: async (component: ComponentName) => taken.some(([of]) => of === component),
+    takeBeside: async (...beside: [ComponentName, Beside]) => void taken.push(beside),
+  };
+  const follower = new Follower({ store, studio } as never, workers as never, first, film);
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, xs, searched, discoveries, beside };
+  return { store, follower, femur, xs, searched, discoveries, beside, taken };
 }
 
 describe('following', () => {
@@ -118,6 +136,24 @@ describe('following', () => {
     beside.femur = 2;
     await follower.follow();
     expect(xs()).toEqual([10, 11, 0, 13, 14, 15]);
+  });
+
+  it('reads the film beside what is set before it follows all through, once', async () => {
+    const { store, follower, taken } = bench();
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    await follower.follow();
+    expect(taken).toMatchObject([['femur', { model: 'm', anchors: [{ frameId: 'f1', pose: poseOf(0) }], read: [{ component: 'femur', frame: 1 }, { component: 'femur', frame: 2 }] }]]);
+    store.perform(setPoseByHand(place(4), poseOf(4)));
+    await follower.follow();
+    expect(taken).toHaveLength(1);
+  });
+
+  it('reads nothing beside poses that are doubtful, or where the film is stated', async () => {
+    const { store, follower, taken } = bench();
+    store.perform(setPoseByHand(place(1), poseOf(0)));
+    store.perform(stateFilm({ ...store.doc.film.stated, constants: { curvature: 0.02, blur: 1, attenuation: { femur: 1, tibia: 1 } } }));
+    await follower.follow();
+    expect(taken).toEqual([]);
   });
 
   it('fills the frames that nobody set as one step back, with verdicts and what was not found', async () => {

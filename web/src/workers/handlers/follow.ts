@@ -1,6 +1,7 @@
-import { FilmFollower, type FollowedFilm, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
+import { FilmFollower, FilmReader, type FollowedFilm, type FrameImage, FrameSearch, framesToSearch } from '../../pkg/core/fluoropose_wasm.js';
 import { numbersOf } from '../../geometry/axes';
 import type { PoseNumbers } from '../../geometry/pose_numbers';
+import { COMPONENT_NAMES } from '../../terms/component';
 import type { Beside, Femurs, FollowedFrame, FollowProtocol, FollowState } from '../protocol/follow';
 import type { FramePixels } from '../protocol/frame_pixels';
 import { poseArray, poseFrom, uncertaintyFrom } from '../protocol/pose_array';
@@ -12,6 +13,7 @@ import { type Context, serve } from './serve';
 const ready = loadCore();
 const NONE = new Float64Array();
 let follower: FilmFollower | null = null;
+let reader: FilmReader | null = null;
 let search: FrameSearch | null = null;
 /** What whole frames are searched with: opened with the first one, because most films need none, and it takes as long as some frames. */
 let openSearch: (() => FrameSearch) | null = null;
@@ -21,6 +23,21 @@ let frames = 0;
 const NO_POSE = [NaN, NaN, NaN, NaN, NaN, NaN];
 
 serve<FollowProtocol>({
+  readFilm: async ({ mesh, camera: { text, width, height }, component, given, ...film }) => {
+    await ready;
+    reader?.free();
+    reader = null;
+    const begun = new FilmReader(mesh.vertices, mesh.triangles, text, width, height, film.frames, COMPONENT_NAMES.indexOf(component));
+    for (const { frame, pose } of given) begun.give(frame, Float64Array.from(poseArray(pose)));
+    reader = begun;
+    return begun.wanted() ?? null;
+  },
+  lookFilm: (pixels) =>
+    withImage(pixels, async (image) => {
+      if (!reader) throw new Error('no film is read');
+      const profiles = reader.take(image) as Float32Array<ArrayBuffer>;
+      return { profiles, next: reader.wanted() ?? null };
+    }),
   openSearch: async ({ mesh, camera: { text, width, height }, library, bright, ...film }) => {
     await ready;
     search?.free();

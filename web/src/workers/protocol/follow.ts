@@ -1,12 +1,17 @@
 import type { Candidate } from '../../document/types';
 import type { PoseNumbers, Uncertainty } from '../../geometry/pose_numbers';
 import type { Directions } from '../../geometry/axes';
+import type { ComponentName } from '../../terms/component';
 import type { ModelMesh } from './decode';
 import type { CameraInput } from './camera';
 import type { FramePixels } from './frame_pixels';
 
 /** Follows one component through a film: one worker a component. Frames are numbered from 0. */
 export interface FollowProtocol {
+  /** Begins to read profiles of the film around the first poses that are given; gives the first frame that is to be looked at. */
+  readFilm: { input: FilmReading; output: number | null; progress: never };
+  /** Reads them in the frame that was asked for: none where the component is not found there. */
+  lookFilm: { input: FramePixels; output: FilmSeen; progress: never };
   /** What whole frames are searched with, until the next one; gives the frames of the film that are to be searched, in their order. */
   openSearch: { input: SearchInput; output: readonly number[]; progress: never };
   /** Looks for the component in a whole frame, and gives a point of it; null where it is nowhere. */
@@ -43,6 +48,20 @@ export interface Beside {
   readonly middle: readonly [number, number, number];
   /** Columns and rows by turns. */
   readonly outline: Float64Array<ArrayBuffer>;
+}
+
+export interface FilmReading {
+  readonly mesh: ModelMesh;
+  readonly camera: CameraInput;
+  readonly frames: number;
+  readonly component: ComponentName;
+  readonly given: FollowInput['given'];
+}
+
+export interface FilmSeen {
+  readonly profiles: Float32Array<ArrayBuffer>;
+  /** The frame that is to be looked at next; null where all is read. */
+  readonly next: number | null;
 }
 
 export interface FollowInput {

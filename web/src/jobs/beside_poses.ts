@@ -1,0 +1,81 @@
+import { cameraOf } from '../results/keys';
+import type { Given } from '../results/spans';
+import type { ComponentName } from '../terms/component';
+import { texts } from '../texts/texts';
+import { Aborted, type Bridge } from '../workers/bridge';
+import type { CameraInput } from '../workers/protocol/camera';
+import type { ModelMesh } from '../workers/protocol/decode';
+import type { ReadProfiles } from '../workers/protocol/film';
+import type { FollowProtocol } from '../workers/protocol/follow';
+import type { FramePixels } from '../workers/protocol/frame_pixels';
+import type { Beside } from './film_beside';
+import { asJob, type Services } from './services';
+
+/** A component whose film is to be read, and its worker. */
+interface Subject {
+  readonly component: ComponentName;
+  readonly worker: Pick<Bridge<FollowProtocol>, 'call'>;
+  readonly span: { readonly given: readonly Given[] };
+}
+
+/** Poses that are looked at, and the frames that belong to each, as the core has it. */
+const POSES = 3;
+const FRAMES_EACH = 13;
+
+/** Reads the film around the first poses of each component, in all workers at once; gives nothing where it was called off. */
+export async function readBeside(services: Services, subjects: readonly Subject[], abort: AbortController): Promise<ReadonlyMap<ComponentName, Beside>> {
+  const { store } = services;
+  const total = subjects.reduce((sum, { span }) => sum + Math.min(POSES, span.given.length) * Math.min(FRAMES_EACH, store.doc.frames.length), 0);
+  const job = { title: texts.follow.reading, unit: texts.follow.unit, total, cancel: () => abort.abort() };
+  const read = await asJob(store, job, (report) => {
+    const looked = counting(report, total);
+    return Promise.all(subjects.map(async (subject) => [subject.component, await besideOf(services, subject, abort.signal, looked)] as const));
+  });
+  return new Map(abort.signal.aborted ? [] : read);
+}
+
+async function besideOf(services: Services, { component, worker, span }: Subject, signal: AbortSignal, looked: () => void): Promise<Beside> {
+  const { doc } = services.store;
+  const { model, ...subject } = subjectOf(services, component);
+  const given = span.given.slice(0, POSES);
+  const read: ReadProfiles[] = [];
+  for (let next = await worker.call('readFilm', { ...subject, component, frames: doc.frames.length, given }); next !== null && !signal.aborted; ) {
+    const frame = next;
+    const { frameId: _, ...input } = await frameAt(services, frame);
+    const seen = await worker.call('lookFilm', input, { signal, transfer: [input.pixels.buffer] }).catch(unlessAborted);
+    if (!seen) break;
+    if (seen.profiles.length > 0) read.push({ component, frame, profiles: seen.profiles });
+    next = seen.next;
+    looked();
+  }
+  return { model, anchors: given.map(({ frame, pose }) => ({ frameId: doc.frames[frame]!.id, pose })), read };
+}
+
+/** The component's model and the film's camera, as a worker takes them. */
+export function subjectOf({ store, studio }: Services, component: ComponentName): { readonly model: string; readonly mesh: ModelMesh; readonly camera: CameraInput } {
+  const { doc } = store;
+  const model = doc.components[component].model?.sha256 ?? '';
+  const mesh = studio.meshOf(model);
+  const camera = cameraOf(doc, doc.frames[0] ?? null);
+  if (!mesh || !camera) throw new Error(texts.hand.said.noModel(texts.component[component]));
+  return { model, mesh, camera };
+}
+
+export async function frameAt({ store, studio }: Services, at: number): Promise<FramePixels & { readonly frameId: string }> {
+  const frame = store.doc.frames[at];
+  const pixels = frame && (await studio.framePixels(frame.id));
+  if (!frame || !pixels) throw new Error(texts.follow.gone(at + 1));
+  const { id, width, height } = frame;
+  return { frameId: id, pixels, width, height };
+}
+
+export function counting(report: (done: number, total: number) => void, total: number): () => void {
+  let done = 0;
+  return () => report(Math.min(++done, total), total);
+}
+
+/** Who stops keeps what there is. */
+export function unlessAborted(error: unknown): null {
+  if (error instanceof Aborted) return null;
+  throw error;
+}
