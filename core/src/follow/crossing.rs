@@ -11,11 +11,14 @@ use super::frame_pose::FramePose;
 use super::look::Looked;
 use super::meeting::{have_met, join_ways};
 use super::motion::between;
-use super::sides::{ELSEWHERE_RATIO, MOST};
+use super::sides::{ELSEWHERE_RATIO, MOST, ONE_DEG};
 use super::trail::{Usual, apart};
 use super::trust::TrustLimits;
 use super::way::Way;
 use crate::math::{Vector3, ln};
+use crate::mesh::mirror::mirror_pose;
+use crate::mesh::symmetry::SymmetryPlane;
+use crate::pose::{Pose, geodesic_deg};
 
 /// So much of what would make a jump doubtful is one that is crossed.
 const PART: f64 = 0.5;
@@ -43,8 +46,8 @@ pub struct Crossing {
     there: Vec<Cell>,
     /// What was seen in them, in the same order.
     seen: Vec<Looked>,
-    /// It has come to poses that were there before.
-    met: bool,
+    /// It has come to poses that were there before, or to the other side of the mirror.
+    over: bool,
 }
 
 /// The frames from which jumps of a film are to be crossed, each forward or not, in their order; `middle` is the model's.
@@ -113,20 +116,20 @@ impl Crossing {
         let may_change = |cell: &&Cell| !cell.fixed && cell.looked.is_some();
         let there: Vec<Cell> = behind.take_while(may_change).copied().collect();
         let seen = Vec::new();
-        let met = there.is_empty();
-        (!met).then_some(Self {
+        let over = there.is_empty();
+        (!over).then_some(Self {
             way,
             forward,
             there,
             seen,
-            met,
+            over,
         })
     }
 
     /// The frame that is to be looked at; `None` where it is done.
     #[must_use]
     pub fn next(&self) -> Option<usize> {
-        let is_over = self.met || self.votes() <= -HOPELESS || self.seen.len() == self.there.len();
+        let is_over = self.over || self.votes() <= -HOPELESS || self.seen.len() == self.there.len();
         let to = if self.forward { usize::MAX } else { 0 };
         self.way.next(to).filter(|_| !is_over)
     }
@@ -137,11 +140,21 @@ impl Crossing {
         &self.way
     }
 
-    /// Takes what came of the next frame. `middle` is the model's.
-    pub fn saw(&mut self, frame: usize, looked: Looked, middle: &Vector3) {
+    /// Takes what came of the next frame; `middle` and `planes` are the model's. It ends before a frame whose mirror image it has
+    /// come to: sides are chosen over the whole film, by more than what poses leave ([`super::choose_sides`]).
+    pub fn saw(
+        &mut self,
+        frame: usize,
+        looked: Looked,
+        (middle, planes): (&Vector3, &[SymmetryPlane]),
+    ) {
         let there = self.there.get(self.seen.len());
         let there = there.and_then(|cell| cell.looked);
-        self.met = there.is_some_and(|there| have_met(&there, &looked));
+        if there.is_some_and(|there| are_mirrored(&there, &looked, planes)) {
+            self.over = true;
+            return;
+        }
+        self.over = there.is_some_and(|there| have_met(&there, &looked));
         self.way.take(frame, &looked, middle);
         self.seen.push(looked);
     }
@@ -201,6 +214,16 @@ impl Crossing {
     }
 }
 
+/// Whether two poses are on two sides of the mirror, where these are apart.
+fn are_mirrored(one: &Looked, other: &Looked, planes: &[SymmetryPlane]) -> bool {
+    let (Ok(one), Ok(other)) = (&one.found, &other.found) else {
+        return false;
+    };
+    let from = |pose: &Pose| geodesic_deg(&pose.rotation, &other.pose.rotation);
+    let mut images = planes.iter().map(|plane| mirror_pose(&one.pose, plane));
+    from(&one.pose) >= ONE_DEG && images.any(|image| from(&image) < from(&one.pose))
+}
+
 /// By how much less than what is there something leaves.
 fn votes_for(looked: &Looked, there: &Cell) -> f64 {
     match (&looked.found, there.found()) {
@@ -215,7 +238,6 @@ mod tests {
     use super::*;
     use crate::follow::fake::{looked, turned};
     use crate::follow::look::Missing;
-    use crate::pose::geodesic_deg;
     use core::ops::Range;
 
     const MIDDLE: Vector3 = [0.0; 3];
@@ -235,7 +257,7 @@ mod tests {
     }
 
     /// Crosses all jumps; every frame shows the right pose to who comes from one, and the false one to who comes from that.
-    fn crossed(mut cells: Vec<Cell>) -> (Vec<Cell>, usize) {
+    fn crossed(mut cells: Vec<Cell>, planes: &[SymmetryPlane]) -> (Vec<Cell>, usize) {
         let mut looks = 0;
         for (from, forward) in frames_to_cross_from(&cells, &MIDDLE) {
             let Some(mut crossing) = Crossing::over(&cells, from, forward, &MIDDLE) else {
@@ -251,7 +273,7 @@ mod tests {
                 } else {
                     seen(frame, 0.0, 0.5)
                 };
-                crossing.saw(frame, looked, &MIDDLE);
+                crossing.saw(frame, looked, (&MIDDLE, planes));
             }
             crossing.write(&mut cells);
         }
@@ -261,7 +283,7 @@ mod tests {
     #[test]
     fn what_slid_comes_back_from_either_side_and_the_right_frames_stay() {
         for slid in [8..13, 0..4, 15..20, 9..10, 6..16] {
-            let (cells, _) = crossed(film(slid.clone()));
+            let (cells, _) = crossed(film(slid.clone()), &[]);
             for (frame, cell) in cells.iter().enumerate() {
                 let found = cell.found().expect("found");
                 assert_eq!(found.misfit_px, 0.5, "{slid:?}, frame {frame}");
@@ -270,17 +292,47 @@ mod tests {
         }
     }
 
+    /// A part that is the same seen from both sides of a plane, filmed nearly square to that: its mirror image is turned the other
+    /// way. What leaves less there is not gone over to.
+    #[test]
+    fn the_other_side_of_the_mirror_is_not_gone_over_to() {
+        let at = |frame: usize, deg: f64, px: f64| {
+            let pose = turned(deg, px);
+            (frame, Cell::on_the_way(looked(Ok(pose))))
+        };
+        let plane = SymmetryPlane {
+            point: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            deviation_mm: 0.0,
+        };
+        let cells = || {
+            (0..9)
+                .map(|frame| at(frame, 6.0, 0.7).1)
+                .collect::<Vec<Cell>>()
+        };
+        for (planes, gone_over) in [(&[plane][..], false), (&[], true)] {
+            let mut cells = cells();
+            let mut crossing = Crossing::over(&cells, 4, true, &MIDDLE).expect("frames behind");
+            while let Some(frame) = crossing.next() {
+                crossing.saw(frame, looked(Ok(turned(-6.0, 0.5))), (&MIDDLE, planes));
+            }
+            crossing.write(&mut cells);
+            let left = cells[6].found().map(|found| found.misfit_px);
+            assert_eq!(left == Some(0.5), gone_over);
+        }
+    }
+
     #[test]
     fn a_steady_film_is_not_looked_at_again() {
-        assert_eq!(crossed(film(0..0)).1, 0);
-        assert_eq!(crossed(film(0..20)).1, 0);
+        assert_eq!(crossed(film(0..0), &[]).1, 0);
+        assert_eq!(crossed(film(0..20), &[]).1, 0);
     }
 
     #[test]
     fn poses_that_a_person_gave_stay_and_stop_it() {
         let mut cells = film(8..13);
         cells[10].fixed = true;
-        let (cells, _) = crossed(cells);
+        let (cells, _) = crossed(cells, &[]);
         assert_eq!(cells[10].found(), film(8..13)[10].found());
         assert!(cells[10].fixed);
         for frame in [8, 9, 11, 12] {
@@ -294,7 +346,7 @@ mod tests {
         let mut crossing = Crossing::over(&cells, 7, true, &MIDDLE).expect("frames behind");
         let nothing = looked(Err(Missing::Hidden));
         while let Some(frame) = crossing.next() {
-            crossing.saw(frame, nothing, &MIDDLE);
+            crossing.saw(frame, nothing, (&MIDDLE, &[]));
         }
         let mut after = cells.clone();
         crossing.write(&mut after);

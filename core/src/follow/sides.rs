@@ -62,7 +62,7 @@ pub struct SideStep {
 }
 
 /// Both sides are one where they are nearer to each other than this, degrees: a trail may go over there.
-const ONE_DEG: f64 = 4.0;
+pub(super) const ONE_DEG: f64 = 4.0;
 /// Below this they are the same pose, of which a frame cannot tell two.
 const SAME_DEG: f64 = 2.0;
 /// What it costs to go over from one side to the other, where they meet and elsewhere.

@@ -79,7 +79,9 @@ impl Task {
         match self {
             Self::Walk(walk) => walk.saw(frame, looked, middle),
             Self::Span(span) => span.saw(which, frame, looked, middle),
-            Self::Crossing(crossing) => crossing.saw(frame, looked, middle),
+            Self::Crossing(crossing) => {
+                crossing.saw(frame, looked, (middle, subject.planes));
+            }
             _ => {}
         }
         looked.found.ok()

@@ -120,7 +120,7 @@ fn cross_jumps(run: &Run<'_>, part: &Part<'_>, cells: &mut [Cell]) -> Result<()>
                     })
                 },
             )?;
-            crossing.saw(frame, looked, &middle);
+            crossing.saw(frame, looked, (&middle, &part.planes));
         }
         crossing.write(cells);
     }
