@@ -103,7 +103,7 @@ pageTest('a narrow window', async (page, t) => {
     await step(page, t, `${width} px: nothing lies on what is to be pressed`, async () => {
       await page.setViewportSize({ width, height: 700 });
       for (const name of [/^Calibration: /, /^Femur: /, /^Tibia: /, 'Open files', 'Save and export', 'Keys and mouse', 'Next frame', 'Log']) {
-        await page.getByRole('button', { name, exact: true }).first().click({ trial: true, timeout: 5000 });
+        await page.getByRole('button', { name, exact: true }).first().click({ trial: true });
       }
       if (width > 860) assert.deepEqual(await cutNames(page), []);
       await screenshot(page, `narrow ${width}`);

@@ -1,7 +1,7 @@
 /** How the joint moves: curves with their numbers, what they wait for, and the table, by keys and by names alone. */
 import assert from 'node:assert/strict';
 import { bringAxe, isAccessible } from './support/axe.mjs';
-import { drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
+import { atRest, drawn, pageTest, screenshot, step, until } from './support/browser.mjs';
 import { exportSheet, openExport, savedFile, slowPictures } from './support/exporting.mjs';
 import { choose, file } from './support/files.mjs';
 import { leftKnee } from './support/joint.mjs';
@@ -50,8 +50,9 @@ pageTest('the joint', async (page, t) => {
     await until(line, (now) => now !== first, 'its line on the tray');
     await page.getByRole('button', { name: 'Stop the film' }).click();
     // The frame that was on its way is shown yet.
-    await drawn(page);
+    await atRest(page);
     const still = await shownNow();
+    // Some frames of the film: nothing can be waited for that does not come.
     await page.waitForTimeout(300);
     assert.equal(await shownNow(), still);
   });
