@@ -28,6 +28,8 @@ pub struct FilmFollower {
     /// Poses that were given: the first one that is looked at tells whether the implant is dark.
     given: Vec<(usize, Pose)>,
     film: Option<FilmModel>,
+    /// As it was before sides were chosen.
+    undecided: Option<Following>,
 }
 
 #[wasm_bindgen]
@@ -59,6 +61,7 @@ impl FilmFollower {
             seen,
             given: Vec::new(),
             film: film_model(film)?,
+            undecided: None,
         })
     }
 
@@ -136,21 +139,33 @@ impl FilmFollower {
         femoral_axes: &[f64],
         own_axes: &[f64],
     ) -> Result<(), JsError> {
-        if femurs.is_empty() {
-            self.following.choose_sides(None);
-            return Ok(());
-        }
-        let field = axes_from(femoral_axes)?;
-        let pose = |numbers: &[f64; NUMBERS]| {
-            let known = numbers.iter().all(|number| number.is_finite());
-            let pose = known.then(|| from_numbers(numbers).ok()).flatten();
-            pose.map(|pose| Pose::from(pose).compose(&field))
-        };
-        let poses = femurs.as_chunks().0.iter().map(pose).collect();
-        let axes = axes_from(own_axes)?;
-        self.following
-            .choose_sides(Some(KnownFemur { poses, axes }));
+        let femur = known_femur(femurs, femoral_axes, own_axes)?;
+        self.undecided = Some(self.following.clone());
+        self.following.choose_sides(femur);
         Ok(())
+    }
+
+    /// After sides were chosen by what was known of the femur then, and all was done: with what is known of it now the same is done,
+    /// or, where that is not so, the second part begins anew. Whether it stands as it is.
+    ///
+    /// # Errors
+    /// As of `chooseSides`.
+    #[wasm_bindgen(js_name = standsWith)]
+    pub fn stands_with(
+        &mut self,
+        femurs: &[f64],
+        femoral_axes: &[f64],
+        own_axes: &[f64],
+    ) -> Result<bool, JsError> {
+        let femur = known_femur(femurs, femoral_axes, own_axes)?;
+        if self.following.stands_with(femur.clone()) {
+            return Ok(true);
+        }
+        if let Some(undecided) = &self.undecided {
+            self.following = undecided.clone();
+            self.following.choose_sides(femur);
+        }
+        Ok(false)
     }
 
     /// Ends the work before all is done: what was seen until then counts.
@@ -198,6 +213,26 @@ impl FilmFollower {
             frames,
         }
     }
+}
+
+/// The femur as `chooseSides` takes it; nothing where there are no poses.
+fn known_femur(
+    poses: &[f64],
+    axes: &[f64],
+    own_axes: &[f64],
+) -> Result<Option<KnownFemur>, JsError> {
+    if poses.is_empty() {
+        return Ok(None);
+    }
+    let field = axes_from(axes)?;
+    let pose = |numbers: &[f64; NUMBERS]| {
+        let known = numbers.iter().all(|number| number.is_finite());
+        let pose = known.then(|| from_numbers(numbers).ok()).flatten();
+        pose.map(|pose| Pose::from(pose).compose(&field))
+    };
+    let poses = poses.as_chunks().0.iter().map(pose).collect();
+    let axes = axes_from(own_axes)?;
+    Ok(Some(KnownFemur { poses, axes }))
 }
 
 /// What became of every frame.

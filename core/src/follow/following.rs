@@ -71,7 +71,7 @@ enum Phase {
 /// it. When none is left, [`Self::choose_sides`] begins the second part, after which [`Self::conclude`] has the answer.
 ///
 /// Frames are asked for one at a time and none is kept. Poses that a person gave never change.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Following {
     middle: Vector3,
     range: Range<usize>,
@@ -96,6 +96,8 @@ pub struct Following {
     /// Other sides of frames that somebody wants to compare.
     rivals: Vec<SideSample>,
     steps: Vec<SideStep>,
+    /// What sides were chosen by, each time, and what was chosen.
+    choices: Vec<(Vec<SideSample>, Vec<SideStep>)>,
 }
 
 impl Following {
@@ -119,6 +121,7 @@ impl Following {
             rounds: ROUNDS,
             rivals: Vec::new(),
             steps: Vec::new(),
+            choices: Vec::new(),
         }
     }
 

@@ -364,8 +364,29 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
         poses: femur.conclude(&[]).iter().map(|one| one.pose).collect(),
         axes: Pose::IDENTITY,
     };
-    let tibia = follow(&tray, &tibiae, &[0, FRAMES - 1], Some(known));
-    assert_followed(&tibia.conclude(&femur.depths()), &tibiae, &[0, FRAMES - 1]);
+    let ends = [0, FRAMES - 1];
+    let tibia = follow(&tray, &tibiae, &ends, Some(known.clone()));
+    let depths = femur.depths();
+    assert_followed(&tibia.conclude(&depths), &tibiae, &ends);
+    // With a femur of which less was known, and with one that leans so far that it tells the other side.
+    let leaning = |deg: f64| {
+        let turn = Pose::from(EulerPose {
+            x_rot_deg: deg,
+            ..EulerPose::default()
+        });
+        let lean = |pose: &Option<Pose>| pose.map(|pose| pose.compose(&turn));
+        KnownFemur {
+            poses: known.poses.iter().map(lean).collect(),
+            axes: known.axes,
+        }
+    };
+    let tibia = follow(&tray, &tibiae, &[0], Some(known.clone()));
+    for (deg, stands) in [(0.3, true), (-25.0, false)] {
+        let mut early = follow(&tray, &tibiae, &[0], Some(leaning(deg)));
+        assert_eq!(early.stands_with(Some(known.clone())), stands, "{deg}");
+        let same = early.conclude(&depths) == tibia.conclude(&depths);
+        assert_eq!(same, stands, "{deg}");
+    }
 }
 
 #[test]

@@ -74,6 +74,11 @@ export function counting(report: (done: number, total: number) => void, total: n
   return () => report(Math.min(++done, total), total);
 }
 
+/** Who calls off waits for nothing more. */
+export function aborted(signal: AbortSignal): Promise<void> {
+  return signal.aborted ? Promise.resolve() : new Promise((go) => signal.addEventListener('abort', () => go(), { once: true }));
+}
+
 /** Who stops keeps what there is. */
 export function unlessAborted(error: unknown): null {
   if (error instanceof Aborted) return null;

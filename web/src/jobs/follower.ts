@@ -11,7 +11,7 @@ import { COMPONENT_NAMES, type ComponentName, otherThan } from '../terms/compone
 import { texts } from '../texts/texts';
 import { Aborted, type Bridge } from '../workers/bridge';
 import type { Femurs, FollowedFrame, FollowProtocol } from '../workers/protocol/follow';
-import { counting, frameAt, readBeside, subjectOf, unlessAborted } from './beside_poses';
+import { aborted, frameAt, readBeside, subjectOf, unlessAborted } from './beside_poses';
 import type { FilmLater } from './film_later';
 import type { FirstPoses } from './first_poses';
 import { asJob, sentenceOf, type Services } from './services';
@@ -27,6 +27,34 @@ interface Part {
   readonly span: Span;
   /** What was there in frames that were looked at. */
   readonly before: Map<string, readonly [Place, Result | null]>;
+}
+
+/** How far following is: frame by frame first, and then one cannot say how many looks there will be at those that may lie otherwise. */
+class Progress {
+  readonly #report: (done: number, total: number, title?: string) => void;
+  readonly #total: number;
+  #followed = 0;
+  #others = 0;
+
+  constructor(report: (done: number, total: number, title?: string) => void, total: number) {
+    this.#report = report;
+    this.#total = total;
+  }
+
+  readonly followed = (): void => {
+    this.#followed++;
+    this.#tell();
+  };
+
+  readonly another = (): void => {
+    this.#others++;
+    this.#tell();
+  };
+
+  #tell(): void {
+    if (this.#followed < this.#total) this.#report(this.#followed, this.#total);
+    else this.#report(this.#others, 0, texts.follow.deciding);
+  }
 }
 
 /**
@@ -74,11 +102,11 @@ export class Follower {
     const unposed = standingOf(store.doc).unposed.filter(isHere);
     const cancel = () => abort.abort();
     const found = await Promise.all(unposed.map((component) => this.#first.find(component, this.#workers[component], abort.signal, cancel)));
-    await this.#film.ready();
+    await this.#filmReady(abort);
     const missing: ComponentName[] = [];
     for (const component of unposed.filter((_, index) => !found[index])) {
       const isFound = await this.#first.findBeside(component, this.#workers[component], abort.signal, cancel);
-      if (isFound) await this.#film.ready();
+      if (isFound) await this.#filmReady(abort);
       else missing.push(component);
     }
     return missing;
@@ -96,8 +124,15 @@ export class Follower {
     }
     if (lacking.length === 0) return;
     const read = await readBeside(this.#services, lacking, abort);
+    if (read.size === 0) return;
     for (const [component, beside] of read) await this.#film.takeBeside(component, beside);
-    await this.#film.ready();
+    await this.#filmReady(abort);
+  }
+
+  /** When the film has told what it tells, and the poses that lead are corrected by that. */
+  #filmReady(abort: AbortController): Promise<void> {
+    const job = { title: texts.follow.estimating, unit: '', total: 0, cancel: () => abort.abort() };
+    return asJob(this.#services.store, job, () => Promise.race([this.#film.ready(), aborted(abort.signal)]));
   }
 
   async #follow(missing: readonly ComponentName[], abort: AbortController): Promise<void> {
@@ -106,9 +141,9 @@ export class Follower {
     const notFound = missing.map((component) => texts.follow.notFound(texts.component[component]));
     this.#sayNotFound(missing);
     if (parts.length === 0) return store.say(notFound.length > 0 ? 'error' : 'info', notFound.length > 0 ? notFound.join(' ') : this.#nothingToDo());
-    const total = parts.reduce((sum, { span }) => sum + span.free, 0);
+    const total = parts.reduce((sum, { span }) => sum + span.free + span.given.length, 0);
     const job = { title: texts.follow.job, unit: texts.follow.unit, total, cancel: () => abort.abort() };
-    const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, counting(report, total)));
+    const found = await asJob(store, job, (report) => this.#all(parts, abort.signal, new Progress(report, total)));
     const before = parts.flatMap((part) => [...part.before.values()]);
     store.amend((doc) => withoutSoFar(doc, before));
     if (found.length > 0) store.perform(takeFollowed(found));
@@ -151,37 +186,45 @@ export class Follower {
     });
   }
 
-  async #all(parts: readonly Part[], signal: AbortSignal, looked: () => void): Promise<readonly Followed[]> {
-    const followed = Promise.all(parts.map((part) => this.#through(part, signal, looked)));
-    const femur = parts.find(({ component }) => component === 'femur');
-    await followed;
-    if (femur) await this.#sides(femur, null, signal);
-    const femurs = femur ? await this.#posesOf(femur) : this.#shownPoses('femur');
-    const tibia = parts.find(({ component }) => component === 'tibia');
-    if (tibia) await this.#sides(tibia, this.#known(femurs), signal);
+  async #all(parts: readonly Part[], signal: AbortSignal, progress: Progress): Promise<readonly Followed[]> {
+    await this.#bothSides(parts, signal, progress);
     if (signal.aborted) await Promise.all(parts.map(({ worker }) => worker.call('stop', null)));
     const depths = new Map<ComponentName, Float64Array<ArrayBuffer>>();
     for (const { component, worker } of parts) depths.set(component, await worker.call('depths', null));
-    const found: Followed[] = [];
-    for (const part of parts) {
+    const found = parts.map(async (part) => {
       const other = depths.get(otherThan(part.component)) ?? new Float64Array();
-      const film = await this.#compared(part, other, signal);
-      found.push(...this.#answers(part, film, signal.aborted));
-    }
-    return found;
+      return this.#answers(part, await this.#compared(part, other, signal, progress), signal.aborted);
+    });
+    return (await Promise.all(found)).flat();
+  }
+
+  /**
+   * Both components at once: the tibia's sides are chosen with the femur as it was followed, which hardly ever goes over to its other side
+   * afterwards. Where it does, and that tells another side of the tibia, this is done again.
+   */
+  async #bothSides(parts: readonly Part[], signal: AbortSignal, progress: Progress): Promise<void> {
+    const [femur, tibia] = COMPONENT_NAMES.map((name) => parts.find(({ component }) => component === name));
+    const isFemurFollowed = femur ? this.#through(femur, signal, progress) : Promise.resolve();
+    const early = isFemurFollowed.then(() => this.#femurs(femur));
+    const femurDone = early.then(() => femur && this.#sides(femur, null, signal, progress));
+    const tibiaDone = tibia && this.#through(tibia, signal, progress).then(async () => this.#sides(tibia, this.#known(await early), signal, progress));
+    await Promise.all([femurDone, tibiaDone]);
+    if (!femur || !tibia || signal.aborted) return;
+    const femurs = this.#known(await this.#femurs(femur));
+    await this.#look(tibia, await tibia.worker.call('standsWith', { femurs }), signal, progress.another);
   }
 
   /** The answer, doubtful frames with what they look like from the other side of the mirror. */
-  async #compared(part: Part, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal): Promise<readonly FollowedFrame[]> {
+  async #compared(part: Part, otherDepths: Float64Array<ArrayBuffer>, signal: AbortSignal, progress: Progress): Promise<readonly FollowedFrame[]> {
     const film = await part.worker.call('conclude', { otherDepths });
     const frames = film.flatMap(({ state }, frame) => (state === 'doubtful' ? [frame] : []));
     if (frames.length === 0 || signal.aborted) return film;
-    await this.#look(part, await part.worker.call('compare', { frames }), signal, () => undefined);
+    await this.#look(part, await part.worker.call('compare', { frames }), signal, progress.another);
     return part.worker.call('conclude', { otherDepths });
   }
 
   /** From the frames that are set over all others. */
-  async #through(part: Part, signal: AbortSignal, looked: () => void): Promise<void> {
+  async #through(part: Part, signal: AbortSignal, progress: Progress): Promise<void> {
     const { component, worker, span } = part;
     const { store } = this.#services;
     const { doc } = store;
@@ -189,13 +232,13 @@ export class Follower {
     const { first, last, given } = span;
     const searches = (await this.#first.open(component, worker)).length > 0;
     const begin = { mesh, camera, frames: doc.frames.length, first, last, given, searches, film: filmNumbers(doc, component) };
-    await this.#look(part, await worker.call('begin', begin), signal, looked);
+    await this.#look(part, await worker.call('begin', begin), signal, progress.followed);
     // Which side is the right one may depend on the femur; what a frame says of both does not, and is looked at meanwhile.
-    if (!signal.aborted) await this.#look(part, await worker.call('seeSides', null), signal, () => undefined);
+    if (!signal.aborted) await this.#look(part, await worker.call('seeSides', null), signal, progress.another);
   }
 
-  async #sides(part: Part, femurs: Femurs | null, signal: AbortSignal): Promise<void> {
-    if (!signal.aborted) await this.#look(part, await part.worker.call('sides', { femurs }), signal, () => undefined);
+  async #sides(part: Part, femurs: Femurs | null, signal: AbortSignal, progress: Progress): Promise<void> {
+    if (!signal.aborted) await this.#look(part, await part.worker.call('sides', { femurs }), signal, progress.another);
   }
 
   /** Shows the frames that the worker asks for; stops between two of them. What is found fills its cell at once. */
@@ -219,9 +262,11 @@ export class Follower {
     store.amend((doc) => withSoFar(doc, place, pose, span.key(frame)));
   }
 
-  async #posesOf({ worker }: Part): Promise<readonly (PoseNumbers | null)[]> {
-    const film = await worker.call('conclude', { otherDepths: new Float64Array() });
+  /** As far as they are followed; what is not followed is as it is shown. */
+  async #femurs(femur: Part | undefined): Promise<readonly (PoseNumbers | null)[]> {
     const shown = this.#shownPoses('femur');
+    const film = (await femur?.worker.call('conclude', { otherDepths: new Float64Array() })) ?? [];
+    if (!femur) return shown;
     return film.map(({ pose }, frame) => pose ?? shown[frame] ?? null);
   }
 

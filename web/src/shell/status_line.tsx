@@ -83,11 +83,10 @@ function OfferButton({ state }: { state: State }) {
 
 function JobBar({ job }: { job: Job }) {
   const seconds = ((performance.now() - job.startedAt) / 1000).toFixed(1);
-  const count = job.total > 0 ? texts.status.count(job.done, job.total, job.unit) : texts.status.preparing;
   return (
     <div class="job">
       <span class="job-text">
-        {texts.status.job(job.title, count, seconds)}
+        {texts.status.job(job.title, countOf(job), seconds)}
       </span>
       <progress aria-label={job.title} value={job.total > 0 ? job.done : undefined} max={job.total > 0 ? job.total : 1} />
       <button type="button" class="button small" aria-label={texts.status.cancelJob(job.title)} onClick={job.cancel}>
@@ -95,6 +94,13 @@ function JobBar({ job }: { job: Job }) {
       </button>
     </div>
   );
+}
+
+/** How much there is to do may not be known; of what is one step, only its time is. */
+function countOf({ done, total, unit }: Job): string {
+  if (total > 0) return texts.status.count(done, total, unit);
+  if (unit === '') return '';
+  return done > 0 ? texts.status.countOnly(done, unit) : texts.status.preparing;
 }
 
 function PointerReadout({ state }: { state: State }) {

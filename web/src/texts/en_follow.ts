@@ -6,6 +6,8 @@ export const follow = {
   stopTitle: 'Stop following, and keep what was found (Shift+G)',
   job: 'Following the film',
   reading: 'Reading the film beside the frames that are set',
+  estimating: 'Estimating the constants of the film',
+  deciding: 'Looking at other poses of the film',
   looking: (component: string, frame: number) => `Looking for the ${component} in frame ${frame}`,
   notFound: (component: string) =>
     `The ${component} was not found: in no frame that was searched are edges all along its outline from any side. Click it in one frame, then Follow again.`,

@@ -19,6 +19,8 @@ const place = (frame: number) => ({ frameId: `f${frame}`, component: 'femur' as 
 
 /** A worker that finds the component in every frame but those it is told, ten to the right of the first given pose. */
 function worker(missing: readonly number[]) {
+  const asked: string[] = [];
+  let again: number | null = null;
   const begun: FollowInput[] = [];
   let input: FollowInput | null = null;
   let seen: number[] = [];
@@ -43,7 +45,7 @@ function worker(missing: readonly number[]) {
       return rest();
     },
     look: () => {
-      const frame = rest()!;
+      const frame = rest() ?? again!;
       seen.push(frame);
       return { pose: poseOf(10 + frame), next: rest() };
     },
@@ -57,6 +59,7 @@ function worker(missing: readonly number[]) {
     },
     seeSides: () => null,
     sides: () => null,
+    standsWith: () => again,
     stop: () => null,
     compare: ({ frames }: { readonly frames: readonly number[] }) => {
       compared = frames;
@@ -68,11 +71,12 @@ function worker(missing: readonly number[]) {
   let gate: { readonly frame: number; readonly then: () => void } | null = null;
   const call = async (method: string, given: unknown) => {
     const frame = method === 'look' ? rest() : null;
+    asked.push(method);
     const answer = methods[method]!(given as never);
     if (gate && frame === gate.frame) gate.then();
     return answer;
   };
-  return { begun, call, stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
+  return { begun, asked, call, doAgain: (frame: number) => void (again = frame), stopAt: (frame: number, then: () => void) => void (gate = { frame, then }) };
 }
 
 function bench(missing: readonly number[] = []) {
@@ -111,7 +115,7 @@ function bench(missing: readonly number[] = []) {
   };
   const follower = new Follower({ store, studio } as never, workers as never, first, film);
   const xs = () => frames.map(({ id }) => chosenCandidate(cellOf(store.doc, id, 'femur'))?.pose.x ?? null);
-  return { store, follower, femur, xs, searched, discoveries, beside, taken };
+  return { store, follower, femur, tibia: workers.tibia, xs, searched, discoveries, beside, taken };
 }
 
 describe('following', () => {
@@ -232,6 +236,19 @@ describe('following', () => {
     expect(chosenCandidate(cellOf(store.doc, 'f0', 'tibia'))).toBeNull();
     expect(cellOf(store.doc, 'f2', 'femur').result).toBe(judged);
     expect(xs()).toEqual([1, 11, 12, 13, 14, 15]);
+  });
+
+  it('chooses the sides of both at once, and the tibia’s again where the femur tells otherwise afterwards', async () => {
+    const { store, follower, femur, tibia } = bench();
+    store.perform(setModel('tibia', { name: 't', sha256: 't' }));
+    store.perform(setPoseByHand(place(0), poseOf(0)));
+    store.perform(setPoseByHand({ frameId: 'f0', component: 'tibia' }, poseOf(0)));
+    tibia.doAgain(3);
+    await follower.follow();
+    const from = (asked: readonly string[]) => asked.slice(asked.indexOf('seeSides') + 1);
+    // The femur as it was followed, and as it is in the end.
+    expect(from(femur.asked)).toEqual(['conclude', 'sides', 'conclude', 'depths', 'conclude', 'compare', 'conclude']);
+    expect(from(tibia.asked)).toEqual(['sides', 'standsWith', 'look', 'depths', 'conclude', 'compare', 'conclude']);
   });
 
   it('keeps what there is when it is stopped', async () => {

@@ -7,7 +7,7 @@ use core::mem::take;
 use core::ops::Range;
 
 use super::task::Task;
-use super::{Following, Phase};
+use super::{Following, KnownFemur, Phase};
 use crate::follow::cell::{Anchor, Cell};
 use crate::follow::elsewhere::elsewhere;
 use crate::follow::false_minimum::{elsewhere_margins, leaves_less, runs_elsewhere};
@@ -17,7 +17,6 @@ use crate::follow::side_samples::{
 };
 use crate::follow::sides::{Rival, SideEvidence, SideStep, choose_sides};
 use crate::follow::subject::Subject;
-use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineMemory};
 
 impl Following {
@@ -54,18 +53,31 @@ impl Following {
 
     pub(super) fn begin_other_sides(&mut self) {
         self.samples.sort_by_key(|sample| sample.frame);
-        let femur = self.femur.as_ref();
-        let tilt = |frame: usize, pose: &Pose| femur.and_then(|femur| femur.tilt_deg(frame, pose));
-        let evidence = self.samples.iter();
-        let evidence = evidence.map(|sample| sample.evidence(|pose| tilt(sample.frame, pose)));
-        let evidence: Vec<SideEvidence> = evidence.collect();
-        self.steps = vec![SideStep::default(); evidence.len()];
-        choose_sides(&evidence, &mut self.steps);
+        self.steps = chosen(&self.samples, self.femur.as_ref());
+        self.choices
+            .push((self.samples.clone(), self.steps.clone()));
         let runs: Vec<(Range<usize>, Anchor)> =
             runs_to_go_over(&self.samples, &self.steps, self.cells.len()).collect();
         for (run, anchor) in runs {
             self.go_over(&self.within(&run), &anchor);
         }
+    }
+
+    /// Whether the same sides are chosen with a femur of which more is known by now: what was done then stands, and its margins become
+    /// those of that femur. Where they are not, nothing changes: the work is to be done again from before [`Self::choose_sides`].
+    pub fn stands_with(&mut self, femur: Option<KnownFemur>) -> bool {
+        let mut last = None;
+        for (samples, steps) in &self.choices {
+            let again = chosen(samples, femur.as_ref());
+            let same = |(one, other): (&SideStep, &SideStep)| one.side == other.side;
+            if !again.iter().zip(steps).all(same) {
+                return false;
+            }
+            last = Some(again);
+        }
+        self.steps = last.unwrap_or_default();
+        self.femur = femur;
+        true
     }
 
     /// The frames that were seen from both sides are to be seen from elsewhere too, but those that were.
@@ -148,6 +160,17 @@ impl Following {
         };
         elsewhere.into_iter().enumerate().map(margin).collect()
     }
+}
+
+/// The side of each frame that was seen from both, with the femur where that is known.
+fn chosen(samples: &[SideSample], femur: Option<&KnownFemur>) -> Vec<SideStep> {
+    let evidence = samples.iter().map(|sample| {
+        sample.evidence(|pose| femur.and_then(|femur| femur.tilt_deg(sample.frame, pose)))
+    });
+    let evidence: Vec<SideEvidence> = evidence.collect();
+    let mut steps = vec![SideStep::default(); evidence.len()];
+    choose_sides(&evidence, &mut steps);
+    steps
 }
 
 /// Of some frames those that are to be seen: samples of a pose that is no more are dropped, the others stand.

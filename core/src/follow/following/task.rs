@@ -19,7 +19,7 @@ use crate::pose::Pose;
 use crate::refine::{ImageTarget, RefineError, RefineMemory};
 
 /// A piece of work.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Task {
     /// A pose that the caller gave is looked at in its frame.
     Given {
@@ -137,7 +137,7 @@ pub(super) fn given(
 }
 
 /// From an anchor to the end of the film, or of a run of frames.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Walk {
     way: Way,
     to: usize,
@@ -161,7 +161,7 @@ impl Walk {
 
 /// The frames between two anchors: followed from both to the middle, and over all of them from both where they do not meet
 /// there.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Span {
     /// The first frame between.
     first: usize,

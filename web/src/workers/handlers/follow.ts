@@ -78,10 +78,10 @@ serve<FollowProtocol>({
     return working().wanted() ?? null;
   },
   sides: ({ femurs }) => {
-    const [poses, axes, own] = femurs ? numbers(femurs) : [NONE, NONE, NONE];
-    working().chooseSides(poses, axes, own);
+    working().chooseSides(...numbers(femurs));
     return working().wanted() ?? null;
   },
+  standsWith: ({ femurs }) => (working().standsWith(...numbers(femurs)) ? null : (working().wanted() ?? null)),
   compare: ({ frames }) => {
     working().compareSides(Uint32Array.from(frames));
     return working().wanted() ?? null;
@@ -149,7 +149,9 @@ function posed(numbers: Float64Array | undefined): PoseNumbers | null {
   return numbers ? poseFrom(numbers) : null;
 }
 
-function numbers({ poses, axes, own }: Femurs): readonly [Float64Array, Float64Array, Float64Array] {
+function numbers(femurs: Femurs | null): readonly [Float64Array, Float64Array, Float64Array] {
+  if (!femurs) return [NONE, NONE, NONE];
+  const { poses, axes, own } = femurs;
   const all = poses.flatMap((pose) => (pose ? poseArray(pose) : NO_POSE));
   return [Float64Array.from(all), numbersOf(axes), numbersOf(own)];
 }

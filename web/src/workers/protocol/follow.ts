@@ -24,6 +24,11 @@ export interface FollowProtocol {
   seeSides: { input: null; output: number | null; progress: never };
   /** Begins to choose the side of the mirror; gives the first frame that is to be looked at again. */
   sides: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
+  /**
+   * Once all was done with what was known of the femur then: the first frame that is to be looked at where more is known of it now, and that
+   * tells another side; null where all stands.
+   */
+  standsWith: { input: { readonly femurs: Femurs | null }; output: number | null; progress: never };
   /** Begins to look at frames from the other side of the mirror; gives the first one. */
   compare: { input: { readonly frames: readonly number[] }; output: number | null; progress: never };
   /** Ends the work before all is done. */
