@@ -9,12 +9,17 @@ import * as tracing from './support/tracing.mjs';
 /** @typedef {import('playwright-core').Page} Page */
 
 const FRAMES = 8;
+/** Calls of the workers that follow, beside the one that finds poses. */
+const OF_FOLLOWERS = ['begin', 'look', 'seeSides', 'sides', 'conclude', 'openSearch', 'readFilm', 'lookFilm'];
+/** The frame may have to be decoded; one call may be under way. */
+const MOST_BEFORE_A_CLICK = 2;
 
 if (!IN_FIREFOX) {
   pageTest('one click each, then the film', async (page, t) => {
     await tracing.openDemonstration(page);
     await step(page, t, 'one click is the tool in hand, and the card leads on', () => twoClicks(page));
     await step(page, t, 'cells fill while the film is followed, as one step back', () => followed(page, t));
+    await step(page, t, 'a click while it is followed is answered at once', () => clickedMeanwhile(page, t));
   });
 
   pageTest('a component that nobody clicked is looked for', async (page, t) => {
@@ -83,6 +88,41 @@ async function followed(page, t) {
   await until(() => panel.cells(page), (cells) => count(cells, /: empty/) === 2 * (FRAMES - 1), 'all of it to be gone');
   await page.keyboard.press('Control+y');
   await until(() => panel.cells(page), (cells) => count(cells, /: followed(,|$)/) === 2 * (FRAMES - 1), 'all of it to be back');
+}
+
+/** Nothing of the film goes before a click: the worker that finds poses gets it next, and answers before the film is followed. @param {Page} page @param {import('node:test').TestContext} t */
+async function clickedMeanwhile(page, t) {
+  await page.keyboard.press('Control+z');
+  await until(() => panel.cells(page), (cells) => cells.filter((cell) => /: empty/.test(cell)).length === 2 * (FRAMES - 1), 'all of it to be gone');
+  for (let frame = FRAMES; frame > 5; frame--) await page.keyboard.press('d');
+  await atRest(page);
+  const stage = new Stage(page);
+  await stage.learn();
+  const asked = await callsOfWorkers(page);
+  await page.keyboard.press('Shift+G');
+  await until(() => panel.cells(page), (cells) => cells.some((cell) => /: followed so far/.test(cell)), 'cells to fill');
+  const before = (await asked()).length;
+  await stage.click(tracing.insideOf(await trueOutline('femur', 5)));
+  await until(() => panel.cells(page), (cells) => cells.some((cell) => /^Frame 5, femur: posed/.test(cell)), 'the click to be answered');
+  const since = (await asked()).slice(before).filter((method) => !OF_FOLLOWERS.includes(method));
+  t.diagnostic(`calls from the click to its pose: ${since.join(', ')}`);
+  assert(since.slice(0, 1 + MOST_BEFORE_A_CLICK).includes('oneClick'), since.join(', '));
+  assert(await page.getByRole('progressbar', { name: /film/ }).count(), 'the film is still followed');
+  await until(() => panel.cells(page), (cells) => cells.filter((cell) => /: followed(,|$)/.test(cell)).length === 2 * (FRAMES - 1) - 1, 'the film to be followed');
+  assert((await panel.cells(page)).some((cell) => /^Frame 5, femur: posed/.test(cell)), 'what a person set stays');
+}
+
+/** Calls that workers get from now on, in their order. @param {Page} page @returns {Promise<() => Promise<string[]>>} */
+async function callsOfWorkers(page) {
+  await page.evaluate(() => {
+    const [own, calls] = [Worker.prototype.postMessage, /** @type {string[]} */ ([])];
+    Worker.prototype.postMessage = /** @this {Worker} @param {any} message @param {any} transfer */ function (message, transfer) {
+      if (message?.type === 'call') calls.push(message.method);
+      own.call(this, message, transfer);
+    };
+    Object.assign(window, { callsOfWorkers: calls });
+  });
+  return () => page.evaluate(() => /** @type {any} */ (window).callsOfWorkers);
 }
 
 /** @param {Page} page @param {import('node:test').TestContext} t */

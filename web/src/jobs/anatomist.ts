@@ -39,7 +39,7 @@ export class Anatomist {
     if (!mesh) return;
     this.#found.set(key, null);
     try {
-      const told = await this.#worker.call('axes', { component, mesh });
+      const told = await this.#worker.call('axes', { component, mesh }, { lane: 'idle' });
       this.#found.set(key, { ...told, from: 'shape' });
     } catch (error) {
       // A shape that cannot be looked at tells nothing; what was called off is asked again.

@@ -246,7 +246,7 @@ export class FilmReader {
   async #profilesOf({ component, frameId, pose }: Witness): Promise<Float32Array<ArrayBuffer>> {
     try {
       const input = await onFrameInput(this.#services, { component, frameId });
-      return await this.#poses.call('filmProfiles', { ...input, pose }, { transfer: [input.frame.pixels.buffer] });
+      return await this.#poses.call('filmProfiles', { ...input, pose }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
     } catch (error) {
       if (error instanceof Aborted) throw error;
       return new Float32Array();
@@ -287,7 +287,7 @@ export class FilmReader {
     const misfits = misfitsBeside(this.#services.store.doc, place);
     const { chosen } = result;
     const candidates = result.candidates.map(({ pose, support = null }) => ({ pose, support }));
-    const answers = await this.#poses.call('correct', { ...input, candidates, chosen, misfits }, { transfer: [input.frame.pixels.buffer] });
+    const answers = await this.#poses.call('correct', { ...input, candidates, chosen, misfits }, { lane: 'film', transfer: [input.frame.pixels.buffer] });
     if (!answers.some(({ from }) => from === chosen) || !input.film) return void this.#refused.add(result);
     const film = input.film.slice(0, CONSTANTS);
     this.#services.store.amend((doc) => {

@@ -101,12 +101,12 @@ export class JointReader {
   async #workOut(asked: JointAsked, key: string, frames: readonly JointFrame[]): Promise<void> {
     if (this.#open?.key !== key) {
       this.#open = null;
-      this.#open = { key, facts: await this.#worker.call('openJoint', this.#models(asked)) };
+      this.#open = { key, facts: await this.#worker.call('openJoint', this.#models(asked), { lane: 'film' }) };
     }
     if (this.#key !== key) this.#known.clear();
     this.#key = key;
     const uncertain = ({ pose, deviations }: Candidate) => ({ pose, deviations });
-    const { numbers, impossible } = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })));
+    const { numbers, impossible } = await this.#worker.call('joint', frames.map(({ femur, tibia }) => ({ femur: uncertain(femur), tibia: uncertain(tibia) })), { lane: 'film' });
     const width = numbers.length / frames.length;
     frames.forEach(({ id, femur, tibia }, at) => {
       this.#known.set(id, { femur, tibia, row: numbers.subarray(at * width, (at + 1) * width), impossible: impossible[at] ?? null });

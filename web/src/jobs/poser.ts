@@ -217,7 +217,10 @@ export class Poser {
       const input = { component, ...flatten(outline), camera };
       const around = surroundingsOf(this.#store.doc, frame.id, component);
       const before = this.#followable(task);
-      const match = await (method === 'match' ? this.#worker.call('match', { ...input, before }) : this.#worker.call('refine', { ...input, around }));
+      const isShown = outline === this.#shownOutline;
+      const match = await (method === 'match'
+        ? this.#worker.call('match', { ...input, before }, { lane: isShown ? 'live' : 'film' })
+        : this.#worker.call('refine', { ...input, around }, { lane: isShown ? 'shown' : 'film' }));
       this.#take(task, match);
     } catch (error) {
       if (!(error instanceof Aborted) && !this.#isTriedAgain(error, outline)) this.#refuse(task, sentenceOf(error));

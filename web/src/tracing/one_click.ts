@@ -70,8 +70,9 @@ export class OneClick {
     await asJob(store, job, async (report) => {
       // Without the library that is being built there would be an outline and no pose.
       await unlessAborted(Promise.all([before, libraryReady(store, place.component)]), abort.signal);
-      // What the clicks before tell of the film tells a tray's outer rim from its inner one.
-      await unlessAborted(this.#film.ready(), abort.signal);
+      // What the clicks before tell of the film tells a tray's outer rim from its inner one. While it is followed it is told.
+      const isTold = store.ui.following && filmNumbers(store.doc, place.component) !== null;
+      if (!isTold) await unlessAborted(this.#film.ready(), abort.signal);
       await this.#find(asked, report);
     });
   }

@@ -10,7 +10,16 @@ export interface WorkerPort {
   terminate(): void;
 }
 
+/**
+ * What a call is for; those that wait go in this order. A hand waits for the first, an eye for the second, the whole film for the third, and
+ * nobody for the last.
+ */
+const LANES = ['live', 'shown', 'film', 'idle'] as const;
+export type Lane = (typeof LANES)[number];
+
 export interface CallOptions<Progress> {
+  /** `shown` where nobody says. */
+  readonly lane?: Lane;
   readonly signal?: AbortSignal | undefined;
   readonly transfer?: Transferable[];
   readonly onProgress?: (progress: Progress) => void;
@@ -35,7 +44,7 @@ export class Aborted extends Error {
 export class WorkerStopped extends Error {}
 
 /**
- * Calls into a worker, one at a time in the order asked. A call aborted in the queue never reaches the worker; one
+ * Calls into a worker, one at a time: lane by lane, in each in the order asked. A call aborted in the queue never reaches the worker; one
  * that is running is told, and what it still sends is dropped.
  */
 export class Bridge<P extends Protocol<P>> {
@@ -77,8 +86,9 @@ export class Bridge<P extends Protocol<P>> {
 
   #sendNext(): void {
     if (this.#running) return;
-    const call = this.#queue.shift();
+    const call = this.#queue.reduce<Waiting | null>((first, one) => (first && laneOf(first) <= laneOf(one) ? first : one), null);
     if (!call) return;
+    this.#queue = this.#queue.filter((other) => other !== call);
     const id = ++this.#lastId;
     this.#running = { id, call };
     const { method, input, options } = call;
@@ -135,4 +145,8 @@ export class Bridge<P extends Protocol<P>> {
     this.#queue = [];
     for (const call of calls) call.reject(error);
   }
+}
+
+function laneOf({ options: { lane = 'shown' } }: Waiting): number {
+  return LANES.indexOf(lane);
 }

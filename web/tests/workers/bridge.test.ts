@@ -48,6 +48,19 @@ describe('bridge', () => {
     expect(await second).toBe(20);
   });
 
+  it('lets those before whom a hand or an eye waits go first, and others in the order asked', async () => {
+    const { bridge, ports } = bench();
+    const lanes = ['film', 'idle', 'film', 'shown', undefined, 'live'] as const;
+    const calls = lanes.map((lane, at) => bridge.call('echo', at, lane ? { lane } : {}));
+    for (let id = 1; id <= lanes.length; id++) {
+      ports[0]?.answer({ type: 'done', id, output: id });
+      await Promise.resolve();
+    }
+    await Promise.all(calls);
+    // The first was under way before the others came.
+    expect(ports[0]?.sent.map((message) => message.type === 'call' && message.input)).toEqual([0, 5, 3, 4, 2, 1]);
+  });
+
   it('goes on after a call that could not be posted', async () => {
     const { bridge, ports } = bench();
     const first = bridge.call('echo', 1);
