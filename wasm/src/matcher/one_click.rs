@@ -22,7 +22,7 @@ use crate::choice::{Chosen, Surroundings};
 use crate::film::film_model;
 use crate::found::Match;
 use crate::hidden::{hide, with_mask};
-use fluoropose_page::calibration::camera;
+use fluoropose_page::calibration::calibration_of;
 use fluoropose_page::error::sentence;
 use fluoropose_page::frame_image::FrameImage;
 
@@ -57,6 +57,8 @@ pub struct OneClick {
     /// What the film makes of the component, and the largest usual misfit on it, pixels.
     known: Option<FilmModel>,
     usual: Option<f64>,
+    /// Distance of a library that nobody told, mm, where the calibration does not tell it either.
+    untold: Option<f64>,
 }
 
 #[wasm_bindgen]
@@ -75,9 +77,12 @@ impl OneClick {
     ) -> Result<OneClick, JsError> {
         let (width, height) = film.size();
         let prompt = prompt_of(prompt)?;
+        let (calibration, camera) = calibration_of(calibration, width as u32, height as u32)?;
+        let tells = calibration.principal_distance().is_some();
         Ok(Self {
+            untold: (!tells).then(|| calibration.expected_distance()),
             film: film.shared(),
-            camera: camera(calibration, width as u32, height as u32)?,
+            camera,
             polarity: match bright_implant {
                 Some(true) => Polarity::BrightImplant,
                 Some(false) => Polarity::DarkImplant,
@@ -148,8 +153,10 @@ impl OneClick {
     /// A sentence about why there is no outline.
     pub fn step(&mut self, matcher: &mut Matcher) -> Result<bool, JsError> {
         matcher.with_component(&self.camera, |component, workspace, refine| {
-            let fresh = || Work::new(self.prompt, &self.camera, Some(component));
-            let mut work = self.work.take().map_or_else(fresh, Ok).map_err(sentence)?;
+            let mut work = match self.work.take() {
+                Some(work) => work,
+                None => begun(self.prompt, &self.camera, self.untold, component)?,
+            };
             let mut memory = self
                 .buffers
                 .borrow(&work.needs(&self.camera), workspace, refine);
@@ -305,6 +312,21 @@ impl OneClick {
         self.work = Some(work);
         done
     }
+}
+
+/// The work for a component; farther away too, where its library is at a distance that was `untold`.
+fn begun(
+    prompt: Prompt,
+    camera: &Camera,
+    untold: Option<f64>,
+    component: &Component<'_>,
+) -> Result<Work, JsError> {
+    let work = Work::new(prompt, camera, Some(component)).map_err(sentence)?;
+    let distance = component.library.info().distance;
+    Ok(match untold {
+        Some(untold) if (untold - distance).abs() < 1.0 => work.or_farther(camera, component),
+        _ => work,
+    })
 }
 
 impl Matcher {

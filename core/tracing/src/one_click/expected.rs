@@ -7,6 +7,8 @@ use fluoropose::math::sqrt;
 /// Nearest and farthest distance of the object from the focus, as multiples of the library's. A camera matrix tells no distance: the
 /// library is then one for a metre, and knees are filmed from 0.7 to 1.45 m.
 const DISTANCES: [f64; 2] = [0.7, 1.45];
+/// The same one level farther: X-ray tubes stand two metres away at most.
+const FARTHER: [f64; 2] = [1.45, 2.3];
 /// Least and greatest area of a region, as multiples of a silhouette's area: what touches the implant may be part of it.
 const REGION: [f64; 2] = [0.4, 4.0];
 /// The same of a region whose border may be the implant's: what is larger is a limb or the field, whose borders are sharper.
@@ -29,6 +31,15 @@ pub(super) struct Expected {
 
 impl Expected {
     pub(super) fn of(component: &Component<'_>, camera: &Camera) -> Self {
+        Self::between(DISTANCES, component, camera)
+    }
+
+    /// Farther away than [`Self::of`] goes.
+    pub(super) fn farther(component: &Component<'_>, camera: &Camera) -> Self {
+        Self::between(FARTHER, component, camera)
+    }
+
+    fn between(distances: [f64; 2], component: &Component<'_>, camera: &Camera) -> Self {
         let info = component.library.info();
         let [fx, fy] = camera.focal();
         let unit = fx * fy / (info.focal * info.focal);
@@ -37,8 +48,8 @@ impl Expected {
             let area = f64::from(component.library.record(view).area) * unit;
             (least, most) = (least.min(area), most.max(area));
         }
-        let [near, far] = DISTANCES;
-        let depths = DISTANCES.map(|multiple| multiple * info.distance);
+        let [near, far] = distances;
+        let depths = distances.map(|multiple| multiple * info.distance);
         Self {
             areas: [
                 REGION[0] * least / (far * far),

@@ -33,22 +33,24 @@ impl OneClick {
     #[must_use]
     pub fn progress(&self) -> Progress {
         let passes = self.passes() as f64;
+        let poses = |part: f64| Progress::Poses(self.done + (1.0 - self.done) * part);
         let done = |pass: usize, fraction: f64| match self.round {
-            0 => Progress::Regions(0.5 * (pass as f64 + fraction) / passes),
-            _ => Progress::Poses(0.58),
+            0 => {
+                let part = 0.5 * (pass as f64 + fraction) / passes;
+                Progress::Regions(self.done + (1.0 - self.done) * part)
+            }
+            _ => poses(0.58),
         };
         let left = |count: usize, of: usize| count as f64 / of as f64;
         match self.stage {
             Stage::Preprocess(pass) => done(pass, 0.0),
             Stage::Match(pass) => done(pass, 0.7 - 0.6 * left(self.regions.len(), REGIONS)),
             Stage::Score(pass) => done(pass, 1.0 - 0.3 * left(self.located.len(), LOCATED)),
-            Stage::Refine(start) => {
-                Progress::Poses(0.5 + 0.08 * (self.round as f64 + left(start, STARTS)))
-            }
-            Stage::Narrow => Progress::Poses(0.58),
-            Stage::Around(_) => Progress::Poses(0.5 + 0.08 * self.round as f64),
-            Stage::Beyond(_) => Progress::Poses(0.85),
-            Stage::Mirror(_) => Progress::Poses(0.9),
+            Stage::Refine(start) => poses(0.5 + 0.08 * (self.round as f64 + left(start, STARTS))),
+            Stage::Narrow => poses(0.58),
+            Stage::Around(_) => poses(0.5 + 0.08 * self.round as f64),
+            Stage::Beyond(_) => poses(0.85),
+            Stage::Mirror(_) => poses(0.9),
             Stage::Done => Progress::Done,
         }
     }
@@ -135,7 +137,7 @@ impl OneClick {
                 if self.mirror(at, observation, component, memory)? {
                     Stage::Mirror(at + 1)
                 } else {
-                    self.end()?
+                    self.end(observation)?
                 }
             }
             Stage::Done => Stage::Done,
@@ -188,13 +190,14 @@ impl OneClick {
         self.starts.get(at).copied().filter(worth)
     }
 
-    fn end(&mut self) -> Result<Stage, OneClickError> {
+    fn end(&mut self, observation: &Observation<'_>) -> Result<Stage, OneClickError> {
         self.answers
             .retain(|answer| answer.score > 0.0 && answer.support.fraction >= LEAST_FRACTION);
-        match self.answers.first() {
-            Some(_) => Ok(Stage::Done),
-            None if self.sharpest.is_none() => Err(OneClickError::NoRegion),
-            None => Err(OneClickError::NoFit),
+        match self.answers.is_empty() {
+            false => Ok(Stage::Done),
+            true if self.begin_otherwise(observation.camera)? => Ok(Stage::Preprocess(0)),
+            true if self.sharpest.is_none() => Err(OneClickError::NoRegion),
+            true => Err(OneClickError::NoFit),
         }
     }
 }

@@ -29,6 +29,8 @@ pub(super) const READINGS: [(usize, bool); 3] = [(2, false), (8, false), (4, tru
 pub(super) const SQUARE: f64 = 1.2;
 /// Radii of the discs that cut bridges, as fractions of the expected size.
 pub(super) const RADII: [f64; 4] = [0.0, 0.03, 0.06, 0.1];
+/// What was done in vain counts so much of the work, 0 to 1: all before its end ([`super::Progress`]).
+const IN_VAIN: f64 = 0.9;
 /// The greatest number of regions of a preprocessing pass.
 pub(super) const REGIONS: usize = RADII.len() * CHOSEN;
 
@@ -60,6 +62,10 @@ pub(super) enum Stage {
 pub struct OneClick {
     pub(super) prompt: Prompt,
     pub(super) expected: Expected,
+    /// What is expected where nothing is found so.
+    pub(super) otherwise: Option<Expected>,
+    /// Part of the work that was done in vain, 0 to 1.
+    pub(super) done: f64,
     pub(super) window: Window,
     /// Pixels of the first window, which is the largest.
     pixels: usize,
@@ -103,12 +109,44 @@ impl OneClick {
             || Expected::anything(camera),
             |component| Expected::of(component, camera),
         );
+        Self::expecting(expected, prompt, camera)
+    }
+
+    /// Where nothing is found the component is looked for once more, farther away: for a library at a distance that nobody told.
+    #[must_use]
+    pub fn or_farther(mut self, camera: &Camera, component: &Component<'_>) -> Self {
+        self.otherwise = Some(Expected::farther(component, camera));
+        self
+    }
+
+    /// Begins anew with what is expected otherwise; whether there is anything.
+    pub(super) fn begin_otherwise(&mut self, camera: &Camera) -> Result<bool, OneClickError> {
+        let Some(expected) = self.otherwise.take() else {
+            return Ok(false);
+        };
+        let (pixels, again) = (self.pixels, Self::expecting(expected, self.prompt, camera)?);
+        *self = Self {
+            // The window is no larger, and memory was borrowed for the first.
+            pixels,
+            done: IN_VAIN,
+            ..again
+        };
+        Ok(true)
+    }
+
+    fn expecting(
+        expected: Expected,
+        prompt: Prompt,
+        camera: &Camera,
+    ) -> Result<Self, OneClickError> {
         let window = prompt.window(camera, expected.extent)?;
         Ok(Self {
             pixels: window.pixels(),
             window,
             prompt,
             expected,
+            otherwise: None,
+            done: 0.0,
             stage: Stage::Preprocess(0),
             current: None,
             seeds: Vec::new(),

@@ -52,14 +52,14 @@ fn camera() -> Camera {
     Camera::new(SIDE, SIDE, [1800.0, 1800.0], [192.0, 192.0]).expect("valid")
 }
 
-fn library(model: Model<'_>) -> Vec<u8> {
+fn library(model: Model<'_>, distance_mm: f64) -> Vec<u8> {
     let axis = ViewAxis {
         first: -8.0,
         step: 2.0,
         count: 9,
     };
     let (grid, canonical) = (ViewGrid { x: axis, y: axis }, CanonicalSpec::default());
-    let builder = Builder::new(model, camera(), canonical, grid, 1000.0).expect("possible");
+    let builder = Builder::new(model, camera(), canonical, grid, distance_mm).expect("possible");
     let mut bytes = std::vec![0; builder.bytes_needed()];
     let mut scratch = ViewScratch {
         projected: &mut std::vec![Projected::default(); builder.projected_needed()],
@@ -143,17 +143,24 @@ struct Bench {
     vertices: Vec<[f32; 3]>,
     triangles: Vec<[u32; 3]>,
     library: Vec<u8>,
+    /// Whether it is looked for farther away too.
+    farther: bool,
 }
 
 impl Bench {
     fn new() -> Self {
+        Self::with_library_at(1000.0)
+    }
+
+    fn with_library_at(distance_mm: f64) -> Self {
         let (vertices, triangles) = model();
         let model = Model::from_triangles(&vertices, &triangles).expect("valid");
-        let library = library(model);
+        let library = library(model, distance_mm);
         Self {
             vertices,
             triangles,
             library,
+            farther: false,
         }
     }
 
@@ -198,6 +205,9 @@ impl Bench {
         };
         let component = with_component.then_some(&component);
         let mut work = OneClick::new(prompt, &camera, component)?;
+        if let Some(component) = component.filter(|_| self.farther) {
+            work = work.or_farther(&camera, component);
+        }
         let (needs, locating) = (work.needs(&camera), workspace_needed(&library));
         let mut memory = OneClickMemory {
             grey: &mut std::vec![3; needs.pixels + reserve],
@@ -358,6 +368,30 @@ fn longer_memory_gives_the_same() {
         assert_eq!((a.answers(), a.starts()), (b.answers(), b.starts()));
         assert_eq!(region, other);
     }
+}
+
+/// The implant lies 1.6 times as far away as its library.
+#[test]
+fn what_nothing_near_explains_is_looked_for_farther_away() {
+    let mut bench = Bench::with_library_at(650.0);
+    let pixels = drawn(&bench.model(), false);
+    for prompt in prompts() {
+        bench.farther = false;
+        let near = bench.work(&pixels, prompt, Polarity::DarkImplant, true);
+        let wrong = |(work, _): (OneClick, Vec<Word>)| {
+            let found = work.answers()[0].refined.pose;
+            geodesic_deg(&found.rotation, &pose().rotation) > 2.0
+        };
+        assert!(near.map_or(true, wrong), "{prompt:?}");
+        bench.farther = true;
+        let found = bench.work(&pixels, prompt, Polarity::DarkImplant, true);
+        let (work, _) = found.expect("an answer");
+        let turn = geodesic_deg(&work.answers()[0].refined.pose.rotation, &pose().rotation);
+        assert!(turn < 0.7, "{prompt:?}: {turn} deg");
+    }
+    let flat = std::vec![700u16; SIDE * SIDE];
+    let error = bench.work(&flat, prompts()[0], Polarity::DarkImplant, true);
+    assert_eq!(error.err(), Some(OneClickError::NoRegion));
 }
 
 #[test]

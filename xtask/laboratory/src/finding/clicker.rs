@@ -42,6 +42,7 @@ pub struct Clicker<'l> {
     camera: Camera,
     own: OneClickBuffers,
     finder: FinderBuffers,
+    farther: bool,
 }
 
 impl<'l> Clicker<'l> {
@@ -55,10 +56,18 @@ impl<'l> Clicker<'l> {
             planes: symmetry_planes(mesh.mesh()).to_vec(),
             own: OneClickBuffers::default(),
             finder: FinderBuffers::default(),
+            farther: false,
             library,
             mesh,
             camera,
         })
+    }
+
+    /// From now on what a click does not find is looked for farther away than the library serves ([`OneClick::or_farther`]).
+    #[must_use]
+    pub fn or_farther(mut self) -> Self {
+        self.farther = true;
+        self
     }
 
     /// The model's planes of near-symmetry.
@@ -90,6 +99,9 @@ impl<'l> Clicker<'l> {
             planes: &self.planes,
         };
         let mut work = OneClick::new(prompt, &self.camera, Some(&component))?;
+        if self.farther {
+            work = work.or_farther(&self.camera, &component);
+        }
         let kernels = fluoropose_kernels::fastest();
         let finder = self.finder.borrow(&component, &self.camera, kernels);
         let needs = work.needs(&self.camera);

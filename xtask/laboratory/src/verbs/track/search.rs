@@ -35,13 +35,21 @@ pub(super) fn clicked(
     run.step((part, frame), "clicked into", &key, || {
         let at = Point::new(place[0], place[1]);
         let mut found: Option<FramePose> = None;
-        for (number, distance) in part.distances().into_iter().enumerate() {
+        let distances = part.distances();
+        for (number, &distance) in distances.iter().enumerate() {
             let bytes = part.library(number, distance)?;
             let mut clicker = Clicker::open(bytes, part.model(), part.camera)?;
             let answers = answers(run, part, &mut clicker, frame, at)?;
             let one = best(run, part, frame, &answers)?;
             let better = |one: &FramePose| found.is_none_or(|found| one.score() > found.score());
             found = one.filter(better).or(found);
+        }
+        // Where nobody told a distance the farthest library is not the last word.
+        if let (None, [farthest, _, ..]) = (&found, distances.as_slice()) {
+            let bytes = part.library(0, *farthest)?;
+            let mut clicker = Clicker::open(bytes, part.model(), part.camera)?.or_farther();
+            let answers = answers(run, part, &mut clicker, frame, at)?;
+            found = best(run, part, frame, &answers)?;
         }
         Ok(found)
     })
