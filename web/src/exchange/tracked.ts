@@ -1,4 +1,5 @@
 import { strToU8, zipSync } from 'fflate';
+import { CONSTANTS, filmNumbers } from '../document/film';
 import { checkState, markOf } from '../document/marks';
 import { methodOf, tableOf } from '../document/session/table';
 import { type Candidate, type Cell, cellOf, chosenCandidate, type Doc } from '../document/types';
@@ -29,7 +30,7 @@ export function zipOf(doc: Doc, jts: Readonly<Record<ComponentName, string>>): U
     [`${component}.jts`, jts[component]],
     [`${component}.covariances.csv`, covariancesOf(doc, component)],
   ]);
-  const texts = [...files, ['track.csv', statesOf(doc)]] as const;
+  const texts = [...files, ['track.csv', statesOf(doc)], ['film.csv', constantsOf(doc)]] as const;
   return zipSync(Object.fromEntries(texts.map(([name, text]) => [name, strToU8(text!)]))) as Uint8Array<ArrayBuffer>;
 }
 
@@ -49,6 +50,20 @@ function stateOf(cell: Cell, isChecked: boolean): readonly string[] {
 function numbersOf(candidate: Candidate | null): readonly (number | null)[] {
   return [candidate?.pose, candidate?.deviations].flatMap((numbers) => FIELDS.map((field) => numbers?.[field] ?? null));
 }
+
+/** The constants of the film as each component is seen on it, with one standard deviation of each; what is stated has none. */
+function constantsOf(doc: Doc): string {
+  const rows = COMPONENT_NAMES.flatMap((component) => {
+    const numbers = filmNumbers(doc, component);
+    if (!numbers) return [];
+    const constants = [0, 1, 2].flatMap((k) => [numbers[k]!, Math.sqrt(Math.max(0, numbers[CONSTANTS + 4 * k] ?? 0))]);
+    const [amount = 0, radius = 0] = numbers.slice(CONSTANTS + 9);
+    return [[component, ...constants, amount, radius]];
+  });
+  return tableOf([FILM_HEAD, ...rows]);
+}
+
+const FILM_HEAD = ['component', 'curvature_a_grey_value', 'sd_curvature', 'blur_px', 'sd_blur_px', 'attenuation_a_mm', 'sd_attenuation_a_mm', 'edges_enhanced', 'enhanced_within_px'];
 
 const SIX = [0, 1, 2, 3, 4, 5] as const;
 /** Numbers of the upper half of a covariance, and of what is the film's. */

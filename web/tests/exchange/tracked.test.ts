@@ -1,7 +1,8 @@
 import { strFromU8, unzipSync } from 'fflate';
 import { describe, expect, it } from 'vitest';
-import { addFrames, withCell } from '../../src/document/commands';
+import { addFrames, setModel, withCell } from '../../src/document/commands';
 import { bare } from '../../src/document/hand_poses';
+import { withKnownFilm } from '../../src/document/film';
 import { toggleChecked } from '../../src/document/marks';
 import { Store } from '../../src/document/store';
 import type { Candidate, Posed, Result } from '../../src/document/types';
@@ -45,10 +46,21 @@ describe('poses as the commands take them', () => {
 
   it('have whole covariances, and what of them is the film\u2019s where that is known', () => {
     const files = unzipSync(zipOf(film().doc, { femur: 'F', tibia: 'T' }));
-    expect(Object.keys(files)).toEqual(['femur.jts', 'femur.covariances.csv', 'tibia.jts', 'tibia.covariances.csv', 'track.csv']);
+    expect(Object.keys(files)).toEqual(['femur.jts', 'femur.covariances.csv', 'tibia.jts', 'tibia.covariances.csv', 'track.csv', 'film.csv']);
     const rows = (name: string) => strFromU8(files[name]!).trimEnd().split('\r\n').slice(1).map((row) => row.split(',').map(Number));
     expect(rows('femur.covariances.csv')).toEqual([[1, ...WHOLE, ...FILM], [2, ...WHOLE]]);
     expect(rows('tibia.covariances.csv')).toEqual([[1, ...WHOLE]]);
     expect(strFromU8(files['tibia.jts']!)).toBe('T');
+  });
+
+  it('have the constants of the film, with deviations where they were estimated', () => {
+    const store = film();
+    store.perform(setModel('femur', { name: 'f', sha256: 'f' }));
+    store.perform(setModel('tibia', { name: 't', sha256: 't' }));
+    const numbers = [0.01, 1.5, 0.2, 4, 0, 0, 0, 9, 0, 0, 0, 16, 0.8, 2.5, 60, 0.3];
+    const models = { femur: { of: 'f', numbers }, tibia: { of: 't', numbers: [0.01, 1.5, 0.3] } };
+    store.amend((doc) => withKnownFilm(doc, { words: '', stated: doc.film.stated, blur: 1.5, curved: 1, profiles: 9, models }));
+    const rows = strFromU8(unzipSync(zipOf(store.doc, { femur: 'F', tibia: 'T' }))['film.csv']!).split('\r\n');
+    expect(rows.slice(1)).toEqual(['femur,0.01,2,1.5,3,0.2,4,0.8,2.5', 'tibia,0.01,0,1.5,0,0.3,0,0,0', '']);
   });
 });

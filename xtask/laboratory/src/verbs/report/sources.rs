@@ -119,6 +119,7 @@ fn constants_of_film(table: &str) -> Vec<(String, String)> {
             sd_blur,
             attenuation,
             sd_attenuation,
+            ..,
         ] = numbers[..]
         else {
             return None;

@@ -78,7 +78,8 @@ fn write_study(folder: &Path) {
     let track = "frame,component,state,verdict,because,checked\n3,\"femur\",followed,good,\"fits\",1\n3,\"tibia\",doubtful,doubtful,\"a rim, perhaps\",0\n\
         5,femur,fixed,good,fits,1\r\n5,tibia,fixed,good,fits,1\r\n";
     std::fs::write(folder.join("track.csv"), track).unwrap();
-    let film = "component,and so on\n\"femur\",0.0062,0.001,1.4,0.07,1.83,0.18\n\"tibia\",odd\n";
+    let film =
+        "component,and so on\n\"femur\",0.0062,0.001,1.4,0.07,1.83,0.18,0.8,2.5\n\"tibia\",odd\n";
     std::fs::write(folder.join("film.csv"), film).unwrap();
     std::fs::write(
         folder.join("calibration.txt"),
