@@ -369,23 +369,25 @@ fn frames_that_are_asked_for_one_by_one_are_followed_alike() {
     let depths = femur.depths();
     assert_followed(&tibia.conclude(&depths), &tibiae, &ends);
     // With a femur of which less was known, and with one that leans so far that it tells the other side.
-    let leaning = |deg: f64| {
-        let turn = Pose::from(EulerPose {
-            x_rot_deg: deg,
-            ..EulerPose::default()
-        });
-        let lean = |pose: &Option<Pose>| pose.map(|pose| pose.compose(&turn));
-        KnownFemur {
-            poses: known.poses.iter().map(lean).collect(),
-            axes: known.axes,
-        }
-    };
     let tibia = follow(&tray, &tibiae, &[0], Some(known.clone()));
     for (deg, stands) in [(0.3, true), (-25.0, false)] {
-        let mut early = follow(&tray, &tibiae, &[0], Some(leaning(deg)));
+        let mut early = follow(&tray, &tibiae, &[0], Some(leaning(&known, deg)));
         assert_eq!(early.stands_with(Some(known.clone())), stands, "{deg}");
         let same = early.conclude(&depths) == tibia.conclude(&depths);
         assert_eq!(same, stands, "{deg}");
+    }
+}
+
+/// The femur turned about its model's x, degrees.
+fn leaning(femur: &KnownFemur, deg: f64) -> KnownFemur {
+    let turn = Pose::from(EulerPose {
+        x_rot_deg: deg,
+        ..EulerPose::default()
+    });
+    let lean = |pose: &Option<Pose>| pose.map(|pose| pose.compose(&turn));
+    KnownFemur {
+        poses: femur.poses.iter().map(lean).collect(),
+        axes: femur.axes,
     }
 }
 
