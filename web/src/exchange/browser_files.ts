@@ -28,8 +28,7 @@ export function download(parts: BlobPart[], name: string, type: string): void {
 export async function droppedFiles(transfer: DataTransfer): Promise<Located[]> {
   // Entries must be taken before anything is awaited: the transfer is emptied when the event ends.
   const entries = Array.from(transfer.items).map((item) => item.webkitGetAsEntry());
-  const loose = Array.from(transfer.files, located);
-  if (entries.every((entry) => entry === null)) return loose;
+  if (entries.every((entry) => entry === null)) return Array.from(transfer.files, located);
   const files = await Promise.all(entries.filter((entry) => entry !== null).map(filesOf));
   return files.flat();
 }

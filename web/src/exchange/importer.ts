@@ -7,6 +7,8 @@ import { framePoint } from '../geometry/points';
 import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import { bytesOf, type Incoming, textOf } from './incoming';
+import { lookedAt } from './reading';
+import type { Store } from '../document/store';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
 import { masksWorker } from '../workers/start';
 import type { MaskLabel, MaskPage } from '../workers/protocol/masks';
@@ -172,21 +174,18 @@ function byPath(a: string, b: string): number {
 // --- Recognising --------------------------------------------------------------------------------------------------
 
 /** Which of some images are masks. Cheap for frames: what is packed less than a mask would be is not looked at. */
-export async function masksAmong<F extends Incoming & { readonly head: Uint8Array<ArrayBuffer> }>(files: readonly F[]): Promise<ReadonlySet<F>> {
+export async function masksAmong<F extends Incoming & { readonly head: Uint8Array<ArrayBuffer> }>(store: Store, files: readonly F[]): Promise<ReadonlySet<F>> {
   const candidates = files.filter(({ head, blob }) => mayBeMask(head, blob.size));
-  const masks = new Set<F>();
-  if (candidates.length === 0) return masks;
+  if (candidates.length === 0) return new Set();
   const worker = masksWorker();
   try {
-    for (const file of candidates) {
-      // What cannot be decoded is a frame's trouble, and told there.
-      const labels = await worker.call('look', { bytes: await bytesOf(file.blob), name: file.name }).catch(() => null);
-      if (labels !== null) masks.add(file);
-    }
+    // What cannot be decoded is a frame's trouble, and told there.
+    const look = async ({ blob, name }: Incoming) => worker.call('look', { bytes: await bytesOf(blob), name }).catch(() => null);
+    const labels = await lookedAt(store, candidates, look);
+    return new Set(candidates.filter((_, index) => labels[index] !== null));
   } finally {
     worker.dispose();
   }
-  return masks;
 }
 
 /** So many bytes of a PNG tell its size. */

@@ -158,7 +158,7 @@ async function outlineFiles({ store }: Services, files: readonly Recognised[]): 
   const images = files.filter(({ kind }) => kind === 'frames');
   if (images.length === 0) return told;
   const { masksAmong } = await import('./importer');
-  const masks = await masksAmong(images);
+  const masks = await masksAmong(store, images);
   const frames = store.doc.frames.length + images.length - masks.size;
   const found = images.filter((file) => masks.has(file)).map((file): OutlineFile => ({ ...file, kind: 'mask' }));
   return frames === 0 ? told : [...told, ...found];
