@@ -6,6 +6,7 @@ import { rotationOf } from '../geometry/pose_motion';
 import { axesInWords, namedArrows } from '../results/axes_words';
 import { texts } from '../texts/texts';
 import { useApp } from '../commands/app';
+import { Icon } from '../controls/icons';
 import { placedModels } from '../stage/shading';
 import type { PlacedModel } from '../stage/three/models';
 import { useBesideFrame } from './beside';
@@ -52,8 +53,8 @@ export function Space({ state }: { state: State }) {
               {words.views[name]}
             </button>
           ))}
-          <button type="button" class="button small" aria-pressed={large} onClick={() => setLarge(!large)}>
-            {words.large}
+          <button type="button" class="button square small" aria-label={words.large} title={words.large} aria-pressed={large} onClick={() => setLarge(!large)}>
+            <Icon name="fit" />
           </button>
         </div>
         <p class="card-note" role="note">

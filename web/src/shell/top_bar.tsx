@@ -205,7 +205,10 @@ function Chip({ state, popover, label, text, missing, tint }: ChipProps) {
       title={texts.top.chip(label, text)}
       onClick={() => toggle(store, popover)}
     >
-      <span class="chip-label">{label}:</span>{' '}
+      <span class="chip-label">
+        {label}
+        <span class="chip-colon">:</span>
+      </span>{' '}
       <span class="chip-text">
         <span class="chip-head">{text.slice(0, -TAIL)}</span>
         <span class="chip-tail">{text.slice(-TAIL)}</span>

@@ -102,7 +102,9 @@ function Rival({ index, candidate, chosen, scene, motion }: RivalProps) {
         <kbd aria-hidden="true">{index + 1}</kbd> {misfit === null ? '' : words.misfit(misfit.toFixed(2))}
       </span>
       {(angles ? words.jointShort(...angles) : []).map((angle) => (
-        <span key={angle}>{angle}</span>
+        <span key={angle} class="check-joint">
+          {angle}
+        </span>
       ))}
     </button>
   );

@@ -1,3 +1,4 @@
+import type { ComponentChildren } from 'preact';
 import { useMemo } from 'preact/hooks';
 import type { Theme } from '../../document/store';
 import type { Doc } from '../../document/types';
@@ -98,10 +99,12 @@ function chartLabel(name: CurveName, lines: readonly Line[], { over }: Along): s
 }
 
 /** How probable a lift-off of more than a millimetre is. */
-function beyond(doc: Doc, numbers: JointNumbers, shown: number): string {
+function beyond(doc: Doc, numbers: JointNumbers, shown: number): ComponentChildren {
   const row = numbers.of.get(doc.frames[shown]?.id ?? '');
   const probability = row?.[numbers.columns.indexOf('p_lift_off_over_1.0_mm')] ?? NaN;
-  return Number.isFinite(probability) ? later.curves.beyond(formatNumber(100 * probability, 0)) : '';
+  if (!Number.isFinite(probability)) return null;
+  const percent = formatNumber(100 * probability, 0);
+  return <InWords full={later.curves.beyond(percent)} short={later.curves.beyondShort(percent)} />;
 }
 
 /** To hundredths, as tables of joints have it; a band wider than that is shown as it is. */
