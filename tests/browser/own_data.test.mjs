@@ -1,20 +1,26 @@
 /** One's own data: a frame, a calibration and a model as files, no demonstration. */
 import assert from 'node:assert/strict';
-import { pageTest, step, until } from './support/browser.mjs';
+import { pageTest, step, until, visit } from './support/browser.mjs';
 import { choose, drop, file } from './support/files.mjs';
 import * as panel from './support/panel.mjs';
 import { Stage } from './support/stage.mjs';
 import { HAND_TRACED, demoFile, framePath, trueOutline, truePose } from './support/study.mjs';
+import { insideOf } from './support/tracing.mjs';
 
 const FRAME = 6;
+/** So many times as far away as it stands. */
+const FAR = 1.6;
 
-/** The demonstration's camera as MayaCam 2.0 writes it: 1200 mm at 0.373 mm a pixel, and no word of millimetres. */
-const CAMERA_MATRIX = `image size
+/** Pixels of the demonstration's focal length: 1200 mm at 0.373 mm each. */
+const FOCAL = 1200 / 0.373;
+
+/** A camera as MayaCam 2.0 writes it, with no word of millimetres. @param {number} focal */
+const cameraMatrix = (focal) => `image size
 1024,1024
 
 camera matrix
-${1200 / 0.373},0,511.5
-0,${1200 / 0.373},511.5
+${focal},0,511.5
+0,${focal},511.5
 0,0,1
 
 rotation
@@ -81,17 +87,37 @@ pageTest('own files to a pose', async (page, t) => {
 
   await step(page, t, 'a camera matrix will do, without any distance', (t) => byCameraMatrix(page, needs, t));
   await step(page, t, 'a window of views is a choice', () => windowOfViews(page));
+  await step(page, t, 'a click finds what stands farther away than knees do', (t) => farAway(page, t));
 });
 
 /** @param {import('playwright-core').Page} page @param {() => Promise<string>} shown @param {import('node:test').TestContext} t */
 async function byCameraMatrix(page, shown, t) {
-  await choose(page, file('cube.txt', CAMERA_MATRIX));
+  await choose(page, file('cube.txt', cameraMatrix(FOCAL)));
   await page.getByRole('button', { name: 'Calibration: cube.txt' }).waitFor();
   await until(shown, (text) => !/Found with another/.test(text) && /refined/.test(text), 'a pose by the new camera');
   const pose = await panel.waitForPose(page);
   const truth = await truePose('femur', FRAME);
   t.diagnostic(panel.differences(pose, truth));
   panel.assertNear(pose, truth, HAND_TRACED);
+}
+
+/** A camera of 1.6 times the focal length sees the same so many times as far away. @param {import('playwright-core').Page} page @param {import('node:test').TestContext} t */
+async function farAway(page, t) {
+  const stage = new Stage(page);
+  await visit(page);
+  await choose(page, await demoFile(framePath(FRAME)), file('far.txt', cameraMatrix(FAR * FOCAL)), await demoFile('femur.stl'));
+  await panel.waitForFrames(page, 1);
+  await panel.waitForLibraries(page, 'Femur');
+  await page.keyboard.press('o');
+  await stage.learn();
+  await stage.click(insideOf(await trueOutline('femur', FRAME)));
+  const pose = await panel.waitForPose(page);
+  assert.equal(await panel.verdict(page), 'Good');
+  const truth = await truePose('femur', FRAME);
+  const wanted = { ...truth, z: FAR * truth.z };
+  t.diagnostic(panel.differences(pose, wanted));
+  // Perspective is another so far away: what a camera sees is a little turned.
+  panel.assertNear(pose, wanted, { x: 0.4, y: 0.4, z: 16, zRot: 0.5, xRot: 0.5, yRot: 1 });
 }
 
 /** @param {import('playwright-core').Page} page */

@@ -13,6 +13,7 @@ import { formatNumber } from '../../texts/numbers';
 import { texts } from '../../texts/texts';
 import { drawRival, type RivalScene } from './rival_picture';
 import { otherThan } from '../../terms/component';
+import '../../styles/check.css';
 
 /** On the film while somebody goes through what is doubtful: why it is, its rivals with the joint that each makes, and what can be done. */
 export function CheckCard({ state }: { state: State }) {

@@ -13,6 +13,7 @@ import { DockSize } from './dock_size';
 import { Needs } from './needs';
 import { RateField } from './rate_field';
 import { Tray } from './tray';
+import '../../styles/curves.css';
 
 /** What the curves run over and by whose convention; the table. */
 export function JointTools({ state }: { state: State }) {
