@@ -18,14 +18,16 @@ interface Subject {
   readonly span: { readonly given: readonly Given[] };
 }
 
-/** Poses that are looked at, and the frames that belong to each, as the core has it. */
+/** Poses that are looked at, and frames to each side of them, as the core has it. */
 const POSES = 3;
-const FRAMES_EACH = 13;
+const BESIDE = 6;
 
 /** Reads the film around the first poses of each component, in all workers at once; gives nothing where it was called off. */
 export async function readBeside(services: Services, subjects: readonly Subject[], abort: AbortController): Promise<ReadonlyMap<ComponentName, Beside>> {
   const { store } = services;
-  const total = subjects.reduce((sum, { span }) => sum + Math.min(POSES, span.given.length) * Math.min(FRAMES_EACH, store.doc.frames.length), 0);
+  const last = store.doc.frames.length - 1;
+  const around = ({ frame }: Given) => Math.min(frame + BESIDE, last) - Math.max(frame - BESIDE, 0) + 1;
+  const total = subjects.flatMap(({ span }) => span.given.slice(0, POSES)).reduce((sum, given) => sum + around(given), 0);
   const job = { title: texts.follow.reading, unit: texts.follow.unit, total, cancel: () => abort.abort() };
   const read = await asJob(store, job, (report) => {
     const looked = counting(report, total);
