@@ -16,7 +16,7 @@ use fluoropose::shortlist::keep;
 use heapless::Vec;
 
 /// Most places.
-pub const SEEDS: usize = 10;
+pub const SEEDS: usize = 12;
 
 /// The frame is read at so many places along its longer side.
 const CELLS: usize = 256;
@@ -38,6 +38,10 @@ const DIRECTIONS: [[f64; 2]; 8] = [
 const AS_DARK: usize = 2;
 /// Light that is as good as none, as a part of the frame's range.
 const DARK: f64 = 1.0 / 16.0;
+/// With less light than this, the same, a cell is as black as its frame can be: a part beyond the picture, a shutter, or metal that
+/// is clipped. Places of three kinds are given by turns, for any of them may be many: far from such cells, near them (as the rim of a
+/// field is), and on them.
+const CLIPPED: f64 = 1.0 / 64.0;
 /// Places nearer to each other than this part of the component's size are one.
 const SAME: f64 = 0.4;
 
@@ -45,7 +49,7 @@ const SAME: f64 = 0.4;
 #[must_use]
 pub fn seeds_needed(camera: &Camera) -> usize {
     let (columns, rows, _) = cells(camera);
-    (columns + 1) * (rows + 1)
+    2 * (columns + 1) * (rows + 1)
 }
 
 /// Square root of the mean area of a component's silhouettes in frames of a camera, at the library's distance, pixels.
@@ -77,23 +81,33 @@ pub fn seeds(
 ) -> Result<Vec<Point, SEEDS>, TooLittleMemory> {
     let (columns, rows, cell) = cells(camera);
     let sums = first("sums", seeds_needed(camera), sums)?;
-    let table = Table::of(image.frame, (columns, rows), cell, sums);
-    let mut best: Vec<(f64, Point), SEEDS> = Vec::new();
+    let table = Table::of(image, (columns, rows), cell, sums);
+    let mut kinds: [Shortlist; 3] = Default::default();
     let apart = SAME * size_px;
     for part in INNER {
         let half = (part * size_px / cell).max(1.0) as usize;
         for row in (half..rows.saturating_sub(half)).step_by(half) {
             for column in (half..columns.saturating_sub(half)).step_by(half) {
-                let darker = table.darker(column, row, half, size_px / cell, image.polarity);
+                let (darker, kind) =
+                    table.darker(column, row, half, size_px / cell, image.polarity);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
                 let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
                 if darker > 0.0 && !image.unknown.is_some_and(is_unknown) {
-                    insert(&mut best, (darker, at), apart);
+                    insert(&mut kinds[kind], (darker, at), apart);
                 }
             }
         }
     }
-    Ok(best.iter().map(|&(_, at)| at).collect())
+    Ok(by_turns(&kinds))
+}
+
+/// The best places of one kind.
+type Shortlist = Vec<(f64, Point), SEEDS>;
+
+/// The places of all kinds by turns, as many as there is room for.
+fn by_turns(kinds: &[Shortlist; 3]) -> Vec<Point, SEEDS> {
+    let turns = (0..SEEDS).flat_map(|k| kinds.iter().map(move |places| places.get(k)));
+    turns.flatten().map(|&(_, at)| at).take(SEEDS).collect()
 }
 
 /// Columns and rows of cells, and the side of each in pixels.
@@ -103,52 +117,66 @@ fn cells(camera: &Camera) -> (usize, usize, f64) {
     ((width / cell) as usize, (height / cell) as usize, cell)
 }
 
-/// Sums of grey values over all cells above and to the left of each corner.
+/// Sums over all cells above and to the left of each corner: of light, and of cells that are clipped.
 struct Table<'m> {
-    sums: &'m [f64],
+    light: &'m [f64],
+    clipped: &'m [f64],
     columns: usize,
     rows: usize,
-    /// The least and the greatest grey value of a cell: on a negative the greatest is no light at all.
-    range: [f64; 2],
+    /// The difference between the brightest and the darkest cell.
+    range: f64,
 }
 
 impl<'m> Table<'m> {
     fn of(
-        frame: &dyn Grey,
+        image: &ImageTarget<'_>,
         (columns, rows): (usize, usize),
         cell: f64,
         sums: &'m mut [f64],
     ) -> Self {
-        let width = columns + 1;
-        sums[..width].fill(0.0);
-        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let at = |column: usize, row: usize| {
+            grey(image.frame, column as f64 * cell, row as f64 * cell, cell)
+        };
+        let mut limits = [f64::INFINITY, f64::NEG_INFINITY];
         for row in 0..rows {
-            let mut line = 0.0;
-            sums[(row + 1) * width] = 0.0;
             for column in 0..columns {
-                let value = grey(frame, column as f64 * cell, row as f64 * cell, cell);
-                range = [value.min(range[0]), value.max(range[1])];
-                line += value;
-                sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
+                let value = at(column, row);
+                limits = [value.min(limits[0]), value.max(limits[1])];
             }
         }
+        let [black, white] = limits;
+        // On a negative the greatest grey value is no light at all.
+        let lit = |column, row| match image.polarity {
+            Polarity::DarkImplant => at(column, row) - black,
+            Polarity::BrightImplant => white - at(column, row),
+        };
+        let range = white - black;
+        let (light, clipped) = sums.split_at_mut(sums.len() / 2);
+        sum_up(light, (columns, rows), lit);
+        sum_up(clipped, (columns, rows), |column, row| {
+            f64::from(u8::from(lit(column, row) < CLIPPED * range))
+        });
         Self {
-            sums,
+            light,
+            clipped,
             columns,
             rows,
             range,
         }
     }
 
-    /// By how much a box is darker than those around it in nearly every direction, as a part of both.
-    fn darker(&self, column: usize, row: usize, half: usize, size: f64, polarity: Polarity) -> f64 {
-        let [black, white] = self.range;
-        let lit = |grey: f64| match polarity {
-            Polarity::DarkImplant => grey - black,
-            Polarity::BrightImplant => white - grey,
-        };
-        let dark = (DARK * (white - black)).max(f64::MIN_POSITIVE);
-        let inside = lit(self.mean(column, row, half));
+    /// By how much a box is darker than those around it in nearly every direction, as a part of both, and of which kind it is.
+    fn darker(
+        &self,
+        column: usize,
+        row: usize,
+        half: usize,
+        size: f64,
+        polarity: Polarity,
+    ) -> (f64, usize) {
+        let dark = (DARK * self.range).max(f64::MIN_POSITIVE);
+        let light = |column, row| self.mean(self.light, column, row, half);
+        let inside = light(column, row);
         let mut least: Vec<f64, 8> = Vec::new();
         for [right, down] in DIRECTIONS {
             let at = |part: f64| {
@@ -159,7 +187,7 @@ impl<'m> Table<'m> {
                 let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
                 let seen = within(x, self.columns) && within(y, self.rows);
                 seen.then(|| {
-                    let outside = lit(self.mean(x as usize, y as usize, half));
+                    let outside = light(x as usize, y as usize);
                     (outside - inside) / (outside + inside + dark)
                 })
             };
@@ -168,19 +196,35 @@ impl<'m> Table<'m> {
             let _ = least.push(most.unwrap_or(0.0));
         }
         least.sort_unstable_by(f64::total_cmp);
-        least.get(AS_DARK).copied().unwrap_or(0.0)
+        let darker = least.get(AS_DARK).copied().unwrap_or(0.0);
+        let is_clipped = |half| usize::from(self.mean(self.clipped, column, row, half) > 0.0);
+        (darker, is_clipped(size as usize) + is_clipped(half))
     }
 
     /// The mean of a box of cells around one, as far as it lies in the frame.
-    fn mean(&self, column: usize, row: usize, half: usize) -> f64 {
+    fn mean(&self, sums: &[f64], column: usize, row: usize, half: usize) -> f64 {
         let (left, right) = (
             column.saturating_sub(half),
             (column + half + 1).min(self.columns),
         );
         let (top, bottom) = (row.saturating_sub(half), (row + half + 1).min(self.rows));
-        let at = |column: usize, row: usize| self.sums[row * (self.columns + 1) + column];
+        let at = |column: usize, row: usize| sums[row * (self.columns + 1) + column];
         let sum = at(right, bottom) - at(left, bottom) - at(right, top) + at(left, top);
         sum / ((right - left) * (bottom - top)).max(1) as f64
+    }
+}
+
+/// Sums of a value over all cells above and to the left of each corner.
+fn sum_up(sums: &mut [f64], (columns, rows): (usize, usize), value: impl Fn(usize, usize) -> f64) {
+    let width = columns + 1;
+    sums[..width].fill(0.0);
+    for row in 0..rows {
+        let mut line = 0.0;
+        sums[(row + 1) * width] = 0.0;
+        for column in 0..columns {
+            line += value(column, row);
+            sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
+        }
     }
 }
 
@@ -197,7 +241,7 @@ fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> f64 {
 }
 
 /// Keeps the darkest of places that are one.
-fn insert(best: &mut Vec<(f64, Point), SEEDS>, (darker, at): (f64, Point), apart: f64) {
+fn insert(best: &mut Shortlist, (darker, at): (f64, Point), apart: f64) {
     let same = |other: &(f64, Point)| {
         let (right, down) = (other.1.column - at.column, other.1.row - at.row);
         right * right + down * down < apart * apart
@@ -278,5 +322,38 @@ mod tests {
         let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
         assert!(!found.iter().any(near(middles[0])), "{found:?}");
         assert!(found.iter().take(4).any(near(middles[1])), "{found:?}");
+    }
+
+    /// Parts beyond the picture that are blacker than all metal, and as many as there are places, do not outvote it.
+    #[test]
+    fn a_grey_disc_is_given_among_many_that_are_clipped() {
+        const SIDE: usize = 512;
+        let middle = [300.0, 290.0];
+        let shade = |column: f64, row: f64| {
+            let rim = libm::hypot(column - 256.0, row - 256.0) > 236.0;
+            let hole = libm::hypot((column % 34.0) - 17.0, (row % 34.0) - 17.0) < 9.0;
+            match () {
+                () if rim && hole => 0,
+                () if libm::hypot(column - middle[0], row - middle[1]) < 14.0 => 150,
+                () => 200,
+            }
+        };
+        let pixels: std::vec::Vec<u8> = (0..SIDE * SIDE)
+            .map(|k| shade((k % SIDE) as f64, (k / SIDE) as f64))
+            .collect();
+        let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+        let camera = Camera::new(SIDE, SIDE, [900.0; 2], [256.0; 2]).expect("valid");
+        let mut sums = std::vec![0.0; seeds_needed(&camera)];
+        let image = ImageTarget {
+            frame: &frame,
+            unknown: None,
+            polarity: Polarity::DarkImplant,
+            film: None,
+        };
+        let found = seeds(&image, &camera, 50.0, &mut sums).expect("enough memory");
+        let near = |at: &Point| libm::hypot(at.column - middle[0], at.row - middle[1]) < 14.0;
+        assert!(found[..3].iter().any(near), "{found:?}");
+        let clipped = |at: &&Point| shade(at.column, at.row) == 0;
+        assert!(found.iter().filter(clipped).count() >= 4, "{found:?}");
     }
 }
