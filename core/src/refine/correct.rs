@@ -23,7 +23,7 @@ const GIVE_UP: [(usize, f64); 2] = [(2 * FILM_PARTS, 4.0), (3 * FILM_PARTS, 2.0)
 /// A step of this size is the last: 0.002 degrees or 0.01 mm,
 const SMALL: f64 = 0.002;
 /// or one of so many standard deviations of the pose: what it leaves is a small part of it.
-const LITTLE: f64 = 0.04;
+const LITTLE: f64 = 0.06;
 
 impl Problem<'_> {
     /// Whether the film of any view is known.

@@ -48,6 +48,9 @@ pub(super) struct Equations {
 
 /// At least this part of the outline, by length, must be known.
 const LEAST_KNOWN: f64 = 0.15;
+/// In a correction a sample holds the pose at least by this part of its weight. By the weights alone, which are never less than the second
+/// derivative of a redescending loss, steps are too short and converge slowly; with less than a third of them some go too far.
+const LEAST_FIRM: f64 = 0.5;
 /// At least this part of what is known must have a counterpart in the target.
 const LEAST_USED: f64 = 0.2;
 
@@ -82,7 +85,13 @@ impl Equations {
             Residual::Unknown => self.add_unknown(length),
             Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
                 let jacobian = sample.jacobian.map(f64::from);
-                self.add(stage.loss, &jacobian, f64::from(residual), length);
+                let firmness = stage.corrects.then_some(LEAST_FIRM);
+                self.add(
+                    (stage.loss, firmness),
+                    &jacobian,
+                    f64::from(residual),
+                    length,
+                );
             }
             Residual::Px(_) | Residual::Missing => {
                 self.add_missing(stage.loss, stage.range, length);
@@ -102,8 +111,15 @@ impl Equations {
         self.loss += length * loss.at(range).0;
     }
 
-    /// Adds a sample: how far the target's outline is beyond the model's (pixels).
-    fn add(&mut self, loss: Loss, jacobian: &[f64; 6], residual: f64, length: f64) {
+    /// Adds a sample: how far the target's outline is beyond the model's (pixels). It holds the pose as firmly as its weight, or,
+    /// with a least part of that, as the second derivative of the loss.
+    fn add(
+        &mut self,
+        (loss, least_firm): (Loss, Option<f64>),
+        jacobian: &[f64; 6],
+        residual: f64,
+        length: f64,
+    ) {
         let (cost, weight) = loss.at(residual);
         self.length += length;
         self.known += length;
@@ -113,13 +129,16 @@ impl Equations {
         self.squares += w * residual * residual;
         let bin = (residual.abs() / BIN) as usize;
         self.histogram[bin.min(BINS - 1)] += length;
+        let firm = least_firm.map_or(w, |least| {
+            length * loss.curvature(residual).max(least * weight)
+        });
         let [a, b, c, x, y, z] = *jacobian;
         let jacobian = [a, b, c, x, y, z, 1.0];
         for (row, &a) in jacobian.iter().enumerate() {
             self.right[row] += w * a * residual;
             // Solvers read the lower triangle alone.
             for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
-                *sum += w * a * b;
+                *sum += firm * a * b;
             }
         }
     }
@@ -294,5 +313,50 @@ impl Equations {
             below += length;
         }
         1.4826 * BIN * BINS as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six numbers, each held by one sample of this residual.
+    fn step(corrects: bool, residual: f32) -> [f64; 6] {
+        let stage = Stage {
+            range: 10.0,
+            loss: Loss::Tukey(2.5),
+            drawn: true,
+            turn: 0,
+            corrects,
+            every: None,
+        };
+        let mut equations = Equations::new();
+        for number in 0..6 {
+            let mut jacobian = [0.0; 6];
+            jacobian[number] = 2.0;
+            equations.add_sample(
+                &BorderPixel {
+                    weight: 1.0,
+                    residual: Residual::Px(residual),
+                    jacobian,
+                    ..BorderPixel::EMPTY
+                },
+                &stage,
+            );
+        }
+        equations.step(0.0, false).expect("determined").0.values()
+    }
+
+    #[test]
+    fn a_correction_takes_newtons_step_and_at_most_twice_that_of_the_weights() {
+        for number in 0..6 {
+            // By the weights it goes all of the way, in two pixels for each unit.
+            let by_weights = step(false, 0.5)[number];
+            assert!((by_weights - 0.25).abs() < 1e-12);
+            // Of Tukey's loss at a fifth of its scale: (1 - r^2)^2 and (1 - r^2)(1 - 5 r^2).
+            let newton = 0.25 * 0.96 / 0.8;
+            assert!((step(true, 0.5)[number] - newton).abs() < 1e-6);
+            assert!((step(true, 2.0)[number] - 2.0).abs() < 1e-6);
+        }
     }
 }

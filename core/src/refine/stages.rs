@@ -17,6 +17,8 @@ pub(super) struct Stage {
     pub(super) drawn: bool,
     /// Which border pixels are looked at, where not all are.
     pub(super) turn: usize,
+    /// Whether its steps are undamped ones of a correction.
+    pub(super) corrects: bool,
     /// One of how many is, where the target says it.
     pub(super) every: Option<usize>,
 }
@@ -43,6 +45,7 @@ impl Stage {
             loss,
             drawn: false,
             turn: 0,
+            corrects: false,
             every: None,
         };
         match (target, index) {
@@ -89,6 +92,7 @@ impl Pass {
         Stage {
             drawn,
             turn: self.turn,
+            corrects: self.corrects,
             every: drawn.then_some(every),
             ..Stage::of(target, self.index, self.sigma_px)
         }
