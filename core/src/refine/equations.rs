@@ -1,7 +1,9 @@
 //! Normal equations of robust least squares in the six parameters of a pose.
 
+use core::ops::AddAssign;
+
 use super::border::{BorderPixel, Residual};
-use super::loss::Loss;
+use super::motion::Motion;
 use super::result::{Iterate, Refined};
 use super::stages::{Pass, Stage};
 use super::step::Step;
@@ -17,7 +19,7 @@ fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Step, f64) {
 }
 
 /// Histogram of absolute residuals: bins of this many pixels.
-const BIN: f64 = 1.0 / 32.0;
+const BIN: f32 = 1.0 / 32.0;
 const BINS: usize = 128;
 
 type Normal = [[f64; UNKNOWNS]; UNKNOWNS];
@@ -26,9 +28,9 @@ fn dot(a: &[f64; UNKNOWNS], b: &[f64; UNKNOWNS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn add_each(to: &mut [f64], more: &[f64]) {
-    for (sum, more) in to.iter_mut().zip(more) {
-        *sum += more;
+fn add_each<T: AddAssign, U: Copy + Into<T>>(to: &mut [T], more: &[U]) {
+    for (sum, &more) in to.iter_mut().zip(more) {
+        *sum += more.into();
     }
 }
 
@@ -43,7 +45,23 @@ pub(super) struct Equations {
     loss: f64,
     used: f64,
     squares: f64,
-    histogram: [f64; BINS],
+    histogram: [f32; BINS],
+}
+
+/// Samples that are summed in 32 bits before their sum is added in 64: a processor without those takes a tenth of the time,
+/// and what so few lose by rounding is a millionth.
+const BLOCK: usize = 64;
+
+/// Sums over a few samples, as of [`Equations`].
+#[derive(Default)]
+struct Block {
+    normal: [[f32; UNKNOWNS]; UNKNOWNS],
+    right: [f32; UNKNOWNS],
+    length: f32,
+    known: f32,
+    loss: f32,
+    used: f32,
+    squares: f32,
 }
 
 /// At least this part of the outline, by length, must be known.
@@ -74,54 +92,27 @@ impl Equations {
         (self.loss, self.used, self.squares) = (0.0, 0.0, 0.0);
     }
 
-    /// Adds what was found along the normal of a sample, weighed as a stage does.
-    pub(super) fn add_sample(&mut self, sample: &BorderPixel, stage: &Stage) {
-        let length = f64::from(sample.weight);
-        match sample.residual {
-            Residual::None => {}
-            Residual::Unknown => self.add_unknown(length),
-            Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
-                let jacobian = sample.jacobian.map(f64::from);
-                self.add(stage.loss, &jacobian, f64::from(residual), length);
+    /// Adds what was found along the normals of samples, weighed as a stage does, where the outline moves so.
+    pub(super) fn add_samples(&mut self, samples: &[BorderPixel], motion: &Motion, stage: &Stage) {
+        for few in samples.chunks(BLOCK) {
+            let mut block = Block::default();
+            for sample in few {
+                block.add_sample(sample, motion, stage, &mut self.histogram);
             }
-            Residual::Px(_) | Residual::Missing => {
-                self.add_missing(stage.loss, stage.range, length);
-            }
+            self.add_block(&block);
         }
     }
 
-    /// A sample of which the target says nothing: only its length counts.
-    fn add_unknown(&mut self, length: f64) {
-        self.length += length;
-    }
-
-    /// A sample without a counterpart within `range`, which costs as much as one there.
-    fn add_missing(&mut self, loss: Loss, range: f64, length: f64) {
-        self.length += length;
-        self.known += length;
-        self.loss += length * loss.at(range).0;
-    }
-
-    /// Adds a sample: how far the target's outline is beyond the model's (pixels).
-    fn add(&mut self, loss: Loss, jacobian: &[f64; 6], residual: f64, length: f64) {
-        let (cost, weight) = loss.at(residual);
-        self.length += length;
-        self.known += length;
-        self.loss += length * cost;
-        let w = length * weight;
-        self.used += length;
-        self.squares += w * residual * residual;
-        let bin = (residual.abs() / BIN) as usize;
-        self.histogram[bin.min(BINS - 1)] += length;
-        let [a, b, c, x, y, z] = *jacobian;
-        let jacobian = [a, b, c, x, y, z, 1.0];
-        for (row, &a) in jacobian.iter().enumerate() {
-            self.right[row] += w * a * residual;
-            // Solvers read the lower triangle alone.
-            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
-                *sum += w * a * b;
-            }
+    fn add_block(&mut self, block: &Block) {
+        for (row, more) in self.normal.iter_mut().zip(&block.normal) {
+            add_each(row, more);
         }
+        add_each(&mut self.right, &block.right);
+        self.length += f64::from(block.length);
+        self.known += f64::from(block.known);
+        self.loss += f64::from(block.loss);
+        self.used += f64::from(block.used);
+        self.squares += f64::from(block.squares);
     }
 
     /// Adds what was seen of another part of the outline.
@@ -285,14 +276,63 @@ impl Equations {
     /// Standard deviation of the residuals, pixels, from their median absolute value as if they
     /// were normal: what lies far out does not count (Hampel, JASA 69, 1974).
     pub(super) fn robust_sigma_px(&self) -> f64 {
-        let half = self.used / 2.0;
+        let half = (self.used / 2.0) as f32;
         let mut below = 0.0;
         for (bin, &length) in self.histogram.iter().enumerate() {
             if below + length >= half && length > 0.0 {
-                return 1.4826 * BIN * (bin as f64 + (half - below) / length);
+                return 1.4826 * f64::from(BIN * (bin as f32 + (half - below) / length));
             }
             below += length;
         }
-        1.4826 * BIN * BINS as f64
+        1.4826 * f64::from(BIN * BINS as f32)
+    }
+}
+
+impl Block {
+    fn add_sample(
+        &mut self,
+        sample: &BorderPixel,
+        motion: &Motion,
+        stage: &Stage,
+        histogram: &mut [f32; BINS],
+    ) {
+        let (length, range) = (sample.weight, stage.range as f32);
+        match sample.residual() {
+            Residual::None => {}
+            // Only its length counts.
+            Residual::Unknown => self.length += length,
+            Residual::Px(residual) if residual.abs() <= range => {
+                let bin = (residual.abs() / BIN) as usize;
+                histogram[bin.min(BINS - 1)] += length;
+                self.add(stage, &motion.jacobian(sample), residual, length);
+            }
+            // It costs as much as one at the end of the range.
+            Residual::Px(_) | Residual::Missing => {
+                self.length += length;
+                self.known += length;
+                self.loss += length * stage.loss.at(range).0;
+            }
+        }
+    }
+
+    /// Adds a sample: how far the target's outline is beyond the model's (pixels).
+    fn add(&mut self, stage: &Stage, jacobian: &[f32; 6], residual: f32, length: f32) {
+        let (cost, weight) = stage.loss.at(residual);
+        self.length += length;
+        self.known += length;
+        self.loss += length * cost;
+        let w = length * weight;
+        self.used += length;
+        self.squares += w * residual * residual;
+        let [a, b, c, x, y, z] = *jacobian;
+        let jacobian = [a, b, c, x, y, z, 1.0];
+        for (row, &a) in jacobian.iter().enumerate() {
+            let wa = w * a;
+            self.right[row] += wa * residual;
+            // Solvers read the lower triangle alone.
+            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
+                *sum += wa * b;
+            }
+        }
     }
 }
