@@ -14,6 +14,7 @@ mod border;
 #[cfg(feature = "alloc")]
 mod buffers;
 mod correct;
+mod correlation;
 mod depth;
 mod drawing;
 mod drawn;
@@ -24,6 +25,7 @@ mod equations;
 mod error;
 mod eye;
 mod fit;
+mod jacobians;
 mod locks;
 mod loss;
 mod memory;

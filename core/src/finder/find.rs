@@ -17,7 +17,7 @@ use crate::locate::rerank::Reranked;
 use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
-use crate::shortlist::keep;
+use crate::shortlist::{first_of, keep};
 
 /// How far poses are brought.
 #[derive(Clone, Copy, Debug)]
@@ -268,7 +268,7 @@ impl Way<'_, '_> {
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         let starts = worth.iter().map(|rival| rival.located.pose);
-        let starts: Vec<Pose, STARTS> = starts.collect();
+        let starts: Vec<Pose, STARTS> = first_of(starts);
         let view = CameraView::only(self.camera, *self.silhouette);
         let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;

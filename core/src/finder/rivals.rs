@@ -15,7 +15,7 @@ use crate::refine::{
     CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
     refine_paced,
 };
-use crate::shortlist::keep;
+use crate::shortlist::{keep, take_out};
 
 /// Most poses that are refined as starts.
 pub const STARTS: usize = 6;
@@ -431,7 +431,7 @@ fn keep_open(begun: &mut Vec<(usize, Refined), STARTS>) {
             geodesic_deg(&other.pose.rotation, &one.pose.rotation) < LOOKED_SAME_DEG
         };
         if one.loss > limit || begun.iter().take(place).any(same) {
-            begun.remove(place);
+            take_out(begun, place);
         } else {
             place += 1;
         }
@@ -445,7 +445,7 @@ fn keep_distinct(answers: &mut Vec<RefinedRival, ANSWERS>) {
         let pose = refined.pose;
         let mut before = answers.iter().take(place);
         if before.any(|other| is_same(&other.refined.pose, &pose)) {
-            answers.remove(place);
+            take_out(answers, place);
         } else {
             place += 1;
         }

@@ -269,9 +269,10 @@ impl<'a> Problem<'a> {
 
     /// Most steps tried in a stage.
     pub(super) fn steps(&self, pass: &Pass) -> usize {
-        let most = self.effort.steps()[pass.index];
+        let of = |steps: [usize; STAGES]| steps.get(pass.index).copied().unwrap_or(0);
+        let most = of(self.effort.steps());
         match self.is_corrected(pass) {
-            true => most.min(BEFORE_CORRECTION[pass.index]),
+            true => most.min(of(BEFORE_CORRECTION)),
             false => most,
         }
     }

@@ -10,9 +10,11 @@
 //! holds the pose less than the rest, and often it is the one stretch that holds a number.
 
 use super::border::BorderPixel;
+use super::correlation::{BLOCK, Correlation, after};
 use super::edge_bias::EdgeBias;
 use super::error::RefineError;
 use super::fit::{Fit, FitSums};
+use super::jacobians::Jacobians;
 use super::loss::Loss;
 use super::memory::RefineMemory;
 use super::motion::Motion;
@@ -27,9 +29,6 @@ use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
 use crate::render::Projected;
 
-/// Width of a bin of distance, pixels, and number of bins.
-const BIN: f32 = 2.0;
-const BINS: usize = 24;
 /// Variance of an outline that is known to whole pixels only, square pixels for each pixel of its
 /// length: residuals are differences of two drawings in the same pixels and do not show it. A
 /// quarter of that of rounding, as measured by `cargo xtask synthetic --method refined`: errors of
@@ -207,7 +206,7 @@ impl Sums {
                 // Half of the sample's own part: every pair is met once and counts both ways.
                 let mut sum = own.map(|value| value * sample.weight * covariance.bins[0] / 2.0);
                 for (number, other, bin) in after(border, index, reach) {
-                    let weight = other.weight * covariance.bins[bin];
+                    let weight = other.weight * covariance.at(bin);
                     for (sum, value) in sum.iter_mut().zip(jacobians.of(number)) {
                         *sum += weight * value;
                     }
@@ -268,9 +267,6 @@ impl Sums {
     }
 }
 
-/// Samples that are summed in 32 bits before their sum is added in 64.
-const BLOCK: usize = 64;
-
 /// [`Sums`] over a few samples, lower triangles alone.
 #[derive(Default)]
 struct Block {
@@ -298,245 +294,10 @@ impl Block {
     }
 }
 
-/// Samples this far apart, pixels, are not compared.
-const REACH: i32 = BIN as i32 * BINS as i32;
-
-/// The bin of a distance, from 1, by its square in pixels.
-const BIN_OF: [u8; (REACH * REACH) as usize] = {
-    let mut bins = [0; (REACH * REACH) as usize];
-    let (mut square, mut bin) = (0, 1);
-    while square < bins.len() {
-        let end = BIN as usize * bin as usize;
-        if square >= end * end {
-            bin += 1;
-        }
-        bins[square] = bin;
-        square += 1;
-    }
-    bins
-};
-
-/// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
-/// places in the list and the bin of their distance.
-fn after(
-    border: &[BorderPixel],
-    index: usize,
-    reach: i32,
-) -> impl Iterator<Item = (usize, &BorderPixel, usize)> {
-    let sample = border[index];
-    let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
-    // They are listed row by row.
-    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
-    let rest = border.get(index + 1..).unwrap_or_default();
-    let rest = (index + 1..).zip(rest.iter().take_while(close));
-    rest.filter_map(move |(number, other)| {
-        let right = offset(other.column, sample.column);
-        if right.abs() >= reach {
-            return None;
-        }
-        let down = offset(other.row, sample.row);
-        let bin = *BIN_OF.get((right * right + down * down) as usize)?;
-        other
-            .residual_px()
-            .filter(|_| alike(sample.slope, other.slope))?;
-        Some((number, other, usize::from(bin)))
-    })
-}
-
-/// Whether the cosine between two normals is at least one half: the two sides of a thin plate err apart. In whole numbers, because
-/// there are many pairs; slopes are at most 160.
-fn alike(a: [i16; 2], b: [i16; 2]) -> bool {
-    let dot = |a: [i16; 2], b: [i16; 2]| {
-        i32::from(a[0]) * i32::from(b[0]) + i32::from(a[1]) * i32::from(b[1])
-    };
-    let along = dot(a, b);
-    let squares = dot(a, a) as u32 * dot(b, b) as u32;
-    along >= 0 && along as u32 * along as u32 >= squares.div_ceil(4)
-}
-
-/// Numbers in a Jacobian, and places of memory that they take: two each.
-const PARAMETERS: usize = 6;
-const PLACES: usize = PARAMETERS / 2;
-
-/// Jacobians of samples: of as many as there is memory for each is reckoned once, because a sample has some hundred others near
-/// it; of the others it is reckoned again each time.
-struct Jacobians<'j, F> {
-    border: &'j [BorderPixel],
-    reckon: F,
-    kept: &'j [[Projected; PLACES]],
-}
-
-impl<'j, F: Fn(&BorderPixel) -> [f32; PARAMETERS]> Jacobians<'j, F> {
-    fn new(border: &'j [BorderPixel], reckon: F, memory: &'j mut [Projected]) -> Self {
-        let kept = memory.as_chunks_mut::<PLACES>().0;
-        for (kept, sample) in kept.iter_mut().zip(border) {
-            let numbers = reckon(sample).map(|number| u64::from(number.to_bits()));
-            let pairs = numbers.as_chunks::<2>().0.iter();
-            for (place, &[low, high]) in kept.iter_mut().zip(pairs) {
-                *place = (high << 32 | low).into();
-            }
-        }
-        Self {
-            border,
-            reckon,
-            kept,
-        }
-    }
-
-    /// That of a sample.
-    fn of(&self, number: usize) -> [f32; PARAMETERS] {
-        let Some(&[a, b, c]) = self.kept.get(number) else {
-            let sample = self.border.get(number);
-            return sample.map_or([0.0; PARAMETERS], &self.reckon);
-        };
-        let pair = |place: Projected| {
-            let bits = u64::from(place);
-            [bits as u32, (bits >> 32) as u32].map(f32::from_bits)
-        };
-        let ([a, b], [c, d], [e, f]) = (pair(a), pair(b), pair(c));
-        [a, b, c, d, e, f]
-    }
-}
-
-/// Samples within reach, mostly: an outline has some four in a row.
-const KEPT: usize = 256;
-
-/// Derivatives of the loss at samples, each reckoned once: a sample has some hundred others near it.
-struct Pulls<'b> {
-    border: &'b [BorderPixel],
-    loss: Loss,
-    /// Of the last samples before [`Self::known`], by the remainder of their number.
-    last: [f32; KEPT],
-    known: usize,
-}
-
-impl<'b> Pulls<'b> {
-    fn new(border: &'b [BorderPixel], loss: Loss) -> Self {
-        Self {
-            border,
-            loss,
-            last: [0.0; KEPT],
-            known: 0,
-        }
-    }
-
-    /// That of a sample which does not come before `least`, which rises from call to call.
-    fn of(&mut self, number: usize, least: usize) -> f32 {
-        if number - least >= KEPT {
-            return self.reckoned(number);
-        }
-        while self.known <= number {
-            self.last[self.known % KEPT] = self.reckoned(self.known);
-            self.known += 1;
-        }
-        self.last[number % KEPT]
-    }
-
-    fn reckoned(&self, number: usize) -> f32 {
-        let residual = self.border.get(number).and_then(BorderPixel::residual_px);
-        residual.map_or(0.0, |residual| self.loss.pull(residual))
-    }
-}
-
-fn add_each(sums: &mut [f64], more: &[f32]) {
-    for (sum, &more) in sums.iter_mut().zip(more) {
-        *sum += f64::from(more);
-    }
-}
-
-/// Covariance of `psi` over distance.
-struct Correlation {
-    /// At distance zero, then in bins of [`BIN`] pixels; zero from where it first fails to be
-    /// positive.
-    bins: [f32; BINS + 1],
-}
-
-impl Correlation {
-    /// Rounds in which the correlation and what the fit took of it are brought to agree.
-    const ROUNDS: usize = 8;
-    /// More than this part of the variance is not supposed to have been taken.
-    const MOST_TAKEN: f32 = 0.6;
-
-    /// `fitted` parameters took the longest waves out of the residuals, as much as they explain
-    /// of the independent stretches. The covariance of what remains is too small by the same amount at every
-    /// distance, and this amount is added again.
-    fn of(border: &[BorderPixel], loss: Loss, fitted: f32) -> Self {
-        let (raw, length) = Self::raw(border, loss);
-        let mut taken = 0.0;
-        let mut correlation = Self::cut(&raw, taken);
-        for _ in 0..Self::ROUNDS {
-            let fraction =
-                (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
-            taken = raw[0] * fraction / (1.0 - fraction);
-            correlation = Self::cut(&raw, taken);
-        }
-        correlation
-    }
-
-    /// `taken` more at every distance, up to where it first fails to be positive.
-    fn cut(raw: &[f32; BINS + 1], taken: f32) -> Self {
-        let mut bins = raw.map(|value| value + taken);
-        let end = bins.iter().position(|&value| value <= 0.0);
-        bins[end.unwrap_or(BINS + 1)..].fill(0.0);
-        Self { bins }
-    }
-
-    /// The mean product of `psi` in every bin, and the length of the outline.
-    #[inline(never)]
-    fn raw(border: &[BorderPixel], loss: Loss) -> ([f32; BINS + 1], f32) {
-        let (mut sums, mut weights) = ([0.0f64; BINS + 1], [0.0f64; BINS + 1]);
-        let mut pulls = Pulls::new(border, loss);
-        for (few, samples) in border.chunks(BLOCK).enumerate() {
-            let (mut some, mut lengths) = ([0.0f32; BINS + 1], [0.0f32; BINS + 1]);
-            for (place, sample) in samples.iter().enumerate() {
-                if sample.residual_px().is_none() {
-                    continue;
-                }
-                let index = few * BLOCK + place;
-                let (l, own) = (sample.weight, pulls.of(index, index));
-                some[0] += l * own * own;
-                lengths[0] += l;
-                for (number, other, bin) in after(border, index, REACH) {
-                    let weight = l * other.weight;
-                    some[bin] += weight * own * pulls.of(number, index);
-                    lengths[bin] += weight;
-                }
-            }
-            add_each(&mut sums, &some);
-            add_each(&mut weights, &lengths);
-        }
-        let mean = |bin: usize| {
-            if weights[bin] > 0.0 {
-                (sums[bin] / weights[bin]) as f32
-            } else {
-                0.0
-            }
-        };
-        (core::array::from_fn(mean), weights[0] as f32)
-    }
-
-    /// Distance from which on samples err apart, pixels.
-    fn reach(&self) -> i32 {
-        let first = self.bins.iter().position(|&value| value == 0.0);
-        BIN as i32 * first.map_or(BINS, |bin| bin.saturating_sub(1)) as i32
-    }
-
-    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
-    /// at least one pixel.
-    fn stretch_px(&self) -> f32 {
-        let [own, rest @ ..] = &self.bins;
-        if *own <= 0.0 {
-            return 1.0;
-        }
-        (2.0 * BIN * rest.iter().sum::<f32>() / own).max(1.0)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::refine::border::Residual;
-    use proptest::prelude::*;
     use std::vec::Vec;
 
     /// Of six stretches each holds one number by itself; the first is met badly.
@@ -583,29 +344,5 @@ mod tests {
         let off = deviations(3.4);
         assert!(off.iter().all(|x| x.is_finite() && *x > 0.0), "{off:?}");
         assert!(off[0] / off[1] < 4.0 * (0.99 / 0.85), "{off:?}");
-    }
-
-    proptest! {
-        #[test]
-        fn derivatives_that_are_kept_are_those_that_are_reckoned(
-            residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),
-            every in 1usize..9, reach in 1usize..600,
-        ) {
-            let sample = |residual: &Option<f32>| {
-                let mut pixel = BorderPixel::EMPTY;
-                pixel.set_residual(residual.map_or(Residual::Missing, Residual::Px));
-                pixel
-            };
-            let border: Vec<BorderPixel> = residuals.iter().map(sample).collect();
-            let loss = Loss::Cauchy(1.5);
-            let mut pulls = Pulls::new(&border, loss);
-            for least in (0..residuals.len()).step_by(every) {
-                let near = residuals.iter().enumerate().skip(least).take(reach);
-                for (number, residual) in near {
-                    let own = residual.map_or(0.0, |px| loss.pull(px));
-                    prop_assert_eq!(pulls.of(number, least), own);
-                }
-            }
-        }
     }
 }

@@ -288,13 +288,20 @@ fn add_to(rows: &mut [FixedPoint], row: usize, more: u64) {
 /// By insertion: few edges cross one row.
 fn sort(crossings: &mut [FixedPoint]) {
     for at in 1..crossings.len() {
-        let own = crossings[at];
-        let mut free = at;
-        while free > 0 && u64::from(crossings[free - 1]) > u64::from(own) {
-            crossings[free] = crossings[free - 1];
-            free -= 1;
+        let Some((own, before)) = crossings
+            .get_mut(..=at)
+            .and_then(<[FixedPoint]>::split_last_mut)
+        else {
+            continue;
+        };
+        let mut free = own;
+        for other in before.iter_mut().rev() {
+            if u64::from(*other) <= u64::from(*free) {
+                break;
+            }
+            core::mem::swap(other, free);
+            free = other;
         }
-        crossings[free] = own;
     }
 }
 
