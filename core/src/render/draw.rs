@@ -63,7 +63,7 @@ fn parts<'m>(
 /// with edges gives the same pixels sooner.
 ///
 /// # Errors
-/// [`RenderError`]; nothing has been drawn then. Working memory is too short below one for each vertex.
+/// [`RenderError`]; nothing has been drawn then. Working memory of a model without edges is too short below one for each vertex.
 pub fn render(
     model: &Model<'_>,
     camera: &Camera,
