@@ -5,7 +5,7 @@ mod facing;
 mod project;
 mod winding;
 
-pub(crate) use draw::{contour, for_each_span};
+pub(crate) use draw::{for_each_span, remains};
 pub use draw::{render, scratch_for, scratch_needed};
-pub(crate) use project::project;
+pub(crate) use project::{Images, project};
 pub use project::{Projected, RenderError};

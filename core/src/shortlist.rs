@@ -1,5 +1,7 @@
 //! The best few of many: bounded lists that stay sorted.
 
+use core::mem::swap;
+
 use heapless::Vec;
 
 /// Inserts `item` into a list sorted by rising `key`, behind items with an equal key. A full list drops its last item; an
@@ -17,8 +19,34 @@ pub fn keep<T, K: PartialOrd, const N: usize>(
     if list.is_full() {
         list.pop();
     }
-    // There is room now, so the insertion cannot fail.
-    list.insert(place, item).ok().map(|()| place)
+    // There is room now. The last goes before all that are to come behind it.
+    list.push(item).ok()?;
+    if let Some((first, rest)) = list.get_mut(place..)?.split_first_mut() {
+        for other in rest {
+            swap(first, other);
+        }
+    }
+    Some(place)
+}
+
+/// Takes the item at a place out of a list, whose others stay in order; nothing where there is none.
+pub fn take_out<T, const N: usize>(list: &mut Vec<T, N>, place: usize) -> Option<T> {
+    let (last, rest) = list.get_mut(place..)?.split_last_mut()?;
+    for other in rest.iter_mut().rev() {
+        swap(last, other);
+    }
+    list.pop()
+}
+
+/// The first items, as many as there is room for.
+pub fn first_of<T, const N: usize>(items: impl IntoIterator<Item = T>) -> Vec<T, N> {
+    let mut list = Vec::new();
+    for item in items {
+        if list.push(item).is_err() {
+            break;
+        }
+    }
+    list
 }
 
 /// The `N` items with the smallest keys, smallest first; of equals the first come first.
@@ -49,6 +77,17 @@ mod tests {
             sorted.truncate(7);
             let kept: Vec<(usize, u8), 7> = smallest(items, |&(_, key)| key);
             prop_assert_eq!(&kept[..], &sorted[..]);
+        }
+    }
+
+    #[test]
+    fn what_is_taken_out_leaves_the_others_in_order() {
+        for place in 0..6 {
+            let mut list: Vec<usize, 5> = first_of(0..9);
+            assert_eq!(list, [0, 1, 2, 3, 4]);
+            let taken = take_out(&mut list, place);
+            assert_eq!(taken, (place < 5).then_some(place));
+            assert!(list.iter().copied().eq((0..5).filter(|&k| k != place)));
         }
     }
 }

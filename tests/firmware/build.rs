@@ -33,9 +33,11 @@ fn main() {
 /// Names the linker script of the board; cortex-m-rt's wants the memory alone.
 fn link(package: &Path, is_arm: bool) {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets it"));
-    let (own, there, script) = match is_arm {
-        true => ("boards/cortex.x", "memory.x", "link.x"),
-        false => ("boards/riscv.ld", "riscv.ld", "riscv.ld"),
+    let is_small = env::var_os("CARGO_FEATURE_NETDUINOPLUS2").is_some();
+    let (own, there, script) = match (is_arm, is_small) {
+        (true, false) => ("boards/cortex.x", "memory.x", "link.x"),
+        (true, true) => ("boards/netduinoplus2.x", "memory.x", "link.x"),
+        (false, _) => ("boards/riscv.ld", "riscv.ld", "riscv.ld"),
     };
     println!("cargo::rerun-if-changed={own}");
     fs::copy(package.join(own), out.join(there)).expect("OUT_DIR can be written");

@@ -57,7 +57,7 @@ pub(crate) fn units_needed(implant: &ImplantFile<'_>, room: &Room) -> Option<usi
         units_for::<u32>(needs.scores)?,
         units_for::<u8>(needs.bytes)?,
         units_for::<Projected>(needs.projected)?,
-        units_for::<[Word; 2]>(needs.words)?,
+        units_for::<u16>(needs.places)?,
         units_for::<BorderPixel>(room.border as usize)?,
         units_for::<PixelRun>(room.runs as usize)?,
     ]
@@ -253,7 +253,7 @@ fn finder_memory<'m>(
         refine: RefineMemory {
             projected: block.take(needs.projected, Projected::ZERO)?,
             drawn: block.take(needs.words, 0)?,
-            places: block.take(needs.words, [0; 2])?,
+            places: block.take(needs.places, 0)?,
             border: block.take(room.border as usize, BorderPixel::EMPTY)?,
             film: LineMemory::default(),
         },

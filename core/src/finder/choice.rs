@@ -28,7 +28,7 @@ use heapless::Vec;
 use crate::joint::kinematics::coronal_tilt_deg;
 use crate::math::round;
 use crate::pose::{Pose, geodesic_deg};
-use crate::shortlist::smallest;
+use crate::shortlist::{first_of, smallest};
 
 /// A residual this many times the best one rules a pose out. Of network masks and grey images the
 /// ratio of the two mirror poses was 0.9 to 1.1, and the wrong one often the smaller.
@@ -339,7 +339,7 @@ impl<'a> Contenders<'a> {
         let far = self.open.iter().filter(|&&k| !near(k));
         let other = far.map(|&k| angle(k)).min_by(smaller)?;
         let chosen = self.open.iter().copied().find(|&k| near(k)).map(angle)?;
-        let left: Vec<usize, CONTENDERS> = self.open.iter().copied().filter(|&k| near(k)).collect();
+        let left = first_of(self.open.iter().copied().filter(|&k| near(k)));
         self.open = left;
         Some((chosen, other))
     }

@@ -81,17 +81,30 @@ pub(super) async fn add_assessed(
             continue;
         };
         pace.pause().await;
-        let assessment = assess(model, &[*view], &found.refined, memory)?;
-        let candidate = Candidate {
-            pose: found.refined.pose,
-            start: found.from,
-            located: Some(located),
-            refined: Some(found.refined),
-            covariance: assessment.covariance,
-            fit: assessment.fit,
-        };
-        keep(candidates, candidate, Candidate::misfit);
+        add_one(model, view, (found, located), memory, candidates)?;
     }
+    Ok(())
+}
+
+/// Adds a refined pose. By itself, so that candidates take no place on the stack while poses are refined.
+#[inline(never)]
+fn add_one(
+    model: &Model<'_>,
+    view: &CameraView<'_>,
+    (found, located): (&RefinedRival, Reranked),
+    memory: &mut RefineMemory<'_>,
+    candidates: &mut Vec<Candidate, CANDIDATES>,
+) -> Result<(), RefineError> {
+    let assessment = assess(model, &[*view], &found.refined, memory)?;
+    let candidate = Candidate {
+        pose: found.refined.pose,
+        start: found.from,
+        located: Some(located),
+        refined: Some(found.refined),
+        covariance: assessment.covariance,
+        fit: assessment.fit,
+    };
+    keep(candidates, candidate, Candidate::misfit);
     Ok(())
 }
 

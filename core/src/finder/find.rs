@@ -7,7 +7,7 @@ use super::choice::{ChoiceContext, choose};
 use super::component::Component;
 use super::corrected::{add_assessed, onto_target};
 use super::error::FindError;
-use super::first::{FIRST_POSES, FirstPoses, first_poses_paced, of_pieces};
+use super::first::{FirstPoses, add_of_pieces, first_poses_paced};
 use super::memory::FinderMemory;
 use super::rivals::{RefinedRival, RivalRefinement, STARTS, worth_refining};
 use super::verdict::{Decision, Limits, contenders, judge};
@@ -17,7 +17,7 @@ use crate::locate::rerank::Reranked;
 use crate::pace::{Pace, at_once};
 use crate::pose::Pose;
 use crate::refine::{CameraView, ImageTarget, RefineError, RefineOptions, fit_at};
-use crate::shortlist::keep;
+use crate::shortlist::{first_of, keep};
 
 /// How far poses are brought.
 #[derive(Clone, Copy, Debug)]
@@ -141,7 +141,8 @@ pub async fn find_paced(
     }
     let candidates = &mut found.candidates;
     candidates.clear();
-    let first = first_poses_paced(component, camera, silhouette, memory, pace).await?;
+    let mut first = FirstPoses::NONE;
+    first_poses_paced(component, camera, silhouette, memory, pace, &mut first).await?;
     (found.clipped, found.partial) = (first.clipped, first.partial);
     let mut way = Way {
         component,
@@ -152,10 +153,10 @@ pub async fn find_paced(
         pace,
     };
     match wanted.goal {
-        Goal::Library => way.as_the_library_has_them(&first, candidates),
-        Goal::Outline => way.on_outline(&first, candidates).await,
+        Goal::Library => way.as_the_library_has_them(&mut first, candidates),
+        Goal::Outline => way.on_outline(&mut first, candidates).await,
         Goal::Image(image) => {
-            way.on_outline(&first, candidates).await?;
+            way.on_outline(&mut first, candidates).await?;
             way.on_image(image, candidates)
         }
     }
@@ -177,14 +178,14 @@ impl Way<'_, '_> {
     #[inline(never)]
     fn as_the_library_has_them(
         &mut self,
-        first: &FirstPoses,
+        first: &mut FirstPoses,
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         self.add_unrefined(&first.poses, candidates)?;
         if !first.partial && !first.explain(self.silhouette) {
             // A second opinion: where there is none, the first stands.
-            let pieces = self.pieces();
-            self.add_unrefined(&pieces, candidates)?;
+            self.look_for_pieces(first);
+            self.add_unrefined(&first.poses, candidates)?;
         }
         Ok(())
     }
@@ -223,25 +224,22 @@ impl Way<'_, '_> {
     }
 
     /// Refined poses; where they leave a part of the outline unmet, as when something hides it and nobody said so, those
-    /// that pieces of the outline lead to are refined too.
+    /// that pieces of the outline lead to are refined too, in their place.
     async fn on_outline(
         &mut self,
-        first: &FirstPoses,
+        first: &mut FirstPoses,
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         self.add_refined(worth_refining(&first.poses), candidates)
             .await?;
         let met = candidates.first().map_or(0.0, |best| best.fit.met);
         if !first.partial && met < Limits::USUAL.good_met {
-            self.add_of_pieces(candidates).await;
+            self.look_for_pieces(first);
+            // A second opinion that leads nowhere is none.
+            let worth = worth_refining(&first.poses);
+            let _ = self.add_refined(worth, candidates).await;
         }
         Ok(())
-    }
-
-    async fn add_of_pieces(&mut self, candidates: &mut Candidates) {
-        let pieces = self.pieces();
-        // A second opinion that leads nowhere is none.
-        let _ = self.add_refined(worth_refining(&pieces), candidates).await;
     }
 
     #[inline(never)]
@@ -257,9 +255,11 @@ impl Way<'_, '_> {
         Ok(())
     }
 
-    #[inline(never)]
-    fn pieces(&mut self) -> Vec<Reranked, FIRST_POSES> {
-        of_pieces(self.component, self.camera, self.silhouette, self.memory).unwrap_or_default()
+    /// Poses that pieces of the outline lead to in the place of the first ones; none where they lead to none.
+    fn look_for_pieces(&mut self, first: &mut FirstPoses) {
+        let (camera, silhouette) = (self.camera, self.silhouette);
+        // What was there is cleared in any case.
+        let _ = add_of_pieces(self.component, camera, silhouette, self.memory, first);
     }
 
     async fn add_refined(
@@ -268,7 +268,7 @@ impl Way<'_, '_> {
         candidates: &mut Candidates,
     ) -> Result<(), FindError> {
         let starts = worth.iter().map(|rival| rival.located.pose);
-        let starts: Vec<Pose, STARTS> = starts.collect();
+        let starts: Vec<Pose, STARTS> = first_of(starts);
         let view = CameraView::only(self.camera, *self.silhouette);
         let Component { model, planes, .. } = *self.component;
         let memory = &mut self.memory.refine;

@@ -8,9 +8,9 @@ use super::memory::FinderMemory;
 use crate::camera::Camera;
 use crate::image::mask::{MaskMut, words_needed};
 use crate::image::silhouette::Silhouette;
-use crate::locate::locate;
 use crate::locate::partial::{known_fraction, locate_partial};
 use crate::locate::rerank::{Reranked, rerank_paced};
+use crate::locate::{LocatedPoses, locate};
 use crate::pace::{Pace, at_once};
 
 /// First poses that are kept of one silhouette.
@@ -45,37 +45,42 @@ pub fn first_poses(
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
 ) -> Result<FirstPoses, FindError> {
-    let pace = Pace::new();
-    at_once(
-        &pace,
-        first_poses_paced(component, camera, silhouette, memory, &pace),
-    )
+    let (mut first, pace) = (FirstPoses::NONE, Pace::new());
+    let work = first_poses_paced(component, camera, silhouette, memory, &pace, &mut first);
+    at_once(&pace, work)?;
+    Ok(first)
 }
 
-/// The same in slices: the search of the library, then one for each drawing.
+/// The same in slices, the search of the library and then one for each drawing, into what was [`FirstPoses::NONE`]: to move so
+/// many poses takes kilobytes of stack.
 pub(super) async fn first_poses_paced(
     component: &Component<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
     pace: &Pace,
-) -> Result<FirstPoses, FindError> {
+    first: &mut FirstPoses,
+) -> Result<(), FindError> {
     pace.pause().await;
     if known_fraction(silhouette).is_partial() {
-        return Ok(FirstPoses {
-            poses: of_pieces(component, camera, silhouette, memory)?,
-            clipped: false,
-            partial: true,
-        });
+        first.partial = true;
+        return add_of_pieces(component, camera, silhouette, memory, first);
     }
-    let whole = of_whole(component, camera, silhouette, memory, pace).await?;
-    match whole.poses.is_empty() {
+    of_whole(component, camera, silhouette, memory, pace, first).await?;
+    match first.poses.is_empty() {
         true => Err(FindError::NoView),
-        false => Ok(whole),
+        false => Ok(()),
     }
 }
 
 impl FirstPoses {
+    /// None yet.
+    pub(super) const NONE: Self = Self {
+        poses: Vec::new(),
+        clipped: false,
+        partial: false,
+    };
+
     /// Whether the best of them leaves so little unmatched that nothing seems to be hidden.
     pub(super) fn explain(&self, silhouette: &Silhouette<'_>) -> bool {
         let limit = DOUBTFUL_SHARE * silhouette.mask().area() as f64;
@@ -90,43 +95,53 @@ async fn of_whole(
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
     pace: &Pace,
-) -> Result<FirstPoses, FindError> {
-    let Component { library, model, .. } = component;
-    let work = memory.workspace.reborrow();
-    let mut found = locate::<FIRST_POSES>(silhouette.mask(), camera, library, work)?;
-    found.poses.truncate(kept(component));
+    first: &mut FirstPoses,
+) -> Result<(), FindError> {
+    let found = in_library(component, camera, silhouette, memory)?;
+    first.clipped = found.form.clipped;
     let (width, height) = (camera.width(), camera.height());
     let words = memory.refine.drawn.get_mut(..words_needed(width, height));
     let mut drawn = MaskMut::new(words.unwrap_or_default(), width, height)?;
     let scratch = &mut *memory.refine.projected;
-    let poses = rerank_paced(
-        &found.poses,
-        model,
-        camera,
-        silhouette,
-        scratch,
-        &mut drawn,
-        pace,
-    );
-    Ok(FirstPoses {
-        poses: poses.await?,
-        clipped: found.form.clipped,
-        partial: false,
-    })
+    let poses = found.poses.get(..kept(component)).unwrap_or(&found.poses);
+    let (seen, memory) = ((camera, silhouette), (scratch, &mut drawn));
+    rerank_paced(poses, component.model, seen, memory, pace, &mut first.poses).await?;
+    Ok(())
 }
 
-/// Poses that pieces of the outline lead to, for a silhouette of which something may hide a part that nobody marked.
-pub(super) fn of_pieces(
+/// The search of the library. By itself, because it leaves only its answer on the stack.
+#[inline(never)]
+fn in_library(
     component: &Component<'_>,
     camera: &Camera,
     silhouette: &Silhouette<'_>,
     memory: &mut FinderMemory<'_>,
-) -> Result<Vec<Reranked, FIRST_POSES>, FindError> {
+) -> Result<LocatedPoses<FIRST_POSES>, FindError> {
+    let drawn = &mut *memory.refine.drawn;
+    let mut work = memory.workspace.reborrow();
+    if work.bytes.is_empty() {
+        // Nothing is drawn yet.
+        work.bytes = bytemuck::cast_slice_mut(drawn);
+    }
+    Ok(locate(silhouette.mask(), camera, component.library, work)?)
+}
+
+/// Adds poses that pieces of the outline lead to, for a silhouette of which something may hide a part that nobody marked, in the
+/// place of those that there are.
+#[inline(never)]
+pub(super) fn add_of_pieces(
+    component: &Component<'_>,
+    camera: &Camera,
+    silhouette: &Silhouette<'_>,
+    memory: &mut FinderMemory<'_>,
+    first: &mut FirstPoses,
+) -> Result<(), FindError> {
+    first.poses.clear();
     let Component { library, model, .. } = component;
     let partial = memory.partial.reborrow();
-    let mut found = locate_partial(silhouette, camera, library, model, partial)?;
-    found.truncate(kept(component));
-    Ok(found)
+    first.poses = locate_partial(silhouette, camera, library, model, partial)?;
+    first.poses.truncate(kept(component));
+    Ok(())
 }
 
 fn kept(component: &Component<'_>) -> usize {

@@ -7,7 +7,8 @@ use crate::refine::RefineMemory;
 /// Working memory of [`super::find()`]. With the feature `alloc`, `FinderBuffers` owns it.
 #[derive(Debug)]
 pub struct FinderMemory<'m> {
-    /// To compare the silhouette with the library.
+    /// To compare the silhouette with the library. Where it has no bytes, those of the drawing serve, of which nothing is
+    /// needed before views are found.
     pub workspace: Workspace<'m>,
     /// To find poses of pieces of the outline.
     pub partial: PartialMemory<'m>,

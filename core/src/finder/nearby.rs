@@ -18,7 +18,7 @@ use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::refine::RefineMemory;
 use crate::render::{Projected, render};
-use crate::shortlist::keep;
+use crate::shortlist::{first_of, keep};
 
 /// Most starts that [`nearby`] returns: the pose itself and the best of those around it.
 pub const NEARBY: usize = 5;
@@ -72,7 +72,7 @@ pub fn nearby(
             }
         }
     }
-    let mut poses: Vec<Pose, NEARBY> = found.into_iter().map(|(_, pose)| pose).collect();
+    let mut poses: Vec<Pose, NEARBY> = first_of(found.into_iter().map(|(_, pose)| pose));
     // One place was left for it.
     let _ = poses.push(*start);
     poses

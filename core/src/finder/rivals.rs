@@ -15,7 +15,7 @@ use crate::refine::{
     CameraView, RefineError, RefineMemory, RefineOptions, Refined, Target, begin, finish, probe,
     refine_paced,
 };
-use crate::shortlist::keep;
+use crate::shortlist::{keep, take_out};
 
 /// Most poses that are refined as starts.
 pub const STARTS: usize = 6;
@@ -169,11 +169,16 @@ impl RivalRefinement<'_, '_> {
         let starts = &starts[..starts.len().min(STARTS)];
         let mut failure = None;
         if let ([_, _, ..], true) = (starts, self.is_outline()) {
-            for (start, begun) in self.begun(starts, &mut failure).await {
+            let mut begun = Vec::new();
+            self.begin_all(starts, &mut begun, &mut failure).await;
+            for (start, begun) in &begun {
                 let (model, views, options) = (self.model, self.views, self.options);
-                let finished = finish(model, views, &begun, options, self.memory, self.pace);
+                let finished = finish(model, views, begun, options, self.memory, self.pace);
                 match finished.await {
-                    Ok(refined) => self.keep(starts[start], refined, start, false),
+                    Ok(refined) => {
+                        let from = starts.get(*start).unwrap_or(&begun.pose);
+                        self.keep(*from, refined, *start, false);
+                    }
                     Err(error) => failure = Some(error),
                 }
             }
@@ -197,12 +202,12 @@ impl RivalRefinement<'_, '_> {
     }
 
     /// Where the first stage leads from the starts, each pose once, and only those that may be the best.
-    async fn begun(
+    async fn begin_all(
         &mut self,
         starts: &[Pose],
+        begun: &mut Vec<(usize, Refined), STARTS>,
         failure: &mut Option<RefineError>,
-    ) -> Vec<(usize, Refined), STARTS> {
-        let mut begun: Vec<(usize, Refined), STARTS> = Vec::new();
+    ) {
         for (start, pose) in starts.iter().enumerate() {
             let known = |pose: &Pose| {
                 let mut begun = begun.iter();
@@ -213,35 +218,23 @@ impl RivalRefinement<'_, '_> {
             match begun_here.await {
                 Ok(None) => {}
                 Ok(Some(one)) => {
-                    keep(&mut begun, (start, one), |(_, one)| one.loss);
+                    keep(begun, (start, one), |(_, one)| one.loss);
                 }
                 Err(error) => *failure = Some(error),
             }
         }
-        let least = begun.first().map_or(0.0, |(_, best)| best.loss);
-        let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
-        let mut kept: Vec<(usize, Refined), STARTS> = Vec::new();
-        for (start, one) in begun {
-            let same = |(_, other): &(usize, Refined)| {
-                geodesic_deg(&other.pose.rotation, &one.pose.rotation) < LOOKED_SAME_DEG
-            };
-            if one.loss <= limit && !kept.iter().any(same) {
-                // No longer than what it is made from.
-                let _ = kept.push((start, one));
-            }
-        }
-        kept
+        keep_open(begun);
     }
 
     /// Refines the mirror images of all poses so far, where they cover what was seen.
     async fn mirror(&mut self) {
-        let mut distinct: Vec<(usize, Pose), ANSWERS> = Vec::new();
+        // At most one of each start so far.
+        let mut distinct: Vec<(usize, Pose), STARTS> = Vec::new();
         for RefinedRival { start, refined, .. } in &*self.answers {
             if !distinct
                 .iter()
                 .any(|(_, other)| is_same(other, &refined.pose))
             {
-                // No longer than what it is made from.
                 let _ = distinct.push((*start, refined.pose));
             }
         }
@@ -428,6 +421,23 @@ fn is_near(
     there as f64 <= limit || unmatched(own).is_none_or(|here| there <= 2 * here)
 }
 
+/// Keeps those poses that a quick look leaves open, each once, where it comes first: they are listed by rising loss.
+fn keep_open(begun: &mut Vec<(usize, Refined), STARTS>) {
+    let least = begun.first().map_or(0.0, |(_, best)| best.loss);
+    let limit = LOOKED_WORSE * least.max(LOOKED_PX2);
+    let mut place = 0;
+    while let Some((_, one)) = begun.get(place) {
+        let same = |(_, other): &(usize, Refined)| {
+            geodesic_deg(&other.pose.rotation, &one.pose.rotation) < LOOKED_SAME_DEG
+        };
+        if one.loss > limit || begun.iter().take(place).any(same) {
+            take_out(begun, place);
+        } else {
+            place += 1;
+        }
+    }
+}
+
 /// Keeps each pose once, where it comes first.
 fn keep_distinct(answers: &mut Vec<RefinedRival, ANSWERS>) {
     let mut place = 0;
@@ -435,7 +445,7 @@ fn keep_distinct(answers: &mut Vec<RefinedRival, ANSWERS>) {
         let pose = refined.pose;
         let mut before = answers.iter().take(place);
         if before.any(|other| is_same(&other.refined.pose, &pose)) {
-            answers.remove(place);
+            take_out(answers, place);
         } else {
             place += 1;
         }

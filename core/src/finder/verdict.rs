@@ -13,6 +13,7 @@ use super::candidate::{CANDIDATES, Candidate};
 use super::choice::{Choice, OpenRival, RivalPose};
 use crate::pose::geodesic_deg;
 use crate::refine::{Fit, MET_WITHIN_PX};
+use crate::shortlist::first_of;
 
 /// What a pose must meet to be called good, and what it must not fall short of to be a pose at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -228,7 +229,7 @@ pub fn contenders(candidates: &[Candidate]) -> Vec<RivalPose, CANDIDATES> {
         },
         false => candidate.rival(),
     };
-    candidates.iter().take(CANDIDATES).map(rival).collect()
+    first_of(candidates.iter().map(rival))
 }
 
 /// How far a choice among candidates is to be trusted. `None` where it is none of theirs.

@@ -103,7 +103,7 @@ impl<'a> Mask<'a> {
         }
         let tail = tail_mask(width);
         let padded = words
-            .chunks_exact(row_words(width))
+            .chunks_exact(row_words(width).max(1))
             .position(|row| row.last().is_some_and(|word| word & !tail != 0));
         match padded {
             Some(row) => Err(MaskError::Padding(row)),
@@ -227,7 +227,7 @@ impl<'a> Mask<'a> {
     pub(crate) fn rows(&self) -> core::ops::Range<usize> {
         // All words of a row at once: wide instructions.
         let any = |row: &[Word]| row.iter().fold(0, |sum, word| sum | word) != 0;
-        let mut rows = self.words.chunks_exact(row_words(self.width));
+        let mut rows = self.words.chunks_exact(row_words(self.width).max(1));
         let first = rows.clone().position(any);
         let last = rows.rposition(any);
         first

@@ -101,7 +101,8 @@ pub fn steepest_rise(
 fn differentiate(profile: &[f64], slopes: &mut [f64]) {
     let (weights, norm) = DERIVATIVE;
     for (k, weight) in weights.iter().enumerate().skip(1) {
-        let (before, after) = (&profile[HALF_FILTER - k..], &profile[HALF_FILTER + k..]);
+        let from = |first: usize| profile.get(first..).unwrap_or_default();
+        let (before, after) = (from(HALF_FILTER - k), from(HALF_FILTER + k));
         for ((slope, before), after) in slopes.iter_mut().zip(before).zip(after) {
             *slope += weight * (after - before);
         }
@@ -115,8 +116,10 @@ pub(crate) fn strongest(slopes: &[f64], expected: f64) -> NormalReading {
     let half = slopes.len() / 2;
     let sigma = READING_STEP * half as f64 / 2.0;
     let mut best = (0.0, NormalReading::Nothing);
-    for k in 1..slopes.len().saturating_sub(1) {
-        let (before, slope, after) = (slopes[k - 1], slopes[k], slopes[k + 1]);
+    for (k, three) in (1usize..).zip(slopes.windows(3)) {
+        let &[before, slope, after] = three else {
+            continue;
+        };
         if slope <= 0.0 || slope < before || slope <= after {
             continue;
         }

@@ -167,14 +167,14 @@ impl<'a> Silhouette<'a> {
         self.crop.as_ref()
     }
 
-    /// Whether a place beyond the mask, in pixels from the middle of the first pixel to the right and down, is known to hold
-    /// nothing of the implant.
-    pub(crate) fn is_clear_beyond(&self, column: f64, row: f64) -> bool {
+    /// Whether a place beyond the mask, to the right of and below the middle of a pixel that is counted from the first, is known
+    /// to hold nothing of the implant.
+    pub(crate) fn is_clear_beyond(&self, column: i32, row: i32) -> bool {
         let Some(crop) = &self.crop else {
             return false;
         };
-        let [left, top, right, bottom] = crop.beyond().map(|pixels| pixels as f64);
-        let last = |side: usize| side as f64 - 1.0;
+        let [left, top, right, bottom] = crop.beyond().map(|pixels| pixels as i32);
+        let last = |side: usize| side as i32 - 1;
         (-left..last(crop.width()) + right).contains(&column)
             && (-top..last(crop.height()) + bottom).contains(&row)
     }

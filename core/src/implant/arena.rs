@@ -4,7 +4,7 @@ use super::wire::{COUNTS_AT, HEADER_BYTES, SIZES};
 use crate::canonical::CanonicalSpec;
 use crate::image::mask::{Word, words_needed};
 use crate::locate::workspace_bytes_needed;
-use crate::refine::BorderPixel;
+use crate::refine::{BorderPixel, places_needed};
 use crate::render::{Projected, scratch_for};
 use crate::search::scores_needed;
 
@@ -15,20 +15,22 @@ pub struct ArenaNeeds {
     pub canonical: usize,
     /// Scores of the library's views.
     pub scores: usize,
-    /// Bytes to compare a silhouette with views.
+    /// Bytes to compare a silhouette with views; none where the words of the mask serve.
     pub bytes: usize,
     /// Projected vertices and silhouette edges.
     pub projected: usize,
     /// Words of a mask of the part of the frame.
     pub words: usize,
+    /// Numbers by which samples of the outline are found in its rows.
+    pub places: usize,
 }
 
 impl ArenaNeeds {
     /// Bytes of all of it, for outlines of at most `border` pixels.
     #[must_use]
     pub const fn bytes_for(&self, border: usize) -> usize {
-        let masks = 2 * size_of::<Word>() * self.canonical + 4 * size_of::<Word>() * self.words;
-        let lists = size_of::<u32>() * self.scores + self.bytes;
+        let masks = 2 * size_of::<Word>() * self.canonical + 2 * size_of::<Word>() * self.words;
+        let lists = size_of::<u32>() * self.scores + self.bytes + size_of::<u16>() * self.places;
         masks + lists + size_of::<Projected>() * self.projected + size_of::<BorderPixel>() * border
     }
 
@@ -45,7 +47,6 @@ impl ArenaNeeds {
         }
         let vertices = u32_at(file, COUNTS_AT) as usize;
         let edges = u32_at(file, COUNTS_AT + 24) as usize;
-        let crossings = u32_at(file, COUNTS_AT + 28) as usize;
         let [area, size, x, y] = [
             u32_at(file, library + 12),
             u16_at(file, library + 16),
@@ -55,12 +56,15 @@ impl ArenaNeeds {
         let Some(canonical) = CanonicalSpec::possible(size as usize, area) else {
             panic!("the library of the implant file has no canonical frame");
         };
+        let bytes = workspace_bytes_needed(&canonical);
+        let serves = words_needed(columns, rows) * size_of::<Word>() >= bytes;
         Self {
             canonical: canonical.words_needed(),
             scores: scores_needed((x * y) as usize),
-            bytes: workspace_bytes_needed(&canonical),
-            projected: scratch_for(vertices, rows, edges, rows * crossings),
+            bytes: if serves { 0 } else { bytes },
+            projected: scratch_for(vertices, rows, edges),
             words: words_needed(columns, rows),
+            places: places_needed(rows),
         }
     }
 }
@@ -97,7 +101,7 @@ macro_rules! finder_arena {
             bytes: [u8; Self::NEEDS.bytes],
             projected: [$crate::render::Projected; Self::NEEDS.projected],
             drawn: [$crate::image::mask::Word; Self::NEEDS.words],
-            places: [[$crate::image::mask::Word; 2]; Self::NEEDS.words],
+            places: [u16; Self::NEEDS.places],
             border: [$crate::refine::BorderPixel; $border],
         }
 
@@ -115,7 +119,7 @@ macro_rules! finder_arena {
                     bytes: [0; Self::NEEDS.bytes],
                     projected: [$crate::render::Projected::ZERO; Self::NEEDS.projected],
                     drawn: [0; Self::NEEDS.words],
-                    places: [[0; 2]; Self::NEEDS.words],
+                    places: [0; Self::NEEDS.places],
                     border: [$crate::refine::BorderPixel::EMPTY; $border],
                 }
             }

@@ -20,10 +20,10 @@ impl ContourNeeds {
     /// frame, or of the part of it that is cropped.
     #[must_use]
     pub const fn scratch(&self, vertices: usize, rows: usize) -> usize {
-        scratch_for(vertices, rows, self.edges, rows * self.crossings_a_row)
+        scratch_for(vertices, rows, self.edges)
     }
 
-    /// Words of [`crate::refine::RefineMemory::drawn`], and pairs of [`crate::refine::RefineMemory::places`].
+    /// Words of [`crate::refine::RefineMemory::drawn`].
     #[must_use]
     pub const fn words(&self, columns: usize, rows: usize) -> usize {
         words_needed(columns, rows)

@@ -70,23 +70,23 @@ impl<'a> Sketches<'a> {
         let across = info.canonical.size() / BLOCK;
         let mut sketch = self.of(view).iter();
         let mut places = self.places().peekable();
-        let blocks_agree = self
-            .common
-            .chunks_exact(across)
-            .enumerate()
-            .all(|(row, common)| {
-                let counts = block_row_of_runs(runs, row);
-                (row * across..)
-                    .zip(common)
-                    .zip(counts)
-                    .all(|((block, common), count)| {
-                        let kept = match places.next_if_eq(&block) {
-                            Some(_) => sketch.next().copied().filter(|_| *common == 0),
-                            None => Some(*common),
-                        };
-                        kept == Some(at_most_255(count))
-                    })
-            });
+        let blocks_agree =
+            self.common
+                .chunks_exact(across.max(1))
+                .enumerate()
+                .all(|(row, common)| {
+                    let counts = block_row_of_runs(runs, row);
+                    (row * across..)
+                        .zip(common)
+                        .zip(counts)
+                        .all(|((block, common), count)| {
+                            let kept = match places.next_if_eq(&block) {
+                                Some(_) => sketch.next().copied().filter(|_| *common == 0),
+                                None => Some(*common),
+                            };
+                            kept == Some(at_most_255(count))
+                        })
+                });
         blocks_agree && places.next().is_none() && sketch.all(|&padding| padding == 0)
     }
 }

@@ -103,7 +103,9 @@ impl ViewGrid {
     /// Place of a view on both axes.
     #[must_use]
     pub fn place(&self, view: usize) -> (usize, usize) {
-        (view % self.x.count, view / self.x.count)
+        let columns = self.x.count;
+        let (x, y) = (view.checked_rem(columns), view.checked_div(columns));
+        (x.unwrap_or(0), y.unwrap_or(0))
     }
 
     /// Rotations of a view about x and y, degrees.

@@ -120,7 +120,7 @@ pub(crate) fn solve(
     for _ in 0..ITERATIONS {
         let step = newton_step(&near, &functionals, place)?;
         for ((place, step), origin) in place.iter_mut().zip(step).zip(origin) {
-            *place = (*place - step).clamp(origin - 1.0, origin + 1.0);
+            *place = (*place - step).max(origin - 1.0).min(origin + 1.0);
         }
     }
     let moved = [place[0] - origin[0], place[1] - origin[1]];

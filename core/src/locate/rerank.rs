@@ -58,29 +58,29 @@ pub fn rerank<const K: usize>(
     scratch: &mut [Projected],
     drawn: &mut MaskMut<'_>,
 ) -> Result<Vec<Reranked, K>, RenderError> {
-    let pace = Pace::new();
-    let drawn = rerank_paced(poses, model, camera, silhouette, scratch, drawn, &pace);
-    at_once(&pace, drawn)
+    let (mut reranked, pace) = (Vec::new(), Pace::new());
+    let seen = (camera, silhouette);
+    let work = rerank_paced(poses, model, seen, (scratch, drawn), &pace, &mut reranked);
+    at_once(&pace, work)?;
+    Ok(reranked)
 }
 
-/// The same in slices, a drawing each.
+/// The same in slices, a drawing each, into a list that was empty.
 pub(crate) async fn rerank_paced<const K: usize>(
     poses: &[Located],
     model: &Model<'_>,
-    camera: &Camera,
-    silhouette: &Silhouette<'_>,
-    scratch: &mut [Projected],
-    drawn: &mut MaskMut<'_>,
+    (camera, silhouette): (&Camera, &Silhouette<'_>),
+    (scratch, drawn): (&mut [Projected], &mut MaskMut<'_>),
     pace: &Pace,
-) -> Result<Vec<Reranked, K>, RenderError> {
-    let mut reranked: Vec<Reranked, K> = Vec::new();
+    reranked: &mut Vec<Reranked, K>,
+) -> Result<(), RenderError> {
     let mut undrawable = None;
     for &located in poses.iter().take(K) {
         pace.pause().await;
         match unmatched_at_pose(model, camera, &located.pose, silhouette, scratch, drawn) {
             Ok(unmatched) => {
                 let own = Reranked { located, unmatched };
-                keep(&mut reranked, own, |other| other.unmatched);
+                keep(reranked, own, |other| other.unmatched);
             }
             Err(error @ RenderError::BehindCamera(_)) => undrawable = Some(error),
             Err(error) => return Err(error),
@@ -88,6 +88,6 @@ pub(crate) async fn rerank_paced<const K: usize>(
     }
     match undrawable.filter(|_| reranked.is_empty()) {
         Some(error) => Err(error),
-        None => Ok(reranked),
+        None => Ok(()),
     }
 }

@@ -14,6 +14,7 @@ use crate::pose::Pose;
 use crate::search::kernels::Kernels;
 use crate::search::{MatchError, Scores, scores_needed};
 use crate::search::{Query, ViewSearch, ViewSearchMemory, query_bytes_needed, search_bytes_needed};
+use crate::shortlist::first_of;
 
 /// Why no pose was found.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -128,19 +129,19 @@ pub fn locate<const K: usize>(
     };
     let mut search = ViewSearch::new(library, &query, &work.kernels, memory)?;
     let rivals: Vec<_, K> = search.rivals();
-    let poses = rivals
-        .iter()
-        .map(|candidate| {
-            let fine = interpolate(&mut search, candidate);
-            Located {
-                pose: pose_from_view(camera, info, &form, &fine),
-                view: candidate.view,
-                fine,
-                by_pieces: false,
-            }
-        })
-        .collect();
-    Ok(LocatedPoses { form, poses })
+    let poses = rivals.iter().map(|candidate| {
+        let fine = interpolate(&mut search, candidate);
+        Located {
+            pose: pose_from_view(camera, info, &form, &fine),
+            view: candidate.view,
+            fine,
+            by_pieces: false,
+        }
+    });
+    Ok(LocatedPoses {
+        form,
+        poses: first_of(poses),
+    })
 }
 
 /// The scores of all views for `mask`, as seen by `camera`, and its canonical form. [`locate`] looks at no more of them
@@ -188,5 +189,7 @@ fn split_bytes<'a>(
     spec: &CanonicalSpec,
 ) -> Result<(&'a mut [u8], &'a mut [u8]), MatchError> {
     let bytes = first("bytes", workspace_bytes_needed(spec), bytes)?;
-    Ok(bytes.split_at_mut(query_bytes_needed(spec)))
+    Ok(bytes
+        .split_at_mut_checked(query_bytes_needed(spec))
+        .unwrap_or_default())
 }

@@ -19,6 +19,18 @@ pub fn sqrt(x: f64) -> f64 {
     libm::sqrt(x)
 }
 
+/// Square root in 32 bits.
+#[must_use]
+pub(crate) fn sqrt_single(x: f32) -> f32 {
+    libm::sqrtf(x)
+}
+
+/// `ln(1 + x)` in 32 bits.
+#[must_use]
+pub(crate) fn ln_1p_single(x: f32) -> f32 {
+    libm::log1pf(x)
+}
+
 /// Sine and cosine of an angle in radians.
 #[must_use]
 pub fn sin_cos(radians: f64) -> (f64, f64) {

@@ -2,21 +2,23 @@
 
 pub(super) use crate::image::profile::NormalReading;
 
-/// A sample of the model's outline.
+use crate::math::sqrt_single;
+
+/// A sample of the model's outline. It is small, because a microcontroller keeps a thousand of them: what a sample's own
+/// numbers tell again (its normal, how its place moves with the pose) is reckoned where it is needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BorderPixel {
     pub(super) column: u16,
     pub(super) row: u16,
-    /// Outward unit normal: to the right and downwards.
-    pub(super) normal: [f32; 2],
+    /// Which way outwards is, to the right and downwards, of no certain length: whole numbers as the drawing has them, at
+    /// most 160.
+    pub(super) slope: [i16; 2],
     /// Arc length of the outline in this pixel, pixels.
     pub(super) weight: f32,
     /// Least and greatest distance of the surface from the camera plane, mm.
     pub(super) near: f32,
     pub(super) far: f32,
-    pub(super) residual: Residual,
-    /// How fast the outline moves along the normal with each parameter of a step.
-    pub(super) jacobian: [f32; 6],
+    pub(super) residual: Kept,
 }
 
 /// How far the target's outline lies beyond the model's.
@@ -42,6 +44,47 @@ impl Residual {
             NormalReading::At(place) => Self::Px((place - expected) as f32),
         }
     }
+
+    /// The same of what was found `from` somewhere else.
+    pub(super) fn beyond(self, from: f32) -> Self {
+        match self {
+            Self::Px(place) => Self::Px(place - from),
+            other => other,
+        }
+    }
+}
+
+/// A residual in four bytes: the bits of its number, or of a number that is none, less those of [`NONE`], so that static memory
+/// is all zeros.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Kept(u32);
+
+/// Bits of numbers that are none and that no arithmetic makes.
+const NONE: u32 = 0x7fc5_a5a1;
+const UNKNOWN: u32 = 0x7fc5_a5a2;
+const MISSING: u32 = 0x7fc5_a5a3;
+
+impl From<Residual> for Kept {
+    fn from(residual: Residual) -> Self {
+        let bits = match residual {
+            Residual::None => NONE,
+            Residual::Unknown => UNKNOWN,
+            Residual::Missing => MISSING,
+            Residual::Px(residual) => residual.to_bits(),
+        };
+        Self(bits ^ NONE)
+    }
+}
+
+impl From<Kept> for Residual {
+    fn from(Kept(kept): Kept) -> Self {
+        match kept ^ NONE {
+            NONE => Self::None,
+            UNKNOWN => Self::Unknown,
+            MISSING => Self::Missing,
+            bits => Self::Px(f32::from_bits(bits)),
+        }
+    }
 }
 
 impl BorderPixel {
@@ -49,20 +92,34 @@ impl BorderPixel {
     pub const EMPTY: Self = Self {
         column: 0,
         row: 0,
-        normal: [0.0; 2],
+        slope: [0; 2],
         weight: 0.0,
         near: 0.0,
         far: 0.0,
-        residual: Residual::None,
-        jacobian: [0.0; 6],
+        residual: Kept(0),
     };
 
+    pub(super) fn residual(&self) -> Residual {
+        self.residual.into()
+    }
+
+    pub(super) fn set_residual(&mut self, residual: Residual) {
+        self.residual = residual.into();
+    }
+
     /// The residual where there is one, pixels.
-    pub(super) fn residual_px(&self) -> Option<f64> {
-        match self.residual {
-            Residual::Px(residual) => Some(f64::from(residual)),
+    pub(super) fn residual_px(&self) -> Option<f32> {
+        match self.residual() {
+            Residual::Px(residual) => Some(residual),
             _ => None,
         }
+    }
+
+    /// Outward unit normal: to the right and downwards.
+    pub(super) fn normal(&self) -> [f32; 2] {
+        let [right, down] = self.slope.map(f32::from);
+        let one = 1.0 / sqrt_single(right * right + down * down);
+        [right * one, down * one]
     }
 
     /// Continuous image coordinates of the pixel's centre.
@@ -82,7 +139,29 @@ impl BorderPixel {
     }
 
     /// Distance of the contour from the camera plane, mm.
-    pub(super) fn depth(&self) -> f64 {
-        f64::from(self.near + self.far) / 2.0
+    pub(super) fn depth(&self) -> f32 {
+        (self.near + self.far) / 2.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn residuals_are_kept_in_four_bytes(bits in any::<u32>()) {
+            let px = f32::from_bits(bits);
+            prop_assume!(!px.is_nan());
+            let mut pixel = BorderPixel::EMPTY;
+            prop_assert_eq!(pixel.residual(), Residual::None);
+            for residual in [Residual::Px(px), Residual::Missing, Residual::Unknown, Residual::None] {
+                pixel.set_residual(residual);
+                prop_assert_eq!(pixel.residual(), residual);
+            }
+            prop_assert_eq!(pixel, BorderPixel::default());
+            prop_assert_eq!(size_of::<BorderPixel>(), 24);
+        }
     }
 }

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use super::border::BorderPixel;
 use super::memory::RefineMemory;
+use super::places::places_needed;
 use super::view::CameraView;
 use crate::camera::Camera;
 use crate::film::lines::heads_needed;
@@ -23,7 +24,7 @@ const LINES: usize = 2048;
 pub struct RefineBuffers {
     projected: Vec<Projected>,
     drawn: Vec<Word>,
-    places: Vec<[Word; 2]>,
+    places: Vec<u16>,
     border: Vec<BorderPixel>,
     lines: Vec<PathLine>,
     heads: Vec<u16>,
@@ -48,7 +49,7 @@ impl RefineBuffers {
         let (width, height) = (camera.width(), camera.height());
         grow(&mut self.projected, scratch_needed(model));
         grow(&mut self.drawn, words_needed(width, height));
-        grow(&mut self.places, words_needed(width, height));
+        grow(&mut self.places, places_needed(height));
         grow(&mut self.border, BORDER);
         grow(&mut self.lines, LINES);
         grow(&mut self.heads, heads_needed());

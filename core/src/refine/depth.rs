@@ -13,31 +13,40 @@ use super::places::Places;
 use crate::image::scan::pixel_box;
 use crate::image::tiles::Tiles;
 use crate::math::dot;
-use crate::render::{Projected, contour, for_each_span, project};
+use crate::mesh::Model;
+use crate::pose::Pose;
+use crate::render::{Images, Projected, for_each_span, remains};
 
 impl DrawnModel<'_> {
-    /// Writes the depth behind each border pixel. `places` has the number of each in the list.
+    /// Writes the depth behind each border pixel. `places` says which row each is in.
     pub(super) fn measure_depth(
         &self,
         scratch: &mut [Projected],
         places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
-        if let (Depth::Edges, Some(edges)) = (self.sampling.depth, contour(self.model, scratch)) {
-            for (vertices, images) in edges {
-                self.lay_edge(vertices, images.map(Projected::place), places, border);
-            }
+        if self.sampling.depth == Depth::Lines {
             return;
         }
-        if self.sampling.depth != Depth::Lines {
-            self.cover_with_triangles(scratch, places, border);
+        let Some(remains) = remains(self.model, self.camera, self.pose, scratch) else {
+            return;
+        };
+        let axis = Axis::of(self.pose);
+        let depth = |vertex| axis.depth_of(self.model, vertex);
+        let by_edges = self.sampling.depth == Depth::Edges
+            && remains.contour(|(vertices, images)| {
+                let images = images.map(Projected::place);
+                self.lay_edge((vertices, &depth), images, places, border);
+            });
+        if !by_edges {
+            self.cover_with_triangles(remains.images, places, border);
         }
     }
 
     /// Gives an edge's depth to the border pixels that it passes.
     fn lay_edge(
         &self,
-        vertices: [u32; 2],
+        (vertices, depth): ([u32; 2], &dyn Fn(u32) -> f32),
         [from, to]: [[f32; 2]; 2],
         places: &Places<'_>,
         border: &mut [BorderPixel],
@@ -54,12 +63,9 @@ impl DrawnModel<'_> {
                 continue;
             };
             for row in row - 1..row + 2 {
-                places.within(row, column - 1..column + 2, |number| {
-                    let [near, far] = *depths
-                        .get_or_insert_with(|| vertices.map(|vertex| self.depth_of_vertex(vertex)));
-                    if let Some(pixel) = border.get_mut(number) {
-                        pixel.cover(near + fraction * (far - near));
-                    }
+                places.within(border, row, column - 1..column + 2, |pixel| {
+                    let [near, far] = *depths.get_or_insert_with(|| vertices.map(depth));
+                    pixel.cover(near + fraction * (far - near));
                 });
             }
         }
@@ -73,22 +79,18 @@ impl DrawnModel<'_> {
         inside.then_some([column as usize, row as usize])
     }
 
-    fn depth_of_vertex(&self, vertex: u32) -> f32 {
-        let vertex = self.model.vertices().get(vertex as usize);
-        let vertex = vertex.copied().unwrap_or_default().map(f64::from);
-        (-dot(&self.pose.rotation[2], &vertex) - self.pose.translation[2]) as f32
-    }
-
+    /// By itself, because its tiles take up a part of the stack that silhouettes drawn from edges need not have.
+    #[inline(never)]
     fn cover_with_triangles(
         &self,
-        scratch: &mut [Projected],
+        mut images: Images<'_>,
         places: &Places<'_>,
         border: &mut [BorderPixel],
     ) {
-        let Ok(projected) = project(self.model.mesh(), self.camera, self.pose, scratch) else {
+        if images.make_all().is_err() {
             // What was drawn has images: it is not reached.
             return;
-        };
+        }
         let pixels = border
             .iter()
             .map(|pixel| [pixel.column, pixel.row].map(i32::from));
@@ -98,13 +100,17 @@ impl DrawnModel<'_> {
         let visit = |triangle: &[u32; 3], row: usize, from: i64, to: i64| {
             let cut = |column: i64| column.clamp(0, width as i64) as usize;
             let mut depth = None;
-            places.within(row, cut(from)..cut(to), |number| {
-                if let Some(pixel) = border.get_mut(number) {
-                    pixel.cover(*depth.get_or_insert_with(|| self.depth_of(triangle)));
-                }
+            places.within(border, row, cut(from)..cut(to), |pixel| {
+                pixel.cover(*depth.get_or_insert_with(|| self.depth_of(triangle)));
             });
         };
-        for_each_span(self.model, projected, height, wanted, visit);
+        for_each_span(
+            self.model,
+            |vertex| images.of(vertex),
+            height,
+            wanted,
+            visit,
+        );
     }
 
     /// Mean distance of a triangle's corners from the camera plane, mm.
@@ -119,15 +125,39 @@ impl DrawnModel<'_> {
     }
 }
 
+/// Away from the camera in the model's axes, in 32 bits: depths of a contour need not be as exact as images.
+struct Axis {
+    away: [f32; 3],
+    middle: f32,
+}
+
+impl Axis {
+    fn of(pose: &Pose) -> Self {
+        Self {
+            away: pose.rotation[2].map(|x| -x as f32),
+            middle: -pose.translation[2] as f32,
+        }
+    }
+
+    /// Distance of a vertex from the camera plane, mm.
+    fn depth_of(&self, model: &Model<'_>, vertex: u32) -> f32 {
+        let [x, y, z] = model
+            .vertices()
+            .get(vertex as usize)
+            .copied()
+            .unwrap_or_default();
+        self.away[0] * x + self.away[1] * y + self.away[2] * z + self.middle
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::camera::Camera;
     use crate::image::mask::{MaskMut, words_needed};
-    use crate::mesh::Model;
     use crate::mesh::edges::fake::Linked;
-    use crate::pose::Pose;
     use crate::refine::outline::Sampling;
+    use crate::refine::places_needed;
     use crate::render::{render, scratch_needed};
     use std::vec;
     use std::vec::Vec;
@@ -182,13 +212,15 @@ mod tests {
             sampling: Sampling::ALL,
         };
         // What the memory held before does not matter.
-        let mut places = vec![[7; 2]; words_needed(SIDE, SIDE)];
+        let mut places = vec![7; places_needed(SIDE)];
         let mut border = vec![BorderPixel::default(); 4096];
         let border = outliner
             .border(&mut scratch, &mut places, &mut border)
             .expect("room");
         let known = border.iter().filter(|pixel| pixel.is_on_surface());
-        let known: Vec<_> = known.map(|p| ([p.column, p.row], p.depth())).collect();
+        let known: Vec<_> = known
+            .map(|p| ([p.column, p.row], f64::from(p.depth())))
+            .collect();
         assert_eq!(known.len(), border.len());
         known
     }

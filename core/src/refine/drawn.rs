@@ -42,7 +42,7 @@ impl<'l> DrawnEdges<'l> {
         for (line, sample) in lines.iter_mut().zip(&mut *border) {
             // It stands for those that are left out.
             sample.weight *= stage.every.unwrap_or(1) as f32;
-            *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
+            *line = PathLine::at(sample.place(), sample.normal().map(f64::from));
         }
         measure(model, view.camera, pose, scratch, lines, memory.heads)?;
         for (line, sample) in lines.iter().zip(border) {

@@ -34,7 +34,7 @@ fn read(
     (expected, middle): (f64, usize),
     profile: &mut [f64],
 ) -> Option<()> {
-    let (origin, direction) = (sample.place(), sample.normal.map(f64::from));
+    let (origin, direction) = (sample.place(), sample.normal().map(f64::from));
     let normal = StraightLine {
         origin,
         direction,

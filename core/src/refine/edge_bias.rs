@@ -6,6 +6,7 @@
 
 use super::border::{BorderPixel, NormalReading};
 use super::edge;
+use super::motion::Motion;
 use super::stages::Stage;
 use super::view::{CameraView, ImageTarget, Target};
 use crate::film::edge::EdgeFilter;
@@ -33,11 +34,42 @@ pub(super) struct EdgeBias {
     any: bool,
 }
 
+/// Samples that are summed in 32 bits before their sum is added in 64.
+const BLOCK: usize = 64;
+
+/// Sums over a few samples.
+#[derive(Default)]
+struct Block {
+    information: [[f32; 6]; 6],
+    pulls: [[f32; 6]; CONSTANTS + 1],
+}
+
+impl Block {
+    fn add(&mut self, sample: &BorderPixel, motion: &Motion, moved: [f32; CONSTANTS + 1]) {
+        let jacobian = motion.jacobian(sample);
+        for (row, a) in jacobian.map(|a| sample.weight * a).into_iter().enumerate() {
+            for (pull, moved) in self.pulls.iter_mut().zip(moved) {
+                pull[row] += a * moved;
+            }
+            for (sum, &b) in self.information[row].iter_mut().zip(&jacobian) {
+                *sum += a * b;
+            }
+        }
+    }
+}
+
+fn add_to<const ROWS: usize>(sums: &mut [[f64; 6]; ROWS], more: &[[f32; 6]; ROWS]) {
+    let more = more.as_flattened().iter();
+    for (sum, &more) in sums.as_flattened_mut().iter_mut().zip(more) {
+        *sum += f64::from(more);
+    }
+}
+
 impl EdgeBias {
     /// Adds the samples of a view, with the lines across them where edges were compared with drawn ones.
     pub(super) fn add(
         &mut self,
-        view: &CameraView<'_>,
+        (view, motion): (&CameraView<'_>, &Motion),
         stage: &Stage,
         border: &[BorderPixel],
         lines: &[PathLine],
@@ -45,14 +77,14 @@ impl EdgeBias {
         match (&view.target, view.target.film().filter(|_| stage.drawn)) {
             (Target::Silhouette(silhouette), _) => {
                 let common = silhouette.common_offset().deviation_px;
-                self.add_moved(border, common, |_, _| [0.0; CONSTANTS]);
+                self.add_moved((border, motion), common, |_, _| [0.0; CONSTANTS]);
             }
             (Target::Image(_), None) => {
                 let common = CommonOffset::ON_EDGES.deviation_px;
-                self.add_moved(border, common, |_, _| [0.0; CONSTANTS]);
+                self.add_moved((border, motion), common, |_, _| [0.0; CONSTANTS]);
             }
             (Target::Image(image), Some(film)) => {
-                self.add_by_film(image, film, stage, border, lines);
+                self.add_by_film((image, film), stage, (border, motion), lines);
             }
         }
     }
@@ -61,16 +93,15 @@ impl EdgeBias {
     #[inline(never)]
     fn add_by_film(
         &mut self,
-        image: &ImageTarget<'_>,
-        film: &FilmModel,
+        (image, film): (&ImageTarget<'_>, &FilmModel),
         stage: &Stage,
-        border: &[BorderPixel],
+        samples: (&[BorderPixel], &Motion),
         lines: &[PathLine],
     ) {
         let deviations = core::array::from_fn(|k| sqrt(film.covariance[k][k].max(0.0)));
         self.correlation = correlation(film, &deviations);
         let changes = Changes::of(image, film, &deviations, stage);
-        self.add_moved(border, KNOWN_PX, |number, sample| {
+        self.add_moved(samples, KNOWN_PX, |number, sample| {
             let line = lines.get(number);
             line.map_or([0.0; CONSTANTS], |line| changes.moves(sample, line))
         });
@@ -79,31 +110,23 @@ impl EdgeBias {
     /// Adds samples whose edges a constant's standard deviation would move so far, and `common` pixels all of them.
     fn add_moved(
         &mut self,
-        border: &[BorderPixel],
+        (border, motion): (&[BorderPixel], &Motion),
         common: f64,
         moves: impl Fn(usize, &BorderPixel) -> [f64; CONSTANTS],
     ) {
-        for (number, sample) in border.iter().enumerate() {
-            if sample.residual_px().is_none() {
-                continue;
+        for (few, block) in border.chunks(BLOCK).enumerate() {
+            let mut sums = Block::default();
+            for (place, sample) in block.iter().enumerate() {
+                if sample.residual_px().is_none() {
+                    continue;
+                }
+                let [curvature, blur, attenuation] = moves(few * BLOCK + place, sample);
+                let moved = [curvature, blur, attenuation, common];
+                self.any |= moved.iter().any(|&x| x != 0.0);
+                sums.add(sample, motion, moved.map(|px| px as f32));
             }
-            let [curvature, blur, attenuation] = moves(number, sample);
-            let moved = [curvature, blur, attenuation, common];
-            self.any |= moved.iter().any(|&x| x != 0.0);
-            self.add_sample(sample, &moved);
-        }
-    }
-
-    fn add_sample(&mut self, sample: &BorderPixel, moved: &[f64; CONSTANTS + 1]) {
-        let jacobian = sample.jacobian.map(f64::from);
-        let length = f64::from(sample.weight);
-        for (row, &a) in jacobian.iter().enumerate() {
-            for (pull, moved) in self.pulls.iter_mut().zip(moved) {
-                pull[row] += length * a * moved;
-            }
-            for (sum, &b) in self.information[row].iter_mut().zip(&jacobian) {
-                *sum += length * a * b;
-            }
+            add_to(&mut self.information, &sums.information);
+            add_to(&mut self.pulls, &sums.pulls);
         }
     }
 

@@ -1,7 +1,9 @@
 //! Normal equations of robust least squares in the six parameters of a pose.
 
+use core::ops::AddAssign;
+
 use super::border::{BorderPixel, Residual};
-use super::loss::Loss;
+use super::motion::Motion;
 use super::result::{Iterate, Refined};
 use super::stages::{Pass, Stage};
 use super::step::Step;
@@ -17,7 +19,7 @@ fn with_offset([a, b, c, x, y, z, offset]: [f64; UNKNOWNS]) -> (Step, f64) {
 }
 
 /// Histogram of absolute residuals: bins of this many pixels.
-const BIN: f64 = 1.0 / 32.0;
+const BIN: f32 = 1.0 / 32.0;
 const BINS: usize = 128;
 
 type Normal = [[f64; UNKNOWNS]; UNKNOWNS];
@@ -26,9 +28,9 @@ fn dot(a: &[f64; UNKNOWNS], b: &[f64; UNKNOWNS]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn add_each(to: &mut [f64], more: &[f64]) {
-    for (sum, more) in to.iter_mut().zip(more) {
-        *sum += more;
+fn add_each<T: AddAssign, U: Copy + Into<T>>(to: &mut [T], more: &[U]) {
+    for (sum, &more) in to.iter_mut().zip(more) {
+        *sum += more.into();
     }
 }
 
@@ -43,14 +45,30 @@ pub(super) struct Equations {
     loss: f64,
     used: f64,
     squares: f64,
-    histogram: [f64; BINS],
+    histogram: [f32; BINS],
+}
+
+/// Samples that are summed in 32 bits before their sum is added in 64: a processor without those takes a tenth of the time,
+/// and what so few lose by rounding is a millionth.
+const BLOCK: usize = 64;
+
+/// Sums over a few samples, as of [`Equations`].
+#[derive(Default)]
+struct Block {
+    normal: [[f32; UNKNOWNS]; UNKNOWNS],
+    right: [f32; UNKNOWNS],
+    length: f32,
+    known: f32,
+    loss: f32,
+    used: f32,
+    squares: f32,
 }
 
 /// At least this part of the outline, by length, must be known.
 const LEAST_KNOWN: f64 = 0.15;
 /// In a correction a sample holds the pose at least by this part of its weight. By the weights alone, which are never less than the second
 /// derivative of a redescending loss, steps are too short and converge slowly; with less than a third of them some go too far.
-const LEAST_FIRM: f64 = 0.5;
+const LEAST_FIRM: f32 = 0.5;
 /// At least this part of what is known must have a counterpart in the target.
 const LEAST_USED: f64 = 0.2;
 
@@ -77,70 +95,27 @@ impl Equations {
         (self.loss, self.used, self.squares) = (0.0, 0.0, 0.0);
     }
 
-    /// Adds what was found along the normal of a sample, weighed as a stage does.
-    pub(super) fn add_sample(&mut self, sample: &BorderPixel, stage: &Stage) {
-        let length = f64::from(sample.weight);
-        match sample.residual {
-            Residual::None => {}
-            Residual::Unknown => self.add_unknown(length),
-            Residual::Px(residual) if f64::from(residual).abs() <= stage.range => {
-                let jacobian = sample.jacobian.map(f64::from);
-                let firmness = stage.corrects.then_some(LEAST_FIRM);
-                self.add(
-                    (stage.loss, firmness),
-                    &jacobian,
-                    f64::from(residual),
-                    length,
-                );
+    /// Adds what was found along the normals of samples, weighed as a stage does, where the outline moves so.
+    pub(super) fn add_samples(&mut self, samples: &[BorderPixel], motion: &Motion, stage: &Stage) {
+        for few in samples.chunks(BLOCK) {
+            let mut block = Block::default();
+            for sample in few {
+                block.add_sample(sample, motion, stage, &mut self.histogram);
             }
-            Residual::Px(_) | Residual::Missing => {
-                self.add_missing(stage.loss, stage.range, length);
-            }
+            self.add_block(&block);
         }
     }
 
-    /// A sample of which the target says nothing: only its length counts.
-    fn add_unknown(&mut self, length: f64) {
-        self.length += length;
-    }
-
-    /// A sample without a counterpart within `range`, which costs as much as one there.
-    fn add_missing(&mut self, loss: Loss, range: f64, length: f64) {
-        self.length += length;
-        self.known += length;
-        self.loss += length * loss.at(range).0;
-    }
-
-    /// Adds a sample: how far the target's outline is beyond the model's (pixels). It holds the pose as firmly as its weight, or,
-    /// with a least part of that, as the second derivative of the loss.
-    fn add(
-        &mut self,
-        (loss, least_firm): (Loss, Option<f64>),
-        jacobian: &[f64; 6],
-        residual: f64,
-        length: f64,
-    ) {
-        let (cost, weight) = loss.at(residual);
-        self.length += length;
-        self.known += length;
-        self.loss += length * cost;
-        let w = length * weight;
-        self.used += length;
-        self.squares += w * residual * residual;
-        let bin = (residual.abs() / BIN) as usize;
-        self.histogram[bin.min(BINS - 1)] += length;
-        let firm = least_firm.map_or(w, |least| {
-            length * loss.curvature(residual).max(least * weight)
-        });
-        let [a, b, c, x, y, z] = *jacobian;
-        let jacobian = [a, b, c, x, y, z, 1.0];
-        for (row, &a) in jacobian.iter().enumerate() {
-            self.right[row] += w * a * residual;
-            // Solvers read the lower triangle alone.
-            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
-                *sum += firm * a * b;
-            }
+    fn add_block(&mut self, block: &Block) {
+        for (row, more) in self.normal.iter_mut().zip(&block.normal) {
+            add_each(row, more);
         }
+        add_each(&mut self.right, &block.right);
+        self.length += f64::from(block.length);
+        self.known += f64::from(block.known);
+        self.loss += f64::from(block.loss);
+        self.used += f64::from(block.used);
+        self.squares += f64::from(block.squares);
     }
 
     /// Adds what was seen of another part of the outline.
@@ -304,24 +279,82 @@ impl Equations {
     /// Standard deviation of the residuals, pixels, from their median absolute value as if they
     /// were normal: what lies far out does not count (Hampel, JASA 69, 1974).
     pub(super) fn robust_sigma_px(&self) -> f64 {
-        let half = self.used / 2.0;
+        let half = (self.used / 2.0) as f32;
         let mut below = 0.0;
         for (bin, &length) in self.histogram.iter().enumerate() {
             if below + length >= half && length > 0.0 {
-                return 1.4826 * BIN * (bin as f64 + (half - below) / length);
+                return 1.4826 * f64::from(BIN * (bin as f32 + (half - below) / length));
             }
             below += length;
         }
-        1.4826 * BIN * BINS as f64
+        1.4826 * f64::from(BIN * BINS as f32)
+    }
+}
+
+impl Block {
+    fn add_sample(
+        &mut self,
+        sample: &BorderPixel,
+        motion: &Motion,
+        stage: &Stage,
+        histogram: &mut [f32; BINS],
+    ) {
+        let (length, range) = (sample.weight, stage.range as f32);
+        match sample.residual() {
+            Residual::None => {}
+            // Only its length counts.
+            Residual::Unknown => self.length += length,
+            Residual::Px(residual) if residual.abs() <= range => {
+                let bin = (residual.abs() / BIN) as usize;
+                histogram[bin.min(BINS - 1)] += length;
+                self.add(stage, &motion.jacobian(sample), residual, length);
+            }
+            // It costs as much as one at the end of the range.
+            Residual::Px(_) | Residual::Missing => {
+                self.length += length;
+                self.known += length;
+                self.loss += length * stage.loss.at(range).0;
+            }
+        }
+    }
+
+    /// Adds a sample: how far the target's outline is beyond the model's (pixels). It holds the pose as firmly as its weight, or, in
+    /// a correction, as the second derivative of the loss.
+    fn add(&mut self, stage: &Stage, jacobian: &[f32; 6], residual: f32, length: f32) {
+        let (cost, weight) = stage.loss.at(residual);
+        self.length += length;
+        self.known += length;
+        self.loss += length * cost;
+        let w = length * weight;
+        self.used += length;
+        self.squares += w * residual * residual;
+        let [a, b, c, x, y, z] = *jacobian;
+        let jacobian = [a, b, c, x, y, z, 1.0];
+        let firm = match stage.corrects {
+            false => w,
+            true => length * stage.loss.curvature(residual).max(LEAST_FIRM * weight),
+        };
+        for (row, &a) in jacobian.iter().enumerate() {
+            self.right[row] += w * a * residual;
+            let firm = firm * a;
+            // Solvers read the lower triangle alone.
+            for (sum, &b) in self.normal[row].iter_mut().zip(&jacobian[..=row]) {
+                *sum += firm * b;
+            }
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::camera::Camera;
+    use crate::refine::loss::Loss;
 
-    /// Six numbers, each held by one sample of this residual.
+    /// The step that six samples of this residual about a disc ask for.
     fn step(corrects: bool, residual: f32) -> [f64; 6] {
+        let camera = Camera::new(256, 256, [900.0; 2], [128.0; 2]).expect("valid");
+        let motion = Motion::in_camera(&camera, &[0.0, 0.0, -600.0]);
         let stage = Stage {
             range: 10.0,
             loss: Loss::Tukey(2.5),
@@ -330,33 +363,29 @@ mod tests {
             corrects,
             every: None,
         };
+        let sample = |k: u16| BorderPixel {
+            column: 60 + 19 * k,
+            row: 40 + 37 * (k * k % 5),
+            slope: [3 - 2 * (k as i16), 5 - (k as i16) * (k as i16) % 7],
+            weight: 1.0,
+            near: 580.0 + 9.0 * f32::from(k),
+            far: 600.0,
+            residual: Residual::Px(residual).into(),
+        };
+        let samples: [BorderPixel; 8] = core::array::from_fn(|k| sample(k as u16));
         let mut equations = Equations::new();
-        for number in 0..6 {
-            let mut jacobian = [0.0; 6];
-            jacobian[number] = 2.0;
-            equations.add_sample(
-                &BorderPixel {
-                    weight: 1.0,
-                    residual: Residual::Px(residual),
-                    jacobian,
-                    ..BorderPixel::EMPTY
-                },
-                &stage,
-            );
-        }
+        equations.add_samples(&samples, &motion, &stage);
         equations.step(0.0, false).expect("determined").0.values()
     }
 
     #[test]
     fn a_correction_takes_newtons_step_and_at_most_twice_that_of_the_weights() {
-        for number in 0..6 {
-            // By the weights it goes all of the way, in two pixels for each unit.
-            let by_weights = step(false, 0.5)[number];
-            assert!((by_weights - 0.25).abs() < 1e-12);
-            // Of Tukey's loss at a fifth of its scale: (1 - r^2)^2 and (1 - r^2)(1 - 5 r^2).
-            let newton = 0.25 * 0.96 / 0.8;
-            assert!((step(true, 0.5)[number] - newton).abs() < 1e-6);
-            assert!((step(true, 2.0)[number] - 2.0).abs() < 1e-6);
+        // Of Tukey's loss at a fifth of its scale: (1 - r^2)^2 and (1 - r^2)(1 - 5 r^2); at four fifths the second is negative.
+        for (residual, longer) in [(0.5, 0.96 / 0.8), (2.0, 2.0)] {
+            let (by_weights, newton) = (step(false, residual), step(true, residual));
+            for (one, other) in by_weights.iter().zip(newton) {
+                assert!((other / one - longer).abs() < 1e-3, "{one} {other}");
+            }
         }
     }
 }

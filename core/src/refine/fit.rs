@@ -64,7 +64,7 @@ impl FitSums {
     pub(super) fn add_samples(&mut self, border: &[BorderPixel], range: f64) {
         for sample in border {
             let length = f64::from(sample.weight);
-            match sample.residual {
+            match sample.residual() {
                 Residual::None => {}
                 Residual::Unknown => self.length += length,
                 Residual::Missing => self.add(length, range),

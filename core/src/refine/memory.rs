@@ -2,6 +2,7 @@
 
 use super::border::BorderPixel;
 use super::error::RefineError;
+use super::places::places_needed;
 use crate::camera::Camera;
 use crate::film::LineMemory;
 use crate::image::mask::{Word, words_needed};
@@ -11,12 +12,12 @@ use crate::render::Projected;
 /// Working memory of [`super::refine()`], for the largest of its views.
 #[derive(Debug)]
 pub struct RefineMemory<'a> {
-    /// [`crate::render::scratch_needed`] vertices.
+    /// [`crate::render::scratch_needed`] vertices, or [`crate::render::scratch_for`].
     pub projected: &'a mut [Projected],
     /// [`crate::image::mask::words_needed`] words of the frame's size: the model as drawn.
     pub drawn: &'a mut [Word],
-    /// As many pairs of words: which pixels are samples of the outline, and which each is.
-    pub places: &'a mut [[Word; 2]],
+    /// [`places_needed`] numbers of the frame's rows: which samples of the outline are in each.
+    pub places: &'a mut [u16],
     /// Samples of the outline, one for each border pixel of the drawing; some 4000 serve an implant in a frame of
     /// 1024 x 1024 pixels. An outline that is longer at any pose on the way is refused: a part of it would not say where
     /// the model is. No more than 65 535 are used.
@@ -32,12 +33,7 @@ pub const FILM_EVERY: usize = 5;
 
 pub(super) fn check_memory(camera: &Camera, memory: &RefineMemory<'_>) -> Result<(), RefineError> {
     let (width, height) = (camera.width(), camera.height());
-    let needed = words_needed(width, height);
-    for (what, given) in [
-        ("words", memory.drawn.len()),
-        ("places", memory.places.len()),
-    ] {
-        check_length(what, needed, given)?;
-    }
+    check_length("words", words_needed(width, height), memory.drawn.len())?;
+    check_length("places", places_needed(height), memory.places.len())?;
     Ok(())
 }

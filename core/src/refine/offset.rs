@@ -31,10 +31,10 @@ pub fn outline_offset(
 ) -> Result<Option<f64>, RefineError> {
     let mut lengths = [0.0; BINS];
     let at = Refined::at(*pose);
-    observe(model, &[view], &at, memory, |_, _, border, _| {
-        for sample in border {
+    observe(model, &[view], &at, memory, |seen| {
+        for sample in seen.border {
             if let Some(px) = sample.residual_px() {
-                lengths[bin_of(px)] += f64::from(sample.weight);
+                lengths[bin_of(f64::from(px))] += f64::from(sample.weight);
             }
         }
     })?;

@@ -5,13 +5,13 @@
 
 use core::ops::Range;
 
-use super::border::{BorderPixel, Residual};
+use super::border::BorderPixel;
 use super::places::Places;
 use super::stages::Stage;
 use super::view::Target;
 use crate::camera::Camera;
 use crate::image::mask::{Mask, WORD_BITS, Word};
-use crate::math::sqrt;
+use crate::math::sqrt_single;
 use crate::memory::{TooLittleMemory, first};
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -75,15 +75,15 @@ pub(super) struct DrawnModel<'a> {
 }
 
 impl DrawnModel<'_> {
-    /// Writes the border pixels to `border` and returns them. `scratch` is as drawing left it; `places` has a pair for each
-    /// word of the drawing, of any value.
+    /// Writes the border pixels to `border` and returns them. `scratch` is as drawing left it; `places` has
+    /// [`super::places_needed`] numbers of any value.
     ///
     /// # Errors
     /// [`TooLittleMemory`] where there are more of them than `border` holds or may hold.
     pub(super) fn border<'b>(
         &self,
         scratch: &mut [Projected],
-        places: &mut [[Word; 2]],
+        places: &mut [u16],
         border: &'b mut [BorderPixel],
     ) -> Result<&'b mut [BorderPixel], TooLittleMemory> {
         let room = border.len().min(usize::from(u16::MAX));
@@ -91,7 +91,7 @@ impl DrawnModel<'_> {
         // The frame's own border is no border of the model: what is cut off is not known.
         let rows = self.drawn.rows();
         let rows = rows.start.max(1)..rows.end.min(self.drawn.height().saturating_sub(1));
-        let mut places = Places::new(places, self.drawn.width(), rows.clone());
+        let mut places = Places::new(places, rows.clone());
         let count = self.find(rows, &mut places, border);
         let border = first("border pixels", count, border)?;
         self.measure_depth(scratch, &places, border);
@@ -107,7 +107,9 @@ impl DrawnModel<'_> {
     ) -> usize {
         let width = self.drawn.width();
         let mut count = 0;
+        let end = rows.end;
         for row in rows {
+            places.begin(row, count);
             for column in border_columns(self.drawn, row) {
                 if column == 0 || column + 1 >= width {
                     continue;
@@ -120,11 +122,11 @@ impl DrawnModel<'_> {
                 };
                 if let Some(listed) = border.get_mut(count) {
                     *listed = pixel;
-                    places.add(column, row, count);
                 }
                 count += 1;
             }
         }
+        places.begin(end, count);
         count
     }
 }
@@ -187,34 +189,25 @@ fn sample_at(mask: &Mask<'_>, column: usize, row: usize) -> Option<BorderPixel> 
         slope[0] -= tent * right;
         slope[1] -= tent * sum * (down as i32 - WINDOW as i32);
     }
-    let length = sqrt(f64::from(slope[0] * slope[0] + slope[1] * slope[1]));
-    if length == 0.0 {
+    let [right, down] = slope;
+    if slope == [0; 2] {
         return None;
     }
-    let normal = slope.map(|component| f64::from(component) / length);
-    let outside = |right: usize, down: usize| {
-        let (x, y) = (right as f64 - WINDOW as f64, down as f64 - WINDOW as f64);
-        let set = window[down] >> right & 1 == 1;
-        if set {
-            0.0
-        } else {
-            (normal[0] * x + normal[1] * y).max(0.0)
-        }
-    };
-    let sides = [(4, 3), (2, 3), (3, 4), (3, 2)];
-    let weight: f64 = sides
+    // As far as sides face outside, times the length of the slope: whole numbers.
+    let is_set = |right: usize, down: usize| window[down] >> right & 1 == 1;
+    let sides = [(4, 3, right), (2, 3, -right), (3, 4, down), (3, 2, -down)];
+    let outside = sides
         .into_iter()
-        .map(|(right, down)| outside(right, down))
-        .sum();
+        .filter(|&(right, down, _)| !is_set(right, down));
+    let facing: i32 = outside.map(|(_, _, along)| along.max(0)).sum();
+    let length = sqrt_single((right * right + down * down) as f32);
     Some(BorderPixel {
         column: column as u16,
         row: row as u16,
-        normal: normal.map(|component| component as f32),
-        weight: weight as f32,
+        slope: slope.map(|component| component as i16),
+        weight: facing as f32 / length,
         near: f32::INFINITY,
-        far: 0.0,
-        residual: Residual::None,
-        jacobian: [0.0; 6],
+        ..BorderPixel::EMPTY
     })
 }
 
@@ -237,6 +230,7 @@ fn bits_round(row: &[Word], column: usize) -> u32 {
 mod tests {
     use super::*;
     use crate::image::mask::{MaskMut, words_needed};
+    use crate::math::sqrt;
     use proptest::prelude::*;
 
     const SIDE: usize = 200;
@@ -270,7 +264,10 @@ mod tests {
             let sample = sample_at(&mask, column, row);
             prop_assert_eq!(sample.is_none(), length == 0.0);
             let Some(sample) = sample else { return Ok(()) };
-            prop_assert_eq!(sample.normal, [right, down].map(|x| (x / length) as f32));
+            prop_assert_eq!(sample.slope.map(f64::from), [right, down]);
+            for (found, wanted) in sample.normal().into_iter().zip([right, down]) {
+                prop_assert!((f64::from(found) - wanted / length).abs() < 2e-7);
+            }
             let neighbours = [(1, 0), (-1, 0), (0, 1), (0, -1)];
             let weight: f64 = neighbours.iter().map(|&(x, y)| {
                 let (c, r) = (column as i32 + x, row as i32 + y);
@@ -306,8 +303,8 @@ mod tests {
                 let sample = sample_at(&mask, column, row).expect("a slope");
                 length += f64::from(sample.weight);
                 let (x, y) = (column as f64 + 0.5 - centre, row as f64 + 0.5 - centre);
-                let along = (x * f64::from(sample.normal[0]) + y * f64::from(sample.normal[1]))
-                    / libm::hypot(x, y);
+                let [right, down] = sample.normal().map(f64::from);
+                let along = (x * right + y * down) / libm::hypot(x, y);
                 assert!(along > 0.97, "normal off by {} rad", libm::acos(along));
             }
         }

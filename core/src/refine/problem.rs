@@ -10,6 +10,7 @@ use super::error::RefineError;
 use super::eye::Eye;
 use super::locks::{Hold, Locks};
 use super::memory::{RefineMemory, check_memory};
+use super::motion::Motion;
 use super::options::RefineOptions;
 use super::outline::{Depth, Sampling};
 use super::result::{Iterate, Refined};
@@ -203,7 +204,7 @@ impl<'a> Problem<'a> {
         memory: &mut RefineMemory<'_>,
         trace: &mut dyn FnMut(&Iterate),
     ) -> Result<(), RefineError> {
-        if !self.weigh_again(seen, pass, memory) {
+        if !self.weigh_again(seen, pass, &state.pose, memory) {
             self.pause().await;
             seen.samples = self.look(&mut seen.equations, state, pass, memory)?;
             trace(&seen.equations.iterate(pass, state));
@@ -268,9 +269,10 @@ impl<'a> Problem<'a> {
 
     /// Most steps tried in a stage.
     pub(super) fn steps(&self, pass: &Pass) -> usize {
-        let most = self.effort.steps()[pass.index];
+        let of = |steps: [usize; STAGES]| steps.get(pass.index).copied().unwrap_or(0);
+        let most = of(self.effort.steps());
         match self.is_corrected(pass) {
-            true => most.min(BEFORE_CORRECTION[pass.index]),
+            true => most.min(of(BEFORE_CORRECTION)),
             false => most,
         }
     }
@@ -372,16 +374,26 @@ impl<'a> Problem<'a> {
         for view in self.views {
             let stage = pass.stage(&view.target);
             let (pose, offset) = (&state.pose, state.offset_px);
-            samples = Some(self.observe_view(view, pose, offset, &stage, memory, equations)?);
+            let count = self.observe_view(view, pose, offset, &stage, memory)?;
+            let motion = self.motion(view, &view.placement.compose(pose));
+            let border = memory.border.get(..count).unwrap_or_default();
+            equations.add_samples(border, &motion, &stage);
+            samples = Some(count);
         }
         Ok(samples)
     }
 
-    /// What was seen, weighed as another stage does, without drawing again: of one camera, and of a
+    /// What was seen at a pose, weighed as another stage does, without drawing again: of one camera, and of a
     /// silhouette, whose outline is where it is whatever the range, or of a frame whose film corrects what comes of it.
     /// Gives whether it could be.
-    fn weigh_again(&self, seen: &mut Seen, pass: &Pass, memory: &RefineMemory<'_>) -> bool {
-        let [CameraView { target, .. }] = self.views else {
+    fn weigh_again(
+        &self,
+        seen: &mut Seen,
+        pass: &Pass,
+        pose: &Pose,
+        memory: &RefineMemory<'_>,
+    ) -> bool {
+        let [view] = self.views else {
             return false;
         };
         if !self.is_outline() && !self.is_corrected(pass) {
@@ -391,11 +403,10 @@ impl<'a> Problem<'a> {
         let Some(samples) = samples else {
             return false;
         };
-        let stage = pass.stage(target);
+        let motion = self.motion(view, &view.placement.compose(pose));
         seen.equations.clear();
-        for sample in samples {
-            seen.equations.add_sample(sample, &stage);
-        }
+        seen.equations
+            .add_samples(samples, &motion, &pass.stage(&view.target));
         true
     }
 
@@ -412,6 +423,11 @@ impl<'a> Problem<'a> {
         Ok(equations.supports_offset(state.offset_px))
     }
 
+    /// How the outline moves in a view, in which the model has a pose.
+    pub(super) fn motion(&self, view: &CameraView<'_>, in_camera: &Pose) -> Motion {
+        Motion::of(view, &in_camera.transform(&self.middle))
+    }
+
     /// Draws the model in a view and measures how far its outline is from the target's. Afterwards
     /// `memory.border` begins with its samples, whose number is returned.
     pub(super) fn observe_view(
@@ -421,7 +437,6 @@ impl<'a> Problem<'a> {
         offset: f64,
         stage: &Stage,
         memory: &mut RefineMemory<'_>,
-        equations: &mut Equations,
     ) -> Result<usize, RefineError> {
         let pose = view.placement.compose(pose);
         let sampling = Sampling {
@@ -444,11 +459,10 @@ impl<'a> Problem<'a> {
             view,
             drawn,
             edges,
-            centre: pose.transform(&self.middle),
             offset: offset + view.target.offset_px(),
             stage,
         };
-        eye.measure(border, equations);
+        eye.measure(border);
         Ok(count)
     }
 }

@@ -1,6 +1,6 @@
 //! Profiles of a frame across the outline of a model at a pose: what the constants of a film are estimated from.
 
-use super::border::NormalReading;
+use super::border::Residual;
 use super::drawing::{Drawing, draw};
 use super::edge::{TANGENT, is_known};
 use super::error::RefineError;
@@ -43,18 +43,18 @@ pub fn film_profiles(
     } = draw(model, camera, pose, sampling, memory)?;
     let lines = first("lines across the outline", border.len(), film.lines)?;
     for (line, sample) in lines.iter_mut().zip(&*border) {
-        *line = PathLine::at(sample.place(), sample.normal.map(f64::from));
+        *line = PathLine::at(sample.place(), sample.normal().map(f64::from));
     }
     measure(model, camera, pose, projected, lines, film.heads)?;
     let every = border.len().div_ceil(profiles.len().max(1)).max(1);
     let mut count = 0;
     for (line, sample) in lines.iter().zip(border).step_by(every) {
         let crossing = probe::crossing(&(&drawn).into(), sample, OWN_RANGE);
-        let (NormalReading::At(own), Some(paths)) = (crossing, line.paths()) else {
+        let (Residual::Px(own), Some(paths)) = (crossing, line.paths()) else {
             continue;
         };
-        let (place, normal) = (sample.place(), sample.normal.map(f64::from));
-        let read = FilmProfile::read(paths, own, |t| spread(image, place, normal, t));
+        let (place, normal) = (sample.place(), sample.normal().map(f64::from));
+        let read = FilmProfile::read(paths, f64::from(own), |t| spread(image, place, normal, t));
         if let (Some(read), Some(out)) = (read, profiles.get_mut(count)) {
             *out = FilmProfile {
                 component,

@@ -1,12 +1,12 @@
 //! The occluding contour as samples: what bounds and tests need of it.
 
-use super::border::NormalReading;
+use super::border::Residual;
 use super::drawing::{Drawing, draw};
 use super::error::RefineError;
 use super::memory::{RefineMemory, check_memory};
+use super::motion::Motion;
 use super::outline::Sampling;
 use super::probe::{self, OWN_RANGE};
-use super::step::Step;
 use crate::camera::Camera;
 use crate::mesh::Model;
 use crate::pose::Pose;
@@ -41,19 +41,19 @@ pub fn outline_samples(
 ) -> Result<(), RefineError> {
     check_memory(camera, memory)?;
     let Drawing { drawn, border, .. } = draw(model, camera, pose, Sampling::ALL, memory)?;
-    let centre = pose.transform(&model.bounds().centre);
+    let motion = Motion::in_camera(camera, &pose.transform(&model.bounds().centre));
     for sample in border.iter().filter(|sample| sample.is_on_surface()) {
-        let NormalReading::At(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
+        let Residual::Px(own) = probe::crossing(&(&drawn).into(), sample, OWN_RANGE) else {
             continue;
         };
-        let normal = sample.normal.map(f64::from);
+        let (own, normal) = (f64::from(own), sample.normal().map(f64::from));
         let [column, row] = sample.place();
         visit(&OutlineSample {
             column: column + own * normal[0],
             row: row + own * normal[1],
             normal,
             length: f64::from(sample.weight),
-            jacobian: Step::jacobian(camera, &centre, sample.place(), sample.depth(), normal),
+            jacobian: motion.jacobian(sample).map(f64::from),
         });
     }
     Ok(())

@@ -54,7 +54,7 @@ impl Stage {
             (Target::Silhouette(_), 2) => stage(10.0, Loss::Cauchy(1.0)),
             (Target::Silhouette(_), _) => {
                 let scale = (EFFICIENT * sigma_px).clamp(SCALE[0], SCALE[1]);
-                stage(10.0, Loss::Cauchy(scale))
+                stage(10.0, Loss::Cauchy(scale as f32))
             }
             (Target::Image(_), 0) => stage(10.0, Loss::Tukey(8.0)),
             (Target::Image(_), 1) => stage(7.0, Loss::Tukey(4.0)),

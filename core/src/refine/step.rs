@@ -1,9 +1,6 @@
-//! A small motion of the model, and how its outline moves with it.
+//! A small motion of the model.
 
-use crate::camera::Camera;
-use crate::math::{
-    Vector3, add, apply, cross, degrees, multiply, norm, rotation_by, scale, subtract, transpose,
-};
+use crate::math::{Vector3, add, apply, degrees, multiply, norm, rotation_by, scale, subtract};
 use crate::pose::Pose;
 
 /// A small motion: turn about the middle of the model (radians, camera axes), then shift (mm).
@@ -20,44 +17,6 @@ impl Step {
             turn: [a, b, c],
             shift: [x, y, z],
         }
-    }
-
-    /// A Jacobian in the camera's axes, brought to the axes of the world in which the camera stands.
-    pub(super) fn in_world(jacobian: [f64; 6], placement: &Pose) -> [f64; 6] {
-        let [a, b, c, x, y, z] = jacobian;
-        let back = transpose(&placement.rotation);
-        let ([a, b, c], [x, y, z]) = (apply(&back, &[a, b, c]), apply(&back, &[x, y, z]));
-        [a, b, c, x, y, z]
-    }
-
-    /// How fast the image of a contour moves along its `normal` (pixels) for each parameter: three
-    /// turns about `centre`, the middle of the model in camera coordinates (per radian), three
-    /// shifts (per mm). `place` is a point of the image, continuous image coordinates, and `depth`
-    /// the distance of the contour behind it from the camera plane, mm.
-    ///
-    /// With `u = fx X / D`, `v = -fy Y / D`, `D = -Z`:
-    /// `du = fx (dX / D + X dZ / D^2)`, `dv = -fy (dY / D + Y dZ / D^2)`, and a turn `w` moves the
-    /// point by `w x (X - c)`.
-    pub(super) fn jacobian(
-        camera: &Camera,
-        centre: &Vector3,
-        place: [f64; 2],
-        depth: f64,
-        normal: [f64; 2],
-    ) -> [f64; 6] {
-        let [fx, fy] = camera.focal();
-        let [cx, cy] = camera.principal_point();
-        let x = (place[0] - cx) / fx;
-        let y = -(place[1] - cy) / fy;
-        let point = [x * depth, y * depth, -depth];
-        let arm = subtract(&point, centre);
-        let [right, down] = normal;
-        let (a, b) = (right * fx / depth, -down * fy / depth);
-        // Image motion along the normal per mm of motion of the point.
-        let push = [a, b, a * x + b * y];
-        // push . (w x arm) = w . (arm x push)
-        let twist = cross(&arm, &push);
-        [twist[0], twist[1], twist[2], push[0], push[1], push[2]]
     }
 
     /// The pose after the step; `middle` is the point of the model that the turn leaves in place.

@@ -10,12 +10,14 @@
 //! holds the pose less than the rest, and often it is the one stretch that holds a number.
 
 use super::border::BorderPixel;
+use super::correlation::{BLOCK, Correlation, after};
 use super::edge_bias::EdgeBias;
-use super::equations::Equations;
 use super::error::RefineError;
 use super::fit::{Fit, FitSums};
+use super::jacobians::Jacobians;
 use super::loss::Loss;
 use super::memory::RefineMemory;
+use super::motion::Motion;
 use super::problem::Problem;
 use super::result::Refined;
 use super::stages::{Pass, STAGES, Stage};
@@ -25,13 +27,8 @@ use crate::math::inverse_spd;
 use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::pose::covariance::{Matrix6, PoseCovariance};
+use crate::render::Projected;
 
-/// Width of a bin of distance, pixels, and number of bins.
-const BIN: f64 = 2.0;
-const BINS: usize = 24;
-/// Samples belong together when the cosine between their normals is at least this: the two
-/// sides of a thin plate err apart.
-const ALIKE: f32 = 0.5;
 /// Variance of an outline that is known to whole pixels only, square pixels for each pixel of its
 /// length: residuals are differences of two drawings in the same pixels and do not show it. A
 /// quarter of that of rounding, as measured by `cargo xtask synthetic --method refined`: errors of
@@ -80,16 +77,13 @@ pub fn assess(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Assessment, RefineError> {
     let (mut sums, mut bias) = (Sums::default(), EdgeBias::default());
-    let fit = observe(
-        model,
-        views,
-        refined,
-        memory,
-        |view, stage, border, lines| {
-            sums.add(border, stage.loss, 6.0 / views.len() as f64);
-            bias.add(view, stage, border, lines);
-        },
-    )?;
+    let fit = observe(model, views, refined, memory, |seen| {
+        let motion = &seen.motion;
+        let jacobian = |sample: &BorderPixel| motion.jacobian(sample);
+        let jacobians = Jacobians::new(seen.border, jacobian, seen.scratch);
+        sums.add(&jacobians, seen.stage.loss, 6.0 / views.len() as f32);
+        bias.add((seen.view, motion), &seen.stage, seen.border, seen.lines);
+    })?;
     let covariance = sums.covariance();
     Ok(Assessment {
         covariance: covariance.map(|covariance| bias.widen(covariance)),
@@ -109,7 +103,18 @@ pub fn fit_at(
     memory: &mut RefineMemory<'_>,
 ) -> Result<Fit, RefineError> {
     let unrefined = Refined::at(*pose);
-    observe(model, views, &unrefined, memory, |_, _, _, _| ())
+    observe(model, views, &unrefined, memory, |_| ())
+}
+
+/// What was seen in a view.
+pub(super) struct Observed<'o> {
+    view: &'o CameraView<'o>,
+    motion: Motion,
+    stage: Stage,
+    pub(super) border: &'o [BorderPixel],
+    lines: &'o [PathLine],
+    /// What the model was drawn in, not needed any more.
+    scratch: &'o mut [Projected],
 }
 
 /// Looks at the outline at a pose as the last stage of refinement does; `each` gets the samples of every view.
@@ -118,7 +123,7 @@ pub(super) fn observe(
     views: &[CameraView<'_>],
     refined: &Refined,
     memory: &mut RefineMemory<'_>,
-    mut each: impl FnMut(&CameraView<'_>, &Stage, &[BorderPixel], &[PathLine]),
+    mut each: impl FnMut(Observed<'_>),
 ) -> Result<Fit, RefineError> {
     let problem = Problem::new(model, views, memory)?;
     let pass = Pass {
@@ -131,14 +136,19 @@ pub(super) fn observe(
     for view in views {
         let stage = pass.stage(&view.target);
         let (pose, offset) = (&refined.pose, refined.offset_px);
-        let mut equations = Equations::new();
-        let count = problem.observe_view(view, pose, offset, &stage, memory, &mut equations)?;
+        let count = problem.observe_view(view, pose, offset, &stage, memory)?;
         let border = memory.border.get(..count).unwrap_or_default();
-        let lines = memory.film.lines.get(..count).unwrap_or_default();
-        each(view, &stage, border, lines);
+        let seen = view.placement.compose(pose);
+        each(Observed {
+            view,
+            motion: problem.motion(view, &seen),
+            stage,
+            border,
+            lines: memory.film.lines.get(..count).unwrap_or_default(),
+            scratch: memory.projected,
+        });
         sums.add_samples(border, stage.range);
         sums.add_areas(&view.target, memory.drawn)?;
-        let seen = view.placement.compose(pose);
         sums.add_place(view.camera, &seen.transform(&model.bounds().centre));
     }
     Ok(sums.fit())
@@ -175,36 +185,53 @@ struct Sums {
 
 impl Sums {
     /// `fitted` parameters were taken from this view's residuals.
-    fn add(&mut self, border: &[BorderPixel], loss: Loss, fitted: f64) {
+    fn add<F: Fn(&BorderPixel) -> [f32; 6]>(
+        &mut self,
+        jacobians: &Jacobians<'_, F>,
+        loss: Loss,
+        fitted: f32,
+    ) {
+        let border = jacobians.border;
         let covariance = Correlation::of(border, loss, fitted);
         let reach = covariance.reach();
         let mut length = 0.0;
-        for (index, sample, residual) in found(border) {
-            let l = f64::from(sample.weight);
-            length += l;
-            let curvature = loss.curvature(residual);
-            self.curvature += l * curvature;
-            let jacobian = sample.jacobian.map(f64::from);
-            // Half of the sample's own part: every pair is met once and counts both ways.
-            let mut sum = jacobian.map(|value| value * l * covariance.bins[0] / 2.0);
-            for (_, other, bin) in after(border, index, reach) {
-                let weight = f64::from(other.weight) * covariance.bins[bin];
-                for (sum, &value) in sum.iter_mut().zip(&other.jacobian) {
-                    *sum += weight * f64::from(value);
+        for (few, samples) in border.chunks(BLOCK).enumerate() {
+            let mut sums = Block::default();
+            for (place, sample) in samples.iter().enumerate() {
+                let index = few * BLOCK + place;
+                let Some(residual) = sample.residual_px() else {
+                    continue;
+                };
+                let own = jacobians.of(index);
+                // Half of the sample's own part: every pair is met once and counts both ways.
+                let mut sum = own.map(|value| value * sample.weight * covariance.bins[0] / 2.0);
+                for (number, other, bin) in after(border, index, reach) {
+                    let weight = other.weight * covariance.at(bin);
+                    for (sum, value) in sum.iter_mut().zip(jacobians.of(number)) {
+                        *sum += weight * value;
+                    }
                 }
+                sums.add(sample.weight, loss.curvature(residual), &own, &sum);
             }
-            for row in 0..6 {
-                for column in 0..6 {
-                    let both = jacobian[row] * sum[column] + sum[row] * jacobian[column];
-                    self.spread[row][column] += l * both;
-                    let own = l * jacobian[row] * jacobian[column];
-                    self.information[row][column] += own;
-                    self.holding[row][column] += curvature * own;
-                }
+            length += f64::from(sums.length);
+            self.add_block(&sums);
+        }
+        self.stretches += length / f64::from(covariance.stretch_px());
+    }
+
+    fn add_block(&mut self, block: &Block) {
+        self.curvature += f64::from(block.curvature);
+        self.length += f64::from(block.length);
+        for row in 0..6 {
+            for column in 0..6 {
+                // Lower triangles alone were summed.
+                let (row_of, column_of) = (row.max(column), row.min(column));
+                let sum = |matrix: &[[f32; 6]; 6]| f64::from(matrix[row_of][column_of]);
+                self.spread[row][column] += sum(&block.spread);
+                self.information[row][column] += sum(&block.information);
+                self.holding[row][column] += sum(&block.holding);
             }
         }
-        self.length += length;
-        self.stretches += length / covariance.stretch_px();
     }
 
     /// `H`, with as much of what it were with the mean of `psi'` everywhere as it needs: where residuals are large `psi'` is
@@ -240,174 +267,30 @@ impl Sums {
     }
 }
 
-/// Samples that have a residual, with their places in the list and the residual, pixels.
-fn found(border: &[BorderPixel]) -> impl Iterator<Item = (usize, &BorderPixel, f64)> {
-    let samples = border.iter().enumerate();
-    samples.filter_map(|(index, sample)| Some((index, sample, sample.residual_px()?)))
+/// [`Sums`] over a few samples, lower triangles alone.
+#[derive(Default)]
+struct Block {
+    information: [[f32; 6]; 6],
+    holding: [[f32; 6]; 6],
+    spread: [[f32; 6]; 6],
+    curvature: f32,
+    length: f32,
 }
 
-/// Samples this far apart, pixels, are not compared.
-const REACH: i32 = (BIN * BINS as f64) as i32;
-
-/// The bin of a distance, from 1, by its square in pixels.
-const BIN_OF: [u8; (REACH * REACH) as usize] = {
-    let mut bins = [0; (REACH * REACH) as usize];
-    let (mut square, mut bin) = (0, 1);
-    while square < bins.len() {
-        let end = BIN * bin as f64;
-        if square as f64 >= end * end {
-            bin += 1;
-        }
-        bins[square] = bin;
-        square += 1;
-    }
-    bins
-};
-
-/// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
-/// places in the list and the bin of their distance.
-fn after(
-    border: &[BorderPixel],
-    index: usize,
-    reach: i32,
-) -> impl Iterator<Item = (usize, &BorderPixel, usize)> {
-    let sample = border[index];
-    let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
-    // They are listed row by row.
-    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
-    let rest = border.get(index + 1..).unwrap_or_default();
-    let rest = (index + 1..).zip(rest.iter().take_while(close));
-    rest.filter_map(move |(number, other)| {
-        let right = offset(other.column, sample.column);
-        if right.abs() >= reach {
-            return None;
-        }
-        let down = offset(other.row, sample.row);
-        let bin = *BIN_OF.get((right * right + down * down) as usize)?;
-        let [a, b] = [sample.normal, other.normal];
-        let alike = a[0] * b[0] + a[1] * b[1] >= ALIKE;
-        other.residual_px().filter(|_| alike)?;
-        Some((number, other, usize::from(bin)))
-    })
-}
-
-/// Samples within reach, mostly: an outline has some four in a row.
-const KEPT: usize = 256;
-
-/// Derivatives of the loss at samples, each reckoned once: a sample has some hundred others near it.
-struct Pulls<'b> {
-    border: &'b [BorderPixel],
-    loss: Loss,
-    /// Of the last samples before [`Self::known`], by the remainder of their number.
-    last: [f64; KEPT],
-    known: usize,
-}
-
-impl<'b> Pulls<'b> {
-    fn new(border: &'b [BorderPixel], loss: Loss) -> Self {
-        Self {
-            border,
-            loss,
-            last: [0.0; KEPT],
-            known: 0,
-        }
-    }
-
-    /// That of a sample which does not come before `least`, which rises from call to call.
-    fn of(&mut self, number: usize, least: usize) -> f64 {
-        if number - least >= KEPT {
-            return self.reckoned(number);
-        }
-        while self.known <= number {
-            self.last[self.known % KEPT] = self.reckoned(self.known);
-            self.known += 1;
-        }
-        self.last[number % KEPT]
-    }
-
-    fn reckoned(&self, number: usize) -> f64 {
-        let residual = self.border.get(number).and_then(BorderPixel::residual_px);
-        residual.map_or(0.0, |residual| self.loss.pull(residual))
-    }
-}
-
-/// Covariance of `psi` over distance.
-struct Correlation {
-    /// At distance zero, then in bins of [`BIN`] pixels; zero from where it first fails to be
-    /// positive.
-    bins: [f64; BINS + 1],
-}
-
-impl Correlation {
-    /// Rounds in which the correlation and what the fit took of it are brought to agree.
-    const ROUNDS: usize = 8;
-    /// More than this part of the variance is not supposed to have been taken. What is supposed lengthens the stretches that err alike,
-    /// and those what is supposed: without a narrow bound two poses 0.03 degrees apart may be told with a deviation that is four times
-    /// as large for one as for the other.
-    const MOST_TAKEN: f64 = 0.25;
-
-    /// `fitted` parameters took the longest waves out of the residuals, as much as they explain
-    /// of the independent stretches. The covariance of what remains is too small by the same amount at every
-    /// distance, and this amount is added again.
-    fn of(border: &[BorderPixel], loss: Loss, fitted: f64) -> Self {
-        let (raw, length) = Self::raw(border, loss);
-        let mut taken = 0.0;
-        let mut correlation = Self::cut(&raw, taken);
-        for _ in 0..Self::ROUNDS {
-            let fraction =
-                (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
-            taken = raw[0] * fraction / (1.0 - fraction);
-            correlation = Self::cut(&raw, taken);
-        }
-        correlation
-    }
-
-    /// `taken` more at every distance, up to where it first fails to be positive.
-    fn cut(raw: &[f64; BINS + 1], taken: f64) -> Self {
-        let mut bins = raw.map(|value| value + taken);
-        let end = bins.iter().position(|&value| value <= 0.0);
-        bins[end.unwrap_or(BINS + 1)..].fill(0.0);
-        Self { bins }
-    }
-
-    /// The mean product of `psi` in every bin, and the length of the outline.
-    fn raw(border: &[BorderPixel], loss: Loss) -> ([f64; BINS + 1], f64) {
-        let (mut sums, mut weights) = ([0.0; BINS + 1], [0.0; BINS + 1]);
-        let mut pulls = Pulls::new(border, loss);
-        for (index, sample, _) in found(border) {
-            let (l, own) = (f64::from(sample.weight), pulls.of(index, index));
-            sums[0] += l * own * own;
-            weights[0] += l;
-            for (number, other, bin) in after(border, index, REACH) {
-                let weight = l * f64::from(other.weight);
-                sums[bin] += weight * own * pulls.of(number, index);
-                weights[bin] += weight;
+impl Block {
+    /// Adds a sample with its Jacobian, and with the sum of those near it.
+    fn add(&mut self, length: f32, curvature: f32, own: &[f32; 6], sum: &[f32; 6]) {
+        self.length += length;
+        self.curvature += length * curvature;
+        for row in 0..6 {
+            let (own_row, sum_row) = (length * own[row], length * sum[row]);
+            let held = curvature * own_row;
+            for column in 0..=row {
+                self.spread[row][column] += own_row * sum[column] + sum_row * own[column];
+                self.information[row][column] += own_row * own[column];
+                self.holding[row][column] += held * own[column];
             }
         }
-        let mean = |bin: usize| {
-            if weights[bin] > 0.0 {
-                sums[bin] / weights[bin]
-            } else {
-                0.0
-            }
-        };
-        (core::array::from_fn(mean), weights[0])
-    }
-
-    /// Distance from which on samples err apart, pixels.
-    fn reach(&self) -> i32 {
-        let first = self.bins.iter().position(|&value| value == 0.0);
-        BIN as i32 * first.map_or(BINS, |bin| bin.saturating_sub(1)) as i32
-    }
-
-    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
-    /// at least one pixel.
-    fn stretch_px(&self) -> f64 {
-        let [own, rest @ ..] = &self.bins;
-        if *own <= 0.0 {
-            return 1.0;
-        }
-        (2.0 * BIN * rest.iter().sum::<f64>() / own).max(1.0)
     }
 }
 
@@ -415,85 +298,51 @@ impl Correlation {
 mod tests {
     use super::*;
     use crate::refine::border::Residual;
-    use proptest::prelude::*;
     use std::vec::Vec;
 
     /// Of six stretches each holds one number by itself; the first is met badly.
     fn stretches(badly_px: f32) -> Vec<BorderPixel> {
         let sample = |number: u16| {
-            let (held, swing) = (usize::from(number / 100), f32::from(number % 2) - 0.5);
-            let mut jacobian = [0.0; 6];
-            jacobian[held] = 1.0;
-            BorderPixel {
+            let (held, swing) = (number / 100, f32::from(number % 2) - 0.5);
+            let mut pixel = BorderPixel {
                 // Far from each other, so that none errs like another.
                 column: 60 * (number % 100),
                 row: 60 * (number / 100),
-                normal: [1.0, 0.0],
+                slope: [1, 0],
                 weight: 1.0,
-                residual: Residual::Px(swing * if held == 0 { badly_px } else { 0.2 }),
-                jacobian,
                 ..BorderPixel::EMPTY
-            }
+            };
+            pixel.set_residual(Residual::Px(swing * if held == 0 { badly_px } else { 0.2 }));
+            pixel
         };
         (0..600).map(sample).collect()
+    }
+
+    /// The number that a sample holds by itself, as its place tells.
+    fn held(sample: &BorderPixel) -> [f32; 6] {
+        core::array::from_fn(|k| f32::from(u8::from(usize::from(sample.row / 60) == k)))
     }
 
     #[test]
     fn a_stretch_that_is_met_badly_holds_its_number_less() {
         let deviations = |badly_px: f32| -> [f64; 6] {
             let mut sums = Sums::default();
-            sums.add(&stretches(badly_px), Loss::Tukey(2.5), 0.0);
+            let border = stretches(badly_px);
+            // Some Jacobians have room in memory, some have none.
+            let mut memory = [Projected::ZERO; 3 * 250 + 2];
+            let jacobians = Jacobians::new(&border, held, &mut memory);
+            sums.add(&jacobians, Loss::Tukey(2.5), 0.0);
             let matrix = sums.covariance().expect("determined").matrix;
             core::array::from_fn(|k| matrix[k][k].sqrt())
         };
         let (alike, badly) = (deviations(0.2), deviations(2.0));
-        assert!((alike[0] / alike[1] - 1.0).abs() < 1e-9);
+        // As exact as sums in 32 bits.
+        assert!((alike[0] / alike[1] - 1.0).abs() < 1e-6);
         // psi' at 1 px of 2.5 is 0.17, where it is 0.99 elsewhere.
         assert!((badly[0] / badly[1] - 0.99 / 0.25).abs() < 0.3, "{badly:?}");
         // Where psi' is negative it must not hold the wrong way.
         let off = deviations(3.4);
         assert!(off.iter().all(|x| x.is_finite() && *x > 0.0), "{off:?}");
         assert!(off[0] / off[1] < 4.0 * (0.99 / 0.85), "{off:?}");
-    }
-
-    /// A wave as long as the outline looks like few stretches that err alike, and less than nothing taken or nearly all of it explain it.
-    #[test]
-    fn a_fit_takes_no_more_than_a_quarter_of_the_variance() {
-        let sample = |k: u16| BorderPixel {
-            column: 8 + k,
-            row: 9,
-            normal: [0.0, 1.0],
-            weight: 1.0,
-            residual: Residual::Px(0.5 * libm::sinf(f32::from(k) / 9.0)),
-            ..BorderPixel::EMPTY
-        };
-        let border: Vec<BorderPixel> = (0..300).map(sample).collect();
-        let loss = Loss::Tukey(2.5);
-        let (raw, _) = Correlation::raw(&border, loss);
-        let taken = Correlation::of(&border, loss, 6.0).bins[0] / raw[0] - 1.0;
-        assert!((taken - 1.0 / 3.0).abs() < 1e-9, "{taken}");
-    }
-
-    proptest! {
-        #[test]
-        fn derivatives_that_are_kept_are_those_that_are_reckoned(
-            residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),
-            every in 1usize..9, reach in 1usize..600,
-        ) {
-            let sample = |residual: &Option<f32>| BorderPixel {
-                residual: residual.map_or(Residual::Missing, Residual::Px),
-                ..BorderPixel::EMPTY
-            };
-            let border: Vec<BorderPixel> = residuals.iter().map(sample).collect();
-            let loss = Loss::Cauchy(1.5);
-            let mut pulls = Pulls::new(&border, loss);
-            for least in (0..residuals.len()).step_by(every) {
-                let near = residuals.iter().enumerate().skip(least).take(reach);
-                for (number, residual) in near {
-                    let own = residual.map_or(0.0, |px| loss.pull(f64::from(px)));
-                    prop_assert_eq!(pulls.of(number, least), own);
-                }
-            }
-        }
     }
 }

@@ -7,7 +7,7 @@ use crate::memory::first;
 use crate::mesh::Model;
 use crate::pose::Pose;
 use crate::render::facing::FacingTest;
-use crate::render::project::{Images, Projected, RenderError, VERTICES, project};
+use crate::render::project::{Images, Projected, RenderError, VERTICES, check_images};
 use crate::render::winding;
 
 /// Working memory of [`render`] for `model`, in [`Projected`]: one for each vertex, and more where it is drawn from its
@@ -21,20 +21,41 @@ pub fn scratch_needed(model: &Model<'_>) -> usize {
 }
 
 /// The same for a model of so many vertices in frames of so many rows, where its outline has at most `edges` silhouette
-/// edges, which cross rows at most `crossings` times. Where a pose needs more, or there is only one for each vertex, its
-/// triangles are drawn: the same pixels, later.
+/// edges. Rows are then drawn some at a time, and images of vertices made again where they made way for others. Where a pose
+/// has more edges its triangles are drawn: the same pixels, later.
 #[must_use]
-pub const fn scratch_for(vertices: usize, rows: usize, edges: usize, crossings: usize) -> usize {
-    vertices + winding::room_for(rows, edges, crossings)
+pub const fn scratch_for(vertices: usize, rows: usize, edges: usize) -> usize {
+    let room = winding::room_for(rows, edges);
+    let images = room.div_ceil(IMAGES - 1);
+    if images < vertices {
+        room + images
+    } else {
+        room + vertices
+    }
 }
 
-/// The part of the working memory that a model is drawn in.
-fn used<'m>(
+/// One of so many places is for images of vertices where there are not places for all.
+const IMAGES: usize = 8;
+
+/// Working memory as it is used: images of vertices, and room for silhouette edges; none of a model without.
+///
+/// # Errors
+/// [`RenderError::Memory`] where there is less than one for each vertex of a model without edges.
+fn parts<'m>(
     model: &Model<'_>,
     scratch: &'m mut [Projected],
-) -> Result<&'m mut [Projected], RenderError> {
+) -> Result<(&'m mut [Projected], &'m mut [Projected]), RenderError> {
+    let vertices = model.vertices().len();
     let most = scratch.len().min(scratch_needed(model));
-    Ok(first(VERTICES, most.max(model.vertices().len()), scratch)?)
+    if model.edges().is_none() {
+        return Ok((first(VERTICES, vertices, scratch)?, &mut []));
+    }
+    let scratch = first(VERTICES, most, scratch)?;
+    let images = match most < scratch_needed(model) {
+        true => (most / IMAGES).min(vertices),
+        false => vertices,
+    };
+    Ok(scratch.split_at_mut_checked(images).unwrap_or_default())
 }
 
 /// Adds the silhouette of `model` at `pose` to `out`: every pixel whose centre lies in the
@@ -42,7 +63,7 @@ fn used<'m>(
 /// with edges gives the same pixels sooner.
 ///
 /// # Errors
-/// [`RenderError`]; nothing has been drawn then. Working memory is too short below one for each vertex.
+/// [`RenderError`]; nothing has been drawn then. Working memory of a model without edges is too short below one for each vertex.
 pub fn render(
     model: &Model<'_>,
     camera: &Camera,
@@ -53,24 +74,23 @@ pub fn render(
     if (out.width(), out.height()) != (camera.width(), camera.height()) {
         return Err(RenderError::Size);
     }
-    let scratch = used(model, scratch)?;
+    let (slots, room) = parts(model, scratch)?;
     if let Some(edges) = model.edges() {
         let facing = FacingTest::new(model.mesh(), camera, pose);
         if !facing.sees_all() {
-            // Errors where a vertex has no image.
-            project(model.mesh(), camera, pose, scratch)?;
+            check_images(model.vertices(), camera, pose)?;
         }
-        let (slots, room) = scratch.split_at_mut(model.vertices().len());
         let mut images = Images::new(model.mesh(), camera, pose, slots);
         if winding::fill(&facing, &edges, &mut images, room, out) {
             return Ok(());
         }
     }
-    let projected = project(model.mesh(), camera, pose, scratch)?;
+    let mut images = Images::new(model.mesh(), camera, pose, slots);
+    images.make_all()?;
     let height = out.height();
     for_each_span(
         model,
-        projected,
+        |vertex| images.of(vertex),
         height,
         |_| true,
         |_, row, from, to| {
@@ -81,18 +101,16 @@ pub fn render(
 }
 
 /// Calls `visit(triangle, row, from, to)` for each row of each triangle that is `wanted` and
-/// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `projected` holds
-/// the vertices as [`project`] gives them.
+/// covers pixel centres: columns `from..to`, not yet cut to the frame's width. `image` gives that of a vertex.
 pub(crate) fn for_each_span(
     model: &Model<'_>,
-    projected: &[Projected],
+    mut image: impl FnMut(u32) -> Projected,
     height: usize,
     wanted: impl Fn([Projected; 3]) -> bool,
     mut visit: impl FnMut(&[u32; 3], usize, i64, i64),
 ) {
     for triangle in model.triangles() {
-        // Indices were checked when the model was made.
-        let corners = triangle.map(|v| projected.get(v as usize).copied().unwrap_or_default());
+        let corners = triangle.map(&mut image);
         if !wanted(corners) {
             continue;
         }
@@ -102,17 +120,34 @@ pub(crate) fn for_each_span(
     }
 }
 
-/// The silhouette edges of `model` as [`render`] left them in its working memory, run along as the
-/// triangles that face the camera do, with the images of their ends; nothing where it was drawn triangle by triangle.
-pub(crate) fn contour<'s>(
-    model: &Model<'_>,
-    scratch: &'s [Projected],
-) -> Option<impl Iterator<Item = ([u32; 2], [Projected; 2])> + use<'s>> {
-    model.edges()?;
-    let scratch = scratch.get(..scratch.len().min(scratch_needed(model)))?;
-    let (images, room) = scratch.split_at_checked(model.vertices().len())?;
-    let image = |vertex: u32| images.get(vertex as usize).copied().unwrap_or_default();
-    Some(winding::contour(room)?.map(move |ends| (ends, ends.map(image))))
+/// What [`render`] left in its working memory of a model at a pose.
+pub(crate) struct Remains<'s> {
+    pub(crate) images: Images<'s>,
+    room: &'s [Projected],
+}
+
+/// The images and silhouette edges of `model` as [`render`] left them in its working memory at the same pose.
+pub(crate) fn remains<'s>(
+    model: &Model<'s>,
+    camera: &'s Camera,
+    pose: &'s Pose,
+    scratch: &'s mut [Projected],
+) -> Option<Remains<'s>> {
+    let (slots, room) = parts(model, scratch).ok()?;
+    Some(Remains {
+        images: Images::left(model.mesh(), camera, pose, slots),
+        room,
+    })
+}
+
+impl Remains<'_> {
+    /// Calls `visit` for each silhouette edge, run along as the triangles that face the camera do, with the images of its ends.
+    /// Gives `false` where the model was drawn triangle by triangle.
+    pub(crate) fn contour(&self, visit: impl FnMut(([u32; 2], [Projected; 2]))) -> bool {
+        winding::contour(self.room)
+            .map(|edges| edges.for_each(visit))
+            .is_some()
+    }
 }
 
 #[cfg(test)]

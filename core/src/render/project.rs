@@ -32,28 +32,71 @@ pub(crate) const VERTICES: &str = "projected vertices";
 /// Working memory of [`super::render()`], which needs [`super::scratch_needed`] of them: one projected vertex.
 pub type Projected = FixedPoint;
 
-/// The images of those vertices that are asked for, each made once.
+/// The images of those vertices that are asked for. Each is made once where there is a slot for each vertex; where there are
+/// fewer, several vertices have one slot in turn, and an image that has made way for another is made again.
 pub(crate) struct Images<'i> {
     camera: &'i Camera,
     pose: &'i Pose,
     vertices: &'i [[f32; 3]],
     slots: &'i mut [Projected],
+    /// Of slots that are for several vertices: whose image each holds, four in one place of memory.
+    owners: &'i mut [Projected],
 }
 
+/// Slots whose owners are kept in one place of memory, and bits of each owner.
+const OWNERS: usize = 4;
+const OWNER_BITS: usize = 16;
+
 impl<'i> Images<'i> {
-    /// Images in borrowed memory, a slot for each vertex. All vertices must have images.
+    /// Images in borrowed memory, none of which is made. All vertices must have images.
     pub(crate) fn new(
         mesh: &Mesh<'i>,
         camera: &'i Camera,
         pose: &'i Pose,
-        slots: &'i mut [Projected],
+        memory: &'i mut [Projected],
     ) -> Self {
-        slots.fill(FixedPoint::NONE);
+        memory.fill(FixedPoint::NONE);
+        Self::left(mesh, camera, pose, memory)
+    }
+
+    /// Images as they were left in memory, at the same pose.
+    pub(crate) fn left(
+        mesh: &Mesh<'i>,
+        camera: &'i Camera,
+        pose: &'i Pose,
+        memory: &'i mut [Projected],
+    ) -> Self {
+        let vertices = mesh.vertices();
+        let slots = match memory.len() {
+            few if few < vertices.len() => few * OWNERS / (OWNERS + 1),
+            _ => vertices.len(),
+        };
+        let (slots, owners) = memory.split_at_mut_checked(slots).unwrap_or_default();
         Self {
             camera,
             pose,
-            vertices: mesh.vertices(),
+            vertices,
             slots,
+            owners,
+        }
+    }
+
+    /// Makes the images of all vertices, several side by side, where there is a slot for each.
+    ///
+    /// # Errors
+    /// [`RenderError::BehindCamera`] where a vertex has none.
+    pub(crate) fn make_all(&mut self) -> Result<(), RenderError> {
+        let mut all = self.slots.len() == self.vertices.len();
+        if all {
+            for (slot, place) in self.slots.iter_mut().zip(self.vertices) {
+                let (point, inside) = image_of(self.camera, self.pose, place);
+                *slot = point;
+                all &= inside;
+            }
+        }
+        match all {
+            true => Ok(()),
+            false => check_images(self.vertices, self.camera, self.pose),
         }
     }
 
@@ -65,14 +108,81 @@ impl<'i> Images<'i> {
     pub(crate) fn of(&mut self, vertex: u32) -> Projected {
         // Indices were checked when the mesh was made.
         let vertex = vertex as usize;
-        let (Some(slot), Some(place)) = (self.slots.get_mut(vertex), self.vertices.get(vertex))
-        else {
+        let Some(place) = self.vertices.get(vertex) else {
             return FixedPoint::NONE;
         };
+        let image = || image_of(self.camera, self.pose, place).0;
+        if self.slots.len() < self.vertices.len() {
+            let at = Shared::of(vertex, self.slots.len());
+            return at.image(self.slots, self.owners).unwrap_or_else(|| {
+                let image = image();
+                at.keep(image, self.slots, self.owners);
+                image
+            });
+        }
+        let Some(slot) = self.slots.get_mut(vertex) else {
+            return image();
+        };
         if *slot == FixedPoint::NONE {
-            *slot = image_of(self.camera, self.pose, place).0;
+            *slot = image();
         }
         *slot
+    }
+}
+
+/// The slot of a vertex that is not the only one to use it.
+struct Shared {
+    slot: usize,
+    owner: u64,
+}
+
+impl Shared {
+    fn of(vertex: usize, slots: usize) -> Self {
+        Self {
+            slot: vertex.checked_rem(slots).unwrap_or(0),
+            owner: vertex.checked_div(slots).unwrap_or(0) as u64,
+        }
+    }
+
+    /// Bits of the owner below those of the slot.
+    fn shift(&self) -> usize {
+        self.slot % OWNERS * OWNER_BITS
+    }
+
+    /// The image of the vertex, where the slot holds it.
+    fn image(&self, slots: &[Projected], owners: &[Projected]) -> Option<Projected> {
+        let owner = u64::from(*owners.get(self.slot / OWNERS)?) >> self.shift();
+        let image = *slots.get(self.slot)?;
+        let is_own = owner & u64::from(u16::MAX) == self.owner && image != FixedPoint::NONE;
+        is_own.then_some(image)
+    }
+
+    /// Takes the slot; an owner whose number is too large for its bits does not.
+    fn keep(&self, image: Projected, slots: &mut [Projected], owners: &mut [Projected]) {
+        let (owner, slot) = (owners.get_mut(self.slot / OWNERS), slots.get_mut(self.slot));
+        let (Some(owner), Some(slot), true) = (owner, slot, self.owner <= u64::from(u16::MAX))
+        else {
+            return;
+        };
+        let others = u64::from(*owner) & !(u64::from(u16::MAX) << self.shift());
+        *owner = (others | self.owner << self.shift()).into();
+        *slot = image;
+    }
+}
+
+/// Refuses a pose at which a vertex has no image.
+///
+/// # Errors
+/// [`RenderError::BehindCamera`] with the first of them.
+pub(crate) fn check_images(
+    vertices: &[[f32; 3]],
+    camera: &Camera,
+    pose: &Pose,
+) -> Result<(), RenderError> {
+    let beyond = |vertex| !image_of(camera, pose, vertex).1;
+    match vertices.iter().position(beyond) {
+        Some(first) => Err(RenderError::BehindCamera(first)),
+        None => Ok(()),
     }
 }
 
@@ -86,19 +196,9 @@ pub(crate) fn project<'s>(
     pose: &Pose,
     scratch: &'s mut [Projected],
 ) -> Result<&'s [Projected], RenderError> {
-    let images = first(VERTICES, mesh.vertices().len(), scratch)?;
-    let mut all = true;
-    for (vertex, image) in mesh.vertices().iter().zip(&mut *images) {
-        let (point, inside) = image_of(camera, pose, vertex);
-        *image = point;
-        all &= inside;
-    }
-    if all {
-        return Ok(images);
-    }
-    let beyond = |vertex| !image_of(camera, pose, vertex).1;
-    let first = mesh.vertices().iter().position(beyond);
-    Err(RenderError::BehindCamera(first.unwrap_or_default()))
+    let slots = first(VERTICES, mesh.vertices().len(), scratch)?;
+    Images::left(mesh, camera, pose, slots).make_all()?;
+    Ok(slots)
 }
 
 /// The image of a vertex, and whether it has one. Without a branch: several at once.

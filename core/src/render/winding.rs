@@ -18,23 +18,28 @@ use crate::render::facing::FacingTest;
 use crate::render::project::Images;
 
 /// Room for rows of the frame, silhouette edges and their crossings with rows.
-const PLACES: usize = 16_384;
+const PLACES: usize = 32_768;
 
 /// In place of the number of silhouette edges where the surface was not drawn from them.
 const NONE: u64 = u64::MAX;
 
 /// Working memory of [`fill`].
 pub(crate) fn room_needed(edges: &Edges<'_>) -> usize {
-    PLACES + 4 * edges.rims().count()
+    PLACES + 2 * (KEPT + 1) * edges.rims().count()
 }
 
-/// The same for frames of so many rows, and contours of so many edges that cross rows so many times.
-pub(crate) const fn room_for(rows: usize, edges: usize, crossings: usize) -> usize {
-    1 + rows + edges + crossings
+/// The same for frames of so many rows, and contours of at most so many edges, each of which crosses a row once at most: what
+/// holds the crossings of any one row holds those of several at a time.
+pub(crate) const fn room_for(rows: usize, edges: usize) -> usize {
+    1 + rows + (KEPT + 1) * edges
 }
+
+/// What is kept of a silhouette edge: its vertices and their images.
+const KEPT: usize = 3;
+type Kept = [FixedPoint; KEPT];
 
 /// Adds the silhouette of a surface to `out`. Gives `false`, and has drawn a part of it at most, where
-/// the room does not hold all crossings. Afterwards [`contour`] reads the edges from `room`.
+/// the room does not hold all edges and the crossings of one row. Afterwards [`contour`] reads the edges from `room`.
 pub(crate) fn fill(
     facing: &FacingTest,
     edges: &Edges<'_>,
@@ -52,28 +57,41 @@ pub(crate) fn fill(
     let Some(chains) = find_contour(facing, edges, images, room) else {
         return false;
     };
-    let (crossings, kept) = room.split_at_mut(room.len() - chains.all());
-    let (away, towards) = kept.split_at(chains.away);
-    let (towards, both) = towards.split_at(chains.towards);
+    let crossings = room.len().saturating_sub(KEPT * chains.all());
+    let (crossings, kept) = room.split_at_mut_checked(crossings).unwrap_or_default();
+    let kept = kept.as_chunks_mut::<KEPT>().0;
+    for [vertices, from, to] in &mut *kept {
+        [*from, *to] = vertices_of(*vertices).map(|vertex| images.of(vertex));
+    }
+    let (away, towards) = kept.split_at_checked(chains.away).unwrap_or_default();
+    let (towards, both) = towards.split_at_checked(chains.towards).unwrap_or_default();
     let parts = [
         (Chain::Both, both),
         (Chain::Towards, towards),
         (Chain::Away, away),
     ];
-    let Some(mut crossings) = Crossings::of(parts, images, out.width(), rows, crossings) else {
-        return false;
-    };
-    crossings.fill(out);
+    count_crossings(parts, rows);
+    let mut start = 0;
+    while start < out.height() {
+        let Some(band) = Band::from(start, rows, crossings.len()) else {
+            return false;
+        };
+        start = band.rows.end;
+        band.fill(parts, (&mut *rows, &mut *crossings), out);
+    }
     *count = (chains.all() as u64).into();
     true
 }
 
-/// The edges that [`fill`] drew a surface from, as their vertices, read from its working memory; nothing
+/// The edges that [`fill`] drew a surface from, as their vertices and the images of these, read from its working memory; nothing
 /// where it was not drawn.
-pub(crate) fn contour(room: &[FixedPoint]) -> Option<impl Iterator<Item = [u32; 2]>> {
+pub(crate) fn contour(
+    room: &[FixedPoint],
+) -> Option<impl Iterator<Item = ([u32; 2], [FixedPoint; 2])> + use<'_>> {
     let count = usize::try_from(u64::from(*room.first()?)).ok()?;
-    let first = room.len().checked_sub(count)?;
-    Some(room.get(first..)?.iter().map(|&kept| vertices_of(kept)))
+    let first = room.len().checked_sub(count.checked_mul(KEPT)?)?;
+    let kept = room.get(first..)?.as_chunks::<KEPT>().0.iter();
+    Some(kept.map(|&[vertices, from, to]| (vertices_of(vertices), [from, to])))
 }
 
 /// How many edges a contour has.
@@ -99,11 +117,11 @@ fn find_contour(
     images: &mut Images<'_>,
     room: &mut [FixedPoint],
 ) -> Option<Chains> {
-    let mut free = room.iter_mut().rev();
+    let mut free = room.as_rchunks_mut::<KEPT>().1.iter_mut().rev();
     let mut fits = true;
     let mut keep = |[from, to]: [u32; 2], count: &mut usize| {
         match free.next() {
-            Some(place) => *place = (u64::from(from) << 32 | u64::from(to)).into(),
+            Some([vertices, ..]) => *vertices = (u64::from(from) << 32 | u64::from(to)).into(),
             None => fits = false,
         }
         *count += 1;
@@ -155,18 +173,17 @@ enum Chain {
 }
 
 /// Edges of the contour, by their chain.
-type Parts<'p> = [(Chain, &'p [FixedPoint]); 3];
+type Parts<'p> = [(Chain, &'p [Kept]); 3];
 
 /// Calls `visit` for each edge that crosses rows, with these.
 fn for_each_edge(
     parts: Parts<'_>,
-    images: &mut Images<'_>,
     height: usize,
     mut visit: impl FnMut(Chain, [FixedPoint; 2], Range<usize>),
 ) {
     for (chain, edges) in parts {
-        for &kept in edges {
-            let ends = vertices_of(kept).map(|vertex| images.of(vertex));
+        for &[_, from, to] in edges {
+            let ends = [from, to];
             let rows = rows_between(ends, height);
             // Most edges of a CAD model are shorter than a pixel.
             if !rows.is_empty() {
@@ -180,60 +197,80 @@ fn for_each_edge(
 const LEAVES: u64 = 4;
 const COLUMN_BIT: u32 = 3;
 
-/// Where silhouette edges cross rows.
-struct Crossings<'r> {
-    /// Behind the last crossing of each row.
-    ends: &'r [FixedPoint],
-    /// Row by row.
-    places: &'r mut [FixedPoint],
+/// Writes how many edges cross each row.
+fn count_crossings(parts: Parts<'_>, counts: &mut [FixedPoint]) {
+    counts.fill(FixedPoint::ZERO);
+    for_each_edge(parts, counts.len(), |_, _, rows| {
+        add_to(counts, rows.start, 1);
+        add_to(counts, rows.end, u64::MAX);
+    });
+    let mut in_row = 0u64;
+    for count in counts {
+        in_row = in_row.wrapping_add(u64::from(*count));
+        *count = in_row.into();
+    }
 }
 
-impl<'r> Crossings<'r> {
-    /// The crossings of all edges; `None` where there is no room for them. They are counted first, so that each is written
-    /// once, to where its row has its place.
-    fn of(
+/// Some rows whose crossings are found and filled at a time.
+struct Band {
+    rows: Range<usize>,
+}
+
+impl Band {
+    /// As many rows from one on as there is room for the crossings of; `None` where those of that one do not fit.
+    fn from(start: usize, counts: &[FixedPoint], room: usize) -> Option<Self> {
+        let mut left = room as u64;
+        let mut end = start;
+        for &count in counts.get(start..)? {
+            let Some(rest) = left.checked_sub(u64::from(count)) else {
+                break;
+            };
+            (left, end) = (rest, end + 1);
+        }
+        (end > start).then_some(Self { rows: start..end })
+    }
+
+    /// Fills the spans in which the winding number of either chain is not zero. `counts` are those of all rows; of the band's they
+    /// are not needed any more.
+    fn fill(
+        &self,
         parts: Parts<'_>,
-        images: &mut Images<'_>,
-        width: usize,
-        ends: &'r mut [FixedPoint],
-        places: &'r mut [FixedPoint],
-    ) -> Option<Self> {
-        let height = ends.len();
-        ends.fill(FixedPoint::ZERO);
-        for_each_edge(parts, images, height, |_, _, rows| {
-            add_to(ends, rows.start, 1);
-            add_to(ends, rows.end, u64::MAX);
-        });
-        let (mut in_row, mut before) = (0u64, 0u64);
+        (counts, places): (&mut [FixedPoint], &mut [FixedPoint]),
+        out: &mut MaskMut<'_>,
+    ) {
+        let ends = counts.get_mut(self.rows.clone()).unwrap_or_default();
+        // Where the crossings of each row begin; as each is written, where they end.
+        let mut before = 0u64;
         for end in &mut *ends {
-            in_row = in_row.wrapping_add(u64::from(*end));
+            let count = u64::from(*end);
             *end = before.into();
-            before += in_row;
+            before += count;
         }
-        if before > places.len() as u64 {
-            return None;
-        }
-        for_each_edge(parts, images, height, |chain, ends_of, rows| {
+        let (width, height) = (out.width() as i64, out.height());
+        for_each_edge(parts, height, |chain, ends_of, rows| {
+            let rows = rows.start.max(self.rows.start)..rows.end.min(self.rows.end);
+            if rows.is_empty() {
+                return;
+            }
             // Facing triangles are run clockwise: what is run upwards has them to its right.
             let [from, to] = ends_of;
             let leaves = if to.is_above(from) { 0 } else { LEAVES };
             let edge = Edge::new(ends_of);
             for row in rows {
-                let column = edge.column_at(row).clamp(0, width as i64) as u64;
-                let place = u64::from(ends[row]) as usize;
-                places[place] = (column << COLUMN_BIT | leaves | chain as u64).into();
-                add_to(ends, row, 1);
+                let column = edge.column_at(row).clamp(0, width) as u64;
+                let Some(end) = ends.get_mut(row - self.rows.start) else {
+                    continue;
+                };
+                if let Some(place) = places.get_mut(u64::from(*end) as usize) {
+                    *place = (column << COLUMN_BIT | leaves | chain as u64).into();
+                }
+                *end = (u64::from(*end) + 1).into();
             }
         });
-        Some(Self { ends, places })
-    }
-
-    /// Fills the spans in which the winding number of either chain is not zero.
-    fn fill(&mut self, out: &mut MaskMut<'_>) {
         let mut start = 0;
-        for (row, &end) in self.ends.iter().enumerate() {
+        for (row, &end) in self.rows.clone().zip(&*ends) {
             let end = u64::from(end) as usize;
-            let crossings = self.places.get_mut(start..end).unwrap_or_default();
+            let crossings = places.get_mut(start..end).unwrap_or_default();
             sort(crossings);
             fill_row(row, crossings, out);
             start = end;
@@ -251,13 +288,20 @@ fn add_to(rows: &mut [FixedPoint], row: usize, more: u64) {
 /// By insertion: few edges cross one row.
 fn sort(crossings: &mut [FixedPoint]) {
     for at in 1..crossings.len() {
-        let own = crossings[at];
-        let mut free = at;
-        while free > 0 && u64::from(crossings[free - 1]) > u64::from(own) {
-            crossings[free] = crossings[free - 1];
-            free -= 1;
+        let Some((own, before)) = crossings
+            .get_mut(..=at)
+            .and_then(<[FixedPoint]>::split_last_mut)
+        else {
+            continue;
+        };
+        let mut free = own;
+        for other in before.iter_mut().rev() {
+            if u64::from(*other) <= u64::from(*free) {
+                break;
+            }
+            core::mem::swap(other, free);
+            free = other;
         }
-        crossings[free] = own;
     }
 }
 
@@ -383,24 +427,49 @@ mod tests {
     }
 
     #[test]
-    fn without_room_for_the_crossings_triangles_are_drawn() {
+    fn with_less_room_rows_are_drawn_some_at_a_time() {
         let (vertices, triangles) = fake::torus(&[0.0]);
         let model = Model::from_triangles(&vertices, &triangles).expect("valid");
         let linked = Linked::new(model.mesh());
-        let edges = linked.edges();
+        let (edges, packed) = (linked.edges(), linked.packed());
         let camera = camera();
         let facing = FacingTest::new(model.mesh(), &camera, &FAR);
-        let mut words = vec![0; words_needed(SIDE, SIDE)];
-        let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
-        let mut slots = vec![FixedPoint::default(); vertices.len()];
-        let mut images = Images::new(model.mesh(), &camera, &FAR, &mut slots);
-        let mut fits = |room: usize| {
+        let wanted = draw(&model, &FAR);
+        // Whether it is drawn, with so much room and slots for so many images.
+        let fits = |edges: &Edges<'_>, room: usize, slots: usize| {
+            let mut words = vec![0; words_needed(SIDE, SIDE)];
+            let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            let mut slots = vec![FixedPoint::default(); slots];
+            let mut images = Images::new(model.mesh(), &camera, &FAR, &mut slots);
             let mut room = vec![FixedPoint::default(); room];
-            fill(&facing, &edges, &mut images, &mut room, &mut out)
+            let fits = fill(&facing, edges, &mut images, &mut room, &mut out);
+            assert!(!fits || words == wanted);
+            fits
         };
-        for room in [0, 1, SIDE, SIDE + 1, SIDE + 40, 200] {
-            assert!(!fits(room), "{room}");
+        let silhouette = {
+            let mut room = vec![FixedPoint::default(); 4000];
+            let mut slots = vec![FixedPoint::default(); vertices.len()];
+            let mut images = Images::new(model.mesh(), &camera, &FAR, &mut slots);
+            let mut words = vec![0; words_needed(SIDE, SIDE)];
+            let mut out = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+            assert!(fill(&facing, &edges, &mut images, &mut room, &mut out));
+            contour(&room).expect("it was drawn").count()
+        };
+        for edges in [&edges, &packed.edges()] {
+            for room in [0, 1, SIDE, SIDE + 1, SIDE + KEPT * silhouette] {
+                assert!(!fits(edges, room, vertices.len()), "{room}");
+            }
+            let least = 1 + SIDE + KEPT * silhouette;
+            let crossings = |more: &usize| fits(edges, least + more, vertices.len());
+            let in_a_row = (0..).find(crossings).expect("that of all of them");
+            assert!(in_a_row > 1 && 20 * in_a_row < SIDE * 4, "{in_a_row}");
+            for more in [0, 1, 7, 50, 1000] {
+                for slots in [0, 1, 2, 5, 64, vertices.len()] {
+                    let room = least + in_a_row + more;
+                    assert!(fits(edges, room, slots), "{more} {slots}");
+                }
+            }
+            assert!(fits(edges, room_for(SIDE, silhouette), 9));
         }
-        assert!(fits(4000));
     }
 }

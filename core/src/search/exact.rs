@@ -13,7 +13,7 @@ use crate::memory::first;
 use crate::search::kernels::Kernels;
 use crate::search::query::{Query, bound, longest_sketch};
 use crate::search::scores::{MatchError, ViewMatch, neighbours, scores_needed};
-use crate::shortlist::keep;
+use crate::shortlist::{keep, smallest};
 
 /// Bounds below this bit; set where the number is no bound but exact.
 const EXACT: u32 = 1 << 31;
@@ -96,8 +96,8 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
             return;
         };
         let stride = sketches.stride();
-        let ours = &mut memory[..stride];
-        let views = self.library.views();
+        let ours = memory.get_mut(..stride).unwrap_or_default();
+        let views = self.library.views().max(1);
         for (reversed, bounds) in [false, true].into_iter().zip(self.bounds.chunks_mut(views)) {
             let base = self
                 .query
@@ -164,8 +164,7 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     }
 
     fn candidate(&mut self, place: usize) -> ViewMatch {
-        let views = self.library.views();
-        let (view, reversed) = (place % views, place >= views);
+        let (view, reversed) = self.apart(place);
         ViewMatch {
             view,
             reversed,
@@ -264,8 +263,10 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     }
 
     fn apart(&self, place: usize) -> (usize, bool) {
-        let views = self.library.views();
-        (place % views, place >= views)
+        match place.checked_sub(self.library.views()) {
+            None => (place, false),
+            Some(view) => (view, true),
+        }
     }
 
     fn is_minimum_of_bounds(&self, view: usize, reversed: bool) -> bool {
@@ -311,9 +312,9 @@ impl<'s, 'm> ViewSearch<'s, 'm> {
     fn better_neighbour(&mut self, view: usize, reversed: bool) -> Option<usize> {
         let score = self.score(view, reversed);
         let grid = self.library.info().grid;
-        let mut near: Vec<usize, 8> = neighbours(&grid, view).collect();
-        near.sort_unstable_by_key(|&neighbour| (self.at_least(neighbour, reversed), neighbour));
-        near.into_iter().find(|&neighbour| {
+        let key = |&neighbour: &usize| (self.at_least(neighbour, reversed), neighbour);
+        let near: Vec<usize, 8> = smallest(neighbours(&grid, view), key);
+        near.iter().copied().find(|&neighbour| {
             self.at_least(neighbour, reversed) <= score
                 && (self.score(neighbour, reversed), neighbour) < (score, view)
         })

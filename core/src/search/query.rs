@@ -50,7 +50,9 @@ impl<'m> Query<'m> {
         let (straight, rotated) = (first_of(words, straight)?, first_of(words, rotated)?);
         let needed = query_bytes_needed(spec);
         let bytes = first("bytes of working memory", needed, bytes)?;
-        let (before, sketches) = bytes.split_at_mut(needed - 2 * blocks(spec));
+        let (before, sketches) = bytes
+            .split_at_mut_checked(needed - 2 * blocks(spec))
+            .unwrap_or_default();
         count_before(straight.iter().copied(), before);
         Ok(Self {
             spec: *spec,
@@ -250,14 +252,16 @@ fn counts_up_to(byte: u8, count: u8) -> [u8; 8] {
 
 /// Set pixels of the blocks of a silhouette, as it is and rotated by 180 degrees.
 fn sketch<'m>(spec: &CanonicalSpec, words: &[Word], out: &'m mut [u8]) -> [&'m [u8]; 2] {
-    let (straight, rotated) = out.split_at_mut(blocks(spec));
+    let (straight, rotated) = out.split_at_mut_checked(blocks(spec)).unwrap_or_default();
     let row_words = spec.size() / WORD_BITS;
     // Words of a row of blocks, and bytes: a word is two blocks wide.
     let (step, width) = (BLOCK * row_words, 2 * row_words);
-    let rows = words
-        .chunks_exact(step)
-        .zip(straight.chunks_exact_mut(width));
-    for (words, counts) in rows {
+    for row in 0..spec.size() / BLOCK {
+        let rows = |length: usize| row * length..(row + 1) * length;
+        let (words, counts) = (words.get(rows(step)), straight.get_mut(rows(width)));
+        let (Some(words), Some(counts)) = (words, counts) else {
+            break;
+        };
         for (column, two) in counts.as_chunks_mut::<2>().0.iter_mut().enumerate() {
             *two = counts_of_two(words, column, row_words).map(at_most_255);
         }

@@ -5,15 +5,14 @@ use core::fmt::{self, Write};
 use fluoropose::camera::CameraError;
 use fluoropose::finder::choice::ChoiceContext;
 use fluoropose::finder::{Decision, FindError, Found, Goal, find_into};
-use fluoropose::image::contour::Outline;
+use fluoropose::image::contour::{Outline, OutlineError, Point};
 use fluoropose::image::crop::Crop;
 use fluoropose::image::mask::MaskError;
 use fluoropose::implant::{Aligned, ImplantError, ImplantFile};
 use fluoropose::pose::EulerPose;
 use fluoropose::{Camera, RefineOptions, Silhouette};
 
-use crate::memory::{FRAME_SIDE, MAX_POINTS};
-use crate::proof::read_outline;
+use crate::memory::FRAME_SIDE;
 
 /// The implant: surface, edges, planes of symmetry and library.
 pub(crate) static IMPLANT: Aligned<
@@ -35,9 +34,8 @@ const BORDER: usize = 900;
 
 fluoropose::finder_arena!(pub Arena, &IMPLANT.0, columns: COLUMNS, rows: ROWS, border: BORDER);
 
-/// Vertices of the outline, and all that is worked in.
+/// All that is worked in.
 pub struct FindingMemory {
-    points: fluoropose::Contour<MAX_POINTS>,
     arena: Arena,
     found: Found,
 }
@@ -46,7 +44,6 @@ impl FindingMemory {
     /// Empty working memory.
     pub const fn new() -> Self {
         Self {
-            points: fluoropose::Contour::new(),
             arena: Arena::new(),
             found: Found::NOTHING,
         }
@@ -64,8 +61,10 @@ impl Default for FindingMemory {
 pub enum FindingFailure {
     /// The bytes in flash are no implant.
     Implant(ImplantError),
-    /// The outline is none, or lies in no part of the frame that there is memory for.
-    Outline,
+    /// The points in flash are no outline.
+    Outline(OutlineError),
+    /// Nothing was found.
+    NoPose,
     /// The calibration is none, or that of other frames.
     Camera(CameraError),
     /// The mask of it is none.
@@ -81,7 +80,8 @@ impl fmt::Display for FindingFailure {
         match self {
             Self::Implant(error) => write!(f, "{error}"),
             Self::Camera(error) => write!(f, "{error}"),
-            Self::Outline => write!(f, "the bytes in flash are no outline"),
+            Self::Outline(error) => write!(f, "{error}"),
+            Self::NoPose => write!(f, "no pose explains the outline"),
             Self::Mask(error) => write!(f, "{error}"),
             Self::Find(error) => write!(f, "{error}"),
             Self::Write => write!(f, "a line could not be written"),
@@ -107,7 +107,7 @@ fn calibrated() -> Result<Camera, CameraError> {
     Camera::from_principal_distance(FRAME_SIDE, FRAME_SIDE, 1000.0, 0.4, [0.0; 2])
 }
 
-/// Finds the pose of `outline` (as in [`crate::OUTLINE`]) and writes candidates, choice and verdict to `out`, with every bit,
+/// Finds the pose of `outline`, which stays where it is, and writes candidates, choice and verdict to `out`, with every bit,
 /// which must agree between targets.
 ///
 /// `stage` is called with a stage's name after it.
@@ -115,7 +115,7 @@ fn calibrated() -> Result<Camera, CameraError> {
 /// # Errors
 /// A [`FindingFailure`], in words through `Display`.
 pub fn find_pose(
-    outline: &[u8],
+    outline: &[Point],
     memory: &mut FindingMemory,
     out: &mut dyn Write,
     stage: &mut dyn FnMut(&str),
@@ -124,9 +124,7 @@ pub fn find_pose(
     stage("implant opened, checked");
     let implant = ImplantFile::trusted(&IMPLANT.0).map_err(FindingFailure::Implant)?;
     stage("implant opened, trusted");
-    read_outline(outline, &mut memory.points).map_err(|_| FindingFailure::Outline)?;
-    let outline = Outline::new(&memory.points, FRAME_SIDE, FRAME_SIDE)
-        .map_err(|_| FindingFailure::Outline)?;
+    let outline = Outline::new(outline, FRAME_SIDE, FRAME_SIDE).map_err(FindingFailure::Outline)?;
     stage("outline checked");
     let crop = Crop::around_outline(&outline, Crop::MARGIN, [FRAME_SIDE; 2])?;
     let (words, mut finder) = memory.arena.borrow();
@@ -150,7 +148,7 @@ pub fn find_pose(
     .map_err(FindingFailure::Find)?;
     let decision = found
         .decide(&ChoiceContext::default())
-        .ok_or(FindingFailure::Outline)?;
+        .ok_or(FindingFailure::NoPose)?;
     stage("candidates, mirror images, verdict");
     report(out, &crop, found, &decision)
 }
@@ -171,7 +169,7 @@ fn report(
     )?;
     writeln!(out, "{}: {}", decision.verdict.word(), decision.verdict)?;
     let Some(best) = found.candidates.get(decision.choice.index) else {
-        return Err(FindingFailure::Outline);
+        return Err(FindingFailure::NoPose);
     };
     let euler = EulerPose::from(best.pose);
     let numbers = [

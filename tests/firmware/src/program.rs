@@ -2,11 +2,10 @@
 
 use core::fmt::Write;
 
-use crate::OUTLINE;
-
 #[cfg(not(feature = "finder"))]
 mod way {
-    use super::{OUTLINE, Write};
+    use super::Write;
+    use crate::OUTLINE;
     pub use crate::memory::Memory;
     use crate::proof::Failure;
 
@@ -31,12 +30,16 @@ mod way {
 
 #[cfg(feature = "finder")]
 mod way {
-    use super::{OUTLINE, Write};
+    use super::Write;
     pub use crate::finding::FindingMemory as Memory;
     use crate::finding::{FindingFailure, IMPLANT, find_pose};
+    use crate::inputs::POINTS;
 
     /// Bytes in flash that are no code: the implant and the outline.
-    pub const DATA: [(&str, usize); 2] = [("implant", IMPLANT.0.len()), ("outline", OUTLINE.len())];
+    pub const DATA: [(&str, usize); 2] = [
+        ("implant", IMPLANT.0.len()),
+        ("outline", size_of_val(&POINTS)),
+    ];
 
     /// Runs it.
     ///
@@ -47,7 +50,7 @@ mod way {
         out: &mut dyn Write,
         stage: &mut dyn FnMut(&str),
     ) -> Result<(), FindingFailure> {
-        find_pose(OUTLINE, memory, out, stage)
+        find_pose(&POINTS, memory, out, stage)
     }
 }
 

@@ -6,7 +6,7 @@ use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
 use fluoropose::refine::{
     BorderPixel, CameraView, Effort, Locks, RefineError, RefineMemory, RefineOptions, Refined,
-    refine,
+    places_needed, refine,
 };
 use fluoropose::render::{Projected, render, scratch_needed};
 use fluoropose_tests::{camera, femur, mesh};
@@ -67,7 +67,7 @@ fn refined_in(
     let mut memory = RefineMemory {
         projected: &mut projected,
         drawn: &mut vec![0; words_needed(width, height)],
-        places: &mut vec![[0; 2]; words_needed(width, height)],
+        places: &mut vec![0; places_needed(height)],
         border: &mut vec![BorderPixel::default(); border],
         film: LineMemory::default(),
     };

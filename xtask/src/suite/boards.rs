@@ -6,7 +6,7 @@ use std::process::Command;
 use anyhow::Result;
 
 use super::board_rows::{self, Row};
-use super::firmware::{self, FINDER, LIBRARY, Program};
+use super::firmware::{self, FINDER, LIBRARY, Program, SMALL_FINDER};
 use super::native;
 use super::report::{Report, Said};
 use crate::output::say;
@@ -18,11 +18,11 @@ use crate::workspace;
 pub(crate) fn run(report: &mut Report) {
     firmware::run_with_micromath(report);
     let mut rows = Vec::new();
-    for board in [&CORTEX_M0, &RISCV32] {
-        for program in [&LIBRARY, &FINDER] {
-            let name = format!("firmware: the {} on a {}", program.name, board.name);
-            report.step(&name, || compare(board, program, &mut rows));
-        }
+    let pairs = [&CORTEX_M0, &RISCV32].map(|board| [(board, &LIBRARY), (board, &FINDER)]);
+    let pairs = pairs.iter().flatten();
+    for (board, program) in pairs.chain(&[(&NETDUINO, &SMALL_FINDER)]) {
+        let name = format!("firmware: the {} on a {}", program.name, board.name);
+        report.step(&name, || compare(board, program, &mut rows));
     }
     report.step("firmware: the example in C", || example_in_c(&mut rows));
     report.step("firmware: figures of other boards", || {
@@ -43,6 +43,13 @@ const CORTEX_M0: Board = Board {
     name: "Cortex-M0+",
     target: rust_target::CORTEX_M0,
     emulate: |image| firmware::on_board(&programs::qemu_arm()?, "mps2-an385", image),
+};
+
+/// A Cortex-M4F with 1 MiB of flash and 128 KiB of memory.
+const NETDUINO: Board = Board {
+    name: "Netduino Plus 2",
+    target: rust_target::CORTEX_M4F,
+    emulate: |image| firmware::on_board(&programs::qemu_arm()?, "netduinoplus2", image),
 };
 
 /// Its counter of instructions is nanoseconds under QEMU: one for each.

@@ -95,6 +95,12 @@ pub(super) const FINDER: Program = Program {
     },
 };
 
+/// The same, linked for a Netduino Plus 2.
+pub(super) const SMALL_FINDER: Program = Program {
+    features: &["--features", "finder,netduinoplus2"],
+    ..FINDER
+};
+
 /// Where all that belongs to the firmware goes.
 pub(super) fn folder() -> PathBuf {
     workspace::target_dir().join("firmware")

@@ -150,8 +150,8 @@ impl DistanceTransform<'_> {
                 .zip(row.checked_add_signed(up))
                 .filter(|&(column, row)| column < columns && row < rows);
             if let Some((c, r)) = neighbour {
-                let theirs = self.cells[r * columns + c];
-                if theirs != NONE && theirs != self.cells[row * columns + column] {
+                let theirs = self.number(c, r);
+                if theirs != NONE && theirs != self.number(column, row) {
                     self.offer(column, row, theirs);
                 }
             }
@@ -160,17 +160,27 @@ impl DistanceTransform<'_> {
 
     /// Puts a point into a cell where it is nearer to the cell's middle than the one there.
     fn offer(&mut self, column: usize, row: usize, number: u16) {
-        let place = row * self.grid.columns + column;
-        let own = self.cells[place];
+        let own = self.number(column, row);
         if own == NONE || self.distance(column, row, number) < self.distance(column, row, own) {
-            self.cells[place] = number;
+            let place = row * self.grid.columns + column;
+            if let Some(cell) = self.cells.get_mut(place) {
+                *cell = number;
+            }
         }
+    }
+
+    /// The number of the point in a cell.
+    fn number(&self, column: usize, row: usize) -> u16 {
+        let place = row * self.grid.columns + column;
+        self.cells.get(place).copied().unwrap_or(NONE)
     }
 
     /// Squared distance of a point from the middle of a cell.
     fn distance(&self, column: usize, row: usize, number: u16) -> f32 {
         let middle = self.grid.middle(column, row);
-        let at = self.points[usize::from(number)].at;
+        let Some(OutlinePoint { at, .. }) = self.points.get(usize::from(number)) else {
+            return f32::INFINITY;
+        };
         let (x, y) = (middle[0] - at[0], middle[1] - at[1]);
         x * x + y * y
     }

@@ -45,11 +45,20 @@ pub fn locate_partial<const K: usize>(
     }
     let needs = partial_needed(library, camera, model);
     memory.check(&needs)?;
-    let words = &mut memory.words[..needs.words];
-    let (frame, canonical) = words.split_at_mut(words_needed(width, height));
-    let (bits, visited) = canonical.split_at_mut(canonical.len() / 2);
-    let (own, others) = memory.points.split_at_mut(KNOWN_POINTS);
-    let (levels, numbers) = memory.numbers.split_at_mut(LEVEL_NUMBERS);
+    let words = memory.words.get_mut(..needs.words).unwrap_or_default();
+    let frame = words_needed(width, height);
+    let (frame, canonical) = words.split_at_mut_checked(frame).unwrap_or_default();
+    let (bits, visited) = canonical
+        .split_at_mut_checked(canonical.len() / 2)
+        .unwrap_or_default();
+    let (own, others) = memory
+        .points
+        .split_at_mut_checked(KNOWN_POINTS)
+        .unwrap_or_default();
+    let (levels, numbers) = memory
+        .numbers
+        .split_at_mut_checked(LEVEL_NUMBERS)
+        .unwrap_or_default();
     let mut drawn = MaskMut::new(frame, width, height)?;
     let units = Units::new(library, camera);
     let plane = Plane::new(width, height, camera.aspect());

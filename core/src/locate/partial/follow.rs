@@ -8,6 +8,7 @@ use super::view::ViewMemory;
 use crate::camera::Camera;
 use crate::locate::whole::Located;
 use crate::pose::geodesic_deg;
+use crate::shortlist::first_of;
 
 /// Hypotheses that are followed on the full grid.
 const SEEDS: usize = 12;
@@ -27,10 +28,10 @@ pub(super) fn follow<const K: usize>(
     found.sort_unstable_by(|a, b| a.score.total_cmp(&b.score).then(a.view.cmp(&b.view)));
     let seeds: Vec<Hypothesis, SEEDS> = distinct(found, SEEDS_APART_DEG, locate);
     let mut followed: Vec<Hypothesis, SEEDS> =
-        seeds.iter().map(|seed| search.fine(seed, views)).collect();
+        first_of(seeds.iter().map(|seed| search.fine(seed, views)));
     followed.sort_unstable_by(|a, b| a.score.total_cmp(&b.score).then(a.view.cmp(&b.view)));
     let best: Vec<Hypothesis, K> = distinct(&followed, POSES_APART_DEG, locate);
-    best.iter().map(locate).collect()
+    first_of(best.iter().map(locate))
 }
 
 /// The first hypotheses of a list whose rotations differ from those before by `apart` degrees.
@@ -49,5 +50,5 @@ fn distinct<const K: usize>(
             break;
         }
     }
-    kept.iter().map(|(hypothesis, _)| *hypothesis).collect()
+    first_of(kept.iter().map(|(hypothesis, _)| *hypothesis))
 }

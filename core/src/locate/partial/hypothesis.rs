@@ -96,10 +96,10 @@ pub(super) fn keep<const K: usize>(
     same: impl Fn(&Hypothesis) -> bool,
 ) {
     if let Some(place) = list.iter().position(same) {
-        if list[place].score <= new.score {
+        if list.get(place).is_some_and(|old| old.score <= new.score) {
             return;
         }
-        list.remove(place);
+        shortlist::take_out(list, place);
     }
     shortlist::keep(list, new, |other| other.score);
 }

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-use super::outline::{OutlinePoints, Piece};
+use super::outline::{OutlinePoint, OutlinePoints, Piece};
 use super::slide::Samples;
 use super::trace::STRETCHES;
 
@@ -111,7 +111,8 @@ impl<'a> ScaleLevels<'a> {
             };
             let mut used = 0;
             for (piece, end) in outline.pieces().zip(&mut level.ends) {
-                used += sample(&piece, scale, level.spacing, &mut x[used..], &mut y[used..]);
+                let rest = [&mut *x, &mut *y].map(|list| list.get_mut(used..).unwrap_or_default());
+                used += sample(&piece, scale, level.spacing, rest);
                 *end = used;
             }
             // There is a list for each level.
@@ -147,13 +148,11 @@ impl<'a> ScaleLevels<'a> {
         let (Some(window), Some(at)) = (self.windows.get(window), self.levels.get(level)) else {
             return none;
         };
-        let before = window
-            .stretch
-            .checked_sub(1)
-            .map_or(0, |other| at.ends[other]);
+        let end = |stretch: usize| at.ends.get(stretch).copied().unwrap_or(0);
+        let before = window.stretch.checked_sub(1).map_or(0, end);
         let start = before.saturating_add((window.from / at.spacing + 0.5) as usize);
         let count = ((window.length / at.spacing) as usize).saturating_add(1);
-        let end = at.ends[window.stretch].min(start.saturating_add(count.min(most)));
+        let end = end(window.stretch).min(start.saturating_add(count.min(most)));
         let list = self.numbers.chunks_exact(2 * SAMPLES).nth(level);
         let (x, y) = list
             .unwrap_or_default()
@@ -167,17 +166,22 @@ impl<'a> ScaleLevels<'a> {
 }
 
 /// Writes samples of a piece to `x` and `y`, in canonical pixels, and gives their number.
-fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, x: &mut [f32], y: &mut [f32]) -> usize {
+fn sample(piece: &Piece<'_>, scale: f64, spacing: f64, [x, y]: [&mut [f32]; 2]) -> usize {
     let points = piece.points;
     let count = ((piece.length() / spacing) as usize).saturating_add(1);
     let count = count.min(x.len()).min(y.len());
     for (index, (x, y)) in x.iter_mut().zip(y).take(count).enumerate() {
         let place = index as f64 * spacing / piece.step;
-        let before = (place as usize).min(points.len() - 1);
+        let before = (place as usize).min(points.len().saturating_sub(1));
         let fraction = (place - before as f64) as f32;
         // The last point of an open stretch has none after it, and none is wanted.
-        let after = (before + 1) % points.len();
-        let (a, b) = (points[before].at, points[after].at);
+        let ends = (
+            points.get(before),
+            points.get(before + 1).or(points.first()),
+        );
+        let (Some(OutlinePoint { at: a, .. }), Some(OutlinePoint { at: b, .. })) = ends else {
+            continue;
+        };
         *x = (a[0] + fraction * (b[0] - a[0])) / scale as f32;
         *y = (a[1] + fraction * (b[1] - a[1])) / scale as f32;
     }

@@ -1,7 +1,7 @@
 //! A window of the known outline slid along a closed or open outline of a view: the similarity that
 //! fits best at each place, in closed form.
 
-use crate::shortlist::keep;
+use crate::shortlist::{keep, take_out};
 use heapless::Vec;
 
 use super::similarity::{Similarity, times};
@@ -244,10 +244,13 @@ fn insert<const K: usize>(best: &mut Vec<Fit, K>, fit: Fit, apart: usize) {
         .iter()
         .position(|other| other.shift.abs_diff(fit.shift) < apart)
     {
-        if best[near].residual <= fit.residual {
+        if best
+            .get(near)
+            .is_some_and(|old| old.residual <= fit.residual)
+        {
             return;
         }
-        best.remove(near);
+        take_out(best, near);
     }
     keep(best, fit, |other| other.residual);
 }

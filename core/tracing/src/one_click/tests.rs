@@ -11,7 +11,7 @@ use fluoropose::library::{Builder, ViewAxis, ViewGrid, ViewScratch};
 use fluoropose::locate::{Workspace, workspace_needed};
 use fluoropose::mesh::Model;
 use fluoropose::pose::{EulerPose, Pose, geodesic_deg};
-use fluoropose::refine::{BorderPixel, Polarity, RefineMemory};
+use fluoropose::refine::{BorderPixel, Polarity, RefineMemory, places_needed};
 use fluoropose::render::{Projected, render};
 use fluoropose::search::kernels::Kernels;
 use std::vec::Vec;
@@ -227,7 +227,7 @@ impl Bench {
             refine: RefineMemory {
                 projected: &mut std::vec![Projected::default(); model.vertices().len()],
                 drawn: &mut std::vec![0; words_needed(SIDE, SIDE)],
-                places: &mut std::vec![[0; 2]; words_needed(SIDE, SIDE)],
+                places: &mut std::vec![0; places_needed(SIDE)],
                 border: &mut std::vec![BorderPixel::default(); 4096],
                 film: LineMemory::default(),
             },

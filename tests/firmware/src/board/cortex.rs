@@ -28,8 +28,15 @@ fn main() -> ! {
     }
 }
 
-/// A console, and ticks of the core's clock. Under QEMU with `-icount shift=6` an instruction takes 64 ns, 1.6 ticks of
-/// 25 MHz.
+/// Instructions for so many ticks of the core's clock: under QEMU with `-icount shift=6` an instruction takes 64 ns, 1.6 ticks of
+/// 25 MHz and 10.752 of the 168 MHz of a Netduino Plus 2.
+const RATE: (u64, u64) = if cfg!(feature = "netduinoplus2") {
+    (125, 1344)
+} else {
+    (5, 8)
+};
+
+/// A console, and ticks of the core's clock.
 struct CortexM {
     console: HostStream,
     last: u64,
@@ -47,7 +54,7 @@ impl Board for CortexM {
         let now = now();
         let ticks = now - self.last;
         self.last = now;
-        ticks * 5 / 8
+        ticks * RATE.0 / RATE.1
     }
 }
 

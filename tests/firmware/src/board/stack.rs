@@ -15,7 +15,9 @@ unsafe extern "C" {
 }
 
 /// Where code and constants begin.
-const CODE: usize = if cfg!(target_arch = "arm") {
+const CODE: usize = if cfg!(feature = "netduinoplus2") {
+    0x0800_0000
+} else if cfg!(target_arch = "arm") {
     0
 } else {
     0x8000_0000

@@ -1,0 +1,259 @@
+//! How residuals along an outline err alike, over the distance between samples.
+
+use super::border::BorderPixel;
+use super::loss::Loss;
+
+/// Width of a bin of distance, pixels, and number of bins.
+const BIN: f32 = 2.0;
+const BINS: usize = 24;
+/// Samples that are summed in 32 bits before their sum is added in 64.
+pub(super) const BLOCK: usize = 64;
+
+/// Samples this far apart, pixels, are not compared.
+const REACH: i32 = BIN as i32 * BINS as i32;
+
+/// The bin of a distance, from 1, by its square in pixels.
+const BIN_OF: [u8; (REACH * REACH) as usize] = {
+    let mut bins = [0; (REACH * REACH) as usize];
+    let (mut square, mut bin) = (0, 1);
+    while square < bins.len() {
+        let end = BIN as usize * bin as usize;
+        if square >= end * end {
+            bin += 1;
+        }
+        bins[square] = bin;
+        square += 1;
+    }
+    bins
+};
+
+/// The samples listed after one that are less than `reach` pixels from it and on the same side of the part, with their
+/// places in the list and the bin of their distance.
+pub(super) fn after(
+    border: &[BorderPixel],
+    index: usize,
+    reach: i32,
+) -> impl Iterator<Item = (usize, &BorderPixel, usize)> {
+    let sample = border.get(index).copied().unwrap_or_default();
+    let offset = |a: u16, b: u16| i32::from(a) - i32::from(b);
+    // They are listed row by row.
+    let close = move |other: &&BorderPixel| offset(other.row, sample.row) < reach;
+    let rest = border.get(index + 1..).unwrap_or_default();
+    let rest = (index + 1..).zip(rest.iter().take_while(close));
+    rest.filter_map(move |(number, other)| {
+        let right = offset(other.column, sample.column);
+        if right.abs() >= reach {
+            return None;
+        }
+        let down = offset(other.row, sample.row);
+        let bin = *BIN_OF.get((right * right + down * down) as usize)?;
+        other
+            .residual_px()
+            .filter(|_| alike(sample.slope, other.slope))?;
+        Some((number, other, usize::from(bin)))
+    })
+}
+
+/// Whether the cosine between two normals is at least one half: the two sides of a thin plate err apart. In whole numbers, because
+/// there are many pairs; slopes are at most 160.
+fn alike(a: [i16; 2], b: [i16; 2]) -> bool {
+    let dot = |a: [i16; 2], b: [i16; 2]| {
+        i32::from(a[0]) * i32::from(b[0]) + i32::from(a[1]) * i32::from(b[1])
+    };
+    let along = dot(a, b);
+    let squares = dot(a, a) as u32 * dot(b, b) as u32;
+    along >= 0 && along as u32 * along as u32 >= squares.div_ceil(4)
+}
+
+/// Samples within reach, mostly: an outline has some four in a row.
+const KEPT: usize = 256;
+
+/// Derivatives of the loss at samples, each reckoned once: a sample has some hundred others near it.
+struct Pulls<'b> {
+    border: &'b [BorderPixel],
+    loss: Loss,
+    /// Of the last samples before [`Self::known`], by the remainder of their number.
+    last: [f32; KEPT],
+    known: usize,
+}
+
+impl<'b> Pulls<'b> {
+    fn new(border: &'b [BorderPixel], loss: Loss) -> Self {
+        Self {
+            border,
+            loss,
+            last: [0.0; KEPT],
+            known: 0,
+        }
+    }
+
+    /// That of a sample which does not come before `least`, which rises from call to call.
+    fn of(&mut self, number: usize, least: usize) -> f32 {
+        if number - least >= KEPT {
+            return self.reckoned(number);
+        }
+        while self.known <= number {
+            self.last[self.known % KEPT] = self.reckoned(self.known);
+            self.known += 1;
+        }
+        self.last[number % KEPT]
+    }
+
+    fn reckoned(&self, number: usize) -> f32 {
+        let residual = self.border.get(number).and_then(BorderPixel::residual_px);
+        residual.map_or(0.0, |residual| self.loss.pull(residual))
+    }
+}
+
+fn add_each(sums: &mut [f64], more: &[f32]) {
+    for (sum, &more) in sums.iter_mut().zip(more) {
+        *sum += f64::from(more);
+    }
+}
+
+/// Covariance of `psi` over distance.
+pub(super) struct Correlation {
+    /// At distance zero, then in bins of [`BIN`] pixels; zero from where it first fails to be
+    /// positive.
+    pub(super) bins: [f32; BINS + 1],
+}
+
+impl Correlation {
+    /// Rounds in which the correlation and what the fit took of it are brought to agree.
+    const ROUNDS: usize = 8;
+    /// More than this part of the variance is not supposed to have been taken. What is supposed lengthens the stretches that err alike,
+    /// and those what is supposed: without a narrow bound two poses 0.03 degrees apart may be told with a deviation that is four times
+    /// as large for one as for the other.
+    const MOST_TAKEN: f32 = 0.25;
+
+    /// `fitted` parameters took the longest waves out of the residuals, as much as they explain
+    /// of the independent stretches. The covariance of what remains is too small by the same amount at every
+    /// distance, and this amount is added again.
+    pub(super) fn of(border: &[BorderPixel], loss: Loss, fitted: f32) -> Self {
+        let (raw, length) = Self::raw(border, loss);
+        let mut taken = 0.0;
+        let mut correlation = Self::cut(&raw, taken);
+        for _ in 0..Self::ROUNDS {
+            let fraction =
+                (fitted * correlation.stretch_px() / length.max(1.0)).min(Self::MOST_TAKEN);
+            taken = raw[0] * fraction / (1.0 - fraction);
+            correlation = Self::cut(&raw, taken);
+        }
+        correlation
+    }
+
+    /// `taken` more at every distance, up to where it first fails to be positive.
+    fn cut(raw: &[f32; BINS + 1], taken: f32) -> Self {
+        let mut bins = raw.map(|value| value + taken);
+        let end = bins.iter().position(|&value| value <= 0.0);
+        bins[end.unwrap_or(BINS + 1)..].fill(0.0);
+        Self { bins }
+    }
+
+    /// The mean product of `psi` in every bin, and the length of the outline.
+    #[inline(never)]
+    fn raw(border: &[BorderPixel], loss: Loss) -> ([f32; BINS + 1], f32) {
+        let (mut sums, mut weights) = ([0.0f64; BINS + 1], [0.0f64; BINS + 1]);
+        let mut pulls = Pulls::new(border, loss);
+        for (few, samples) in border.chunks(BLOCK).enumerate() {
+            let (mut some, mut lengths) = ([0.0f32; BINS + 1], [0.0f32; BINS + 1]);
+            for (place, sample) in samples.iter().enumerate() {
+                if sample.residual_px().is_none() {
+                    continue;
+                }
+                let index = few * BLOCK + place;
+                let (l, own) = (sample.weight, pulls.of(index, index));
+                some[0] += l * own * own;
+                lengths[0] += l;
+                for (number, other, bin) in after(border, index, REACH) {
+                    let weight = l * other.weight;
+                    if let (Some(sum), Some(length)) = (some.get_mut(bin), lengths.get_mut(bin)) {
+                        *sum += weight * own * pulls.of(number, index);
+                        *length += weight;
+                    }
+                }
+            }
+            add_each(&mut sums, &some);
+            add_each(&mut weights, &lengths);
+        }
+        let mean = |bin: usize| {
+            if weights[bin] > 0.0 {
+                (sums[bin] / weights[bin]) as f32
+            } else {
+                0.0
+            }
+        };
+        (core::array::from_fn(mean), weights[0] as f32)
+    }
+
+    /// In a bin.
+    pub(super) fn at(&self, bin: usize) -> f32 {
+        self.bins.get(bin).copied().unwrap_or(0.0)
+    }
+
+    /// Distance from which on samples err apart, pixels.
+    pub(super) fn reach(&self) -> i32 {
+        let first = self.bins.iter().position(|&value| value == 0.0);
+        BIN as i32 * first.map_or(BINS, |bin| bin.saturating_sub(1)) as i32
+    }
+
+    /// Length of outline that errs alike, pixels: the integral of the correlation to both sides,
+    /// at least one pixel.
+    pub(super) fn stretch_px(&self) -> f32 {
+        let [own, rest @ ..] = &self.bins;
+        if *own <= 0.0 {
+            return 1.0;
+        }
+        (2.0 * BIN * rest.iter().sum::<f32>() / own).max(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::refine::border::Residual;
+    use proptest::prelude::*;
+    use std::vec::Vec;
+
+    /// A wave as long as the outline looks like few stretches that err alike, and nothing taken or nearly all of it explain it.
+    #[test]
+    fn a_fit_takes_no_more_than_a_quarter_of_the_variance() {
+        let sample = |k: u16| BorderPixel {
+            column: 8 + k,
+            row: 9,
+            slope: [0, 1],
+            weight: 1.0,
+            residual: Residual::Px(0.5 * libm::sinf(f32::from(k) / 9.0)).into(),
+            ..BorderPixel::EMPTY
+        };
+        let border: Vec<BorderPixel> = (0..300).map(sample).collect();
+        let loss = Loss::Tukey(2.5);
+        let (raw, _) = Correlation::raw(&border, loss);
+        let taken = Correlation::of(&border, loss, 6.0).at(0) / raw[0] - 1.0;
+        assert!((taken - 1.0 / 3.0).abs() < 1e-6, "{taken}");
+    }
+
+    proptest! {
+        #[test]
+        fn derivatives_that_are_kept_are_those_that_are_reckoned(
+            residuals in proptest::collection::vec(proptest::option::weighted(0.8, -9.0f32..9.0), 1..900),
+            every in 1usize..9, reach in 1usize..600,
+        ) {
+            let sample = |residual: &Option<f32>| {
+                let mut pixel = BorderPixel::EMPTY;
+                pixel.set_residual(residual.map_or(Residual::Missing, Residual::Px));
+                pixel
+            };
+            let border: Vec<BorderPixel> = residuals.iter().map(sample).collect();
+            let loss = Loss::Cauchy(1.5);
+            let mut pulls = Pulls::new(&border, loss);
+            for least in (0..residuals.len()).step_by(every) {
+                let near = residuals.iter().enumerate().skip(least).take(reach);
+                for (number, residual) in near {
+                    let own = residual.map_or(0.0, |px| loss.pull(px));
+                    prop_assert_eq!(pulls.of(number, least), own);
+                }
+            }
+        }
+    }
+}
