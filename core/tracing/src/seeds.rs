@@ -88,8 +88,7 @@ pub fn seeds(
         let half = (part * size_px / cell).max(1.0) as usize;
         for row in (half..rows.saturating_sub(half)).step_by(half) {
             for column in (half..columns.saturating_sub(half)).step_by(half) {
-                let (darker, kind) =
-                    table.darker(column, row, half, size_px / cell, image.polarity);
+                let (darker, kind) = table.darker(column, row, half, size_px / cell);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
                 let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
                 if darker > 0.0 && !image.unknown.is_some_and(is_unknown) {
@@ -166,14 +165,7 @@ impl<'m> Table<'m> {
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both, and of which kind it is.
-    fn darker(
-        &self,
-        column: usize,
-        row: usize,
-        half: usize,
-        size: f64,
-        polarity: Polarity,
-    ) -> (f64, usize) {
+    fn darker(&self, column: usize, row: usize, half: usize, size: f64) -> (f64, usize) {
         let dark = (DARK * self.range).max(f64::MIN_POSITIVE);
         let light = |column, row| self.mean(self.light, column, row, half);
         let inside = light(column, row);
