@@ -87,7 +87,8 @@ pub fn seeds(
                 let darker = table.darker(column, row, half, size_px / cell, image.polarity);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
                 let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
-                if darker > 0.0 && !image.unknown.is_some_and(is_unknown) {
+                let known = table.is_seen(column, row) && !image.unknown.is_some_and(is_unknown);
+                if darker > 0.0 && known {
                     insert(&mut best, (darker, at), apart);
                 }
             }
@@ -105,6 +106,8 @@ fn cells(camera: &Camera) -> (usize, usize, f64) {
 
 /// Sums of grey values over all cells above and to the left of each corner.
 struct Table<'m> {
+    frame: &'m dyn Grey,
+    cell: f64,
     sums: &'m [f64],
     columns: usize,
     rows: usize,
@@ -114,7 +117,7 @@ struct Table<'m> {
 
 impl<'m> Table<'m> {
     fn of(
-        frame: &dyn Grey,
+        frame: &'m dyn Grey,
         (columns, rows): (usize, usize),
         cell: f64,
         sums: &'m mut [f64],
@@ -122,22 +125,36 @@ impl<'m> Table<'m> {
         let width = columns + 1;
         sums[..width].fill(0.0);
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        // What is not of the picture is as bright as what is read before it: there is no edge.
+        let mut before = 0.0;
         for row in 0..rows {
             let mut line = 0.0;
             sums[(row + 1) * width] = 0.0;
             for column in 0..columns {
-                let value = grey(frame, column as f64 * cell, row as f64 * cell, cell);
-                range = [value.min(range[0]), value.max(range[1])];
+                let seen = grey(frame, column as f64 * cell, row as f64 * cell, cell);
+                let value = seen.unwrap_or(before);
+                before = value;
+                if seen.is_some() {
+                    range = [value.min(range[0]), value.max(range[1])];
+                }
                 line += value;
                 sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
             }
         }
         Self {
+            frame,
+            cell,
             sums,
             columns,
             rows,
             range,
         }
+    }
+
+    /// Whether a cell is of the picture.
+    fn is_seen(&self, column: usize, row: usize) -> bool {
+        let [left, top] = [column, row].map(|at| at as f64 * self.cell);
+        grey(self.frame, left, top, self.cell).is_some()
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both.
@@ -157,7 +174,9 @@ impl<'m> Table<'m> {
                     row as f64 + part * size * down,
                 );
                 let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
-                let seen = within(x, self.columns) && within(y, self.rows);
+                let seen = within(x, self.columns)
+                    && within(y, self.rows)
+                    && self.is_seen(x as usize, y as usize);
                 seen.then(|| {
                     let outside = lit(self.mean(x as usize, y as usize, half));
                     (outside - inside) / (outside + inside + dark)
@@ -184,16 +203,20 @@ impl<'m> Table<'m> {
     }
 }
 
-/// The mean of four readings in a cell.
-fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> f64 {
+/// The mean of four readings in a cell; `None` where one of them is not of the picture.
+fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> Option<f64> {
     let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
     let (width, height) = frame.size();
     let read = |(right, down): (f64, f64)| {
         let column = (left + right * cell).clamp(0.5, width as f64 - 0.5);
         let row = (top + down * cell).clamp(0.5, height as f64 - 0.5);
-        frame.at(column, row).unwrap_or(0.0)
+        frame.at(column, row)
     };
-    places.map(read).iter().sum::<f64>() / 4.0
+    let mut sum = 0.0;
+    for place in places {
+        sum += read(place)?;
+    }
+    Some(sum / 4.0)
 }
 
 /// Keeps the darkest of places that are one.
