@@ -13,5 +13,6 @@ pub mod profile;
 pub mod region;
 pub mod runs;
 pub mod scan;
+pub mod shuttered;
 pub mod silhouette;
 pub(crate) mod tiles;

@@ -12,12 +12,14 @@ mod fuzz;
 mod kill;
 mod laboratory;
 mod models;
+mod mutants;
 mod options;
 mod output;
 mod package;
 mod page;
 mod serve;
 mod setup;
+mod sources;
 mod static_server;
 mod suite;
 mod supply;
@@ -53,6 +55,8 @@ enum Verb {
     Fuzz(fuzz::Args),
     /// End work in the page in every way, and tell what was lost
     Kill(kill::Args),
+    /// Change the sources at random, and tell which changes no test notices
+    Mutants(mutants::Args),
     /// Check the layout of the sources: layers, cycles between files, words
     Tidy(tidy::Args),
     /// Check what comes from elsewhere: licences, sources, what was taken back
@@ -129,6 +133,7 @@ fn run(verb: Verb) -> anyhow::Result<()> {
         Verb::Conformance(args) => conformance::run(args),
         Verb::Fuzz(args) => fuzz::run(args),
         Verb::Kill(args) => kill::run(args),
+        Verb::Mutants(args) => mutants::run(args),
         Verb::Tidy(args) => tidy::run(args),
         Verb::Supply(args) => supply::run(args),
         Verb::Ci(args) => ci::run(args),

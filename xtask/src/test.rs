@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use crate::clock::since_the_command;
 use crate::suite::changed;
 use crate::suite::side_by_side::{self, Chosen};
-use crate::suite::{boards, cluster, firmware, python};
+use crate::suite::{boards, cluster, firmware, miri, python};
 
 /// Options of `test`.
 ///
@@ -33,11 +33,14 @@ pub(crate) struct Args {
     /// Batches on a Slurm of one node, set up here as root
     #[arg(long)]
     cluster: bool,
+    /// Undefined behaviour and the other order of bytes: kernels and the core's readers in Miri, an interpreter
+    #[arg(long)]
+    miri: bool,
     /// With --firmware: write what the board took to this file too, {"rows": [{"board", "work", "value", "unit"}]}
     #[arg(long, value_name = "FILE", requires = "firmware")]
     json: Option<PathBuf>,
     /// For work in progress: only what differs from the branch's origin can touch, and says what is left out
-    #[arg(long, conflicts_with_all = ["native", "browser", "firmware", "python", "cluster"])]
+    #[arg(long, conflicts_with_all = ["native", "browser", "firmware", "python", "cluster", "miri"])]
     changed: bool,
     /// With --changed: what differs from this revision instead
     #[arg(long, value_name = "REV", requires = "changed")]
@@ -54,6 +57,7 @@ impl Args {
             firmware: false,
             python: false,
             cluster: false,
+            miri: false,
             json: None,
             changed: false,
             since: None,
@@ -66,7 +70,7 @@ impl Args {
             firmware: self.firmware,
             browser: self.browser,
         };
-        if chosen.any() || self.python || self.cluster {
+        if chosen.any() || self.python || self.cluster || self.miri {
             chosen
         } else {
             Chosen::ALL
@@ -89,6 +93,9 @@ pub(crate) fn run(args: Args) -> Result<()> {
     }
     if args.cluster {
         cluster::run(&mut report);
+    }
+    if args.miri {
+        miri::run(&mut report);
     }
     print!("{report}");
     if let Some(file) = args.json {

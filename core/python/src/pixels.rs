@@ -78,6 +78,7 @@ impl GreyArray<'_> {
             bits,
             window: None,
             geometry: Geometry::default(),
+            shutter: None,
             notes: Vec::new(),
         })
     }

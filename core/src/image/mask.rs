@@ -115,6 +115,15 @@ impl<'a> Mask<'a> {
         }
     }
 
+    /// A mask over words that were found to be one.
+    pub(crate) fn of_checked(words: &'a [Word], width: usize, height: usize) -> Self {
+        Self {
+            words,
+            width,
+            height,
+        }
+    }
+
     /// Columns.
     #[must_use]
     pub fn width(&self) -> usize {

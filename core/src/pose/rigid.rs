@@ -342,6 +342,7 @@ mod tests {
             let pose = Pose::from(euler);
             let quaternion = Quaternion::from(pose.rotation);
             prop_assert!(close(&Matrix3::from(quaternion), &pose.rotation));
+            prop_assert!(quaternion.w >= 0.0, "{quaternion:?}");
             let back = EulerPose::from(pose);
             prop_assert!((back.z_rot_deg - z).abs() < 1e-9);
             prop_assert!((back.x_rot_deg - x).abs() < 1e-9);

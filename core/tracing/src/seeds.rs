@@ -91,7 +91,8 @@ pub fn seeds(
                 let (darker, kind) = table.darker(column, row, half, size_px / cell);
                 let at = Point::new((column as f64 + 0.5) * cell, (row as f64 + 0.5) * cell);
                 let is_unknown = |mask: &Mask<'_>| mask.get(at.column as usize, at.row as usize);
-                if darker > 0.0 && !image.unknown.is_some_and(is_unknown) {
+                let known = table.is_seen(column, row) && !image.unknown.is_some_and(is_unknown);
+                if darker > 0.0 && known {
                     insert(&mut kinds[kind], (darker, at), apart);
                 }
             }
@@ -118,6 +119,8 @@ fn cells(camera: &Camera) -> (usize, usize, f64) {
 
 /// Sums over all cells above and to the left of each corner: of light, and of cells that are clipped.
 struct Table<'m> {
+    frame: &'m dyn Grey,
+    cell: f64,
     light: &'m [f64],
     clipped: &'m [f64],
     columns: usize,
@@ -128,40 +131,51 @@ struct Table<'m> {
 
 impl<'m> Table<'m> {
     fn of(
-        image: &ImageTarget<'_>,
+        image: &ImageTarget<'m>,
         (columns, rows): (usize, usize),
         cell: f64,
         sums: &'m mut [f64],
     ) -> Self {
-        let at = |column: usize, row: usize| {
-            grey(image.frame, column as f64 * cell, row as f64 * cell, cell)
-        };
+        let frame = image.frame;
+        let at =
+            |column: usize, row: usize| grey(frame, column as f64 * cell, row as f64 * cell, cell);
         let mut limits = [f64::INFINITY, f64::NEG_INFINITY];
         for row in 0..rows {
-            for column in 0..columns {
-                let value = at(column, row);
+            for value in (0..columns).filter_map(|column| at(column, row)) {
                 limits = [value.min(limits[0]), value.max(limits[1])];
             }
         }
         let [black, white] = limits;
         // On a negative the greatest grey value is no light at all.
-        let lit = |column, row| match image.polarity {
-            Polarity::DarkImplant => at(column, row) - black,
-            Polarity::BrightImplant => white - at(column, row),
+        let lit = |column, row| {
+            let value = at(column, row)?;
+            Some(match image.polarity {
+                Polarity::DarkImplant => value - black,
+                Polarity::BrightImplant => white - value,
+            })
         };
         let range = white - black;
         let (light, clipped) = sums.split_at_mut(sums.len() / 2);
         sum_up(light, (columns, rows), lit);
         sum_up(clipped, (columns, rows), |column, row| {
-            f64::from(u8::from(lit(column, row) < CLIPPED * range))
+            let is_clipped = lit(column, row).is_some_and(|light| light < CLIPPED * range);
+            Some(f64::from(u8::from(is_clipped)))
         });
         Self {
+            frame,
+            cell,
             light,
             clipped,
             columns,
             rows,
             range,
         }
+    }
+
+    /// Whether a cell is of the picture.
+    fn is_seen(&self, column: usize, row: usize) -> bool {
+        let [left, top] = [column, row].map(|at| at as f64 * self.cell);
+        grey(self.frame, left, top, self.cell).is_some()
     }
 
     /// By how much a box is darker than those around it in nearly every direction, as a part of both, and of which kind it is.
@@ -177,7 +191,9 @@ impl<'m> Table<'m> {
                     row as f64 + part * size * down,
                 );
                 let within = |at: f64, count: usize| (0.0..count as f64).contains(&at);
-                let seen = within(x, self.columns) && within(y, self.rows);
+                let seen = within(x, self.columns)
+                    && within(y, self.rows)
+                    && self.is_seen(x as usize, y as usize);
                 seen.then(|| {
                     let outside = light(x as usize, y as usize);
                     (outside - inside) / (outside + inside + dark)
@@ -206,7 +222,8 @@ impl<'m> Table<'m> {
     }
 }
 
-/// Sums of a value over all cells above and to the left of each corner.
+/// Sums of a value over all cells above and to the left of each corner. What is not of the picture has that of what is read before
+/// it: there is no edge.
 fn sum_up(sums: &mut [f64], (columns, rows): (usize, usize), value: impl Fn(usize, usize) -> f64) {
     let width = columns + 1;
     sums[..width].fill(0.0);
@@ -214,22 +231,27 @@ fn sum_up(sums: &mut [f64], (columns, rows): (usize, usize), value: impl Fn(usiz
         let mut line = 0.0;
         sums[(row + 1) * width] = 0.0;
         for column in 0..columns {
-            line += value(column, row);
+            before = value(column, row).unwrap_or(before);
+            line += before;
             sums[(row + 1) * width + column + 1] = sums[row * width + column + 1] + line;
         }
     }
 }
 
-/// The mean of four readings in a cell.
-fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> f64 {
+/// The mean of four readings in a cell; `None` where one of them is not of the picture.
+fn grey(frame: &dyn Grey, left: f64, top: f64, cell: f64) -> Option<f64> {
     let places = [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)];
     let (width, height) = frame.size();
     let read = |(right, down): (f64, f64)| {
         let column = (left + right * cell).clamp(0.5, width as f64 - 0.5);
         let row = (top + down * cell).clamp(0.5, height as f64 - 0.5);
-        frame.at(column, row).unwrap_or(0.0)
+        frame.at(column, row)
     };
-    places.map(read).iter().sum::<f64>() / 4.0
+    let mut sum = 0.0;
+    for place in places {
+        sum += read(place)?;
+    }
+    Some(sum / 4.0)
 }
 
 /// Keeps the darkest of places that are one.

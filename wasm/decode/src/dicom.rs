@@ -13,7 +13,8 @@
 //! * MONOCHROME1 (high is dark) is inverted within its bits stored, the window with it; a negative rescale slope
 //!   inverts once more, since it is the rescaled value that is shown.
 //! * Bits above the stored ones (overlays, padding) are masked off; 8 or fewer bits stored give bytes. Overlays of their
-//!   own, shutters and tables of meaningful values (modality LUT) are not applied; a note tells of the latter two.
+//!   own and tables of meaningful values (modality LUT) are not applied; a note tells of the latter.
+//! * Behind a shutter pixels are as stored; [`GreyFrame::shutter`] tells where that is.
 //! * Of more than 16 bits, the highest 16 that the values of the file's frames use are kept, the same in all frames.
 //!
 //! In enhanced multi-frame objects windows, rescaling and geometry stand in functional groups: a frame's own counts
@@ -38,6 +39,7 @@ mod functional;
 mod structure;
 
 mod palette;
+mod shutter;
 
 mod attributes;
 mod rate;

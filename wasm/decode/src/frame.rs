@@ -2,6 +2,7 @@
 
 use crate::error::Problem;
 use crate::limits::{MAX_EXPANSION, MAX_SIDE};
+use crate::shutter::Shutter;
 
 /// One grey frame, black at 0.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,6 +20,8 @@ pub struct GreyFrame {
     pub window: Option<Window>,
     /// Geometry that the file states.
     pub geometry: Geometry,
+    /// What the file says is no picture, though it has pixels.
+    pub shutter: Option<Shutter>,
     /// What was done to the pixels or left undone, a sentence each, for the person who opened the file.
     pub notes: Vec<String>,
 }
@@ -125,6 +128,7 @@ impl GreyFrame {
             bits,
             window: None,
             geometry: Geometry::default(),
+            shutter: None,
             notes: Vec::new(),
         }
     }

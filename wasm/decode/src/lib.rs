@@ -35,6 +35,7 @@ mod sniff;
 
 mod frame;
 mod luminance;
+mod shutter;
 
 mod dicom;
 mod jpeg;
@@ -57,4 +58,5 @@ pub use file::{FrameFile, decode_frames};
 pub use frame::{Geometry, GreyFrame, Pixels, SpacingCalibration, Window};
 pub use mask::{MaskImage, MaskRule, decode_mask, decode_mask_by, mask_of};
 pub use model::{Model, decode_model};
+pub use shutter::{MAX_CORNERS, Shutter};
 pub use sniff::{Kind, SNIFFED, sniff, sniff_head};

@@ -1,6 +1,6 @@
 //! TIFF: grey and palettes of 1 to 64 bits, colour of 8 bits and more, whole numbers and floating point; several pages.
 //!
-//! Pages without compression, and with deflate, LZW, PackBits, fax codes and JPEG. White-is-zero pages are returned with
+//! Pages without compression, and with deflate, LZW, PackBits, fax codes of groups 3 and 4 and JPEG. White-is-zero pages are returned with
 //! black at 0. Signed pixels are moved up by half their range. Floating point pixels, and whole numbers that do not fit 16
 //! bits, are mapped linearly from the page's own smallest and largest finite value to 0 and 65535 (NaN becomes 0), and the
 //! frame's notes say so. Palettes become luminance. Thumbnails (reduced pages) are left out.
@@ -14,6 +14,8 @@ mod overlay;
 mod samples;
 
 mod jpeg_pages;
+
+mod fax_pages;
 
 use tiff::ColorType;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
@@ -97,6 +99,10 @@ pub(crate) fn decode(bytes: &[u8], page: &Page) -> Result<GreyFrame, Problem> {
             let size = (width as usize, height as usize);
             jpeg_pages::grey(&mut decoder, bytes, number, size)?
         }
+        Some(fax_pages::RUN_LENGTHS | fax_pages::GROUP_3) if is_fax(&mut decoder, color) => {
+            let size = (width as usize, height as usize);
+            fax_pages::grey(&mut decoder, bytes, number, size)?
+        }
         _ if page.palette_as_grey.is_some() => {
             of_palette(&mut decoder, number, color, width as usize)?
         }
@@ -117,6 +123,11 @@ pub(crate) fn decode(bytes: &[u8], page: &Page) -> Result<GreyFrame, Problem> {
     }
     frame.notes = notes;
     Ok(frame)
+}
+
+/// Whether a page is one that fax codes are for: black and white, in strips.
+fn is_fax(decoder: &mut Reader<'_>, color: ColorType) -> bool {
+    color == ColorType::Gray(1) && decoder.get_chunk_type() == ChunkType::Strip
 }
 
 /// The samples of a page, and how they are stored.

@@ -1,5 +1,7 @@
 //! Files that are whole or absent, whenever the program ends and however full the disk is.
 
+mod left;
+
 use std::fs::{self, File};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -8,7 +10,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use anyhow::{Context, Result};
 
 /// Writes a file beside the wanted one and gives it its name when all of it is on the disk: until then there is what was there
-/// before. What a link names is written, not the link; what is no file (a pipe, a terminal) is written as it is.
+/// before. What a program that was killed left beside it is swept. What a link names is written, not the link; what is no file (a pipe, a terminal) is written as it is.
 ///
 /// # Errors
 /// Names the file.
@@ -32,13 +34,15 @@ pub fn write(path: &Path, bytes: impl AsRef<[u8]>) -> Result<()> {
 fn put(place: &Path, bytes: &[u8], permissions: Option<fs::Permissions>) -> io::Result<()> {
     let beside = Beside::of(place);
     let mut file = File::create_new(&beside.0)?;
+    // As long as this program lives, none sweeps it. Where there are no locks, nothing is swept.
+    let _ = file.try_lock();
+    left::sweep(&beside.0, &file);
     file.write_all(bytes)?;
     if let Some(permissions) = permissions {
         file.set_permissions(permissions)?;
     }
     // Some systems tell only now that there is no room.
     file.sync_all()?;
-    drop(file);
     fs::rename(&beside.0, place)
 }
 
@@ -50,8 +54,7 @@ impl Beside {
     fn of(place: &Path) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let name = format!(".fluoropose-{}-{count}.part", std::process::id());
-        Self(place.with_file_name(name))
+        Self(place.with_file_name(left::name(std::process::id(), count)))
     }
 }
 
@@ -65,6 +68,7 @@ impl Drop for Beside {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::{Duration, SystemTime};
 
     struct Folder(PathBuf);
 
@@ -101,6 +105,48 @@ mod tests {
         write(&path, "second").unwrap();
         assert_eq!(fs::read_to_string(&path).unwrap(), "second");
         assert_eq!(folder.names(), ["a"]);
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_swept_and_nothing_else() {
+        let folder = Folder::new("swept");
+        let old = SystemTime::now() - Duration::from_secs(3600);
+        let left = |name: &str, modified: SystemTime| {
+            let file = File::create_new(folder.0.join(name)).unwrap();
+            file.set_modified(modified).unwrap();
+            file
+        };
+        drop(left(".fluoropose-1-0.part", old));
+        drop(left(".fluoropose-4294967295-17.part", old));
+        // One that is about to be locked.
+        drop(left(".fluoropose-2-0.part", SystemTime::now()));
+        // Names that are not ours.
+        drop(left(".fluoropose-1-.part", old));
+        drop(left(".fluoropose-1-x.part", old));
+        drop(left(".fluoropose-1-0.part.txt", old));
+        drop(left("fluoropose-1-0.part", old));
+        fs::create_dir(folder.0.join(".fluoropose-3-0.part")).unwrap();
+        // One that is written for a long time.
+        let living = left(".fluoropose-1-1.part", old);
+        living.lock().unwrap();
+
+        write(&folder.0.join("a"), "text").unwrap();
+        let mut stay = vec![
+            ".fluoropose-1-.part",
+            ".fluoropose-1-0.part.txt",
+            ".fluoropose-1-1.part",
+            ".fluoropose-1-x.part",
+            ".fluoropose-2-0.part",
+            ".fluoropose-3-0.part",
+            "a",
+            "fluoropose-1-0.part",
+        ];
+        assert_eq!(folder.names(), stay);
+        // A folder is looked through once by a program, lest ten thousand files take a hundred million looks.
+        drop(living);
+        write(&folder.0.join("b"), "text").unwrap();
+        stay.insert(7, "b");
+        assert_eq!(folder.names(), stay);
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod checked_profile;
 pub(crate) mod cluster;
 mod counts;
 pub(crate) mod firmware;
+pub(crate) mod miri;
 mod native;
 pub(crate) mod python;
 pub(crate) mod report;

@@ -95,8 +95,9 @@ pub(super) struct Reading {
 }
 
 /// Fills `grey` with the levels of the window's pixels, with dark metal whatever the polarity of the frame. Pixels of
-/// `excluded` become [`BLOCKED`]. `memory` are [`LEVELS`] numbers, and [`super::background::BACKGROUND`] where the background is wanted. Returns the
-/// number of grey values of the frame for one level; 0 for a uniform window.
+/// `excluded` and those that are not of the picture become [`BLOCKED`]. `memory` are [`LEVELS`] numbers, and
+/// [`super::background::BACKGROUND`] where the background is wanted. Returns the number of grey values of the frame for one level; 0
+/// for a uniform window.
 pub(super) fn levels(
     frame: &dyn Grey,
     window: &Window,
@@ -105,17 +106,19 @@ pub(super) fn levels(
     grey: &mut [u16],
     memory: &mut [u32],
 ) -> f64 {
-    let read = |visit: &mut dyn FnMut(usize, f64)| {
-        for index in 0..window.pixels() {
-            let (column, row) = window.place(index);
-            let (column, row) = (window.left + column, window.top + row);
-            let value = frame.at(column as f64 + 0.5, row as f64 + 0.5);
-            visit(index, value.unwrap_or(0.0));
-        }
+    let at = |index: usize| {
+        let (column, row) = window.place(index);
+        let (column, row) = (window.left + column, window.top + row);
+        frame.at(column as f64 + 0.5, row as f64 + 0.5)
     };
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    read(&mut |_, value| (low, high) = (low.min(value), high.max(value)));
-    if high <= low {
+    let read = |visit: &mut dyn FnMut(usize, f64)| {
+        let values = (0..window.pixels()).map(|index| (index, at(index)));
+        let seen = values.filter_map(|(index, value)| Some((index, value?)));
+        seen.for_each(|(index, value)| visit(index, value));
+    };
+    let (mut low, mut high, mut seen) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+    read(&mut |_, value| (low, high, seen) = (low.min(value), high.max(value), seen + 1));
+    if high <= low || seen == 0 {
         grey.fill(0);
         return 0.0;
     }
@@ -129,6 +132,10 @@ pub(super) fn levels(
             *pixel = (value * unit) as u16;
         }
     });
+    let is_shuttered = seen < window.pixels();
+    if is_shuttered {
+        repeat_borders(grey, window, |index| at(index).is_some());
+    }
     for _ in 0..how.smoothing {
         smooth(grey, window);
     }
@@ -144,7 +151,50 @@ pub(super) fn levels(
         *pixel = (f64::from(value) * scale) as u16;
     }
     block(grey, window, excluded);
+    if is_shuttered {
+        let pixels = grey.iter_mut().enumerate().take(window.pixels());
+        let hidden = pixels.filter(|(index, _)| at(*index).is_none());
+        hidden.for_each(|(_, pixel)| *pixel = BLOCKED);
+    }
     1.0 / (unit * scale)
+}
+
+/// Gives pixels that are not of the picture the value of the nearest in their row that is, and rows without one that of the nearest
+/// row: no edge is there, whatever looks at neighbours.
+fn repeat_borders(grey: &mut [u16], window: &Window, is_seen: impl Fn(usize) -> bool) {
+    let width = window.width;
+    if grey.len() < window.pixels() {
+        return;
+    }
+    let seen_in = |row: usize| (row * width..(row + 1) * width).filter(|&index| is_seen(index));
+    let mut last_row = None;
+    for row in 0..window.height {
+        let mut before: Option<usize> = None;
+        for seen in seen_in(row) {
+            let from = before.map_or(row * width, |before| before + 1);
+            for index in from..seen {
+                let is_nearer = before.is_some_and(|before| index - before < seen - index);
+                grey[index] = grey[before.filter(|_| is_nearer).unwrap_or(seen)];
+            }
+            before = Some(seen);
+        }
+        if let Some(last) = before {
+            let value = grey[last];
+            grey[last + 1..(row + 1) * width].fill(value);
+            let first = last_row.map_or(0, |last: usize| last + 1);
+            for unseen in first..row {
+                let nearest = last_row.filter(|last| unseen - last < row - unseen);
+                let nearest = nearest.unwrap_or(row) * width;
+                grey.copy_within(nearest..nearest + width, unseen * width);
+            }
+            last_row = Some(row);
+        }
+    }
+    if let Some(last) = last_row {
+        for unseen in last + 1..window.height {
+            grey.copy_within(last * width..(last + 1) * width, unseen * width);
+        }
+    }
 }
 
 /// Replaces 16-bit grey values by their logarithms on the same scale: metal takes the same part of the light whatever lies in front
@@ -227,6 +277,8 @@ mod tests {
     use super::super::background::BACKGROUND;
     use super::*;
     use fluoropose::image::frame::Frame;
+    use fluoropose::image::mask::MaskMut;
+    use fluoropose::image::shuttered::Shuttered;
 
     #[test]
     fn a_window_is_cut_to_the_frame_and_numbers_its_pixels() {
@@ -311,6 +363,51 @@ mod tests {
         };
         let (thick, thin) = (step(28), step(68));
         assert!(thick > 0.5 * thin, "{thick} {thin}");
+    }
+
+    #[test]
+    fn what_is_behind_a_shutter_is_blocked_and_changes_nothing_before_it() {
+        const SIDE: usize = 64;
+        let window = Window::cut([0.0, 0.0, 63.0, 63.0], (SIDE, SIDE));
+        let is_open = |k: usize| {
+            let (right, down) = ((k % SIDE) as f64 - 30.0, (k / SIDE) as f64 - 33.0);
+            libm::hypot(right, down) < 26.0
+        };
+        let mut words = [0; 2 * SIDE];
+        let mut behind = MaskMut::new(&mut words, SIDE, SIDE).expect("fits");
+        let covered = (0..SIDE * SIDE).filter(|&k| !is_open(k));
+        covered.for_each(|k| behind.set(k % SIDE, k / SIDE, true));
+        let how = Reading {
+            polarity: Polarity::DarkImplant,
+            smoothing: 2,
+            against: Some(30.0),
+        };
+        let read = |beyond: u16, inverted: bool| {
+            let mut pixels = self::pixels(inverted);
+            let hidden = (0..SIDE * SIDE).filter(|&k| !is_open(k));
+            hidden.for_each(|k| pixels[k] = beyond);
+            let frame = Frame::new(&pixels, SIDE, SIDE, SIDE).expect("fits");
+            let shuttered = Shuttered::new(frame, &words).expect("same size");
+            let (mut grey, mut memory) = (std::vec![0; window.pixels()], [0; BACKGROUND]);
+            let polarity = match inverted {
+                true => Polarity::BrightImplant,
+                false => Polarity::DarkImplant,
+            };
+            let how = Reading { polarity, ..how };
+            levels(&shuttered, &window, how, None, &mut grey, &mut memory);
+            grey
+        };
+        for inverted in [false, true] {
+            let grey = read(0, inverted);
+            assert_eq!(grey, read(4095, inverted));
+            for (k, &level) in grey.iter().enumerate() {
+                assert_eq!(level == BLOCKED, !is_open(k), "{k}");
+                let (column, row) = (k % SIDE, k / SIDE);
+                let near_metal = (14..46).contains(&column) && (14..46).contains(&row);
+                // The ramp is as bright at the shutter as elsewhere.
+                assert!(level > 900 || near_metal, "{column} {row}: {level}");
+            }
+        }
     }
 
     #[test]

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::palette::Palette;
 use super::problem::{FORMAT, damaged};
+use super::shutter;
 use super::structure::DataSet;
 use super::syntax::Coding;
 use super::tags::{
     BITS_ALLOCATED, BITS_STORED, COLUMNS, DETECTOR_SPACING, FRAMES, HIGH_BIT, INTERCEPT,
     MAGNIFICATION, PHOTOMETRIC, PIXEL_ASPECT, PIXEL_SPACING, PLANAR, ROWS, SAMPLES_PER_PIXEL,
-    SCANNED_SPACING, SHUTTER, SIGNED, SLOPE, SOURCE_TO_DETECTOR, SOURCE_TO_ISOCENTRE,
-    SOURCE_TO_PATIENT, SPACING_CALIBRATION, TABLE_ENTRIES, WINDOW_CENTRE, WINDOW_FUNCTION,
-    WINDOW_WIDTH,
+    SCANNED_SPACING, SIGNED, SLOPE, SOURCE_TO_DETECTOR, SOURCE_TO_ISOCENTRE, SOURCE_TO_PATIENT,
+    SPACING_CALIBRATION, TABLE_ENTRIES, WINDOW_CENTRE, WINDOW_FUNCTION, WINDOW_WIDTH,
 };
 use super::values::Values;
 use crate::error::Problem;
@@ -75,8 +75,8 @@ pub(super) struct Attributes {
     pub geometry: Geometry,
     /// The table that turns stored values into meaningful ones gives low ones for high ones; none without a table.
     pub falling_table: Option<bool>,
-    /// Something is to be shown black outside of a shape.
-    pub has_shutter: bool,
+    /// What is not of the picture; one for all frames, where none has its own.
+    pub shutter: Option<Arc<shutter::Stated>>,
     pub narrowing: Narrowing,
     /// Bits of the greys that are handed out.
     pub depth: u16,
@@ -127,7 +127,7 @@ impl Attributes {
             window: window(values),
             geometry: geometry(values),
             falling_table: is_falling(table),
-            has_shutter: values.text(SHUTTER).is_some_and(|shape| !shape.is_empty()),
+            shutter: shutter::read(values).map(Arc::new),
             narrowing: Narrowing::default(),
             depth: bits_stored.min(16),
         })
@@ -161,6 +161,10 @@ impl Attributes {
                 None => self.intercept,
             },
             window: window(group).or(self.window),
+            shutter: match shutter::read(group) {
+                Some(own) => Some(Arc::new(own)),
+                None => self.shutter.clone(),
+            },
             geometry: Geometry {
                 detector_spacing_mm: own.detector_spacing_mm.or(known.detector_spacing_mm),
                 pixel_spacing_mm: own.pixel_spacing_mm.or(known.pixel_spacing_mm),

@@ -12,15 +12,16 @@ pub(super) const SHARED: u32 = 0x5200_9229;
 /// The sequence with an item for each frame.
 pub(super) const PER_FRAME: u32 = 0x5200_9230;
 
-/// The groups that are looked into: window, rescaling, pixel spacing, spacing at the detector, X-ray geometry, times.
+/// The groups that are looked into: window, rescaling, pixel spacing, spacing at the detector, X-ray geometry, times, shutters.
 /// They are known by tag because implicit files do not say what is a sequence.
-const GROUPS: [u32; 6] = [
+const GROUPS: [u32; 7] = [
     0x0028_9132,
     0x0028_9145,
     0x0028_9110,
     0x0028_9443,
     0x0018_9476,
     0x0020_9111,
+    0x0018_9472,
 ];
 
 /// The wanted elements of each item's groups.

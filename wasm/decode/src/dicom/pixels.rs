@@ -165,7 +165,8 @@ fn finish(pixels: Pixels, attributes: &Attributes) -> Result<GreyFrame, Problem>
     if attributes.is_grey() {
         frame.bits = attributes.depth as u8;
         frame.window = shown::window(attributes);
-        frame.notes = shown::notes(attributes);
+        let size = (frame.width, frame.height);
+        (frame.shutter, frame.notes) = shown::shutter_and_notes(attributes, size);
     }
     Ok(frame)
 }

@@ -1,7 +1,9 @@
 //! What a file says of how its greys are shown.
 
 use super::attributes::Attributes;
+use super::shutter::Stated;
 use crate::frame::Window;
+use crate::shutter::Shutter;
 
 /// The stated window in units of the pixels handed out: rescale undone, sign offset, narrowing and inversion done. None
 /// where a table stands between them.
@@ -26,8 +28,41 @@ pub(super) fn window(attributes: &Attributes) -> Option<Window> {
     (centre.is_finite() && width.is_finite()).then_some(Window { centre, width })
 }
 
-/// What was done to the pixels or left undone.
-pub(super) fn notes(attributes: &Attributes) -> Vec<String> {
+/// The shutter that a frame of this size has, and what was done to the pixels or left undone.
+pub(super) fn shutter_and_notes(
+    attributes: &Attributes,
+    size: (u32, u32),
+) -> (Option<Shutter>, Vec<String>) {
+    let mut notes = notes(attributes);
+    let Some(stated) = &attributes.shutter else {
+        return (None, notes);
+    };
+    let (shutter, note) = shutter(stated, size);
+    notes.extend(note);
+    (shutter, notes)
+}
+
+/// A shutter of which something is known and that leaves something open and not all of it, and what is to be said of it.
+fn shutter(stated: &Stated, (width, height): (u32, u32)) -> (Option<Shutter>, Option<String>) {
+    let area = u64::from(width) * u64::from(height);
+    let note = match stated {
+        Stated::Unknown => "The file states a shutter and not where it is, or one of a kind that is not read; it is not used.".to_owned(),
+        Stated::Known(shutter) => match shutter.open_area(width, height) {
+            open if open == area => return (None, None),
+            0 => "The file's shutter would cover all of the picture; it is not used.".to_owned(),
+            open => {
+                let percent = 100.0 * (1.0 - open as f64 / area as f64);
+                let note = format!(
+                    "The file's shutter covers {percent:.0} % of the picture; pixels there are as stored."
+                );
+                return (Some(shutter.clone()), Some(note));
+            }
+        },
+    };
+    (None, Some(note))
+}
+
+fn notes(attributes: &Attributes) -> Vec<String> {
     let mut notes = Vec::new();
     let mut note = |text: &str| notes.push(text.to_owned());
     if attributes.is_inverted() {
@@ -42,9 +77,6 @@ pub(super) fn notes(attributes: &Attributes) -> Vec<String> {
         note(
             "Pixels are as stored; the file's table of meaningful values (modality LUT) is not applied, and no window.",
         );
-    }
-    if attributes.has_shutter {
-        note("Pixels outside of the file's shutter are as stored, not black.");
     }
     let (slope, intercept) = (attributes.slope, attributes.intercept);
     if (slope, intercept) != (1.0, 0.0) {

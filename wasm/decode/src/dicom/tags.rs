@@ -8,7 +8,16 @@ pub(super) const SOURCE_TO_DETECTOR: u32 = 0x0018_1110;
 pub(super) const SOURCE_TO_PATIENT: u32 = 0x0018_1111;
 pub(super) const MAGNIFICATION: u32 = 0x0018_1114;
 pub(super) const DETECTOR_SPACING: u32 = 0x0018_1164;
+/// Shapes of a shutter, then the columns and rows of its edges, the middle (row, column) and radius of its circle, and its corners
+/// (row, column).
 pub(super) const SHUTTER: u32 = 0x0018_1600;
+pub(super) const SHUTTER_LEFT: u32 = 0x0018_1602;
+pub(super) const SHUTTER_RIGHT: u32 = 0x0018_1604;
+pub(super) const SHUTTER_TOP: u32 = 0x0018_1606;
+pub(super) const SHUTTER_BOTTOM: u32 = 0x0018_1608;
+pub(super) const SHUTTER_CENTRE: u32 = 0x0018_1610;
+pub(super) const SHUTTER_RADIUS: u32 = 0x0018_1612;
+pub(super) const SHUTTER_CORNERS: u32 = 0x0018_1620;
 pub(super) const SCANNED_SPACING: u32 = 0x0018_2010;
 pub(super) const FRAME_BEGUN: u32 = 0x0018_9074;
 pub(super) const SOURCE_TO_ISOCENTRE: u32 = 0x0018_9402;
@@ -38,7 +47,7 @@ pub(super) const MODALITY_TABLE: u32 = 0x0028_3000;
 pub(super) const TABLE_ENTRIES: u32 = 0x0028_3006;
 
 /// How a value is written where the file does not say it: files without representations, and elements called unknown.
-const WANTED: [(u32, [u8; 2]); 38] = [
+const WANTED: [(u32, [u8; 2]); 45] = [
     (RECOMMENDED_RATE, *b"IS"),
     (CINE_RATE, *b"IS"),
     (FRAME_TIME, *b"DS"),
@@ -48,6 +57,13 @@ const WANTED: [(u32, [u8; 2]); 38] = [
     (MAGNIFICATION, *b"DS"),
     (DETECTOR_SPACING, *b"DS"),
     (SHUTTER, *b"CS"),
+    (SHUTTER_LEFT, *b"IS"),
+    (SHUTTER_RIGHT, *b"IS"),
+    (SHUTTER_TOP, *b"IS"),
+    (SHUTTER_BOTTOM, *b"IS"),
+    (SHUTTER_CENTRE, *b"IS"),
+    (SHUTTER_RADIUS, *b"IS"),
+    (SHUTTER_CORNERS, *b"IS"),
     (SCANNED_SPACING, *b"DS"),
     (FRAME_BEGUN, *b"DT"),
     (SOURCE_TO_ISOCENTRE, *b"FL"),

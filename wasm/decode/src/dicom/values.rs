@@ -72,6 +72,15 @@ impl<'a> Values<'a> {
         })
     }
 
+    /// All numbers of a value, where there are no more than so many.
+    pub(super) fn numbers_up_to(&self, tag: u32, most: usize) -> Option<Vec<f64>> {
+        let (_, bytes) = self.element(tag)?;
+        // A number of a list of text takes 13 bytes at most, one of binary 8: longer values are not read for being refused.
+        let is_long = bytes.len() > 13 * most;
+        let numbers = (!is_long).then(|| self.numbers(tag))??;
+        (numbers.len() <= most).then_some(numbers)
+    }
+
     pub(super) fn finite(&self, tag: u32) -> Option<f64> {
         let first = self.numbers(tag)?.first().copied();
         first.filter(|v| v.is_finite())

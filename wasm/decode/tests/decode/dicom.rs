@@ -6,6 +6,7 @@ mod pixels;
 mod rate;
 mod refused;
 mod shown;
+mod shutter;
 mod start;
 
 use crate::samples::dicom::{BIG_ENDIAN, Builder, DEFLATED, EXPLICIT, IMPLICIT};

@@ -166,6 +166,8 @@ fn pages() -> Vec<Sample> {
     coded[3].2 = vec![7];
     let image = jpeg(12, 9, &pattern(12, 9), false);
     let wide = tiffs::fields(1, 2, &[32], 1);
+    let fax_2 = include_bytes!("../../../../tests/corpus/frames/fax-2.tif");
+    let fax_3 = include_bytes!("../../../../tests/corpus/frames/fax-3-rows-above.tif");
     vec![
         sample("palette.tif", tiffs::of_strips(&palette, &[&[0x1B]])),
         sample(
@@ -173,6 +175,8 @@ fn pages() -> Vec<Sample> {
             tiffs::of_strips(&planes, &[&[1; 8], &[2; 8], &[3; 8]]),
         ),
         sample("fax.tif", tiffs::of_strips(&fax, &[foreign::FAX])),
+        sample("fax-2.tif", fax_2.to_vec()),
+        sample("fax-3.tif", fax_3.to_vec()),
         sample("jpeg.tif", tiffs::of_strips(&coded, &[&image])),
         sample("wide.tif", tiffs::of_strips(&wide, &[&[7; 8]])),
     ]
@@ -185,6 +189,12 @@ fn rare_dicoms() -> Vec<Sample> {
         let file = Builder::image_with(syntax, width, height, 1, "MONOCHROME2", bits);
         file.fragments(&[], &[image])
     };
+    let mut shutter = Builder::new(EXPLICIT);
+    shutter.text(0x0018_1600, b"CS", "CIRCULAR\\POLYGONAL");
+    shutter.text(0x0018_1610, b"IS", "1\\2");
+    shutter.text(0x0018_1612, b"IS", "2");
+    shutter.text(0x0018_1620, b"IS", "1\\1\\1\\4\\3\\2");
+    shutter.verbatim(&Builder::image(EXPLICIT, 4, 3, 8, 1).into_data_set());
     let (width, height) = foreign::COLOUR;
     let colour = |image: &[u8]| {
         let file = Builder::image_with(JPEG_LS, width, height, 1, "RGB", [8, 8, 7, 0]);
@@ -212,6 +222,7 @@ fn rare_dicoms() -> Vec<Sample> {
             Builder::image_with(EXPLICIT, 5, 3, 2, "MONOCHROME2", [1, 1, 0, 0]).octets(&[7; 4]),
         ),
         sample("bare.dcm", bare.into_data_set()),
+        sample("shutter.dcm", shutter.octets(&[7; 12])),
     ]
 }
 

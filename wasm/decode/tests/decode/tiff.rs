@@ -217,9 +217,9 @@ fn a_page_that_asks_to_be_turned_says_so() {
 
 #[test]
 fn what_is_not_read_is_refused_in_words() {
-    let mut fax = grey_fields(2, 1, 1, 1);
-    fax[3].2 = 3;
-    let error = decode_frames(&raw_tiff(&fax, &[1, 2]), "a.tif").unwrap_err();
+    let mut lzma = grey_fields(2, 1, 8, 1);
+    lzma[3].2 = 34_925;
+    let error = decode_frames(&raw_tiff(&lzma, &[1, 2]), "a.tif").unwrap_err();
     assert!(
         matches!(error.problem, Problem::Unsupported { .. }),
         "{error}"
@@ -392,4 +392,51 @@ fn pixels_beyond_the_end_are_noticed() {
         error.to_string().contains("beyond the end of the file"),
         "{error}"
     );
+}
+
+/// The picture in the files of fax codes, which another library wrote (tests/corpus/frames).
+fn faxed() -> Vec<u8> {
+    let pixel = |k: i32| {
+        let (x, y) = (k % 77, k / 77);
+        let white = (x - 30).pow(2) + (y - 15).pow(2) < 120 || (3 * x + 7 * y) % 23 < 4;
+        if (white && y != 5) || y == 4 { 255 } else { 0 }
+    };
+    (0..77 * 31).map(pixel).collect()
+}
+
+const FAXED: [&[u8]; 3] = [
+    include_bytes!("../../../../tests/corpus/frames/fax-2.tif"),
+    include_bytes!("../../../../tests/corpus/frames/fax-3.tif"),
+    include_bytes!("../../../../tests/corpus/frames/fax-3-rows-above.tif"),
+];
+
+#[test]
+fn fax_codes_of_group_3_are_read() {
+    for file in FAXED {
+        let frame = only_frame(file, "a.tif");
+        assert_eq!((frame.width, frame.height), (77, 31));
+        assert_eq!(bytes_of(&frame), faxed());
+    }
+}
+
+#[test]
+fn fax_codes_that_mean_nothing_are_refused() {
+    let mut refused = 0;
+    for file in FAXED {
+        for at in 8..file.len() {
+            for change in [0x01, 0x80, 0xFF] {
+                let mut changed = file.to_vec();
+                changed[at] ^= change;
+                // Whatever comes out, it is as large as is said.
+                match decode_frames(&changed, "a.tif") {
+                    Ok(frames) => frames.iter().for_each(|frame| {
+                        let size = (frame.width * frame.height) as usize;
+                        assert_eq!(frame.pixels.len(), size);
+                    }),
+                    Err(_) => refused += 1,
+                }
+            }
+        }
+    }
+    assert!(refused > 100, "{refused}");
 }

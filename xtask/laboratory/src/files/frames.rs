@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::{Context, Result, bail};
-use fluoropose::image::frame::{Frame, Grey};
+use fluoropose::image::frame::{Frame, Grey, Pixel};
+use fluoropose::image::mask::{MaskMut, words_needed};
+use fluoropose::image::shuttered::Shuttered;
 use fluoropose_decode::{FrameFile, GreyFrame, Pixels};
 
 use super::text::{files_in, name_of, read};
@@ -118,22 +120,60 @@ pub fn stated_frames_per_s(folder: &Path) -> Result<Option<f64>> {
     Ok(file.frames_per_s())
 }
 
-/// A decoded frame as the core looks at it.
+/// A decoded frame as the core looks at it: what is behind a shutter is beyond the picture.
 ///
 /// # Errors
 /// For a frame without pixels.
 pub fn grey(frame: &GreyFrame) -> Result<Box<dyn Grey + '_>> {
     let (width, height) = (frame.width as usize, frame.height as usize);
     Ok(match &frame.pixels {
-        Pixels::U8(pixels) => Box::new(Frame::new(pixels, width, height, width)?),
-        Pixels::U16(pixels) => Box::new(Frame::new(pixels, width, height, width)?),
+        Pixels::U8(pixels) => shuttered(Frame::new(pixels, width, height, width)?, frame)?,
+        Pixels::U16(pixels) => shuttered(Frame::new(pixels, width, height, width)?, frame)?,
     })
+}
+
+fn shuttered<'f, P: Pixel>(pixels: Frame<'f, P>, frame: &GreyFrame) -> Result<Box<dyn Grey + 'f>> {
+    let Some(shutter) = &frame.shutter else {
+        return Ok(Box::new(pixels));
+    };
+    let (width, height) = (pixels.width(), pixels.height());
+    let mut words = vec![0; words_needed(width, height)];
+    let mut behind = MaskMut::new(&mut words, width, height)?;
+    for row in 0..frame.height {
+        let mut covered = 0;
+        for open in shutter.open(row, frame.width) {
+            behind.fill_span(row as usize, covered, i64::from(open.start));
+            covered = i64::from(open.end);
+        }
+        behind.fill_span(row as usize, covered, i64::from(frame.width));
+    }
+    Ok(Box::new(Shuttered::new(pixels, words)?))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use fluoropose_phantom::picture::{write_grey, write_grey_16};
+
+    #[test]
+    fn what_a_shutter_covers_is_beyond_the_picture() {
+        let file = include_bytes!("../../../../tests/corpus/frames/shutter.dcm");
+        let frames = Frames::of(fluoropose_decode::decode_frames(file, "shutter.dcm").unwrap());
+        let decoded = frames.decode(0).unwrap();
+        let shutter = decoded.shutter.as_ref().unwrap();
+        let grey = grey(&decoded).unwrap();
+        let mut covered = 0;
+        for row in 0..decoded.height {
+            let open = shutter.open(row, decoded.width);
+            for column in 0..decoded.width {
+                let is_open = open.iter().any(|span| span.contains(&column));
+                let read = grey.at(f64::from(column) + 0.5, f64::from(row) + 0.5);
+                assert_eq!(read.is_some(), is_open, "{column} {row}");
+                covered += u32::from(!is_open);
+            }
+        }
+        assert_eq!(covered, 1570);
+    }
 
     #[test]
     fn frames_of_both_depths_are_read_in_order_and_must_fit_the_masks() {

@@ -2,7 +2,7 @@
 
 use fluoropose_decode::Window;
 
-use super::{join, nested};
+use super::nested;
 use crate::samples::dicom::{Builder, EXPLICIT};
 use crate::samples::{bytes_of, only_frame, words_of};
 
@@ -135,18 +135,6 @@ fn a_table_of_meaningful_values_is_told_and_leaves_no_window() {
             frame.notes
         );
     }
-}
-
-#[test]
-fn a_shutter_is_told() {
-    let mut file = Builder::new(EXPLICIT);
-    file.text(0x0018_1600, b"CS", "CIRCULAR");
-    let frame = only_frame(
-        &join(file, Builder::image(EXPLICIT, 2, 1, 8, 1)).octets(&[3, 200]),
-        "a.dcm",
-    );
-    assert_eq!(bytes_of(&frame), [3, 200]);
-    assert!(frame.notes[0].contains("shutter"), "{:?}", frame.notes);
 }
 
 #[test]

@@ -1,0 +1,155 @@
+//! Frames of which a shutter covers a part: what is behind it is no more of the picture than what is beyond the frame's border.
+
+use super::display::QuickCurve;
+use super::frame::{Frame, Grey, Pixel, StraightLine};
+use super::mask::{Mask, MaskError, Word};
+
+/// A grey frame, and the pixels of it that are not the picture. Between these nothing is read, as beyond the outermost centres.
+#[derive(Clone, Copy, Debug)]
+pub struct Shuttered<'a, P, W> {
+    frame: Frame<'a, P>,
+    words: W,
+}
+
+impl<'a, P: Pixel, W: AsRef<[Word]>> Shuttered<'a, P, W> {
+    /// A frame of which the pixels set in a mask of these words, row by row, are not the picture.
+    ///
+    /// # Errors
+    /// [`MaskError`] where they are no mask of the frame's size.
+    pub fn new(frame: Frame<'a, P>, words: W) -> Result<Self, MaskError> {
+        Mask::new(words.as_ref(), frame.width(), frame.height())?;
+        Ok(Self { frame, words })
+    }
+
+    /// Whether none of the pixels around a place that the frame has is behind the shutter.
+    fn is_open(&self, [column, row]: [f64; 2]) -> bool {
+        let (column, row) = (column - 0.5, row - 0.5);
+        // Beyond the frame it is the frame that gives nothing.
+        if !(column >= 0.0 && row >= 0.0) {
+            return true;
+        }
+        let (left, above) = (column as usize, row as usize);
+        // The next pixel counts for nothing at a centre.
+        let right = u32::from(column > left as f64);
+        let down = u32::from(row > above as f64);
+        let counted = 1 | right << 1 | down << 2 | (right & down) << 3;
+        let (width, height) = (self.frame.width(), self.frame.height());
+        Mask::of_checked(self.words.as_ref(), width, height).square(left, above) & counted == 0
+    }
+}
+
+impl<P: Pixel, W: AsRef<[Word]>> Grey for Shuttered<'_, P, W> {
+    fn size(&self) -> (usize, usize) {
+        self.frame.size()
+    }
+
+    fn at(&self, column: f64, row: f64) -> Option<f64> {
+        self.is_open([column, row])
+            .then(|| self.frame.at(column, row))?
+    }
+
+    fn at_through(&self, column: f64, row: f64, curve: &QuickCurve) -> Option<f64> {
+        self.is_open([column, row])
+            .then(|| self.frame.at_through(column, row, curve))?
+    }
+
+    fn add_along(
+        &self,
+        line: &StraightLine,
+        curve: &QuickCurve,
+        weight: f64,
+        sums: &mut [f64],
+    ) -> Option<()> {
+        let mut places = (0..sums.len()).map(|number| line.place(number));
+        if places.all(|place| self.is_open(place)) {
+            return self.frame.add_along(line, curve, weight, sums);
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::display::DisplayCurve;
+    use crate::image::mask::{MaskMut, words_needed};
+    use proptest::prelude::*;
+
+    const W: usize = 37;
+    const H: usize = 9;
+
+    /// The picture alone, pixel by pixel.
+    fn naive(pixels: &[u16], behind: &Mask<'_>, column: f64, row: f64) -> Option<f64> {
+        let (column, row) = (column - 0.5, row - 0.5);
+        let mut sum = 0.0;
+        for y in [libm::floor(row), libm::floor(row) + 1.0] {
+            for x in [libm::floor(column), libm::floor(column) + 1.0] {
+                let weight = (1.0 - (column - x).abs()) * (1.0 - (row - y).abs());
+                if weight > 0.0 {
+                    let inside = (0.0..W as f64).contains(&x) && (0.0..H as f64).contains(&y);
+                    if !inside || behind.get(x as usize, y as usize) {
+                        return None;
+                    }
+                    sum += weight * f64::from(pixels[y as usize * W + x as usize]);
+                }
+            }
+        }
+        Some(sum)
+    }
+
+    proptest! {
+        #[test]
+        fn nothing_is_read_behind_a_shutter_and_all_else_as_ever(
+            pixels in proptest::collection::vec(0..4000u16, W * H),
+            closed in proptest::collection::vec((0..W, 0..H), 0..12),
+            column in -1.0..W as f64 + 1.0, row in -1.0..H as f64 + 1.0, centred: bool,
+            turn in -3.2..3.2f64, count in 0..9usize,
+        ) {
+            let mut words = [0; words_needed(W, H)];
+            let mut behind = MaskMut::new(&mut words, W, H).expect("fits");
+            closed.iter().for_each(|&(column, row)| behind.set(column, row, true));
+            let behind = behind.into_mask();
+            let frame = Frame::new(&pixels, W, H, W).expect("fits");
+            let shuttered = Shuttered::new(frame, behind.words()).expect("same size");
+            let place = |x: f64| if centred { libm::floor(x) + 0.5 } else { x };
+            let (column, row) = (place(column), place(row));
+            let told = naive(&pixels, &behind, column, row);
+            prop_assert_eq!(shuttered.at(column, row).is_some(), told.is_some());
+            if let (Some(read), Some(told)) = (shuttered.at(column, row), told) {
+                prop_assert!((read - told).abs() < 1e-9, "{} {}", read, told);
+            }
+            let curve = QuickCurve::from(DisplayCurve::new(0.002, false));
+            let whole = frame.at_through(column, row, &curve).filter(|_| told.is_some());
+            prop_assert_eq!(shuttered.at_through(column, row, &curve), whole);
+
+            let (down, right) = libm::sincos(turn);
+            let line = StraightLine {
+                origin: [column, row],
+                direction: [right, down],
+                aside: [0.0; 2],
+                expected: 0.0,
+                middle: 0,
+                step: 0.5,
+            };
+            let (mut sums, mut alone) = ([0.25; 9], [0.25; 9]);
+            let added = shuttered.add_along(&line, &curve, 0.5, &mut sums[..count]);
+            let open = (0..count).all(|number| {
+                let [column, row] = line.place(number);
+                shuttered.at(column, row).is_some()
+            });
+            prop_assert_eq!(added.is_some(), open);
+            if open {
+                frame.add_along(&line, &curve, 0.5, &mut alone[..count]);
+                prop_assert_eq!(sums, alone);
+            }
+        }
+    }
+
+    #[test]
+    fn a_shutter_of_another_size_is_refused() {
+        let pixels = [0u8; W * H];
+        let frame = Frame::new(&pixels, W, H, W).expect("fits");
+        assert!(Shuttered::new(frame, [0; words_needed(W, H - 1)]).is_err());
+        assert!(Shuttered::new(frame, [Word::MAX; words_needed(W, H)]).is_err());
+    }
+}
