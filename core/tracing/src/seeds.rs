@@ -224,9 +224,14 @@ impl<'m> Table<'m> {
 
 /// Sums of a value over all cells above and to the left of each corner. What is not of the picture has that of what is read before
 /// it: there is no edge.
-fn sum_up(sums: &mut [f64], (columns, rows): (usize, usize), value: impl Fn(usize, usize) -> f64) {
+fn sum_up(
+    sums: &mut [f64],
+    (columns, rows): (usize, usize),
+    value: impl Fn(usize, usize) -> Option<f64>,
+) {
     let width = columns + 1;
     sums[..width].fill(0.0);
+    let mut before = 0.0;
     for row in 0..rows {
         let mut line = 0.0;
         sums[(row + 1) * width] = 0.0;
