@@ -19,6 +19,7 @@ mod hidden;
 mod joint;
 mod joint_report;
 mod library;
+mod library_check;
 mod matcher;
 mod working_model;
 
@@ -33,6 +34,7 @@ pub use frame_search::{FrameSearch, frames_to_search};
 pub use joint::KneeJoint;
 pub use joint_report::{JointReport, write_jtak, write_jtap, write_tra};
 pub use library::{LibraryBuilder, LibraryViews};
+pub use library_check::check_library;
 pub use matcher::{
     Canonical, HandFit, HandVerdict, HiddenPixels, Landscape, Matcher, NearestView, OneClick,
     OneClickAnswer, ViewPose,

@@ -15,7 +15,6 @@ pub mod error;
 pub mod frame_image;
 mod jts;
 mod kinematics;
-mod library_check;
 mod model;
 mod paint;
 pub mod pose_numbers;
@@ -29,7 +28,6 @@ pub use distortion::{Undistorter, plate_camera, ruler_scale};
 pub use frame_image::{Derived, FrameImage};
 pub use jts::{read_jts, write_jts};
 pub use kinematics::joint_motion;
-pub use library_check::check_library;
 pub use model::Model;
 pub use traced::{Traced, unknown_reach};
 pub use tracing::{

@@ -15,6 +15,8 @@ const BINS: usize = 256;
 const OUTLIERS: f64 = 0.001;
 /// Share of the edges that is shown in full white.
 const STRONGEST: f64 = 0.005;
+/// Slopes that are told apart for that; a screen shows 256.
+const STEPS: usize = 1 << 14;
 
 /// Contrast-limited adaptive histogram equalisation: 0 to 255.
 pub(crate) fn equalised<P: Pixel>(pixels: &[P], width: usize, height: usize) -> Vec<u8> {
@@ -148,14 +150,7 @@ pub(crate) fn edges<P: Pixel>(pixels: &[P], width: usize, height: usize) -> Vec<
     let grey: Vec<f32> = pixels.iter().map(|&grey| grey.into() as f32).collect();
     let smooth = smoothed(&smoothed(&grey, width, height, 1), width, height, width);
     let slope = slopes(&smooth, width, height);
-    let mut sorted = slope.clone();
-    let rank =
-        ((sorted.len() as f64 * (1.0 - STRONGEST)) as usize).min(sorted.len().saturating_sub(1));
-    let strongest = if sorted.is_empty() {
-        0.0
-    } else {
-        *sorted.select_nth_unstable_by(rank, f32::total_cmp).1
-    };
+    let strongest = strongest(&slope);
     // A frame without any slope has no edge.
     let scale = if strongest > 0.0 {
         255.0 / strongest
@@ -166,6 +161,22 @@ pub(crate) fn edges<P: Pixel>(pixels: &[P], width: usize, height: usize) -> Vec<
         .iter()
         .map(|&slope| (slope * scale).min(255.0) as u8)
         .collect()
+}
+
+/// The slope that only [`STRONGEST`] of all exceed, to a [`STEPS`]th of the greatest.
+fn strongest(slope: &[f32]) -> f32 {
+    let greatest = slope.iter().fold(0.0, |most: f32, &slope| most.max(slope));
+    let mut counts = vec![0usize; STEPS + 1];
+    for &slope in slope {
+        counts[(slope / greatest * STEPS as f32) as usize] += 1;
+    }
+    let rank = slope.len() as f64 * (1.0 - STRONGEST);
+    let mut below = 0;
+    let found = counts.iter().position(|count| {
+        below += count;
+        below as f64 > rank
+    });
+    found.unwrap_or(STEPS) as f32 / STEPS as f32 * greatest
 }
 
 /// Weights 1 4 6 4 1 along a row (`step` of 1) or a column (`step` of a row's length).

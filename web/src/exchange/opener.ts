@@ -288,8 +288,8 @@ function openStudy({ store }: Services, { name, study }: StudyFile): string {
   return texts.study.opened(study.name || name);
 }
 
-async function openLibrary({ store, studio, assets }: Services, file: Incoming): Promise<string> {
-  studio.checkLibrary(await bytesOf(file.blob));
+async function openLibrary({ store, assets, checkLibrary }: Services, file: Incoming): Promise<string> {
+  await checkLibrary(await bytesOf(file.blob));
   const asset = await assets.add(file.name, file.blob);
   const component = componentFor(store.state, file, (candidate) => store.doc.components[candidate].libraryFile !== null);
   store.perform(commands.setLibraryFile(component, { name: file.name, sha256: asset.sha256 }));

@@ -3,7 +3,10 @@ import { texts } from '../texts/texts';
 import { Aborted } from '../workers/bridge';
 import type { Incoming } from './incoming';
 import { asJob, sentenceOf, type Services } from '../jobs/services';
-import { openVideo, takeFrames, type PictureChoice, type TakenFrame, type Video } from './video';
+import type { PictureChoice, TakenFrame, Video } from './video';
+
+/** Few open one. */
+const reader = () => import('./video');
 
 const said = texts.files.video;
 
@@ -34,7 +37,7 @@ export class Videos {
     const { store } = this.#services;
     const abort = new AbortController();
     const job = { title: said.measuring, unit: '', total: 0, cancel: () => abort.abort(new Aborted()) };
-    const video = await asJob(store, job, () => openVideo(name, blob, abort.signal));
+    const video = await asJob(store, job, async () => (await reader()).openVideo(name, blob, abort.signal));
     this.#letGo();
     this.#video = video;
     store.show({ popover: 'video' });
@@ -63,8 +66,8 @@ export class Videos {
     this.#video = null;
     store.show({ popover: null });
     try {
-      repeated = await asJob(store, job, (report) =>
-        takeFrames(video, choice, {
+      repeated = await asJob(store, job, async (report) =>
+        (await reader()).takeFrames(video, choice, {
           signal: abort.signal,
           onFrame: (frame, done, total) => {
             taken.push(frame);

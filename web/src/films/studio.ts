@@ -1,7 +1,6 @@
 import { pictureOf } from '../document/same_frames';
 import init, {
   CalibrationText,
-  checkLibrary,
   FrameImage,
   jointMotion,
   jtIntcalibText,
@@ -294,11 +293,6 @@ export class Studio {
   /** Pixels nearer than this to a side that is marked unknown are ignored. */
   get unknownReach(): number {
     return unknownReach();
-  }
-
-  /** Throws the core's sentence for a library that is damaged, before it takes the place of a sound one. */
-  checkLibrary(bytes: Uint8Array): void {
-    checkLibrary(bytes);
   }
 
   // --- Texts --------------------------------------------------------------------------------------------------

@@ -14,6 +14,8 @@ export interface Services {
   readonly decoder: Bridge<DecodeProtocol>;
   /** The component that a model has the shape of; null where that does not tell. */
   readonly shapeOf: (mesh: ModelMesh) => Promise<ComponentName | null>;
+  /** Throws the core's sentence for a library that is damaged. */
+  readonly checkLibrary: (library: Uint8Array<ArrayBuffer>) => Promise<null>;
 }
 
 let lastJob = 0;

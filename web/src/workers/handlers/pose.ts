@@ -1,4 +1,4 @@
-import { choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
+import { checkLibrary, choosePose, componentByShape, Matcher, shapeAxes, Undistorter, Surroundings as RawSurroundings, Traced, type Match as RawMatch } from '../../pkg/core/fluoropose_wasm.js';
 import type { Judged, Told, Verdict } from '../../document/types';
 import { directionsFrom, numbersOf } from '../../geometry/axes';
 import { COMPONENT_NAMES, type ComponentName } from '../../terms/component';
@@ -29,6 +29,11 @@ serve<PoseProtocol>({
     matchers.get(component)?.free();
     matchers.set(component, matcher);
     return { views: matcher.views, bytes: bytes.length };
+  },
+  check: async ({ library }) => {
+    await ready;
+    checkLibrary(library);
+    return null;
   },
   library: async ({ component }) => (await matcherOf(component)).bytes as Uint8Array<ArrayBuffer>,
   shape: async ({ mesh }) => {

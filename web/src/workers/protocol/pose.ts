@@ -28,6 +28,8 @@ export interface PoseProtocol extends HandProtocol, JointProtocol, OnFilmProtoco
     output: LibraryFacts;
     progress: never;
   };
+  /** Throws the core's sentence for a library that is damaged, before it takes the place of a sound one. */
+  check: { input: { library: Uint8Array<ArrayBuffer> }; output: null; progress: never };
   /** A copy of an open library's bytes. */
   library: { input: { component: ComponentName }; output: Uint8Array<ArrayBuffer>; progress: never };
   /** The component that a model has the shape of; null where that does not tell. */

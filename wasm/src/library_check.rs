@@ -3,7 +3,7 @@
 use fluoropose::library::Library;
 use wasm_bindgen::prelude::*;
 
-use crate::error::sentence;
+use fluoropose_page::error::sentence;
 
 /// Reads a library from its first byte to its last.
 ///
